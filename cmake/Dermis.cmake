@@ -1,0 +1,60 @@
+# The house's build rules: one library target per folder of src/, linking only what its arrow allows.
+include_guard()
+
+# Headers are written and included as <dermis/folder/header.h>, in this tree as in an installed one.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/include/dermis SYMBOLIC)
+
+set_property(GLOBAL PROPERTY DERMIS_LAYERS "")
+
+# dermis_library(optics ARROWS base PACKAGES Eigen3::Eigen [INSTALL])
+#   ARROWS    the folders of src/ this one may include; also written to layers.txt, which a test checks every
+#             #include against
+#   PACKAGES  third-party targets, never visible in a public header
+#   INSTALL   part of the CPU library that engines link
+function(dermis_library folder)
+    cmake_parse_arguments(arg "INSTALL" "" "ARROWS;PACKAGES" ${ARGN})
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp)
+    if(sources)
+        add_library(dermis_${folder} STATIC ${sources})
+        set(scope PUBLIC)
+        target_link_libraries(dermis_${folder} PRIVATE ${arg_PACKAGES})
+        target_compile_options(dermis_${folder} PRIVATE ${DERMIS_WARNINGS})
+    else()
+        add_library(dermis_${folder} INTERFACE)
+        set(scope INTERFACE)
+    endif()
+    add_library(dermis::${folder} ALIAS dermis_${folder})
+    set_target_properties(dermis_${folder} PROPERTIES EXPORT_NAME ${folder})
+    target_include_directories(dermis_${folder} ${scope} $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+        $<INSTALL_INTERFACE:include>)
+    target_compile_features(dermis_${folder} ${scope} cxx_std_20)
+    foreach(arrow ${arg_ARROWS})
+        target_link_libraries(dermis_${folder} ${scope} dermis_${arrow})
+    endforeach()
+    list(JOIN arg_ARROWS " " arrows)
+    set_property(GLOBAL APPEND PROPERTY DERMIS_LAYERS "${folder}: ${arrows}")
+    if(arg_INSTALL)
+        set_property(GLOBAL APPEND PROPERTY DERMIS_INSTALLED ${folder})
+    endif()
+endfunction()
+
+# dermis_test_folder(optics LINK optics bake): every tests/optics/*_test.cpp in one gtest program.
+function(dermis_test_folder folder)
+    cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*.cpp)
+    if(NOT sources)
+        return()
+    endif()
+    add_executable(test_${folder} ${sources})
+    foreach(library ${arg_LINK})
+        target_link_libraries(test_${folder} PRIVATE dermis_${library})
+    endforeach()
+    target_link_libraries(test_${folder} PRIVATE GTest::gtest GTest::gtest_main GTest::gmock)
+    target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_compile_definitions(test_${folder} PRIVATE
+        DERMIS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" DERMIS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+    target_compile_options(test_${folder} PRIVATE ${DERMIS_WARNINGS})
+    set_target_properties(test_${folder} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+    gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endfunction()

@@ -1,0 +1,64 @@
+#include "dermis/base/cache.h"
+
+#include <cstdlib>
+#include <cstring>
+
+#include "dermis/base/file.h"
+#include "dermis/base/hash.h"
+
+namespace dermis {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr size_t kChecksumBytes = 32;
+
+std::string checksum(std::span<const std::byte> bytes) {
+    return Hasher().add(bytes).hex();
+}
+
+fs::path entry_path(std::string_view kind, std::string_view hash) {
+    return cache_directory() / kind / hash;
+}
+
+}  // namespace
+
+fs::path cache_directory() {
+    const auto from_environment = [](const char* name) -> fs::path {
+        const char* value = std::getenv(name);
+        return value ? value : "";
+    };
+    if (const fs::path own = from_environment("DERMIS_CACHE"); !own.empty()) return own;
+    if (const fs::path xdg = from_environment("XDG_CACHE_HOME"); !xdg.empty()) return xdg / "dermis";
+    if (const fs::path home = from_environment("HOME"); !home.empty()) return home / ".cache" / "dermis";
+    return fs::temp_directory_path() / "dermis-cache";
+}
+
+std::optional<std::vector<std::byte>> cache_load(std::string_view kind, std::string_view hash) {
+    std::error_code ec;
+    const fs::path path = entry_path(kind, hash);
+    if (!fs::is_regular_file(path, ec)) return std::nullopt;
+    Result<std::vector<std::byte>> file = read_file(path);
+    if (!file || file->size() < kChecksumBytes) return std::nullopt;
+    const size_t content_bytes = file->size() - kChecksumBytes;
+    const std::string stored(reinterpret_cast<const char*>(file->data()) + content_bytes, kChecksumBytes);
+    file->resize(content_bytes);
+    if (stored != checksum(*file)) return std::nullopt;
+    return std::move(*file);
+}
+
+bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes) {
+    std::vector<std::byte> file = bytes;
+    const std::string sum = checksum(bytes);
+    file.insert(file.end(), as_bytes(sum).begin(), as_bytes(sum).end());
+    return write_file(entry_path(kind, hash), file).ok();
+}
+
+Result<std::vector<std::byte>> cached(std::string_view kind, std::string_view hash,
+                                      const std::function<Result<std::vector<std::byte>>()>& make) {
+    if (auto found = cache_load(kind, hash)) return std::move(*found);
+    Result<std::vector<std::byte>> made = make();
+    if (made) cache_store(kind, hash, *made);
+    return made;
+}
+
+}  // namespace dermis

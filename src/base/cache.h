@@ -1,0 +1,30 @@
+#pragma once
+// The disk cache of everything expensive, by content hash: $DERMIS_CACHE, else $XDG_CACHE_HOME/dermis, else
+// ~/.cache/dermis. Deleting it is always safe. A file that cannot be written is no error: the work is done
+// again.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/result.h"
+
+namespace dermis {
+
+[[nodiscard]] std::filesystem::path cache_directory();
+
+/// The bytes stored as `kind`/`hash`, or nothing. The stored file carries its own checksum: damage reads as
+/// absence.
+[[nodiscard]] std::optional<std::vector<std::byte>> cache_load(std::string_view kind, std::string_view hash);
+
+/// Best effort; false when nothing could be stored (a full disk, a read-only home).
+bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);
+
+/// Loads, or makes and stores.
+[[nodiscard]] Result<std::vector<std::byte>> cached(
+    std::string_view kind, std::string_view hash,
+    const std::function<Result<std::vector<std::byte>>()>& make);
+
+}  // namespace dermis

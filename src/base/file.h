@@ -1,0 +1,40 @@
+#pragma once
+// Files, read whole and written whole: a reader sees the old file or the new one, never half of one.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/result.h"
+
+namespace dermis {
+
+/// Largest file any loader reads, so that a wrong path (a device, a disk image) cannot exhaust memory.
+inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
+
+/// The whole file. Errors: missing, a directory, unreadable, larger than kMaxFileBytes; the message names the
+/// path.
+[[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path);
+[[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path);
+
+/// Writes beside the target (same directory, a temporary name), flushes, then renames over it; makes missing
+/// directories. On failure the temporary file is removed and an existing target is untouched.
+[[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+[[nodiscard]] Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// The same promise for libraries that insist on writing to a path: `write` gets the temporary path (same
+/// extension as the target) and the rename follows only if it returns success.
+[[nodiscard]] Result<void> write_beside(
+    const std::filesystem::path& path,
+    const std::function<Result<void>(const std::filesystem::path&)>& write);
+
+[[nodiscard]] inline std::span<const std::byte> as_bytes(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+}  // namespace dermis

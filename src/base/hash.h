@@ -1,0 +1,36 @@
+#pragma once
+// Content hashes: the name under which anything expensive is cached.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace dermis {
+
+/// 128-bit XXH3 over everything added, in order. Lengths are hashed too, so ("ab","c") differs from
+/// ("a","bc"). Not for security. About 10 GB/s on one core.
+class Hasher {
+  public:
+    Hasher();
+    ~Hasher();
+    Hasher(const Hasher&) = delete;
+    Hasher& operator=(const Hasher&) = delete;
+
+    Hasher& add(std::span<const std::byte> bytes);
+    Hasher& add(std::string_view text);
+    template <class T>
+    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) Hasher& add(T value) {
+        return add(std::as_bytes(std::span(&value, 1)));
+    }
+
+    /// 32 hexadecimal digits of all that was added so far.
+    [[nodiscard]] std::string hex() const;
+
+  private:
+    void* state_;
+};
+
+}  // namespace dermis

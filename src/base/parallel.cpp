@@ -1,0 +1,41 @@
+#include "dermis/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace dermis {
+namespace {
+std::atomic<unsigned> g_limit = 0;
+}
+
+void set_thread_limit(unsigned threads) {
+    g_limit = threads;
+}
+
+unsigned thread_limit() {
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    return g_limit == 0 ? cores : std::min<unsigned>(g_limit, 256);
+}
+
+void parallel_for(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
+    if (count == 0) return;
+    grain = std::max<size_t>(grain, 1);
+    const size_t tasks = (count + grain - 1) / grain;
+    const size_t threads = std::min<size_t>(thread_limit(), tasks);
+    if (threads <= 1) return body(0, count);
+    // Chunks are handed out by a counter, so that uneven items balance; eight a thread keeps the counter
+    // cold.
+    const size_t chunk = std::max(grain, count / (threads * 8));
+    std::atomic<size_t> next = 0;
+    const auto work = [&] {
+        for (size_t begin; (begin = next.fetch_add(chunk)) < count;)
+            body(begin, std::min(begin + chunk, count));
+    };
+    std::vector<std::jthread> workers;
+    for (size_t i = 1; i < threads; ++i) workers.emplace_back(work);
+    work();
+}
+
+}  // namespace dermis

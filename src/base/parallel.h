@@ -1,0 +1,18 @@
+#pragma once
+// Loops over all cores.
+
+#include <cstddef>
+#include <functional>
+
+namespace dermis {
+
+/// Calls body(begin, end) over disjoint ranges that cover [0, count), on all cores; returns when all are
+/// done. `grain` is the least number of items worth a task. The split depends on the machine, so a body must
+/// not let its result depend on it (seed by item, sum in order). Nothing thrown may leave the body.
+void parallel_for(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body);
+
+/// At most this many threads from here on (0: all cores). For tests and benchmarks.
+void set_thread_limit(unsigned threads);
+[[nodiscard]] unsigned thread_limit();
+
+}  // namespace dermis

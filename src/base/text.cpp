@@ -1,0 +1,102 @@
+#include "dermis/base/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+#include <utility>
+
+namespace dermis {
+namespace {
+
+template <class Number>
+std::string shortest_text(Number value) {
+    char buffer[64];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return std::string(buffer, end.ptr);
+}
+
+// Levenshtein distance, one row at a time.
+size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 1; i <= a.size(); ++i) {
+        size_t diagonal = std::exchange(row[0], i);
+        for (size_t j = 1; j <= b.size(); ++j) {
+            const size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::string to_text(double value) {
+    return shortest_text(value);
+}
+std::string to_text(float value) {
+    return shortest_text(value);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+    text = trim(text);
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (result.ec != std::errc{} || result.ptr != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::string_view trim(std::string_view text) {
+    const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
+    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    for (size_t at = 0;;) {
+        const size_t next = text.find(separator, at);
+        parts.push_back(text.substr(at, next - at));
+        if (next == std::string_view::npos) return parts;
+        at = next + 1;
+    }
+}
+
+std::string join(std::span<const std::string> parts, std::string_view separator) {
+    std::string joined;
+    for (const std::string& part : parts) {
+        if (&part != &parts.front()) joined += separator;
+        joined += part;
+    }
+    return joined;
+}
+
+std::string to_lower(std::string_view text) {
+    std::string lower(text);
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return lower;
+}
+
+std::optional<std::string> closest_name(std::string_view wrong, std::span<const std::string> names) {
+    std::optional<std::string> best;
+    size_t best_distance = std::max<size_t>(1, wrong.size() / 3) + 1;
+    for (const std::string& name : names) {
+        const size_t distance = edit_distance(to_lower(wrong), to_lower(name));
+        if (distance < best_distance) best_distance = distance, best = name;
+    }
+    return best;
+}
+
+std::string unknown_name(std::string_view what, std::string_view wrong, std::span<const std::string> names) {
+    std::string message = "unknown " + std::string(what) + " '" + std::string(wrong) + "'";
+    if (const auto meant = closest_name(wrong, names))
+        message += "; did you mean '" + *meant + "'?";
+    else
+        message += ";";
+    return message + " Known: " + join(names, ", ");
+}
+
+}  // namespace dermis

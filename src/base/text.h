@@ -1,0 +1,34 @@
+#pragma once
+// Text that people and files read: numbers that round-trip whatever the locale, and names they may have
+// meant.
+
+#include <charconv>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dermis {
+
+/// Shortest text that reads back to the same number ("0.1", not "0.100000001"); "nan", "inf" as C++ has them.
+[[nodiscard]] std::string to_text(double value);
+[[nodiscard]] std::string to_text(float value);
+
+/// The whole text as a number; nothing when any of it is left over, or it is empty. Accepts a leading '+'.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+[[nodiscard]] std::string_view trim(std::string_view text);
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+[[nodiscard]] std::string join(std::span<const std::string> parts, std::string_view separator);
+[[nodiscard]] std::string to_lower(std::string_view text);
+
+/// The candidate a person most likely meant (edit distance at most a third of the word), if there is one.
+[[nodiscard]] std::optional<std::string> closest_name(std::string_view wrong,
+                                                      std::span<const std::string> names);
+
+/// "unknown WHAT 'wrong'; did you mean 'right'? Known: a, b, c" - the one wording for every unknown name.
+[[nodiscard]] std::string unknown_name(std::string_view what, std::string_view wrong,
+                                       std::span<const std::string> names);
+
+}  // namespace dermis

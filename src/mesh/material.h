@@ -1,0 +1,64 @@
+#pragma once
+// What a mesh file says of a surface, before any image is decoded.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dermis/base/vec.h"
+
+namespace dermis {
+
+/// An image named by a mesh file or a scene: a path, or the encoded bytes of an embedded one.
+struct ImageSource {
+    std::string name;                ///< path, or a name for errors
+    std::vector<std::byte> encoded;  ///< empty: read `name` from disk
+
+    [[nodiscard]] bool present() const { return !name.empty() || !encoded.empty(); }
+};
+
+enum class NormalSpace { tangent, object };
+enum class AlphaMode { opaque, mask, blend };
+
+/// Lengths in mm, colours linear. Maps multiply the constant beside them, as in glTF.
+struct Material {
+    std::string name;
+    Vec3 base_color_linear = {0.8f, 0.8f, 0.8f};
+    float opacity = 1;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float roughness = 0.5f;  ///< perceptual, alpha = roughness^2
+    float metallic = 0;
+    float specular = 1;  ///< scales the dielectric F0
+    float ior = 1.5f;
+    Vec3 emission_linear = {0, 0, 0};
+    bool double_sided = false;
+
+    NormalSpace normal_space = NormalSpace::tangent;
+    float normal_scale = 1;
+
+    ImageSource base_color_map;          ///< sRGB
+    ImageSource normal_map;              ///< data
+    ImageSource metallic_roughness_map;  ///< roughness in G, metallic in B
+    ImageSource specular_map;            ///< factor in A when from glTF, in R otherwise
+    ImageSource occlusion_map;           ///< R
+    ImageSource displacement_map;        ///< R, mid and amplitude stated by the scene
+    ImageSource thickness_map;           ///< G
+    ImageSource opacity_map;             ///< coloured transmittance of translucent objects
+    ImageSource transmission_map;        ///< A
+
+    /// glTF's subsurface description, when the file has one (KHR_materials_volume, _diffuse_transmission,
+    /// _volume_scatter).
+    struct Scattering {
+        float thickness_mm = 0;
+        Vec3 attenuation_color = {1, 1, 1};
+        float attenuation_distance_mm = 0;  ///< 0: infinite
+        Vec3 multiscatter_color = {0, 0, 0};
+        float anisotropy = 0;
+        float diffuse_transmission = 0;
+        Vec3 diffuse_transmission_color = {1, 1, 1};
+    };
+    std::optional<Scattering> scattering;
+};
+
+}  // namespace dermis

@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/file.h"
+#include "dermis/base/hash.h"
+#include "dermis/base/parallel.h"
+#include "dermis/base/text.h"
+
+namespace fs = std::filesystem;
+using namespace dermis;
+
+namespace {
+
+struct TemporaryDirectory {
+    fs::path path;
+    TemporaryDirectory() {
+        std::string name = (fs::temp_directory_path() / "dermis-base-XXXXXX").string();
+        path = ::mkdtemp(name.data());
+    }
+    ~TemporaryDirectory() {
+        std::error_code ec;
+        fs::remove_all(path, ec);
+    }
+    size_t file_count() const { return size_t(std::distance(fs::directory_iterator(path), {})); }
+};
+
+}  // namespace
+
+TEST(Text, numbers_round_trip_in_their_shortest_form) {
+    EXPECT_EQ(to_text(0.1f), "0.1");
+    EXPECT_EQ(to_text(1.0 / 3.0), "0.3333333333333333");
+    EXPECT_EQ(parse_number(" +0.25 "), 0.25);
+    EXPECT_EQ(parse_number("1e-3"), 1e-3);
+    for (const char* wrong : {"", "1,5", "1 2", "0x", "mm", "--1"})
+        EXPECT_FALSE(parse_number(wrong)) << wrong;
+}
+
+TEST(Text, an_unknown_name_proposes_the_closest) {
+    const std::vector<std::string> names = {"lambert", "oren_nayar", "wrap"};
+    EXPECT_EQ(unknown_name("technique", "lamber", names),
+              "unknown technique 'lamber'; did you mean 'lambert'? Known: lambert, oren_nayar, wrap");
+    EXPECT_EQ(closest_name("subsurface", names), std::nullopt);
+}
+
+TEST(File, reading_what_is_no_file_names_the_path) {
+    const TemporaryDirectory dir;
+    EXPECT_NE(read_file(dir.path).error().message.find("is a directory"), std::string::npos);
+    EXPECT_NE(read_file(dir.path / "none").error().message.find("none: cannot open"), std::string::npos);
+}
+
+TEST(File, writing_replaces_whole_and_leaves_nothing_beside) {
+    const TemporaryDirectory dir;
+    const fs::path path = dir.path / "new" / "a.txt";
+    ASSERT_TRUE(write_text_file(path, "one"));
+    ASSERT_TRUE(write_text_file(path, "two"));
+    EXPECT_EQ(*read_text_file(path), "two");
+    EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), {}), 1);
+}
+
+TEST(File, a_failed_write_keeps_the_old_file_and_removes_the_new) {
+    const TemporaryDirectory dir;
+    const fs::path path = dir.path / "a.txt";
+    ASSERT_TRUE(write_text_file(path, "old"));
+    const Result<void> written = write_beside(path, [](const fs::path& temporary) -> Result<void> {
+        (void)write_text_file(temporary, "half");
+        return Error{"the disk is full"};
+    });
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().message.find("the disk is full"), std::string::npos);
+    EXPECT_EQ(*read_text_file(path), "old");
+    EXPECT_EQ(dir.file_count(), 1u);
+}
+
+TEST(File, a_full_disk_is_an_error) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    EXPECT_FALSE(write_text_file("/dev/full", "x"));
+}
+
+TEST(Hash, depends_on_content_and_on_where_parts_end) {
+    EXPECT_EQ(Hasher().add("ab").hex(), Hasher().add("ab").hex());
+    EXPECT_NE(Hasher().add("ab").add("c").hex(), Hasher().add("a").add("bc").hex());
+    EXPECT_EQ(Hasher().hex().size(), 32u);
+}
+
+TEST(Cache, returns_what_was_stored_and_nothing_from_a_damaged_file) {
+    const TemporaryDirectory dir;
+    ::setenv("DERMIS_CACHE", dir.path.c_str(), 1);
+    const std::vector<std::byte> bytes = {std::byte{1}, std::byte{2}, std::byte{3}};
+    EXPECT_FALSE(cache_load("kind", "hash"));
+    ASSERT_TRUE(cache_store("kind", "hash", bytes));
+    EXPECT_EQ(cache_load("kind", "hash"), bytes);
+
+    std::vector<std::byte> damaged = *read_file(dir.path / "kind" / "hash");
+    damaged[1] = std::byte{9};
+    ASSERT_TRUE(write_file(dir.path / "kind" / "hash", damaged));
+    EXPECT_FALSE(cache_load("kind", "hash"));
+    ::unsetenv("DERMIS_CACHE");
+}
+
+TEST(ParallelFor, visits_every_item_once_for_any_thread_count) {
+    for (unsigned threads : {1u, 2u, 7u}) {
+        set_thread_limit(threads);
+        std::vector<std::atomic<int>> visits(10007);
+        parallel_for(visits.size(), 16, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) ++visits[i];
+        });
+        EXPECT_TRUE(std::ranges::all_of(visits, [](const auto& v) { return v == 1; }));
+    }
+    set_thread_limit(0);
+    parallel_for(0, 1, [](size_t, size_t) { FAIL(); });
+}
