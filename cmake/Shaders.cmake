@@ -1,0 +1,45 @@
+# Every shader of shaders/ and techniques/ to SPIR-V at build time, embedded by name: "shared/fullscreen.vert",
+# "lambert/lambert.frag".
+include_guard()
+find_program(GLSLC glslc REQUIRED)
+
+# dermis_embed_shaders(target): adds the generated table (defines dermis::gpu::shader_table) to `target`.
+function(dermis_embed_shaders target)
+    file(GLOB sources CONFIGURE_DEPENDS
+        ${PROJECT_SOURCE_DIR}/shaders/*/*.vert ${PROJECT_SOURCE_DIR}/shaders/*/*.frag
+        ${PROJECT_SOURCE_DIR}/shaders/*/*.comp
+        ${PROJECT_SOURCE_DIR}/techniques/*/*.vert ${PROJECT_SOURCE_DIR}/techniques/*/*.frag
+        ${PROJECT_SOURCE_DIR}/techniques/*/*.comp)
+    set(table "")
+    set(outputs "")
+    set(out_dir ${PROJECT_BINARY_DIR}/shaders)
+    foreach(source ${sources})
+        get_filename_component(file ${source} NAME)
+        get_filename_component(folder ${source} DIRECTORY)
+        get_filename_component(folder ${folder} NAME)
+        set(output ${out_dir}/${folder}/${file}.inc)
+        file(MAKE_DIRECTORY ${out_dir}/${folder})
+        add_custom_command(OUTPUT ${output} DEPENDS ${source} DEPFILE ${output}.d
+            COMMAND ${GLSLC} --target-env=vulkan1.3 -O -g -Werror -I ${PROJECT_SOURCE_DIR}/shaders
+                -I ${PROJECT_SOURCE_DIR}/techniques -MD -MF ${output}.d -MT ${output} -mfmt=c -o ${output} ${source}
+            COMMENT "Shader ${folder}/${file}" VERBATIM)
+        list(APPEND outputs ${output})
+        string(MAKE_C_IDENTIFIER "${folder}_${file}" id)
+        string(APPEND arrays "static const uint32_t k_${id}[] =\n#include \"${output}\"\n;\n")
+        string(APPEND table "    {\"${folder}/${file}\", k_${id}},\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${out_dir}/table.cpp @ONLY CONTENT
+"#include \"dermis/gpu/shader_table.h\"
+
+${arrays}
+namespace dermis::gpu {
+std::span<const EmbeddedShader> shader_table() {
+    static const EmbeddedShader kTable[] = {
+${table}    };
+    return kTable;
+}
+}  // namespace dermis::gpu
+")
+    set_property(SOURCE ${out_dir}/table.cpp APPEND PROPERTY OBJECT_DEPENDS "${outputs}")
+    target_sources(${target} PRIVATE ${out_dir}/table.cpp)
+endfunction()

@@ -1,0 +1,99 @@
+#pragma once
+// The Vulkan 1.3 device: a GPU when there is one, lavapipe when there is none. No Vulkan type shows here.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/image/image.h"
+#include "dermis/technique/pass_list.h"
+
+namespace dermis::gpu {
+
+struct DeviceOptions {
+    bool validation = false;  ///< core and synchronization validation; messages collect in Device::messages()
+    std::string
+        name_contains;  ///< pick a device by part of its name; empty: discrete, then integrated, then CPU
+};
+
+struct DeviceInfo {
+    std::string name, driver;
+    bool is_cpu = false;
+    std::vector<int> sample_counts;
+};
+
+/// Movable handle; everything made from it must die first.
+class Device {
+  public:
+    [[nodiscard]] static Result<Device> create(const DeviceOptions& options);
+    ~Device();
+    Device(Device&&) noexcept;
+    Device& operator=(Device&&) noexcept;
+
+    [[nodiscard]] const DeviceInfo& info() const;
+    /// What the validation layers said since creation, one message each; tests want this empty.
+    [[nodiscard]] std::vector<std::string> messages() const;
+
+    struct State;
+    [[nodiscard]] State& state() const { return *state_; }
+
+  private:
+    explicit Device(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// Mip levels from large to small, layers (6 faces of a cube, in +X -X +Y -Y +Z -Z order) inside each level.
+struct TextureData {
+    std::string name;
+    ImageFormat format = ImageFormat::rgba8;
+    bool srgb = false;  ///< rgba8 only: decoded on sampling
+    int width = 1, height = 1, layers = 1, mips = 1;
+    bool cube = false;
+    std::vector<std::byte> bytes;
+    bool generate_mips = false;  ///< on the device, from level 0 (bytes holds level 0 only)
+};
+
+class Texture {
+  public:
+    [[nodiscard]] static Result<Texture> upload(Device& device, const TextureData& data);
+    ~Texture();
+    Texture(Texture&&) noexcept;
+    Texture& operator=(Texture&&) noexcept;
+
+    struct State;
+    [[nodiscard]] State& state() const { return *state_; }
+
+  private:
+    explicit Texture(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// Vertex streams by the name of the vertex shader's input: position_mm (3 floats), normal (3), tangent (4),
+/// uv (2), curvature_per_mm (1).
+struct VertexStream {
+    std::string name;
+    int components = 3;
+    std::span<const float> values;
+};
+
+class Geometry {
+  public:
+    [[nodiscard]] static Result<Geometry> upload(Device& device, std::string_view name,
+                                                 std::span<const VertexStream> streams,
+                                                 std::span<const uint32_t> indices);
+    ~Geometry();
+    Geometry(Geometry&&) noexcept;
+    Geometry& operator=(Geometry&&) noexcept;
+
+    struct State;
+    [[nodiscard]] State& state() const { return *state_; }
+
+  private:
+    explicit Geometry(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace dermis::gpu

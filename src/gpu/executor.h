@@ -1,0 +1,83 @@
+#pragma once
+// Runs a pass list. Bindings come from SPIR-V reflection, barriers and timings from the list.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dermis/gpu/device.h"
+
+namespace dermis::gpu {
+
+/// Values of a uniform block, or of one element of a storage buffer's runtime array, by member name. A member
+/// the shader has and the values lack is an error; a value the shader lacks is not.
+using Values = std::map<std::string, ShaderValue, std::less<>>;
+
+enum class DrawClass { skin, other, translucent };
+
+/// One indexed draw. `textures` are the material's maps, `values` fill the shader's block "Material".
+struct Draw {
+    const Geometry* geometry = nullptr;
+    uint32_t first_index = 0, index_count = 0;
+    DrawClass draw_class = DrawClass::skin;
+    std::map<std::string, const Texture*, std::less<>> textures;
+    Values values;
+};
+
+/// What the frame supplies beside the list's own images. Where a name stands twice the draw's texture wins,
+/// then the pass's reads, then these.
+struct FrameInputs {
+    int width = 0, height = 0;
+    std::map<std::string, const Texture*, std::less<>> textures;
+    std::map<std::string, Values, std::less<>> blocks;  ///< uniform blocks: "Frame", "Params", ...
+    std::map<std::string, std::vector<Values>, std::less<>> arrays;  ///< storage buffers: "Lights", ...
+    std::vector<Draw> draws;
+};
+
+struct PassTiming {
+    std::string name;
+    double time_ms = 0;
+    uint64_t samples_passed = 0;  ///< samples that passed the depth test; 0 for compute and transfers
+};
+
+struct FrameResult {
+    std::vector<PassTiming> passes;
+    double frame_ms = 0;  ///< first timestamp to last
+};
+
+/// SPIR-V by name ("folder/name.frag"): the embedded library, or compiled from disk for hot reload.
+using ShaderSource = std::function<Result<std::vector<uint32_t>>(std::string_view name)>;
+
+/// The shaders that CMake compiled into the program.
+[[nodiscard]] ShaderSource embedded_shaders();
+
+/// Keeps pipelines, images (by declaration, so persistent ones keep their content from frame to frame) and
+/// buffers between runs; a changed list costs only what is new in it.
+class Executor {
+  public:
+    [[nodiscard]] static Result<Executor> create(Device& device, ShaderSource shaders);
+    ~Executor();
+    Executor(Executor&&) noexcept;
+    Executor& operator=(Executor&&) noexcept;
+
+    /// Records, submits and waits. Errors: a problem of the list (pass_list.h), a shader that does not
+    /// compile or link, a name nothing supplies, out of memory, device lost. The message names pass, shader
+    /// and binding.
+    [[nodiscard]] Result<FrameResult> run(const PassList& list, const FrameInputs& inputs);
+
+    /// An image of the last list, as it was left: f16 and f32 formats as such, 8 bit as u8. Depth as one
+    /// channel.
+    [[nodiscard]] Result<Image> read(std::string_view image, int mip = 0);
+
+    /// Drops all pipelines, so that changed shaders are read again.
+    void forget_shaders();
+
+    struct State;
+
+  private:
+    explicit Executor(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace dermis::gpu

@@ -1,0 +1,59 @@
+#pragma once
+// What a technique is: parameters, the tables it needs, and a pure function from settings to a list of
+// passes.
+//
+// A folder techniques/<id>/ defines `dermis::Technique dermis::make_<id>_technique();` and is found by CMake.
+// A technique draws the skin: it writes linear radiance into the colour target "radiance" and depth into
+// "depth" (both declared and cleared by the renderer, so it loads them). Everything else in the scene is
+// drawn by the renderer.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dermis/optics/profile.h"
+#include "dermis/technique/parameter.h"
+#include "dermis/technique/pass_list.h"
+
+namespace dermis {
+
+/// What build() may know of the frame.
+struct FrameContext {
+    int width = 1024, height = 1024;
+    int samples = 1;                ///< of radiance and depth
+    std::string view = "final";     ///< a debug view: final, diffuse, specular, or one of the technique's own
+    std::vector<std::string> maps;  ///< frame inputs and material maps that exist
+    float camera_distance_mm = 600;
+    int frame_index = 0;
+};
+
+/// The skin and the scene that tables are baked for.
+struct SkinContext {
+    GaussianSum profile;
+};
+
+/// A table for the GPU: rows top to bottom, texels tightly packed in `format`.
+struct TableImage {
+    std::string name;
+    ImageFormat format = ImageFormat::rgba16f;
+    int width = 0, height = 0;
+    std::vector<std::byte> bytes;
+};
+
+struct Technique {
+    std::string id;
+    std::string summary;  ///< one line
+    std::string source;   ///< author, year, title
+    ParameterTable parameters;
+    std::vector<std::string> views;  ///< debug views beyond final, diffuse, specular
+    std::function<PassList(const ParameterValues&, const FrameContext&)> build;
+    /// Tables for these settings, baked on the CPU (cached by the bakers); absent when it needs none.
+    std::function<Result<std::vector<TableImage>>(const ParameterValues&, const SkinContext&)> tables;
+};
+
+/// All folders of techniques/, by id. Built once.
+[[nodiscard]] std::span<const Technique> all_techniques();
+[[nodiscard]] Result<const Technique*> find_technique(std::string_view id);
+
+}  // namespace dermis
