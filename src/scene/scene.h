@@ -1,0 +1,106 @@
+#pragma once
+// A scene as the renderer and the ground truth take it: everything in mm and linear, world space, Y up.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/base/vec.h"
+#include "dermis/mesh/mesh.h"
+
+namespace dermis {
+
+enum class LightKind { directional, point, spot };
+
+/// Directional: `intensity` is the irradiance on a surface that faces it (so that intensity pi on a white
+/// Lambert surface gives radiance 1). Point and spot: radiant intensity in the same unit times square metre,
+/// so that the irradiance at d metres is intensity / d^2.
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::directional;
+    Vec3 color_linear = {1, 1, 1};
+    float intensity = 3.14159265f;
+    Vec3 to_light_world = {0, 0, 1};  ///< unit; directional: towards the light. Spot: against its axis
+    Vec3 position_mm = {0, 0, 1000};  ///< point and spot
+    float inner_angle_rad = 0.35f, outer_angle_rad = 0.5f;  ///< spot: full and no light, from its axis
+    bool is_key = false;                                    ///< the one that casts the shadow
+};
+
+/// Vertical field of view; right-handed, looking from eye to target.
+struct Camera {
+    Vec3 eye_mm = {0, 0, 600}, target_mm = {0, 0, 0}, up_world = {0, 1, 0};
+    float vertical_fov_rad = 0.5236f;
+    float near_mm = 1, far_mm = 10000;
+};
+
+/// p_view = view * p_world; p_clip = projection * p_view, Vulkan clip space: y down, z 0 (near) to 1 (far).
+struct CameraMatrices {
+    Mat4 view, projection, view_projection, inverse_view_projection;
+};
+[[nodiscard]] CameraMatrices camera_matrices(const Camera& camera, float aspect);
+
+/// "yaw=30 pitch=5 distance_mm=600 fov_deg=30" around a target; yaw 0 looks at +Z faces from the front,
+/// positive yaw moves the eye towards +X. Keys not given keep what `camera` has.
+[[nodiscard]] Result<Camera> parse_camera(std::string_view text, const Camera& camera);
+/// "yaw=-60 pitch=20 intensity=3 color=1,.9,.8" for the key light; same meaning of yaw and pitch.
+[[nodiscard]] Result<Light> parse_light(std::string_view text, const Light& light);
+/// The inverses: what to pass to `render` to get this view again.
+[[nodiscard]] std::string camera_text(const Camera& camera);
+[[nodiscard]] std::string light_text(const Light& light);
+
+enum class EnvironmentKind { none, studio, file };
+
+struct Environment {
+    EnvironmentKind kind = EnvironmentKind::studio;
+    std::filesystem::path file;  ///< latitude-longitude HDR or EXR
+    float intensity = 1;
+    float yaw_rad = 0;
+    bool visible = false;  ///< as the background
+};
+
+enum class ToneMap { none, hable, aces, pbr_neutral };
+
+/// What all skin materials share; a material's own maps win over the constants.
+struct Skin {
+    std::string profile = "gpu_gems_3";
+    float ior = 1.4f;
+    float roughness = 0.45f;  ///< perceptual
+    float specular = 1;
+    Vec3 albedo_tint_linear = {1, 1, 1};
+};
+
+/// One mesh with its transform applied. A material is skin, other, or translucent (shadow-casting glass).
+enum class MaterialClass { skin, other, translucent };
+struct SceneObject {
+    std::string name;
+    Mesh mesh;
+    std::vector<MaterialClass> classes;  ///< one a material of the mesh
+};
+
+struct Scene {
+    std::string name;
+    std::vector<SceneObject> objects;
+    std::vector<Light> lights;  ///< at least one; exactly one is_key
+    Camera camera;
+    Environment environment;
+    Skin skin;
+    Vec3 background_linear = {0.02f, 0.02f, 0.022f};
+    ToneMap tone_map = ToneMap::hable;
+    float exposure_ev = 0;
+    std::string credit;     ///< stands wherever a picture of the scene stands
+    std::string technique;  ///< optional: id and settings the file asks for
+    std::map<std::string, std::string> settings;
+    std::vector<std::string> warnings;
+    Vec3 bounds_center_mm;  ///< of all objects
+    float bounds_radius_mm = 1;
+
+    [[nodiscard]] const Light& key_light() const;
+};
+
+/// A scene file, a mesh file (placed in the default studio), or "builtin:NAME".
+[[nodiscard]] Result<Scene> load_scene(const std::string& path_or_name);
+
+}  // namespace dermis
