@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dermis/base/result.h"
@@ -42,14 +43,27 @@ struct CameraMatrices {
 };
 [[nodiscard]] CameraMatrices camera_matrices(const Camera& camera, float aspect);
 
-/// "yaw=30 pitch=5 distance_mm=600 fov_deg=30" around a target; yaw 0 looks at +Z faces from the front,
-/// positive yaw moves the eye towards +X. Keys not given keep what `camera` has.
+/// Sets near and far tightly around a sphere (far / near at most 10^4). Call it again whenever the eye moves.
+void fit_depth_range(Camera& camera, Vec3 center_mm, float radius_mm);
+/// From the front (+Z), so that the sphere just fits the height of the picture.
+[[nodiscard]] Camera framing_camera(Vec3 center_mm, float radius_mm, float fov_rad = 0.5236f);
+
+/// Yaw 0, pitch 0 is +Z; positive yaw turns towards +X, positive pitch towards +Y. The result is unit.
+struct YawPitch {
+    float yaw_rad = 0, pitch_rad = 0;
+};
+[[nodiscard]] Vec3 direction_from_yaw_pitch(float yaw_rad, float pitch_rad);
+[[nodiscard]] YawPitch yaw_pitch_of(Vec3 direction);
+
+/// "yaw=30 pitch=5 distance_mm=600 fov_deg=30 target_mm=0,0,0" (yaw and pitch in degrees); yaw 0 looks at +Z
+/// faces from the front, positive yaw moves the eye towards +X. Keys not given keep what `camera` has.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text, const Camera& camera);
-/// "yaw=-60 pitch=20 intensity=3 color=1,.9,.8" for the key light; same meaning of yaw and pitch.
-[[nodiscard]] Result<Light> parse_light(std::string_view text, const Light& light);
-/// The inverses: what to pass to `render` to get this view again.
+/// "yaw=-60 pitch=20 intensity=3 color=1,.9,.8" for the key light; same meaning of yaw and pitch. Point and
+/// spot lights also have distance_mm and stay aimed at the target.
+[[nodiscard]] Result<Light> parse_light(std::string_view text, const Light& light, Vec3 target_mm = {});
+/// The inverses: what to pass to `render` to get this view again (numbers rounded to 1e-4).
 [[nodiscard]] std::string camera_text(const Camera& camera);
-[[nodiscard]] std::string light_text(const Light& light);
+[[nodiscard]] std::string light_text(const Light& light, Vec3 target_mm = {});
 
 enum class EnvironmentKind { none, studio, file };
 

@@ -1,0 +1,27 @@
+#pragma once
+// Scenes that need no file: what "builtin:NAME" and a bare mesh are placed in.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/scene/scene.h"
+
+namespace dermis {
+
+/// Radii of the built-in spheres, left to right.
+inline constexpr float kSphereRadiiMm[4] = {2, 4, 8, 16};
+
+[[nodiscard]] std::vector<std::string> builtin_mesh_names();
+
+/// The objects of "builtin:NAME". Errors: an unknown name.
+[[nodiscard]] Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name);
+
+/// Lights, environment, camera: a warm key from the upper left and the built-in studio, framing the objects.
+/// Fills the bounds.
+void place_in_studio(Scene& scene);
+
+/// The smallest sphere around the box of all positions, into the scene's bounds.
+void compute_bounds(Scene& scene);
+
+}  // namespace dermis
