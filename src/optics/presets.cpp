@@ -1,6 +1,149 @@
-#include "dermis/optics/profile.h"
+#include "dermis/optics/presets.h"
+
+#include <filesystem>
+#include <functional>
+
+#include "dermis/base/text.h"
+#include "dermis/optics/burley_scaling.h"
+#include "dermis/optics/profile_file.h"
 
 namespace dermis {
+namespace {
+
+using Rgb = std::array<double, 3>;
+
+Profile gpu_gems_3() {
+    return {"gpu_gems_3", "d'Eon, Luebke 2007, GPU Gems 3, chapter 14, section 14.3", gpu_gems_3_skin()};
+}
+
+// Jensen et al. 2001, table 1: reduced scattering and absorption; g is part of the reduced coefficient.
+Profile jensen(const char* name, const char* row, const Rgb& reduced_sigma_s, const Rgb& sigma_a) {
+    const ScatteringMedium medium{
+        .sigma_s_per_mm = reduced_sigma_s, .sigma_a_per_mm = sigma_a, .g = 0, .eta = 1.3};
+    return {name, std::string("Jensen, Marschner, Levoy, Hanrahan 2001, table 1, ") + row + ", eta 1.3",
+            DipoleProfile{medium}};
+}
+Profile jensen_skin1() {
+    return jensen("jensen_skin1", "skin1", {0.74, 0.88, 1.01}, {0.032, 0.17, 0.48});
+}
+Profile jensen_skin2() {
+    return jensen("jensen_skin2", "skin2", {1.09, 1.59, 1.79}, {0.013, 0.070, 0.145});
+}
+
+// ACEScg (AP1, white D60) to linear Rec. 709 (white D65), Bradford-adapted.
+Rgb rec709_from_acescg(const Rgb& c) {
+    return {1.70505 * c[0] - 0.62179 * c[1] - 0.08326 * c[2],
+            -0.13026 * c[0] + 1.14080 * c[1] - 0.01055 * c[2],
+            -0.02400 * c[0] - 0.12897 * c[1] + 1.15297 * c[2]};
+}
+
+// The six skins of the OpenPBR examples. Their radius scales are Jensen's diffuse mean free paths in cm.
+Profile openpbr(int number, const Rgb& color_acescg, const Rgb& radius_scale_cm) {
+    constexpr const char* kRoman[] = {"I", "II", "III", "IV", "V", "VI"};
+    BurleyProfile burley{.albedo = rec709_from_acescg(color_acescg)};
+    for (size_t c = 0; c < 3; ++c)
+        burley.d_mm[c] = 10 * radius_scale_cm[c] / diffuse_mean_free_path_per_d(burley.albedo[c]);
+    return {"openpbr_skin_" + std::to_string(number),
+            std::string("OpenPBR 1.1 example skin ") + kRoman[number - 1] +
+                ": subsurface colour (ACEScg) and radius scale as diffuse mean free path in cm",
+            burley};
+}
+constexpr Rgb kFairRadiusCm = {0.482, 0.169, 0.109}, kDarkRadiusCm = {0.367, 0.137, 0.068};
+
+// Jimenez 2012 (SeparableSSS 1.0): the red Gaussians of GPU Gems 3 but the narrowest, widened per channel by
+// 0.001 + falloff and mixed by strength with unscattered light. That light is given the narrowest Gaussian,
+// which the source counts as directly bounced. Its filter multiplies two 1-D kernels, which is not this
+// radial profile exactly.
+Profile separable_sss() {
+    constexpr Rgb kStrength = {0.48, 0.41, 0.28}, kFalloff = {1.0, 0.37, 0.3};
+    const std::vector<GaussianTerm> red = gpu_gems_3_skin().terms;
+    double scattered = 0;
+    for (size_t i = 1; i < red.size(); ++i) scattered += red[i].weight[0];
+    GaussianSum sum{.name = "separable_sss"};
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t i = 0; i < red.size(); ++i) {
+            const double width = 0.001 + kFalloff[c];
+            GaussianTerm term{.variance_mm2 = red[i].variance_mm2 * width * width, .weight = {0, 0, 0}};
+            term.weight[c] = i == 0 ? 1 - kStrength[c] : kStrength[c] * red[i].weight[0] / scattered;
+            sum.terms.push_back(term);
+        }
+    return {
+        "separable_sss",
+        "Jimenez et al. 2015, Separable Subsurface Scattering, defaults of its code (strength .48 .41 .28, "
+        "falloff 1 .37 .3), r in mm",
+        sum};
+}
+
+// FSubsurfaceProfileStruct's defaults: a diffuse mean free path of 2.6748 mm times its colour.
+Profile unreal_default() {
+    BurleyProfile burley{.albedo = {0.91058, 0.338275, 0.2718}};
+    constexpr Rgb kColor = {1.0, 0.088964, 0.072095};
+    for (size_t c = 0; c < 3; ++c)
+        burley.d_mm[c] = 2.6748 * 0.1 * 10 * kColor[c] / diffuse_mean_free_path_per_d(burley.albedo[c]);
+    return {"unreal_default",
+            "Unreal Engine 5.0 Python API, SubsurfaceProfileStruct defaults (diffuse mean free path)",
+            burley};
+}
+
+struct Preset {
+    std::string name;
+    std::function<Profile()> make;
+};
+
+const std::vector<Preset>& presets() {
+    static const std::vector<Preset> kPresets = {
+        {"gpu_gems_3", gpu_gems_3},
+        {"jensen_skin1", jensen_skin1},
+        {"jensen_skin2", jensen_skin2},
+        {"openpbr_skin_1",
+         [] {
+             return openpbr(1, {0.762, 0.652, 0.568}, kFairRadiusCm);
+         }},
+        {"openpbr_skin_2",
+         [] {
+             return openpbr(2, {0.671, 0.505, 0.371}, kFairRadiusCm);
+         }},
+        {"openpbr_skin_3",
+         [] {
+             return openpbr(3, {0.545, 0.445, 0.359}, kFairRadiusCm);
+         }},
+        {"openpbr_skin_4",
+         [] {
+             return openpbr(4, {0.351, 0.240, 0.148}, kDarkRadiusCm);
+         }},
+        {"openpbr_skin_5",
+         [] {
+             return openpbr(5, {0.227, 0.157, 0.091}, kDarkRadiusCm);
+         }},
+        {"openpbr_skin_6",
+         [] {
+             return openpbr(6, {0.073, 0.052, 0.025}, kDarkRadiusCm);
+         }},
+        {"separable_sss", separable_sss},
+        {"unreal_default", unreal_default},
+    };
+    return kPresets;
+}
+
+// "burley:1,0.4,0.2"
+Result<Profile> burley_from_lengths(std::string_view name) {
+    const std::vector<std::string_view> parts = split(name.substr(name.find(':') + 1), ',');
+    BurleyProfile burley;
+    if (parts.size() != 1 && parts.size() != 3)
+        return Error{"profile '" + std::string(name) + "': one or three lengths d in mm follow 'burley:'"};
+    for (size_t c = 0; c < 3; ++c) {
+        const std::string_view part = parts[parts.size() == 3 ? c : 0];
+        const auto d = parse_number(part);
+        if (!d)
+            return Error{"profile '" + std::string(name) + "': '" + std::string(part) + "' is not a number"};
+        burley.d_mm[c] = *d;
+    }
+    const Profile profile{std::string(name), "Christensen, Burley 2015, with d as given", burley};
+    if (const auto checked = check(profile); !checked) return checked.error();
+    return profile;
+}
+
+}  // namespace
 
 GaussianSum gpu_gems_3_skin() {
     return {"gpu_gems_3",
@@ -10,6 +153,21 @@ GaussianSum gpu_gems_3_skin() {
              {0.5670, {0.113, 0.007, 0.007}},
              {1.9900, {0.358, 0.004, 0.000}},
              {7.4100, {0.078, 0.000, 0.000}}}};
+}
+
+std::vector<std::string> profile_names() {
+    std::vector<std::string> names;
+    for (const Preset& preset : presets()) names.push_back(preset.name);
+    return names;
+}
+
+Result<Profile> find_profile(std::string_view name) {
+    for (const Preset& preset : presets())
+        if (preset.name == name) return preset.make();
+    if (name.starts_with("burley:")) return burley_from_lengths(name);
+    const std::filesystem::path path(name);
+    if (to_lower(path.extension().string()) == ".csv") return read_profile_csv(path);
+    return Error{unknown_name("profile", name, profile_names()) + ", or a .csv file, or burley:d_mm"};
 }
 
 }  // namespace dermis

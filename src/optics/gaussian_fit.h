@@ -1,0 +1,31 @@
+#pragma once
+// A sum of Gaussians for any profile, so that every table, blur and shader has one form to work on.
+//
+// What is fitted is S(r) = 1 - cdf(r), the part of the light that leaves beyond r, by sum_i w_i
+// exp(-r^2/2v_i): bounded where R itself is infinite (Burley at 0), and the slab transmittance at the same
+// time. Burley's and the dipole's S are completely monotone in r^2, so positive weights suffice and more
+// terms always help. Each channel gets its own Gaussians, placed by Levenberg-Marquardt on log variances and
+// weights, then reweighted to level the error (Lawson 1961). Weights are positive and sum to the albedo.
+
+#include <array>
+
+#include "dermis/optics/profile.h"
+
+namespace dermis {
+
+inline constexpr int kMaxGaussianFitTerms = 12;
+
+struct GaussianFit {
+    GaussianSum sum;
+    /// Largest and root-mean-square |S - S_fit| per channel, over 200 radii from the 0.1 % to the 99.99 %
+    /// radius evenly in log r: the part of the light in the wrong place. 0 for what is a sum of Gaussians
+    /// already.
+    std::array<double, 3> max_error = {0, 0, 0};
+    std::array<double, 3> rms_error = {0, 0, 0};
+};
+
+/// 1 to kMaxGaussianFitTerms Gaussians per channel. Sums of Gaussians come back as they are, whatever their
+/// number. About 15 ms a channel. Largest error of Burley with 4, 6, 8 terms: see docs/profiles.md.
+[[nodiscard]] GaussianFit to_gaussian_sum(const Profile& profile, int terms_per_channel = 6);
+
+}  // namespace dermis
