@@ -1,0 +1,141 @@
+// The look at an EXR header that comes before OpenEXR's own; layout: "OpenEXR File Layout", Academy Software
+// Foundation. A header is a list of attributes (name, type, size, value) ended by an empty name; a file of
+// several parts has several headers ended by an empty one.
+
+#include <algorithm>
+
+#include "dermis/image/codec/exr.h"
+
+namespace dermis::codec {
+namespace {
+
+constexpr uint32_t kDeepFlag = 0x800, kMultiPartFlag = 0x1000;
+constexpr int kMostChannels = 256;
+// Chunks (a tile, or the scanlines of one compressed block) are decoded whole, in buffers as large as they
+// are.
+constexpr uint64_t kMostChunkBytes = uint64_t{512} << 20;
+
+struct Part {
+    int64_t width = 0, height = 0;
+    int64_t tile_width = 0, tile_height = 0;  // 0: scanlines
+    int64_t lines_per_chunk = 1;
+    uint64_t bytes_per_texel = 0;
+    int channels = 0;
+    bool bounded = true;  // false: the compression has no largest ratio worth checking
+    bool deep = false;
+};
+
+// Lines in one compressed chunk, by the number of the compression (OpenEXR File Layout, "Compression").
+Result<int64_t> lines_of(uint8_t compression) {
+    constexpr int64_t kLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+    if (compression >= std::size(kLines))
+        return Error{"corrupt EXR: compression " + std::to_string(compression)};
+    return kLines[compression];
+}
+
+bool ratio_is_bounded(uint8_t compression) {
+    constexpr uint8_t kPiz = 4, kDwaa = 8, kDwab = 9;
+    return compression != kPiz && compression != kDwaa && compression != kDwab;
+}
+
+// Entries of a channel list: name, type (0 uint, 1 half, 2 float), linearity, x and y sampling.
+void read_channels(Bytes value, Part& part) {
+    ByteReader in(value);
+    while (in.ok() && !in.text().empty()) {
+        part.bytes_per_texel += in.u32() == 1 ? 2 : 4;
+        in.take(12);
+        ++part.channels;
+    }
+}
+
+Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
+    ByteReader in(value);
+    if (name == "dataWindow") {
+        const int64_t x0 = in.read<int32_t>(), y0 = in.read<int32_t>();
+        const int64_t x1 = in.read<int32_t>(), y1 = in.read<int32_t>();
+        part.width = x1 - x0 + 1;
+        part.height = y1 - y0 + 1;
+    } else if (name == "compression") {
+        const uint8_t compression = in.read<uint8_t>();
+        Result<int64_t> lines = lines_of(compression);
+        if (!lines) return lines.error();
+        part.lines_per_chunk = *lines;
+        part.bounded = ratio_is_bounded(compression);
+    } else if (name == "tiles") {
+        part.tile_width = in.u32();
+        part.tile_height = in.u32();
+        if (part.tile_width == 0 || part.tile_height == 0) return Error{"corrupt EXR: tiles without texels"};
+    } else if (name == "channels") {
+        read_channels(value, part);
+    } else if (name == "type") {
+        const std::string_view type(reinterpret_cast<const char*>(value.data()), value.size());
+        part.deep = type.starts_with("deep");
+    }
+    if (!in.ok()) return Error{"corrupt EXR: the attribute '" + std::string(name) + "' is cut short"};
+    return {};
+}
+
+// OpenEXR takes the last of several attributes of one name or the first, so a repeated one is refused.
+Result<Part> read_part(ByteReader& in, std::string_view first_name) {
+    Part part;
+    std::vector<std::string> seen;
+    for (std::string_view name = first_name; !name.empty(); name = in.text()) {
+        (void)in.text();  // the type's name
+        const Bytes value = in.take(in.u32());
+        if (!in.ok()) break;
+        if (std::ranges::find(seen, name) != seen.end())
+            return Error{"corrupt EXR: the attribute '" + std::string(name.substr(0, 40)) +
+                         "' is there twice"};
+        seen.emplace_back(name);
+        if (Result<void> read = read_attribute(name, value, part); !read) return read.error();
+    }
+    if (!in.ok()) return Error{"corrupt EXR: the file ends in the header"};
+    return part;
+}
+
+Result<void> check_part(const Part& part, uint64_t file_bytes) {
+    if (part.deep) return Error{"deep EXR; dermis reads flat images"};
+    if (part.width <= 0 || part.height <= 0) return Error{"corrupt EXR: a data window without texels"};
+    if (Result<void> size =
+            check_image_size(uint64_t(part.width), uint64_t(part.height), 1, PixelFormat::f16);
+        !size)
+        return size;
+    if (part.channels == 0 || part.channels > kMostChannels)
+        return Error{"EXR of " + std::to_string(part.channels) + " channels; dermis reads 1 to " +
+                     std::to_string(kMostChannels)};
+    const bool tiled = part.tile_width > 0;
+    if (tiled && (part.tile_width > kMaxImageSide || part.tile_height > kMaxImageSide))
+        return Error{"corrupt EXR: tiles larger than any image"};
+    const auto blocks = [](int64_t side, int64_t block) { return (side + block - 1) / block; };
+    const int64_t chunks = tiled ? blocks(part.width, part.tile_width) * blocks(part.height, part.tile_height)
+                                 : blocks(part.height, part.lines_per_chunk);
+    const int64_t chunk_texels =
+        tiled ? part.tile_width * part.tile_height : part.width * part.lines_per_chunk;
+    if (uint64_t(chunk_texels) * part.bytes_per_texel > kMostChunkBytes)
+        return Error{"EXR in blocks larger than 512 MiB"};
+    // Each chunk has its place in a table of 8 bytes each.
+    if (uint64_t(chunks) * 8 > file_bytes) return Error{"corrupt EXR: the file is too short for its size"};
+    constexpr uint64_t kMostZipRatio = 1032;
+    if (!part.bounded) return {};
+    return check_ratio(uint64_t(part.width * part.height) * part.bytes_per_texel, file_bytes, kMostZipRatio);
+}
+
+}  // namespace
+
+Result<void> check_exr_header(Bytes file) {
+    ByteReader in(file, 4);
+    const uint32_t version = in.u32();
+    if (version & kDeepFlag) return Error{"deep EXR; dermis reads flat images"};
+    for (bool more = true; more;) {
+        const std::string_view first_name = in.text();
+        if (!in.ok()) return Error{"corrupt EXR: the file ends in the header"};
+        if (first_name.empty()) break;
+        Result<Part> part = read_part(in, first_name);
+        if (!part) return part.error();
+        if (Result<void> fine = check_part(*part, file.size()); !fine) return fine;
+        more = (version & kMultiPartFlag) != 0;
+    }
+    return {};
+}
+
+}  // namespace dermis::codec

@@ -1,0 +1,66 @@
+// JPEG by libjpeg-turbo, straight into u8: grey as one channel, all else as RGB.
+
+#include <turbojpeg.h>
+
+#include "dermis/image/codec/codec.h"
+
+namespace dermis::codec {
+namespace {
+
+// A flat 4:2:0 picture spends at least one bit on each of the six blocks of 768 decoded bytes: 1024:1. Twice
+// that leaves room for what progressive end-of-band runs save.
+constexpr uint64_t kMostJpegRatio = 2048;
+
+struct Decompressor {
+    tjhandle handle = tjInitDecompress();
+    ~Decompressor() {
+        if (handle) tjDestroy(handle);
+    }
+    [[nodiscard]] Error error() const { return {std::string("corrupt JPEG: ") + tjGetErrorStr2(handle)}; }
+};
+
+// libjpeg decodes on after a warning and fills in grey. Only what leaves all texels intact is let pass.
+bool is_harmless(std::string_view warning) {
+    return warning.find("extraneous bytes") != warning.npos || warning.find("Adobe") != warning.npos ||
+           warning.find("JFIF") != warning.npos;
+}
+
+}  // namespace
+
+bool is_jpeg(Bytes file) {
+    return file.size() >= 3 && file[0] == std::byte{0xff} && file[1] == std::byte{0xd8} &&
+           file[2] == std::byte{0xff};
+}
+
+Result<LoadedImage> decode_jpeg(Bytes file, ImageUse use) {
+    const Decompressor decompressor;
+    if (!decompressor.handle) return Error{"libjpeg-turbo has no memory"};
+    const auto* data = reinterpret_cast<const unsigned char*>(file.data());
+    int width = 0, height = 0, subsampling = 0, color_space = 0;
+    if (tjDecompressHeader3(decompressor.handle, data, file.size(), &width, &height, &subsampling,
+                            &color_space) != 0)
+        return decompressor.error();
+    if (color_space == TJCS_CMYK || color_space == TJCS_YCCK)
+        return Error{"CMYK JPEG; dermis reads grey and RGB"};
+
+    const int channels = color_space == TJCS_GRAY ? 1 : 3;
+    if (width <= 0 || height <= 0) return Error{"corrupt JPEG: no texels"};
+    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), channels, PixelFormat::u8);
+        !size)
+        return size.error();
+    const uint64_t decoded = uint64_t(width) * uint64_t(height) * uint64_t(channels);
+    if (Result<void> ratio = check_ratio(decoded, file.size(), kMostJpegRatio); !ratio) return ratio.error();
+
+    LoadedImage loaded;
+    loaded.image = Image(width, height, channels, PixelFormat::u8,
+                         use == ImageUse::color ? Encoding::srgb : Encoding::linear);
+    const int status = tjDecompress2(
+        decompressor.handle, data, file.size(), reinterpret_cast<unsigned char*>(loaded.image.bytes.data()),
+        width, 0, height, channels == 1 ? TJPF_GRAY : TJPF_RGB, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS);
+    if (status != 0 && (tjGetErrorCode(decompressor.handle) != TJERR_WARNING ||
+                        !is_harmless(tjGetErrorStr2(decompressor.handle))))
+        return decompressor.error();
+    return loaded;
+}
+
+}  // namespace dermis::codec

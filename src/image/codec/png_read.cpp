@@ -1,0 +1,126 @@
+// PNG (ISO/IEC 15948) by libpng: any depth and colour type to u8 or u16 with 1 to 4 channels.
+//
+// libpng reports errors by longjmp. Each step that may jump is one call of a plain function through
+// guarded(), and owns nothing with a destructor, so that a jump skips none.
+
+#include <png.h>
+
+#include <csetjmp>
+
+#include "dermis/image/codec/codec.h"
+
+namespace dermis::codec {
+namespace {
+
+// Deflate reaches 1032:1 (a match of 258 bytes in two bits), and a 1-bit palette with transparency expands to
+// 32 bits a texel.
+constexpr uint64_t kMostPngRatio = 1032 * 32;
+constexpr size_t kMostTextBytes = size_t{16} << 20;
+
+struct Source {
+    Bytes rest;
+    char message[160] = {};
+};
+
+void on_error(png_structp png, png_const_charp message) {
+    auto* source = static_cast<Source*>(png_get_error_ptr(png));
+    std::snprintf(source->message, sizeof(source->message), "%s", message);
+    png_longjmp(png, 1);
+}
+void on_warning(png_structp, png_const_charp) {}
+
+void on_read(png_structp png, png_bytep to, size_t count) {
+    auto* source = static_cast<Source*>(png_get_io_ptr(png));
+    if (count > source->rest.size()) png_error(png, "the file ends early");
+    std::memcpy(to, source->rest.data(), count);
+    source->rest = source->rest.subspan(count);
+}
+
+struct Reader {
+    Source source;
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+template <class Step, class... Arguments>
+bool guarded(png_structp png, Step step, Arguments... arguments) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    step(arguments...);
+    return true;
+}
+
+void read_header(Reader* r) {
+    png_set_read_fn(r->png, &r->source, on_read);
+    png_set_user_limits(r->png, kMaxImageSide, kMaxImageSide);
+    png_set_chunk_malloc_max(r->png, kMostTextBytes);
+    png_read_info(r->png, r->info);
+    png_set_expand(r->png);  // palettes to RGB, 1 to 4 bits to 8, tRNS to alpha
+    if (png_get_bit_depth(r->png, r->info) == 16) png_set_swap(r->png);
+    png_set_interlace_handling(r->png);
+    png_read_update_info(r->png, r->info);
+}
+
+void read_rows(Reader* r, png_bytepp rows) {
+    png_read_image(r->png, rows);
+    png_read_end(r->png, r->info);
+}
+
+// An explicit gamma of 1 without an sRGB chunk marks linear light.
+bool says_linear(Reader& r) {
+    png_fixed_point gamma = 0;
+    return !png_get_valid(r.png, r.info, PNG_INFO_sRGB) && png_get_gAMA_fixed(r.png, r.info, &gamma) != 0 &&
+           gamma == PNG_FP_1;
+}
+
+ImageText read_text(Reader& r) {
+    ImageText text;
+    png_textp chunks = nullptr;
+    int count = 0;
+    png_get_text(r.png, r.info, &chunks, &count);
+    for (int i = 0; i < count; ++i) {
+        const bool international = chunks[i].compression >= PNG_ITXT_COMPRESSION_NONE;
+        const size_t length = international ? chunks[i].itxt_length : chunks[i].text_length;
+        text[chunks[i].key] = std::string(chunks[i].text ? chunks[i].text : "", chunks[i].text ? length : 0);
+    }
+    return text;
+}
+
+Error corrupt(const Reader& r) {
+    return Error{std::string("corrupt PNG: ") + r.source.message};
+}
+
+}  // namespace
+
+bool is_png(Bytes file) {
+    return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
+}
+
+Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
+    Reader r;
+    r.source.rest = file;
+    r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r.source, on_error, on_warning);
+    r.info = r.png ? png_create_info_struct(r.png) : nullptr;
+    if (!r.info) return Error{"libpng has no memory"};
+    if (!guarded(r.png, read_header, &r)) return corrupt(r);
+
+    const uint32_t width = png_get_image_width(r.png, r.info), height = png_get_image_height(r.png, r.info);
+    const int channels = png_get_channels(r.png, r.info);
+    const PixelFormat format = png_get_bit_depth(r.png, r.info) == 16 ? PixelFormat::u16 : PixelFormat::u8;
+    if (Result<void> size = check_image_size(width, height, channels, format); !size) return size.error();
+    const uint64_t stored_row = png_get_rowbytes(r.png, r.info);
+    if (Result<void> ratio = check_ratio(stored_row * height, file.size(), kMostPngRatio); !ratio)
+        return ratio.error();
+
+    const bool srgb = use == ImageUse::color && !says_linear(r);
+    LoadedImage loaded;
+    loaded.image = Image(int(width), int(height), channels, format, srgb ? Encoding::srgb : Encoding::linear);
+    std::vector<png_bytep> rows(height);
+    for (size_t y = 0; y < height; ++y)
+        rows[y] = reinterpret_cast<png_bytep>(loaded.image.bytes.data()) + y * stored_row;
+    if (!guarded(r.png, read_rows, &r, rows.data())) return corrupt(r);
+    loaded.text = read_text(r);
+    return loaded;
+}
+
+}  // namespace dermis::codec

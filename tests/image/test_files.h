@@ -1,0 +1,39 @@
+#pragma once
+// Files of each format as other programs write them, made with the libraries rather than with src/image.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dermis/image/image.h"
+
+namespace dermis {
+
+using FileBytes = std::vector<std::byte>;
+
+struct PngSettings {
+    int width = 0, height = 0, depth = 8;
+    int color_type = 0;  // libpng's PNG_COLOR_TYPE_*
+    bool interlaced = false;
+    double gamma = 0;  // 0: no gAMA chunk
+    bool palette_alpha = false;
+};
+/// Rows as PNG packs them. The palette's entry i is (i, 2 i, 3 i), its alpha 255 - i.
+FileBytes make_png(const PngSettings& settings, const std::vector<std::vector<uint8_t>>& rows);
+
+/// 8-bit grey or RGB; `progressive` and 4:2:0 for RGB.
+FileBytes make_jpeg(const Image& image, int quality, bool progressive);
+FileBytes make_cmyk_jpeg(int width, int height);
+
+struct ExrSettings {
+    int compression = 0;  // Imf::Compression
+    int tile_side = 0;    // 0: scanlines
+    bool float_channels = false;
+    int offset_x = 0, offset_y = 0;  // of the data window
+    std::vector<std::string> channels;
+};
+/// Channel c of texel (x, y) holds c + x/64 + y/4096 (exact in half for small pictures).
+FileBytes make_exr(int width, int height, const ExrSettings& settings);
+
+}  // namespace dermis
