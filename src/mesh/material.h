@@ -57,13 +57,14 @@ struct Material {
     int dilate_texels = 0;             ///< maps without a gutter: grow the UV islands by so much on load
 
     /// glTF's subsurface description, when the file has one (KHR_materials_volume, _diffuse_transmission,
-    /// _volume_scatter).
+    /// _volume_scatter, _scatter).
     struct Scattering {
         float thickness_mm = 0;
         Vec3 attenuation_color = {1, 1, 1};
         float attenuation_distance_mm = 0;  ///< 0: infinite
         Vec3 multiscatter_color = {0, 0, 0};
-        float anisotropy = 0;
+        float scatter_strength = 1;  ///< 0..1, below 1 in KHR_materials_scatter only
+        float anisotropy = 0;        ///< Henyey-Greenstein g, -1..1
         float diffuse_transmission = 0;
         Vec3 diffuse_transmission_color = {1, 1, 1};
     };

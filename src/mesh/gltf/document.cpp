@@ -1,0 +1,228 @@
+// The containers of glTF 2.0 (sections 3.6 and 4.4 of the specification). Offsets and sizes from the file are
+// compared by subtraction, so that none of them can overflow.
+
+#include "dermis/mesh/gltf/document.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <set>
+
+#include "dermis/base/text.h"
+
+namespace dermis::gltf {
+namespace {
+
+constexpr uint32_t kGlbMagic = 0x46546C67;  // "glTF"
+constexpr uint32_t kJsonChunk = 0x4E4F534A;
+constexpr uint32_t kBinChunk = 0x004E4942;
+constexpr int kMaxJsonDepth = 128;  // real files need about 12
+
+uint32_t read_u32(std::span<const std::byte> bytes, size_t at) {
+    uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+struct Container {
+    std::string_view json;
+    std::optional<std::span<const std::byte>> binary;
+};
+
+std::string_view as_text(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+Container split_glb(std::span<const std::byte> bytes, Complaints& complaints) {
+    Container container;
+    const auto fail = [&](const std::string& text) { return complaints.fail("", text), Container{}; };
+    if (bytes.size() < 20)
+        return fail("truncated: a GLB has at least 20 bytes, this has " + std::to_string(bytes.size()));
+    if (const uint32_t version = read_u32(bytes, 4); version != 2)
+        return fail("GLB version " + std::to_string(version) + "; only 2 is read");
+    const uint32_t stated = read_u32(bytes, 8);
+    if (stated > bytes.size())
+        return fail("truncated: the header says " + std::to_string(stated) + " bytes, the file has " +
+                    std::to_string(bytes.size()));
+    bytes = bytes.first(std::max<size_t>(stated, 12)).subspan(12);
+    for (int chunk = 0; bytes.size() >= 8; ++chunk) {
+        const uint32_t size = read_u32(bytes, 0), type = read_u32(bytes, 4);
+        bytes = bytes.subspan(8);
+        if (size > bytes.size())
+            return fail("truncated: chunk " + std::to_string(chunk) + " passes the end of the file");
+        const auto content = bytes.first(size);
+        if (chunk == 0 && type != kJsonChunk) return fail("the first chunk of a GLB must be its JSON");
+        if (chunk == 0) container.json = as_text(content);
+        if (chunk == 1 && type == kBinChunk) container.binary = content;
+        bytes = bytes.subspan(std::min<size_t>(bytes.size(), (size_t{size} + 3) & ~size_t{3}));
+    }
+    return container;
+}
+
+// Nesting outside of strings. The JSON library's parser has no stack to overflow, but what walks and frees
+// its result has.
+bool too_deep(std::string_view json) {
+    int depth = 0;
+    bool in_string = false;
+    for (size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            if (c == '"') in_string = false;
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > kMaxJsonDepth) return true;
+        } else if (c == '}' || c == ']') {
+            --depth;
+        }
+    }
+    return false;
+}
+
+void parse_json(std::string_view text, Document& document) {
+    if (too_deep(text)) return document.complaints.fail("", "JSON nested deeper than 128 levels");
+    try {
+        document.root = nlohmann::json::parse(text.begin(), text.end());
+    } catch (const nlohmann::json::exception& wrong) {
+        const auto* where = dynamic_cast<const nlohmann::json::parse_error*>(&wrong);
+        return document.complaints.fail(
+            "", "invalid JSON" + (where ? " at byte " + std::to_string(where->byte) : std::string()));
+    }
+    if (!document.root.is_object()) document.complaints.fail("", "the JSON must be an object");
+}
+
+// Extensions whose absence changes geometry; unknown material extensions only change the look.
+void check_extensions(Document& document) {
+    static const std::set<std::string> kKnown = {"KHR_materials_volume",
+                                                 "KHR_materials_diffuse_transmission",
+                                                 "KHR_materials_volume_scatter",
+                                                 "KHR_materials_scatter",
+                                                 "KHR_materials_specular",
+                                                 "KHR_materials_ior",
+                                                 "KHR_mesh_quantization",
+                                                 "KHR_texture_transform",
+                                                 "KHR_materials_unlit",
+                                                 "KHR_lights_punctual",
+                                                 "KHR_materials_emissive_strength",
+                                                 "KHR_materials_transmission",
+                                                 "KHR_materials_sheen",
+                                                 "KHR_materials_clearcoat",
+                                                 "KHR_materials_anisotropy",
+                                                 "KHR_materials_iridescence"};
+    const JsonView required = document.view()["extensionsRequired"];
+    for (size_t i = 0; i < required.size(); ++i) {
+        const std::string name = required[i].text("");
+        if (!kKnown.contains(name))
+            required[i].fail("the file needs " + name + ", which is not supported; export it without");
+    }
+}
+
+void load_buffer(const JsonView& buffer, std::optional<std::span<const std::byte>> binary,
+                 const ReadSibling& read_sibling, std::vector<std::byte>& bytes) {
+    const uint64_t size = buffer["byteLength"].integer(0);
+    const std::string uri = buffer["uri"].text("");
+    if (buffer.failed()) return;
+    if (uri.empty()) {
+        if (!binary) return buffer.fail("has no uri, and there is no binary chunk");
+        bytes.assign(binary->begin(), binary->end());
+    } else if (uri.starts_with("data:")) {
+        auto decoded = decode_data_uri(uri);
+        if (!decoded) return buffer.fail("malformed data URI");
+        bytes = std::move(*decoded);
+    } else {
+        const std::string path = decode_percent(uri);
+        if (!stays_inside(path))
+            return buffer.fail("uri '" + path.substr(0, 200) + "' leaves the file's directory");
+        auto read = read_sibling ? read_sibling(path) : Error{path + ": no directory to read from"};
+        if (!read) return buffer.fail("cannot be read: " + read.error().message);
+        bytes = std::move(*read);
+    }
+    if (bytes.size() < size)
+        return buffer.fail("truncated: " + std::to_string(size) + " bytes stated, " +
+                           std::to_string(bytes.size()) + " found");
+}
+
+}  // namespace
+
+void open_document(std::span<const std::byte> bytes, const std::filesystem::path& name,
+                   const ReadSibling& read_sibling, const MeshOptions& options, Document& document) {
+    document.complaints.file = name.string();
+    document.directory = name.parent_path();
+    document.max_vertices = options.max_vertices;
+    Complaints& complaints = document.complaints;
+    Container container{as_text(bytes), {}};
+    // By content: exporters name files wrongly.
+    if (bytes.size() >= 4 && read_u32(bytes, 0) == kGlbMagic) container = split_glb(bytes, complaints);
+    if (complaints.error) return;
+    parse_json(container.json, document);
+    if (complaints.error) return;
+    const std::string version = document.view()["asset"]["version"].text("");
+    if (!complaints.error && !version.starts_with("2."))
+        complaints.fail("asset.version", "'" + version.substr(0, 20) + "'; only glTF 2.x is read");
+    check_extensions(document);
+    const JsonView buffers = document.view()["buffers"];
+    for (size_t i = 0; i < buffers.size() && !complaints.error; ++i)
+        load_buffer(buffers[i], i == 0 ? container.binary : std::nullopt, read_sibling,
+                    document.buffers.emplace_back());
+}
+
+std::span<const std::byte> buffer_view(Document& document, uint64_t index) {
+    const JsonView view = document.view()["bufferViews"][size_t(index)];
+    const uint64_t buffer = view["buffer"].integer(0);
+    const uint64_t offset = view["byteOffset"].integer(0), size = view["byteLength"].integer(0);
+    if (view.failed()) return {};
+    if (buffer >= document.buffers.size())
+        return view.fail("buffer " + std::to_string(buffer) + " does not exist"),
+               std::span<const std::byte>{};
+    const std::vector<std::byte>& bytes = document.buffers[size_t(buffer)];
+    if (offset > bytes.size() || size > bytes.size() - offset)
+        return view.fail("passes the end of its buffer (" + std::to_string(bytes.size()) + " bytes)"),
+               std::span<const std::byte>{};
+    return std::span(bytes).subspan(size_t(offset), size_t(size));
+}
+
+std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
+    const size_t comma = uri.find(',');
+    if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) return std::nullopt;
+    static constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static constexpr auto kValues = [] {
+        std::array<int8_t, 256> values{};
+        values.fill(-1);
+        for (size_t i = 0; i < kDigits.size(); ++i) values[uint8_t(kDigits[i])] = int8_t(i);
+        return values;
+    }();
+    std::string_view digits = uri.substr(comma + 1);
+    while (digits.ends_with('=')) digits.remove_suffix(1);
+    if (digits.size() % 4 == 1) return std::nullopt;
+    std::vector<std::byte> bytes;
+    bytes.reserve(digits.size() / 4 * 3 + 2);
+    uint32_t bits = 0;
+    for (size_t i = 0; i < digits.size(); ++i) {
+        const int value = kValues[uint8_t(digits[i])];
+        if (value < 0) return std::nullopt;
+        bits = bits << 6 | uint32_t(value);
+        // Every digit but the first of four completes a byte: with 4, 2 or 0 bits to spare.
+        if (i % 4 > 0) bytes.push_back(std::byte(bits >> (6 - 2 * (i % 4))));
+    }
+    return bytes;
+}
+
+std::string decode_percent(std::string_view uri) {
+    std::string path;
+    for (size_t i = 0; i < uri.size(); ++i) {
+        unsigned code = 0;
+        const char* digits = uri.data() + i + 1;
+        if (uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+            path += char(code);
+            i += 2;
+        } else {
+            path += uri[i];
+        }
+    }
+    return path;
+}
+
+}  // namespace dermis::gltf

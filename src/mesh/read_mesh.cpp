@@ -1,0 +1,154 @@
+// Reads by extension, then does what every mesh needs: one unit, complete normals, and the warnings that
+// spare a person an hour (wrong unit, UDIM tiles, missing UVs).
+
+#include "dermis/mesh/read_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/mesh/gltf/gltf.h"
+#include "dermis/mesh/normals.h"
+#include "dermis/mesh/obj.h"
+#include "dermis/mesh/topology.h"
+
+namespace dermis {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kHeadMin_mm = 150, kHeadMax_mm = 500;
+
+Result<MeshFormat> format_of(const fs::path& path) {
+    const std::string extension = to_lower(path.extension().string());
+    if (extension == ".obj") return MeshFormat::obj;
+    if (extension == ".gltf") return MeshFormat::gltf;
+    if (extension == ".glb") return MeshFormat::glb;
+    return Error{path.string() + ": a mesh is .obj, .gltf or .glb, not '" + extension + "'"};
+}
+
+Result<LoadedMesh> load_obj(std::span<const std::byte> bytes, const fs::path& name,
+                            const ReadSibling& read_sibling, const MeshOptions& options) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    Result<ObjFile> file = parse_obj(text, name, read_sibling, options);
+    if (!file) return file.error();
+    const auto scale = float(options.unit_mm.value_or(1));
+    for (Vec3& p : file->polygons.positions_mm) p *= scale;
+    return LoadedMesh{triangulate(file->polygons), std::move(file->warnings)};
+}
+
+// No index, finite positions: what the readers could not check before scaling.
+Result<void> check_finite(Mesh& mesh, const fs::path& name, std::vector<std::string>& warnings) {
+    for (const Vec3& p : mesh.positions_mm)
+        if (!std::isfinite(p.x + p.y + p.z))
+            return Error{name.string() + ": a position is out of range in millimetres; check the unit"};
+    size_t bad_uvs = 0;
+    for (Vec2& uv : mesh.uvs)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = {}, ++bad_uvs;
+    if (bad_uvs > 0)
+        warnings.push_back(name.string() + ": " + std::to_string(bad_uvs) +
+                           " UVs were not finite; they get (0, 0)");
+    return {};
+}
+
+void warn_of_height(const Mesh& mesh, const fs::path& name, const MeshOptions& options, bool is_obj,
+                    std::vector<std::string>& warnings) {
+    const auto [low, high] = std::ranges::minmax(mesh.positions_mm, {}, &Vec3::y);
+    const double height_mm = double(high.y) - low.y;
+    if (height_mm >= kHeadMin_mm && height_mm <= kHeadMax_mm) return;
+    std::array<char, 32> rounded{};
+    std::snprintf(rounded.data(), rounded.size(), "%.4g", height_mm);
+    std::string text = name.string() + ": " + rounded.data() + " mm tall; a head is 150 to 500 mm";
+    if (options.unit_mm)
+        text += ", check the unit of " + to_text(*options.unit_mm) + " mm";
+    else
+        text += is_obj ? "; OBJ has no unit, state it (--unit-mm)"
+                       : "; glTF is in metres, else state the unit (--unit-mm)";
+    warnings.push_back(text);
+}
+
+// Tiles are numbered 1001 + column + 10 row, from the bottom-left.
+int tile_of(Vec2 uv) {
+    const float column = std::floor(uv.x), row = std::floor(1 - uv.y);
+    if (!(column >= 0 && column < 10 && row >= 0 && row < 800)) return 0;
+    return 1001 + int(column) + 10 * int(row);
+}
+
+void warn_of_tiles(const Mesh& mesh, const fs::path& name, std::vector<std::string>& warnings) {
+    if (mesh.uvs.empty()) return;
+    std::map<uint32_t, std::set<int>> tiles;
+    bool others = false;
+    for (const Submesh& submesh : mesh.submeshes)
+        for (uint32_t i = submesh.first_index; i < submesh.first_index + submesh.index_count; i += 3) {
+            Vec2 middle;
+            for (uint32_t k = 0; k < 3; ++k) middle = middle + mesh.uvs[mesh.indices[i + k]] * (1.0f / 3);
+            const int tile = tile_of(middle);
+            tiles[submesh.material].insert(tile);
+            others |= tile != 1001;
+        }
+    if (!others) return;
+    std::vector<std::string> parts;
+    for (const auto& [material, set] : tiles) {
+        std::vector<std::string> numbers;
+        for (const int tile : set) numbers.push_back(tile == 0 ? "outside" : std::to_string(tile));
+        if (numbers.size() > 6) numbers.resize(6), numbers.push_back("...");
+        parts.push_back("'" + mesh.materials[material].name + "' " + join(numbers, " "));
+    }
+    if (parts.size() > 40) parts.resize(40), parts.push_back("...");
+    warnings.push_back(name.string() + ": UVs lie in several UDIM tiles: " + join(parts, ", "));
+}
+
+void finish_normals(Mesh& mesh, const fs::path& name, std::vector<std::string>& warnings) {
+    if (mesh.normals.empty()) return compute_normals(mesh);
+    complete_normals(mesh);
+    const double backwards = fraction_facing_backwards(mesh);
+    if (backwards > 0.5)
+        warnings.push_back(name.string() + ": " + std::to_string(int(std::lround(100 * backwards))) +
+                           " % of the triangles face against their normals; is the winding reversed?");
+}
+
+}  // namespace
+
+bool stays_inside(std::string_view path) {
+    if (path.empty() || path.size() > 4096) return false;
+    if (path.find_first_of("\\:") != std::string_view::npos || path.find('\0') != std::string_view::npos)
+        return false;
+    if (path.front() == '/') return false;
+    const auto parts = split(path, '/');
+    return std::ranges::none_of(parts, [](std::string_view part) { return part == ".."; });
+}
+
+Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const fs::path& name,
+                              const ReadSibling& read_sibling, const MeshOptions& options) {
+    if (options.unit_mm && !(*options.unit_mm > 0 && std::isfinite(*options.unit_mm)))
+        return Error{name.string() + ": the unit must be a positive number of millimetres"};
+    const bool is_obj = format == MeshFormat::obj;
+    Result<LoadedMesh> loaded = is_obj ? load_obj(bytes, name, read_sibling, options)
+                                       : gltf::parse_gltf(bytes, name, read_sibling, options);
+    if (!loaded) return loaded;
+    Mesh& mesh = loaded->mesh;
+    std::vector<std::string>& warnings = loaded->warnings;
+    if (Result<void> checked = check_finite(mesh, name, warnings); !checked) return checked.error();
+    drop_unused_vertices(mesh);
+    if (mesh.uvs.empty()) warnings.push_back(name.string() + ": no UVs; maps cannot be used");
+    warn_of_height(mesh, name, options, is_obj, warnings);
+    warn_of_tiles(mesh, name, warnings);
+    finish_normals(mesh, name, warnings);
+    return loaded;
+}
+
+Result<LoadedMesh> read_mesh(const fs::path& path, const MeshOptions& options) {
+    const Result<MeshFormat> format = format_of(path);
+    if (!format) return format.error();
+    const Result<std::vector<std::byte>> bytes = read_file(path);
+    if (!bytes) return bytes.error();
+    const ReadSibling read_sibling = [directory = path.parent_path()](const std::string& relative_path) {
+        return read_file(directory / relative_path);
+    };
+    return parse_mesh(*bytes, *format, path, read_sibling, options);
+}
+
+}  // namespace dermis

@@ -1,0 +1,53 @@
+#pragma once
+// Mesh files in, meshes in millimetres out: OBJ with MTL, glTF 2.0 and GLB.
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/mesh/mesh.h"
+
+namespace dermis {
+
+struct MeshOptions {
+    std::optional<double> unit_mm;  ///< millimetres a file unit; none: 1000 for glTF (metres), 1 for OBJ
+    size_t max_vertices =
+        50'000'000;  ///< more, also through instancing, is an error and not a swapping machine
+};
+
+struct LoadedMesh {
+    Mesh mesh;
+    std::vector<std::string> warnings;  ///< one line each, for a person
+};
+
+/// Reads a file that the mesh names (an MTL, a .bin) by its path relative to the mesh; never called with a
+/// path that leaves the mesh's directory.
+using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::string& relative_path)>;
+
+/// By extension: .obj, .gltf, .glb. Node transforms are applied, mirrored ones keep their fronts outside.
+/// Every value of the result is finite and every index in range; normals are unit. Errors (one line, naming
+/// file and place): unreadable or truncated files, no triangles, positions that are not finite, indices out
+/// of range, missing buffers, URIs that leave the directory, required extensions unknown here. Warnings:
+/// missing MTL, UDIM tiles, UVs absent, a height that no head has, anything in the file that was skipped.
+/// Cost: see bench/mesh_bench.cpp; a 17,684-triangle OBJ of 3 MB takes about 30 ms on one core.
+[[nodiscard]] Result<LoadedMesh> read_mesh(const std::filesystem::path& path,
+                                           const MeshOptions& options = {});
+
+enum class MeshFormat { obj, gltf, glb };
+
+/// The same from memory. `name` stands for the file in messages and gives image paths their directory.
+[[nodiscard]] Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat format,
+                                            const std::filesystem::path& name,
+                                            const ReadSibling& read_sibling, const MeshOptions& options = {});
+
+/// A relative path that stays below its directory and names a plain file: no scheme, no root, no "..", no
+/// backslash.
+[[nodiscard]] bool stays_inside(std::string_view relative_path);
+
+}  // namespace dermis

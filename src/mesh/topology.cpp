@@ -1,0 +1,100 @@
+#include "dermis/mesh/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace dermis {
+namespace {
+
+// mesh's attribute arrays rearranged: entry i of the new is entry from[i] of the old.
+void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
+    const auto gather = [&](auto& attribute) {
+        if (attribute.empty()) return;
+        std::remove_reference_t<decltype(attribute)> gathered;
+        gathered.reserve(from.size());
+        for (const uint32_t i : from) gathered.push_back(attribute[i]);
+        attribute = std::move(gathered);
+    };
+    gather(mesh.positions_mm);
+    gather(mesh.normals);
+    gather(mesh.tangents);
+    gather(mesh.uvs);
+    gather(mesh.curvatures_per_mm);
+}
+
+}  // namespace
+
+CornerTable::CornerTable(std::span<const uint32_t> indices, size_t count) {
+    first_.assign(count + 1, 0);
+    for (const uint32_t vertex : indices) ++first_[vertex + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+    corners_.resize(indices.size());
+    for (uint32_t corner = 0; corner < indices.size(); ++corner) corners_[next[indices[corner]]++] = corner;
+}
+
+void DisjointSets::reset(size_t count) {
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), 0u);
+}
+
+uint32_t DisjointSets::find(uint32_t item) {
+    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
+    return item;
+}
+
+void DisjointSets::join(uint32_t a, uint32_t b) {
+    a = find(a), b = find(b);
+    // The smaller number leads, so that the result does not depend on the order of joins.
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+}
+
+std::vector<uint32_t> welded_indices(std::span<const uint32_t> indices, const Weld& weld) {
+    std::vector<uint32_t> welded;
+    welded.reserve(indices.size());
+    for (const uint32_t index : indices) welded.push_back(weld.ids[index]);
+    return welded;
+}
+
+void split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner) {
+    const CornerTable table(mesh.indices, mesh.positions_mm.size());
+    std::vector<uint32_t> from(mesh.positions_mm.size());
+    std::iota(from.begin(), from.end(), 0u);
+    std::vector<uint32_t> corners;
+    for (uint32_t vertex = 0; vertex + 1 <= mesh.positions_mm.size(); ++vertex) {
+        corners.assign(table.corners(vertex).begin(), table.corners(vertex).end());
+        if (corners.empty()) continue;
+        std::ranges::stable_sort(corners, {}, [&](uint32_t c) { return group_of_corner[c]; });
+        uint32_t target = vertex;
+        for (size_t i = 1; i < corners.size(); ++i) {
+            if (group_of_corner[corners[i]] != group_of_corner[corners[i - 1]]) {
+                target = uint32_t(from.size());
+                from.push_back(vertex);
+            }
+            mesh.indices[corners[i]] = target;
+        }
+    }
+    if (from.size() > mesh.positions_mm.size()) gather_vertices(mesh, from);
+}
+
+void drop_unused_vertices(Mesh& mesh) {
+    std::vector<uint32_t> number(mesh.positions_mm.size(), ~0u), from;
+    for (const uint32_t index : mesh.indices) number[index] = 0;
+    for (uint32_t i = 0; i < number.size(); ++i)
+        if (number[i] == 0) number[i] = uint32_t(from.size()), from.push_back(i);
+    if (from.size() == number.size()) return;
+    for (uint32_t& index : mesh.indices) index = number[index];
+    gather_vertices(mesh, from);
+}
+
+float corner_angle_rad(const Mesh& mesh, uint32_t corner) {
+    const Vec3 p = mesh.positions_mm[mesh.indices[corner]];
+    const Vec3 a = mesh.positions_mm[mesh.indices[next_corner(corner)]] - p;
+    const Vec3 b = mesh.positions_mm[mesh.indices[previous_corner(corner)]] - p;
+    // atan2 is accurate for slivers, where acos of a dot product is not.
+    const float angle = std::atan2(length(cross(a, b)), dot(a, b));
+    return std::isfinite(angle) && length(a) > 0 && length(b) > 0 ? angle : 0.0f;
+}
+
+}  // namespace dermis

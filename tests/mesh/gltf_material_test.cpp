@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include "mesh/mesh_files.h"
+
+using namespace dermis;
+using namespace dermis::test;
+
+namespace {
+
+LoadedMesh load_with(const std::string& material, const std::string& node = "") {
+    const std::string images =
+        R"(,"textures":[{"source":0},{"source":1},{}],"images":[{"uri":"skin%20colour.png"},{"name":"inner","uri":")" +
+        data_uri("PNG!") + R"("}],"materials":[)" + material + "]";
+    auto loaded = parse_gltf_text(square_gltf(node, images, R"(,"material":0)"));
+    EXPECT_TRUE(loaded) << loaded.error().message;
+    return loaded ? std::move(*loaded) : LoadedMesh{{.materials = {{}}}, {}};
+}
+
+Material material_of(const std::string& material, const std::string& node = "") {
+    return load_with(material, node).mesh.materials[0];
+}
+
+}  // namespace
+
+TEST(GltfMaterial, metallic_roughness_and_maps_are_read) {
+    const Material m = material_of(
+        R"({"name":"skin","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,0.125,0.5],"roughnessFactor":0.4,)"
+        R"("metallicFactor":0.1,"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1}},)"
+        R"("normalTexture":{"index":0,"scale":0.7},"alphaMode":"BLEND","doubleSided":true,"emissiveFactor":[0,0,2]})");
+    EXPECT_EQ(m.name, "skin");
+    EXPECT_EQ(m.base_color_linear, (Vec3{0.5f, 0.25f, 0.125f}));
+    EXPECT_FLOAT_EQ(m.opacity, 0.5f);
+    EXPECT_FLOAT_EQ(m.roughness, 0.4f);
+    EXPECT_FLOAT_EQ(m.metallic, 0.1f);
+    EXPECT_EQ(m.base_color_map.name, "dir/skin colour.png");
+    EXPECT_TRUE(m.base_color_map.encoded.empty());
+    EXPECT_EQ(m.metallic_roughness_map.encoded.size(), 4u) << "embedded bytes stay encoded";
+    EXPECT_FLOAT_EQ(m.normal_scale, 0.7f);
+    EXPECT_EQ(m.alpha_mode, AlphaMode::blend);
+    EXPECT_TRUE(m.double_sided);
+    EXPECT_EQ(m.emission_linear, (Vec3{0, 0, 2}));
+    EXPECT_FALSE(m.scattering);
+}
+
+TEST(GltfMaterial, absent_values_are_those_of_the_specification) {
+    const Material m = material_of("{}");
+    EXPECT_EQ(m.base_color_linear, (Vec3{1, 1, 1}));
+    EXPECT_EQ(m.roughness, 1);
+    EXPECT_EQ(m.metallic, 1);
+    EXPECT_EQ(m.ior, 1.5f);
+    EXPECT_EQ(m.specular, 1);
+}
+
+TEST(GltfMaterial, translucent_bodies_are_read_in_millimetres) {
+    const Material m = material_of(
+        R"({"extensions":{"KHR_materials_volume":{"thicknessFactor":0.01,"thicknessTexture":{"index":0},)"
+        R"("attenuationDistance":0.002,"attenuationColor":[0.5,0.25,0.125]},)"
+        R"("KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.3,"diffuseTransmissionTexture":{"index":1}},)"
+        R"("KHR_materials_volume_scatter":{"multiscatterColorFactor":[0.8,0.5,0.3],"scatterAnisotropy":0.6},)"
+        R"("KHR_materials_specular":{"specularFactor":0.5,"specularTexture":{"index":1}},"KHR_materials_ior":{"ior":1.4}}})",
+        R"(,"scale":[2,2,2])");
+    ASSERT_TRUE(m.scattering);
+    EXPECT_NEAR(m.scattering->thickness_mm, 20, 1e-4)
+        << "thickness is in the mesh's space, scaled by its node";
+    EXPECT_NEAR(m.scattering->attenuation_distance_mm, 2, 1e-5) << "the distance is in the world's";
+    EXPECT_EQ(m.scattering->attenuation_color, (Vec3{0.5f, 0.25f, 0.125f}));
+    EXPECT_EQ(m.scattering->multiscatter_color, (Vec3{0.8f, 0.5f, 0.3f}));
+    EXPECT_FLOAT_EQ(m.scattering->anisotropy, 0.6f);
+    EXPECT_FLOAT_EQ(m.scattering->diffuse_transmission, 0.3f);
+    EXPECT_EQ(m.scattering->scatter_strength, 1);
+    EXPECT_EQ(m.thickness_map.name, "dir/skin colour.png");
+    EXPECT_TRUE(m.transmission_map.present());
+    EXPECT_TRUE(m.specular_map.present());
+    EXPECT_FLOAT_EQ(m.specular, 0.5f);
+    EXPECT_FLOAT_EQ(m.ior, 1.4f);
+}
+
+TEST(GltfMaterial, the_older_key_and_the_newer_extension_are_read) {
+    const auto scatter = [](const std::string& text) {
+        const Material m = material_of(R"({"extensions":{)" + text + "}}");
+        return m.scattering.value_or(Material::Scattering{});
+    };
+    EXPECT_EQ(
+        scatter(R"("KHR_materials_volume_scatter":{"multiscatterColor":[0.1,0.2,0.3]})").multiscatter_color,
+        (Vec3{0.1f, 0.2f, 0.3f}));
+    const auto newer =
+        scatter(R"("KHR_materials_scatter":{"scatterStrengthFactor":0.25,"scatterAnisotropy":-0.5})");
+    EXPECT_EQ(newer.scatter_strength, 0.25f);
+    EXPECT_EQ(newer.anisotropy, -0.5f);
+    EXPECT_EQ(newer.multiscatter_color, (Vec3{1, 1, 1})) << "its default is white";
+    EXPECT_EQ(scatter(R"("KHR_materials_scatter":{})").scatter_strength, 0);
+}
+
+TEST(GltfMaterial, what_is_odd_is_warned_of_and_what_is_wrong_is_refused) {
+    EXPECT_TRUE(any_contains(load_with(R"({"pbrMetallicRoughness":{"roughnessFactor":3}})").warnings,
+                             "materials[0].pbrMetallicRoughness.roughnessFactor: is outside of its range"));
+    EXPECT_TRUE(
+        any_contains(load_with(R"({"normalTexture":{"index":2}})").warnings, "no PNG or JPEG source"));
+    EXPECT_TRUE(any_contains(load_with(R"({"normalTexture":{"index":0,"texCoord":1}})").warnings, "UV set"));
+    const auto wrong = [](const std::string& material) {
+        const auto loaded = parse_gltf_text(square_gltf(
+            "",
+            R"(,"textures":[{"source":0}],"images":[{"uri":"../x.png"}],"materials":[)" + material + "]"));
+        return loaded ? std::string() : loaded.error().message;
+    };
+    EXPECT_NE(wrong(R"({"normalTexture":{"index":0}})").find("leaves the file's directory"),
+              std::string::npos);
+    EXPECT_NE(wrong(R"({"normalTexture":{"index":9}})").find("textures: has no element 9"),
+              std::string::npos);
+    EXPECT_NE(wrong(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1]}})").find("array of 4 numbers"),
+              std::string::npos);
+}
