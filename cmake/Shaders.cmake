@@ -20,7 +20,7 @@ function(dermis_embed_shaders target)
         set(output ${out_dir}/${folder}/${file}.inc)
         file(MAKE_DIRECTORY ${out_dir}/${folder})
         add_custom_command(OUTPUT ${output} DEPENDS ${source} DEPFILE ${output}.d
-            COMMAND ${GLSLC} --target-env=vulkan1.3 -O -g -Werror -I ${PROJECT_SOURCE_DIR}/shaders
+            COMMAND ${GLSLC} --target-env=vulkan1.3 -O -g -Werror -fauto-bind-uniforms -I ${PROJECT_SOURCE_DIR}/shaders
                 -I ${PROJECT_SOURCE_DIR}/techniques -MD -MF ${output}.d -MT ${output} -mfmt=c -o ${output} ${source}
             COMMENT "Shader ${folder}/${file}" VERBATIM)
         list(APPEND outputs ${output})
@@ -31,10 +31,12 @@ function(dermis_embed_shaders target)
     file(CONFIGURE OUTPUT ${out_dir}/table.cpp @ONLY CONTENT
 "#include \"dermis/gpu/shader_table.h\"
 
+#include <vector>
+
 ${arrays}
 namespace dermis::gpu {
 std::span<const EmbeddedShader> shader_table() {
-    static const EmbeddedShader kTable[] = {
+    static const std::vector<EmbeddedShader> kTable = {
 ${table}    };
     return kTable;
 }

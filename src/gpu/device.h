@@ -15,19 +15,26 @@ namespace dermis::gpu {
 
 struct DeviceOptions {
     bool validation = false;  ///< core and synchronization validation; messages collect in Device::messages()
-    std::string
-        name_contains;  ///< pick a device by part of its name; empty: discrete, then integrated, then CPU
+    /// Pick a device by part of its name, any case; empty: discrete, then integrated, then CPU.
+    std::string name_contains = {};
+    /// What a window needs (glfwGetRequiredInstanceExtensions); empty: no window.
+    std::vector<std::string> instance_extensions = {};
 };
 
 struct DeviceInfo {
     std::string name, driver;
     bool is_cpu = false;
-    std::vector<int> sample_counts;
+    std::vector<int> sample_counts;  ///< 1, 2, 4, ...
+    std::string missing;             ///< what it lacks to run dermis; empty: it can
 };
 
-/// Movable handle; everything made from it must die first.
+/// Every Vulkan device, the one that Device::create would take first. Errors: no loader or driver.
+[[nodiscard]] Result<std::vector<DeviceInfo>> list_devices();
+
+/// Movable handle; everything made from it must die first. Not for several threads at once.
 class Device {
   public:
+    /// Errors: no loader, driver or suitable device, no validation layer; each says what to install.
     [[nodiscard]] static Result<Device> create(const DeviceOptions& options);
     ~Device();
     Device(Device&&) noexcept;

@@ -1,6 +1,7 @@
 #pragma once
 // Runs a pass list. Bindings come from SPIR-V reflection, barriers and timings from the list.
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -51,6 +52,10 @@ using ShaderSource = std::function<Result<std::vector<uint32_t>>(std::string_vie
 
 /// The shaders that CMake compiled into the program.
 [[nodiscard]] ShaderSource embedded_shaders();
+
+/// Compiles root/shaders/NAME or root/techniques/NAME on every call by running glslc (about 0.15 s a shader).
+/// Errors: no such file, no glslc, or what the compiler says, with file and line.
+[[nodiscard]] ShaderSource disk_shaders(std::filesystem::path root);
 
 /// Keeps pipelines, images (by declaration, so persistent ones keep their content from frame to frame) and
 /// buffers between runs; a changed list costs only what is new in it.

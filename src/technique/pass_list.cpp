@@ -74,7 +74,8 @@ class Checker {
         const bool transfer = pass.kind == PassKind::resolve || pass.kind == PassKind::generate_mips ||
                               pass.kind == PassKind::copy;
         const bool depth_only = pass.depth && pass.colors.empty();
-        if (pass.shader.empty() && !transfer && !depth_only) report(pass, "has no shader");
+        const bool clears_only = pass.kind == PassKind::fullscreen;
+        if (pass.shader.empty() && !transfer && !depth_only && !clears_only) report(pass, "has no shader");
         if (transfer && pass.reads.empty()) report(pass, "has nothing to read");
         const bool writes_nothing = pass.colors.empty() && !pass.depth && pass.storage.empty();
         if (writes_nothing && pass.kind != PassKind::generate_mips) report(pass, "writes nothing");
@@ -96,7 +97,7 @@ class Checker {
         std::vector<std::pair<std::string, LoadOp>> targets;
         for (const ColorTarget& color : pass.colors) targets.emplace_back(color.image, color.load);
         if (pass.depth) targets.emplace_back(pass.depth->image, pass.depth->load);
-        for (const std::string& image : pass.storage) targets.emplace_back(image, LoadOp::discard);
+        for (const ImageRead& write : pass.storage) targets.emplace_back(write.image, LoadOp::discard);
         const ImageDeclaration* first = nullptr;
         for (const auto& [name, load] : targets) {
             const ImageDeclaration* image = list_.find_image(name);
@@ -159,7 +160,7 @@ std::string describe(const PassList& list) {
         std::vector<std::string> targets;
         for (const ColorTarget& color : pass.colors) targets.push_back(color.image);
         if (pass.depth) targets.push_back(pass.depth->image + (pass.depth->write ? "" : " (test only)"));
-        for (const std::string& image : pass.storage) targets.push_back(image);
+        for (const ImageRead& write : pass.storage) targets.push_back(write.image);
         text += "  writes " + join(targets, ", ") + "\n";
     }
     return text;

@@ -81,7 +81,7 @@ struct DepthTarget {
     Compare compare = Compare::less_equal;
 };
 
-/// Binds the shader's `texture` to `image`; one name when both are the same.
+/// Binds the shader's `texture` (or storage image) to `image`; one name when both are the same.
 struct ImageRead {
     std::string texture, image;
     ImageRead(const char* name) : texture(name), image(name) {}
@@ -96,13 +96,14 @@ using NamedValue = std::pair<std::string, ShaderValue>;
 struct Pass {
     std::string name;
     PassKind kind = PassKind::fullscreen;
-    std::string shader;  ///< fragment or compute, "folder/name.frag"; empty only for depth-only geometry
+    /// Fragment or compute, "folder/name.frag". Empty: geometry that writes depth only, or a fullscreen pass
+    /// that only clears its targets.
+    std::string shader;
     std::string vertex_shader;  ///< empty: the shared one of the kind
     std::vector<ImageRead> reads;
     std::vector<ColorTarget> colors;
     std::optional<DepthTarget> depth;
-    std::vector<std::string>
-        storage;  ///< images a compute pass writes; the first one's size gives its groups
+    std::vector<ImageRead> storage;  ///< images a compute pass writes; the first one's size gives its groups
     GeometryFilter geometry = GeometryFilter::skin;
     Cull cull = Cull::none;
     float depth_bias_constant = 0, depth_bias_slope = 0;

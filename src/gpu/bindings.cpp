@@ -1,0 +1,197 @@
+// Names to descriptors: a draw's own maps first, then the pass's reads, then what the frame supplies.
+
+#include <algorithm>
+
+#include "dermis/base/text.h"
+#include "dermis/gpu/block_writer.h"
+#include "dermis/gpu/plan.h"
+
+namespace dermis::gpu {
+namespace {
+
+std::string binding_label(const Pass& pass, std::string_view kind, const Binding& binding) {
+    return pass_label(pass) + ": " + std::string(kind) + " '" + binding.name + "'";
+}
+
+template <class Map>
+const typename Map::mapped_type* find_in(const Map& map, std::string_view name) {
+    const auto found = map.find(name);
+    return found == map.end() ? nullptr : &found->second;
+}
+
+TextureShape shape_of(const ImageInfo& info) {
+    if (info.cube) return TextureShape::cube;
+    if (info.layers > 1) return TextureShape::other;
+    return info.samples > 1 ? TextureShape::plane_multisampled : TextureShape::plane;
+}
+
+std::string_view shape_name(TextureShape shape) {
+    constexpr std::string_view kNames[] = {"texture2D", "textureCube", "texture2DMS", "an array texture"};
+    return kNames[size_t(shape)];
+}
+
+void add_access(std::vector<ImageAccess>& accesses, const ImageAccess& access) {
+    const bool known = std::ranges::any_of(accesses, [&](const ImageAccess& one) {
+        return one.image == access.image && one.use == access.use && one.first_mip == access.first_mip;
+    });
+    if (!known) accesses.push_back(access);
+}
+
+}  // namespace
+
+std::string pass_label(const Pass& pass) {
+    std::string label = "pass '" + pass.name + "'";
+    if (!pass.shader.empty()) label += " (shader '" + pass.shader + "')";
+    return label;
+}
+
+Error BindingResolver::missing(const Pass& pass, const Binding& binding, std::string_view what) const {
+    std::string message = binding_label(pass, what, binding) + ": nothing supplies it";
+    if (context_.list.find_image(binding.name))
+        return Error{message + "; it is an image of the list, so add it to the pass's reads"};
+    std::vector<std::string> names;
+    for (const ImageRead& read : pass.reads) names.push_back(read.texture);
+    for (const auto& [name, texture] : context_.inputs.textures) names.push_back(name);
+    for (const auto& [name, block] : context_.inputs.blocks) names.push_back(name);
+    for (const auto& [name, array] : context_.inputs.arrays) names.push_back(name);
+    if (const auto close = closest_name(binding.name, names)) message += "; did you mean '" + *close + "'?";
+    return Error{message};
+}
+
+Result<BindingResolver::Found> BindingResolver::find_texture(const Pass& pass, const Binding& binding,
+                                                             const Draw* draw) const {
+    const auto of_texture = [](const Texture& texture) {
+        const DeviceImage& image = texture.state().image;
+        return Found{image.view.get(), shape_of(image.info), nullptr};
+    };
+    if (draw)
+        if (const auto* texture = find_in(draw->textures, binding.name); texture && *texture)
+            return of_texture(**texture);
+    const auto read = std::ranges::find(pass.reads, binding.name, &ImageRead::texture);
+    const std::string& source = read == pass.reads.end() ? binding.name : read->image;
+    if (read != pass.reads.end())
+        if (FrameImage* image = context_.images.find(source))
+            return Found{image->image.view.get(), shape_of(image->image.info), image};
+    if (const auto* texture = find_in(context_.inputs.textures, source); texture && *texture)
+        return of_texture(**texture);
+    return missing(pass, binding, "texture");
+}
+
+Result<Descriptor> BindingResolver::texture(PlannedPass& planned, const Binding& binding, const Draw* draw) {
+    const Result<Found> found = find_texture(*planned.pass, binding, draw);
+    if (!found) return found.error();
+    if (found->shape != binding.shape)
+        return Error{binding_label(*planned.pass, "texture", binding) + " is " +
+                     std::string(shape_name(binding.shape)) + " in the shader, but what is bound to it is " +
+                     std::string(shape_name(found->shape))};
+    if (found->image)
+        add_access(planned.accesses,
+                   {.image = found->image, .mips = found->image->image.info.mips, .use = ImageUse::sampled});
+    Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
+    descriptor.image = {VK_NULL_HANDLE, found->view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    return descriptor;
+}
+
+Result<Descriptor> BindingResolver::storage_image(PlannedPass& planned, const Binding& binding) {
+    const Pass& pass = *planned.pass;
+    const auto named = std::ranges::find(pass.storage, binding.name, &ImageRead::texture);
+    if (named == pass.storage.end())
+        return Error{binding_label(pass, "storage image", binding) + " is not in the pass's storage"};
+    FrameImage* image = context_.images.find(named->image);
+    if (binding.shape != TextureShape::plane || image->declaration.samples > 1)
+        return Error{binding_label(pass, "storage image", binding) + " must be an image2D with one sample"};
+    Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    descriptor.image = {VK_NULL_HANDLE, image->mip_views[0].get(), VK_IMAGE_LAYOUT_GENERAL};
+    return descriptor;
+}
+
+size_t BindingResolver::reserve(size_t bytes) {
+    const VkPhysicalDeviceLimits& limits = context_.context.properties.limits;
+    const size_t alignment = std::max<size_t>(
+        {16, limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment});
+    const size_t offset = (plan_.uploads.size() + alignment - 1) / alignment * alignment;
+    plan_.uploads.resize(offset + bytes);
+    return offset;
+}
+
+const BindingResolver::KnownBlock* BindingResolver::known(const Binding& binding, const Draw* draw) const {
+    const auto found = std::ranges::find_if(known_, [&](const KnownBlock& one) {
+        return one.draw == draw && one.name == binding.name && *one.layout == binding.block;
+    });
+    return found == known_.end() ? nullptr : &*found;
+}
+
+Result<Descriptor> BindingResolver::uniform_block(const Pass& pass, const Binding& binding,
+                                                  const Draw* draw) {
+    const Draw* owner = draw && binding.name == "Material" ? draw : nullptr;
+    Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
+    if (const KnownBlock* same = known(binding, owner)) {
+        descriptor.offset = same->offset, descriptor.size = same->size;
+        return descriptor;
+    }
+    const Values* values = owner ? &owner->values : find_in(context_.inputs.blocks, binding.name);
+    if (!values) return missing(pass, binding, "uniform block");
+    // Rounded up: drivers may read whole 16-byte rows.
+    descriptor.size = (binding.block.size + 15) / 16 * 16;
+    descriptor.offset = reserve(descriptor.size);
+    const Result<void> written =
+        write_block(binding.block, lookup_in(*values), binding_label(pass, "uniform block", binding),
+                    std::span(plan_.uploads).subspan(descriptor.offset, descriptor.size));
+    if (!written) return written.error();
+    known_.push_back({binding.name, owner, &binding.block, descriptor.offset, descriptor.size});
+    return descriptor;
+}
+
+Result<Descriptor> BindingResolver::storage_buffer(const Pass& pass, const Binding& binding) {
+    Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    if (const KnownBlock* same = known(binding, nullptr)) {
+        descriptor.offset = same->offset, descriptor.size = same->size;
+        return descriptor;
+    }
+    const std::vector<Values>* elements = find_in(context_.inputs.arrays, binding.name);
+    if (!elements) return missing(pass, binding, "storage buffer");
+    const size_t stride = binding.block.size;
+    descriptor.size = std::max<size_t>(1, elements->size()) * stride;  // no buffer has size 0
+    descriptor.offset = reserve(descriptor.size);
+    for (size_t i = 0; i < elements->size(); ++i) {
+        const std::string where =
+            binding_label(pass, "storage buffer", binding) + " element " + std::to_string(i);
+        const Result<void> written =
+            write_block(binding.block, lookup_in((*elements)[i]), where,
+                        std::span(plan_.uploads).subspan(descriptor.offset + i * stride, stride));
+        if (!written) return written.error();
+    }
+    known_.push_back({binding.name, nullptr, &binding.block, descriptor.offset, descriptor.size});
+    return descriptor;
+}
+
+Result<void> BindingResolver::resolve(PlannedPass& planned, PlannedDraw& target, const Draw* draw) {
+    const std::vector<Binding>& bindings = planned.pipeline->bindings;
+    for (size_t i = 0; i < bindings.size(); ++i) {
+        const Binding& binding = bindings[i];
+        if (binding.kind == BindingKind::sampler) continue;  // immutable
+        Result<Descriptor> descriptor =
+            binding.kind == BindingKind::texture         ? texture(planned, binding, draw)
+            : binding.kind == BindingKind::storage_image ? storage_image(planned, binding)
+            : binding.kind == BindingKind::uniform_block ? uniform_block(*planned.pass, binding, draw)
+                                                         : storage_buffer(*planned.pass, binding);
+        if (!descriptor) return descriptor.error();
+        descriptor->binding = uint32_t(i);
+        target.descriptors.push_back(*descriptor);
+    }
+    return {};
+}
+
+Result<void> BindingResolver::push_constants(PlannedPass& planned) {
+    const BlockLayout& layout = planned.pipeline->push_constants;
+    if (!planned.pipeline->push_stages) return {};
+    planned.push_constants.resize((layout.size + 3) & ~3u);
+    const auto find = [&](std::string_view member) -> const ShaderValue* {
+        const auto& values = planned.pass->values;
+        const auto found = std::ranges::find(values, member, &NamedValue::first);
+        return found == values.end() ? nullptr : &found->second;
+    };
+    return write_block(layout, find, pass_label(*planned.pass) + ": push constants", planned.push_constants);
+}
+
+}  // namespace dermis::gpu

@@ -1,0 +1,128 @@
+#include "dermis/gpu/device_state.h"
+
+namespace dermis::gpu {
+namespace {
+
+template <class Function>
+Function instance_function(const Context& context, const char* name) {
+    return reinterpret_cast<Function>(vkGetInstanceProcAddr(context.instance, name));
+}
+
+void load_debug_names(const Instance& instance, Context& context) {
+    if (!instance.has_debug_utils()) return;
+    context.set_name =
+        instance_function<PFN_vkSetDebugUtilsObjectNameEXT>(context, "vkSetDebugUtilsObjectNameEXT");
+    context.begin_label =
+        instance_function<PFN_vkCmdBeginDebugUtilsLabelEXT>(context, "vkCmdBeginDebugUtilsLabelEXT");
+    context.end_label =
+        instance_function<PFN_vkCmdEndDebugUtilsLabelEXT>(context, "vkCmdEndDebugUtilsLabelEXT");
+}
+
+// Only what is used: a feature that is asked for can cost start-up time.
+VkPhysicalDeviceFeatures wanted_features(const VkPhysicalDeviceFeatures& has) {
+    return {.independentBlend = has.independentBlend,
+            .samplerAnisotropy = has.samplerAnisotropy,
+            .occlusionQueryPrecise = has.occlusionQueryPrecise,
+            .shaderStorageImageExtendedFormats = has.shaderStorageImageExtendedFormats};
+}
+
+Result<void> make_device(Device::State& state, const DeviceOptions& options) {
+    Context& context = state.context;
+    const float priority = 1;
+    const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                           .queueFamilyIndex = context.queue_family,
+                                           .queueCount = 1,
+                                           .pQueuePriorities = &priority};
+    VkPhysicalDeviceVulkan13Features v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+                                            .synchronization2 = VK_TRUE,
+                                            .dynamicRendering = VK_TRUE};
+    VkPhysicalDeviceVulkan12Features v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                            .pNext = &v13,
+                                            .scalarBlockLayout = VK_TRUE};
+    std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                     .pNext = &v12,
+                                     .queueCreateInfoCount = 1,
+                                     .pQueueCreateInfos = &queue,
+                                     .enabledExtensionCount = uint32_t(extensions.size()),
+                                     .ppEnabledExtensionNames = extensions.data(),
+                                     .pEnabledFeatures = &context.features};
+    const VkResult result = vkCreateDevice(context.physical, &info, nullptr, &context.device);
+    if (Result<void> ok = check(result, "open " + state.info.name); !ok) return ok.error();
+    volkLoadDeviceTable(&context.vk, context.device);
+    context.vk.vkGetDeviceQueue(context.device, context.queue_family, 0, &context.queue);
+    return {};
+}
+
+Result<void> make_upload_pool(Device::State& state) {
+    const Context& context = state.context;
+    const VkCommandPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                          .queueFamilyIndex = context.queue_family};
+    VkCommandPool pool = VK_NULL_HANDLE;
+    const VkResult result = context.vk.vkCreateCommandPool(context.device, &info, nullptr, &pool);
+    if (Result<void> ok = check(result, "make a command pool"); !ok) return ok.error();
+    state.uploads = OwnedCommandPool(context, pool);
+    return {};
+}
+
+void take_physical_device(Context& context, const PhysicalDevice& device) {
+    context.physical = device.handle;
+    context.properties = device.properties;
+    context.queue_family = device.queue_family;
+    context.timestamp_bits = device.timestamp_bits;
+    context.max_push_descriptors = device.max_push_descriptors;
+    context.sample_counts = device.sample_counts;
+    context.features = wanted_features(device.features);
+    context.is_cpu = device.info.is_cpu;
+    vkGetPhysicalDeviceMemoryProperties(context.physical, &context.memory);
+}
+
+}  // namespace
+
+Device::State::~State() {
+    if (!context.device) return;
+    context.vk.vkDeviceWaitIdle(context.device);
+    save_pipeline_cache(*this);
+    pipeline_cache = {};
+    uploads = {};
+    samplers = {};
+    context.vk.vkDestroyDevice(context.device, nullptr);
+}
+
+Result<Device> Device::create(const DeviceOptions& options) {
+    Result<Instance> instance = Instance::create(options);
+    if (!instance) return instance.error();
+    Result<std::vector<PhysicalDevice>> devices = physical_devices(*instance);
+    if (!devices) return devices.error();
+    Result<PhysicalDevice> device = pick(*devices, options.name_contains);
+    if (!device) return device.error();
+
+    auto state = std::make_unique<State>();
+    state->instance = std::move(*instance);
+    state->info = device->info;
+    state->context.instance = state->instance.get();
+    load_debug_names(state->instance, state->context);
+    take_physical_device(state->context, *device);
+    if (Result<void> ok = make_device(*state, options); !ok) return ok.error();
+    if (Result<void> ok = make_upload_pool(*state); !ok) return ok.error();
+    if (Result<void> ok = make_samplers(*state); !ok) return ok.error();
+    if (Result<void> ok = open_pipeline_cache(*state); !ok) return ok.error();
+    return Device(std::move(state));
+}
+
+Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Device::~Device() = default;
+Device::Device(Device&&) noexcept = default;
+Device& Device::operator=(Device&&) noexcept = default;
+
+const DeviceInfo& Device::info() const {
+    return state_->info;
+}
+
+std::vector<std::string> Device::messages() const {
+    return state_->instance.log().all();
+}
+
+}  // namespace dermis::gpu

@@ -1,0 +1,48 @@
+#pragma once
+// The logical device with what is made once: samplers, the pipeline cache, the command pool of uploads.
+
+#include <array>
+#include <functional>
+
+#include "dermis/gpu/device.h"
+#include "dermis/gpu/instance.h"
+#include "dermis/gpu/memory.h"
+
+namespace dermis::gpu {
+
+/// The samplers a shader may name, immutable in every layout.
+inline constexpr std::array<std::string_view, 6> kSamplerNames = {"linear_clamp",    "linear_repeat",
+                                                                  "nearest_clamp",   "trilinear_repeat",
+                                                                  "trilinear_clamp", "shadow_compare"};
+
+struct Device::State {
+    Instance instance;
+    DeviceInfo info;
+    Context context;
+    std::array<OwnedSampler, kSamplerNames.size()> samplers;
+    OwnedCommandPool uploads;
+    OwnedPipelineCache pipeline_cache;
+    std::string pipeline_cache_key;
+    size_t pipeline_cache_bytes = 0;  ///< as loaded; stored again when it grew
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State();
+};
+
+[[nodiscard]] Result<void> make_samplers(Device::State& state);
+
+/// Loads what an earlier process left (base/cache.h); save_pipeline_cache() keeps what this one added.
+[[nodiscard]] Result<void> open_pipeline_cache(Device::State& state);
+void save_pipeline_cache(Device::State& state);
+
+/// Submits and waits. `name` is for errors.
+[[nodiscard]] Result<void> submit_and_wait(const Context& context, VkCommandBuffer commands,
+                                           std::string_view name);
+
+/// Records into a fresh command buffer, submits, waits. For uploads and read-backs.
+[[nodiscard]] Result<void> run_once(Device::State& state, std::string_view name,
+                                    const std::function<void(VkCommandBuffer)>& record);
+
+}  // namespace dermis::gpu

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cstring>
+
+#include "dermis/gpu/texture_state.h"
+
+namespace dermis::gpu {
+namespace {
+
+Error geometry_error(std::string_view name, const std::string& what) {
+    return Error{"geometry '" + std::string(name) + "': " + what};
+}
+
+// The number of vertices all streams agree on.
+Result<size_t> check_streams(std::string_view name, std::span<const VertexStream> streams,
+                             std::span<const uint32_t> indices) {
+    if (streams.empty() || indices.empty()) return geometry_error(name, "has no vertices or no triangles");
+    if (indices.size() % 3) return geometry_error(name, "its indices are no whole number of triangles");
+    size_t count = 0;
+    for (const VertexStream& stream : streams) {
+        if (stream.components < 1 || stream.components > 4 ||
+            stream.values.size() % size_t(stream.components))
+            return geometry_error(name, "stream '" + stream.name + "' is no whole number of vertices");
+        const size_t vertices = stream.values.size() / size_t(stream.components);
+        if (&stream != &streams.front() && vertices != count)
+            return geometry_error(name, "stream '" + stream.name + "' has " + std::to_string(vertices) +
+                                            " vertices, '" + streams.front().name + "' has " +
+                                            std::to_string(count));
+        count = vertices;
+    }
+    if (const uint32_t last = *std::ranges::max_element(indices); last >= count)
+        return geometry_error(
+            name, "index " + std::to_string(last) + " of only " + std::to_string(count) + " vertices");
+    return count;
+}
+
+}  // namespace
+
+Result<Buffer> upload_buffer(Device::State& device, std::string_view name, VkBufferUsageFlags usage,
+                             std::span<const std::byte> bytes) {
+    const Context& context = device.context;
+    Result<Buffer> buffer =
+        make_buffer(context, name, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::device);
+    if (!buffer) return buffer;
+    Result<Buffer> staging = make_buffer(context, "staging " + std::string(name), bytes.size(),
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
+    if (!staging) return staging;
+    std::memcpy(staging->mapped, bytes.data(), bytes.size());
+    Result<void> done = run_once(device, "the upload of " + std::string(name), [&](VkCommandBuffer commands) {
+        const VkBufferCopy region = {.size = bytes.size()};
+        context.vk.vkCmdCopyBuffer(commands, staging->handle.get(), buffer->handle.get(), 1, &region);
+    });
+    if (!done) return done.error();
+    return buffer;
+}
+
+Result<Geometry> Geometry::upload(Device& device, std::string_view name,
+                                  std::span<const VertexStream> streams, std::span<const uint32_t> indices) {
+    const Result<size_t> vertices = check_streams(name, streams, indices);
+    if (!vertices) return vertices.error();
+    auto state = std::make_unique<State>();
+    state->name = name;
+    state->vertex_count = uint32_t(*vertices);
+    state->index_count = uint32_t(indices.size());
+    for (const VertexStream& stream : streams) {
+        Result<Buffer> buffer =
+            upload_buffer(device.state(), state->name + " " + stream.name, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                          std::as_bytes(stream.values));
+        if (!buffer) return buffer.error();
+        state->streams[stream.name] = {stream.components, std::move(*buffer)};
+    }
+    Result<Buffer> buffer = upload_buffer(device.state(), state->name + " indices",
+                                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(indices));
+    if (!buffer) return buffer.error();
+    state->indices = std::move(*buffer);
+    return Geometry(std::move(state));
+}
+
+Geometry::Geometry(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Geometry::~Geometry() = default;
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry& Geometry::operator=(Geometry&&) noexcept = default;
+
+}  // namespace dermis::gpu

@@ -1,0 +1,139 @@
+// Which devices there are, and which of them can run dermis.
+
+#include <algorithm>
+#include <cstring>
+
+#include "dermis/base/text.h"
+#include "dermis/gpu/instance.h"
+
+namespace dermis::gpu {
+namespace {
+
+int rank(const PhysicalDevice& device) {
+    if (!device.info.missing.empty()) return 9;
+    switch (device.properties.deviceType) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 1;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return 3;
+        default:
+            return 4;
+    }
+}
+
+bool has_device_extension(VkPhysicalDevice device, const char* name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> all(count);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, all.data());
+    return std::ranges::any_of(all, [&](const auto& one) { return !std::strcmp(one.extensionName, name); });
+}
+
+// A graphics queue that also computes; the specification makes such a queue transfer, too.
+bool find_queue(PhysicalDevice& device) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
+    constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (uint32_t i = 0; i < count; ++i) {
+        if ((families[i].queueFlags & kWanted) != kWanted) continue;
+        device.queue_family = i;
+        device.timestamp_bits = families[i].timestampValidBits;
+        return true;
+    }
+    return false;
+}
+
+std::string missing_features(PhysicalDevice& device) {
+    if (device.properties.apiVersion < VK_API_VERSION_1_3) return "Vulkan 1.3";
+    VkPhysicalDeviceVulkan13Features v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                            .pNext = &v13};
+    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                          .pNext = &v12};
+    vkGetPhysicalDeviceFeatures2(device.handle, &features);
+    device.features = features.features;
+    std::vector<std::string> missing;
+    if (!v13.dynamicRendering) missing.push_back("dynamicRendering");
+    if (!v13.synchronization2) missing.push_back("synchronization2");
+    if (!v12.scalarBlockLayout) missing.push_back("scalarBlockLayout");
+    if (!has_device_extension(device.handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME))
+        missing.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+    if (!find_queue(device)) missing.push_back("a queue for graphics and compute");
+    return join(missing, ", ");
+}
+
+void describe(PhysicalDevice& device) {
+    VkPhysicalDevicePushDescriptorPropertiesKHR push = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR};
+    VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
+                                               .pNext = &push};
+    VkPhysicalDeviceProperties2 all = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                       .pNext = &driver};
+    vkGetPhysicalDeviceProperties2(device.handle, &all);
+    device.properties = all.properties;
+    device.max_push_descriptors = push.maxPushDescriptors;
+    const VkPhysicalDeviceLimits& limits = all.properties.limits;
+    device.sample_counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
+    device.info.name = all.properties.deviceName;
+    device.info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    device.info.is_cpu = all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    for (int count = 1; count <= 64; count *= 2)
+        if (device.sample_counts & uint32_t(count)) device.info.sample_counts.push_back(count);
+    device.info.missing = missing_features(device);
+}
+
+}  // namespace
+
+Result<std::vector<PhysicalDevice>> physical_devices(const Instance& instance) {
+    uint32_t count = 0;
+    VkResult result = vkEnumeratePhysicalDevices(instance.get(), &count, nullptr);
+    std::vector<VkPhysicalDevice> handles(count);
+    if (result >= 0) result = vkEnumeratePhysicalDevices(instance.get(), &count, handles.data());
+    if (result != VK_ERROR_INITIALIZATION_FAILED)  // what the loader says when every driver failed
+        if (Result<void> ok = check(result, "list Vulkan devices"); !ok) return ok.error();
+    if (handles.empty() || result < 0)
+        return Error{
+            "no Vulkan device; install a driver (without a GPU: apt-get install "
+            "mesa-vulkan-drivers)"};
+    std::vector<PhysicalDevice> devices;
+    for (VkPhysicalDevice handle : handles) {
+        devices.push_back({.handle = handle});
+        describe(devices.back());
+    }
+    std::ranges::stable_sort(devices, {}, rank);
+    return devices;
+}
+
+Result<PhysicalDevice> pick(std::span<const PhysicalDevice> devices, std::string_view name_contains) {
+    const std::string wanted = to_lower(name_contains);
+    std::string seen;
+    for (const PhysicalDevice& device : devices) {
+        const bool named = to_lower(device.info.name).find(wanted) != std::string::npos;
+        if (named && device.info.missing.empty()) return device;
+        seen += (seen.empty() ? "" : "; ") + device.info.name;
+        if (!device.info.missing.empty()) seen += " (lacks " + device.info.missing + ")";
+    }
+    if (wanted.empty())
+        return Error{"no Vulkan device can run dermis: " + seen +
+                     ". Update the driver, or install mesa-vulkan-drivers"};
+    return Error{"no usable Vulkan device has '" + std::string(name_contains) +
+                 "' in its name; there are: " + seen};
+}
+
+Result<std::vector<DeviceInfo>> list_devices() {
+    Result<Instance> instance = Instance::create({});
+    if (!instance) return instance.error();
+    Result<std::vector<PhysicalDevice>> devices = physical_devices(*instance);
+    if (!devices) return devices.error();
+    std::vector<DeviceInfo> infos;
+    for (const PhysicalDevice& device : *devices) infos.push_back(device.info);
+    return infos;
+}
+
+}  // namespace dermis::gpu

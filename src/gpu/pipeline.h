@@ -1,0 +1,61 @@
+#pragma once
+// Pipelines by content: the same shaders with the same constants and state are built once.
+
+#include <map>
+
+#include "dermis/gpu/device_state.h"
+#include "dermis/gpu/shader_library.h"
+
+namespace dermis::gpu {
+
+struct Pipeline {
+    OwnedSetLayout set_layout;
+    OwnedPipelineLayout layout;
+    OwnedPipeline handle;
+    VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    std::vector<Binding> bindings;  ///< of all stages; the index is the binding number
+    BlockLayout push_constants;
+    VkShaderStageFlags push_stages = 0;
+    std::vector<VertexInput> inputs;  ///< the index is the vertex buffer binding
+    std::array<uint32_t, 3> local_size = {1, 1, 1};
+    uint64_t last_run = 0;
+};
+
+/// The targets a graphics pipeline is built for.
+struct TargetFormats {
+    std::vector<VkFormat> colors;
+    VkFormat depth = VK_FORMAT_UNDEFINED;
+    uint32_t samples = 1;
+};
+
+class PipelineStore {
+  public:
+    explicit PipelineStore(Device::State& device) : device_(&device) {}
+
+    /// `fragment` is null for depth-only passes. Errors: stages that disagree about a name, too many
+    /// bindings, an output that is missing.
+    [[nodiscard]] Result<const Pipeline*> graphics(const Pass& pass, const Shader& vertex,
+                                                   const Shader* fragment, const TargetFormats& formats);
+    [[nodiscard]] Result<const Pipeline*> compute(const Pass& pass, const Shader& shader);
+
+    /// Once a run; drops what has long not been used when there is much of it.
+    void begin_run();
+    void clear() { pipelines_.clear(); }
+    [[nodiscard]] size_t size() const { return pipelines_.size(); }
+
+  private:
+    Device::State* device_;
+    std::map<std::string, Pipeline> pipelines_;
+    uint64_t run_ = 0;
+};
+
+/// One interface for all stages: bindings united by name, numbered in order.
+[[nodiscard]] Result<void> merge_interface(std::span<const Shader* const> stages, Pipeline& pipeline);
+
+/// The shader's words with the merged binding numbers, set 0.
+[[nodiscard]] std::vector<uint32_t> renumbered(const Shader& shader, const Pipeline& pipeline);
+
+/// Descriptor set layout (push descriptors, immutable samplers) and pipeline layout.
+[[nodiscard]] Result<void> make_layout(Device::State& device, Pipeline& pipeline);
+
+}  // namespace dermis::gpu

@@ -1,0 +1,114 @@
+// One set of bindings for all stages of a pipeline, given out by name.
+
+#include <algorithm>
+
+#include "dermis/base/text.h"
+#include "dermis/gpu/pipeline.h"
+
+namespace dermis::gpu {
+namespace {
+
+VkDescriptorType descriptor_type(BindingKind kind) {
+    switch (kind) {
+        case BindingKind::texture:
+            return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+        case BindingKind::storage_image:
+            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        case BindingKind::sampler:
+            return VK_DESCRIPTOR_TYPE_SAMPLER;
+        case BindingKind::uniform_block:
+            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        case BindingKind::storage_buffer:
+            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+    return VK_DESCRIPTOR_TYPE_MAX_ENUM;
+}
+
+Result<void> add_binding(const Shader& shader, const Binding& binding, Pipeline& pipeline) {
+    const auto same = std::ranges::find(pipeline.bindings, binding.name, &Binding::name);
+    if (same == pipeline.bindings.end()) {
+        pipeline.bindings.push_back(binding);
+        return {};
+    }
+    if (same->kind == binding.kind && same->shape == binding.shape && same->block == binding.block) return {};
+    return Error{"shader '" + shader.name + "' declares '" + binding.name +
+                 "' otherwise than the other stage does"};
+}
+
+}  // namespace
+
+Result<void> merge_interface(std::span<const Shader* const> stages, Pipeline& pipeline) {
+    for (const Shader* shader : stages) {
+        for (const Binding& binding : shader->interface.bindings)
+            if (Result<void> ok = add_binding(*shader, binding, pipeline); !ok) return ok;
+        const BlockLayout& push = shader->interface.push_constants;
+        if (push.members.empty()) continue;
+        if (pipeline.push_stages && !(push == pipeline.push_constants))
+            return Error{"shader '" + shader->name +
+                         "' has other push constants than the other stage; declare the same block in both"};
+        pipeline.push_constants = push;
+        pipeline.push_stages |= shader->interface.stage;
+    }
+    return {};
+}
+
+std::vector<uint32_t> renumbered(const Shader& shader, const Pipeline& pipeline) {
+    std::vector<uint32_t> words = shader.words;
+    for (const Binding& binding : shader.interface.bindings) {
+        const auto merged = std::ranges::find(pipeline.bindings, binding.name, &Binding::name);
+        words[binding.binding_word] = uint32_t(merged - pipeline.bindings.begin());
+        words[binding.set_word] = 0;
+    }
+    return words;
+}
+
+Result<void> make_layout(Device::State& device, Pipeline& pipeline) {
+    const Context& context = device.context;
+    if (pipeline.bindings.size() > context.max_push_descriptors)
+        return Error{"wants " + std::to_string(pipeline.bindings.size()) + " bindings; " + device.info.name +
+                     " has " + std::to_string(context.max_push_descriptors)};
+    if (pipeline.push_constants.size > context.properties.limits.maxPushConstantsSize)
+        return Error{"wants " + std::to_string(pipeline.push_constants.size) + " bytes of push constants; " +
+                     device.info.name + " has " +
+                     std::to_string(context.properties.limits.maxPushConstantsSize)};
+    std::vector<VkSampler> samplers(pipeline.bindings.size());
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const Binding& binding : pipeline.bindings) {
+        const auto number = uint32_t(bindings.size());
+        bindings.push_back({.binding = number,
+                            .descriptorType = descriptor_type(binding.kind),
+                            .descriptorCount = 1,
+                            .stageFlags = VK_SHADER_STAGE_ALL});
+        if (binding.kind != BindingKind::sampler) continue;
+        const auto named = std::ranges::find(kSamplerNames, binding.name);
+        if (named == kSamplerNames.end()) {
+            const std::vector<std::string> names(kSamplerNames.begin(), kSamplerNames.end());
+            return Error{unknown_name("sampler", binding.name, names)};
+        }
+        samplers[number] = device.samplers[size_t(named - kSamplerNames.begin())].get();
+        bindings.back().pImmutableSamplers = &samplers[number];
+    }
+    const VkDescriptorSetLayoutCreateInfo set_info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+        .bindingCount = uint32_t(bindings.size()),
+        .pBindings = bindings.data()};
+    VkDescriptorSetLayout set = VK_NULL_HANDLE;
+    VkResult result = context.vk.vkCreateDescriptorSetLayout(context.device, &set_info, nullptr, &set);
+    if (Result<void> ok = check(result, "make a descriptor layout"); !ok) return ok;
+    pipeline.set_layout = OwnedSetLayout(context, set);
+
+    const VkPushConstantRange range = {pipeline.push_stages, 0, (pipeline.push_constants.size + 3) & ~3u};
+    const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                             .setLayoutCount = 1,
+                                             .pSetLayouts = &set,
+                                             .pushConstantRangeCount = pipeline.push_stages ? 1u : 0u,
+                                             .pPushConstantRanges = &range};
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    result = context.vk.vkCreatePipelineLayout(context.device, &info, nullptr, &layout);
+    if (Result<void> ok = check(result, "make a pipeline layout"); !ok) return ok;
+    pipeline.layout = OwnedPipelineLayout(context, layout);
+    return {};
+}
+
+}  // namespace dermis::gpu

@@ -1,0 +1,104 @@
+#pragma once
+// A pass list with every name resolved: what the recorder writes down without further thought. All errors of
+// a list come up here, before anything is recorded.
+
+#include <optional>
+
+#include "dermis/gpu/frame_images.h"
+#include "dermis/gpu/pipeline.h"
+#include "dermis/gpu/texture_state.h"
+
+namespace dermis::gpu {
+
+struct ImageAccess {
+    FrameImage* image = nullptr;
+    uint32_t first_mip = 0, mips = 1;
+    ImageUse use = ImageUse::none;
+    bool discard = false;
+};
+
+/// One write into the push-descriptor set; buffers are ranges of the plan's uploads.
+struct Descriptor {
+    uint32_t binding = 0;
+    VkDescriptorType type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    VkDescriptorImageInfo image = {};
+    size_t offset = 0, size = 0;
+};
+
+/// `geometry` is null for a full-screen triangle or a dispatch.
+struct PlannedDraw {
+    const Geometry::State* geometry = nullptr;
+    uint32_t first_index = 0, index_count = 0;
+    std::vector<Descriptor> descriptors;
+};
+
+struct PlannedPass {
+    const Pass* pass = nullptr;
+    const Pipeline* pipeline = nullptr;  ///< null: a transfer, or a pass that only clears
+    VkExtent2D extent = {};
+    std::vector<ImageAccess> accesses;
+    std::vector<PlannedDraw> draws;
+    std::vector<std::byte> push_constants;
+};
+
+struct Plan {
+    std::vector<PlannedPass> passes;
+    std::vector<std::byte> uploads;  ///< all uniform and storage blocks of the frame
+};
+
+[[nodiscard]] bool is_transfer(PassKind kind);
+[[nodiscard]] bool is_geometry(PassKind kind);
+
+struct PlanContext {
+    const Context& context;
+    const PassList& list;
+    const FrameInputs& inputs;
+    FrameImages& images;
+    ShaderLibrary& shaders;
+    PipelineStore& pipelines;
+};
+
+[[nodiscard]] Result<Plan> make_plan(const PlanContext& context);
+
+/// Resolves names to descriptors, and blocks to bytes; equal blocks share their bytes.
+class BindingResolver {
+  public:
+    BindingResolver(const PlanContext& context, Plan& plan) : context_(context), plan_(plan) {}
+
+    /// Appends to `planned`: the draw's descriptors and the accesses they need. `draw` may be null.
+    [[nodiscard]] Result<void> resolve(PlannedPass& planned, PlannedDraw& target, const Draw* draw);
+    [[nodiscard]] Result<void> push_constants(PlannedPass& planned);
+
+  private:
+    struct KnownBlock {
+        std::string name;
+        const Draw* draw;
+        const BlockLayout* layout;
+        size_t offset, size;
+    };
+    struct Found {
+        VkImageView view = VK_NULL_HANDLE;
+        TextureShape shape = TextureShape::plane;
+        FrameImage* image = nullptr;
+    };
+
+    [[nodiscard]] Result<Found> find_texture(const Pass& pass, const Binding& binding,
+                                             const Draw* draw) const;
+    [[nodiscard]] Result<Descriptor> texture(PlannedPass& planned, const Binding& binding, const Draw* draw);
+    [[nodiscard]] Result<Descriptor> storage_image(PlannedPass& planned, const Binding& binding);
+    [[nodiscard]] Result<Descriptor> uniform_block(const Pass& pass, const Binding& binding,
+                                                   const Draw* draw);
+    [[nodiscard]] Result<Descriptor> storage_buffer(const Pass& pass, const Binding& binding);
+    [[nodiscard]] const KnownBlock* known(const Binding& binding, const Draw* draw) const;
+    size_t reserve(size_t bytes);
+    [[nodiscard]] Error missing(const Pass& pass, const Binding& binding, std::string_view what) const;
+
+    const PlanContext& context_;
+    Plan& plan_;
+    std::vector<KnownBlock> known_;
+};
+
+/// "pass 'x' (shader 'a/b.frag')", the beginning of every message.
+[[nodiscard]] std::string pass_label(const Pass& pass);
+
+}  // namespace dermis::gpu

@@ -1,0 +1,69 @@
+#pragma once
+// What a shader wants, read from its SPIR-V by name: bindings, blocks, constants, inputs and outputs.
+// Binding numbers in the source do not matter: they are given out anew for each pipeline, name by name.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dermis/gpu/vulkan.h"
+
+namespace dermis::gpu {
+
+enum class BindingKind { texture, storage_image, sampler, uniform_block, storage_buffer };
+enum class TextureShape { plane, cube, plane_multisampled, other };
+enum class ValueType { int32, uint32, number, vec2, vec3, vec4, mat4 };
+[[nodiscard]] std::string_view type_name(ValueType type);
+
+/// Arrays are flattened: taps[0], taps[1], ...
+struct BlockMember {
+    std::string name;
+    ValueType type = ValueType::number;
+    uint32_t offset = 0;
+    friend bool operator==(const BlockMember&, const BlockMember&) = default;
+};
+
+/// A uniform or push-constant block, or one element of a storage buffer's array (size: its stride).
+struct BlockLayout {
+    std::vector<BlockMember> members;
+    uint32_t size = 0;
+    friend bool operator==(const BlockLayout&, const BlockLayout&) = default;
+};
+
+struct Binding {
+    std::string name;
+    BindingKind kind = BindingKind::texture;
+    TextureShape shape = TextureShape::plane;
+    BlockLayout block;
+    /// Where the numbers stand in the SPIR-V, in words.
+    uint32_t binding_word = 0, set_word = 0;
+};
+
+struct VertexInput {
+    std::string name;
+    uint32_t location = 0;
+    int components = 0;
+};
+
+struct SpecializationConstant {
+    std::string name;
+    uint32_t id = 0;
+    uint32_t default_value = 0;
+};
+
+struct ShaderInterface {
+    VkShaderStageFlagBits stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    std::vector<Binding> bindings;
+    BlockLayout push_constants;
+    std::vector<VertexInput> inputs;  ///< of a vertex shader
+    std::vector<uint32_t> outputs;    ///< locations, of a fragment shader
+    std::vector<SpecializationConstant> constants;
+    std::array<uint32_t, 3> local_size = {1, 1, 1};
+};
+
+/// Errors name the shader and what in it cannot be bound by name (combined samplers, unknown types).
+[[nodiscard]] Result<ShaderInterface> reflect(std::string_view shader, std::span<const uint32_t> words);
+
+}  // namespace dermis::gpu

@@ -1,0 +1,118 @@
+// Where SPIR-V comes from: the program itself, or glslc run as a process.
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/gpu/executor.h"
+#include "dermis/gpu/shader_table.h"
+
+extern char** environ;
+
+namespace dermis::gpu {
+namespace fs = std::filesystem;
+namespace {
+
+// Removes the compiler's output again, whatever happened.
+struct TemporaryFolder {
+    fs::path path;
+    TemporaryFolder() {
+        std::string pattern = (fs::temp_directory_path() / "dermis-shader-XXXXXX").string();
+        if (mkdtemp(pattern.data())) path = pattern;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        if (!path.empty()) fs::remove_all(path, ignored);
+    }
+};
+
+// Runs a program with both outputs in `log`. Its exit status; -1 when it cannot be started.
+int run_program(const std::vector<std::string>& arguments, const fs::path& log) {
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0600);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    pid_t child = 0;
+    const int spawned = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    int status = 0;
+    if (spawned != 0 || waitpid(child, &status, 0) != child) return -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+Result<fs::path> find_source(const fs::path& root, std::string_view name) {
+    for (const char* folder : {"shaders", "techniques"}) {
+        const fs::path path = root / folder / name;
+        std::error_code ignored;
+        if (fs::is_regular_file(path, ignored)) return path;
+    }
+    return Error{"shader '" + std::string(name) + "' is neither in " + (root / "shaders").string() +
+                 " nor in " + (root / "techniques").string()};
+}
+
+// The compiler's message in one line: its own lines joined, without the summary.
+std::string one_line(std::string_view log) {
+    std::vector<std::string> lines;
+    for (std::string_view line : split(log, '\n'))
+        if (!trim(line).empty() && line.find("error generated") == line.npos &&
+            line.find("errors generated") == line.npos)
+            lines.emplace_back(trim(line));
+    return join(lines, "; ");
+}
+
+Result<std::vector<uint32_t>> to_words(std::string_view name, std::span<const std::byte> bytes) {
+    if (bytes.empty() || bytes.size() % 4) return Error{"shader '" + std::string(name) + "': no SPIR-V"};
+    std::vector<uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), bytes.size());
+    return words;
+}
+
+Result<std::vector<uint32_t>> compile(const fs::path& root, std::string_view name) {
+    const Result<fs::path> source = find_source(root, name);
+    if (!source) return source.error();
+    const TemporaryFolder folder;
+    if (folder.path.empty()) return Error{"cannot make a folder in " + fs::temp_directory_path().string()};
+    const fs::path output = folder.path / "shader.spv", log = folder.path / "log.txt";
+    const int status = run_program({"glslc", "--target-env=vulkan1.3", "-O", "-g", "-fauto-bind-uniforms",
+                                    "-I", (root / "shaders").string(), "-I", (root / "techniques").string(),
+                                    "-o", output.string(), source->string()},
+                                   log);
+    // 127: what posix_spawn's child exits with when there is no such program.
+    if (status == -1 || status == 127)
+        return Error{"cannot run glslc, the shader compiler; install it (Debian: apt-get install glslc)"};
+    if (status != 0) {
+        const Result<std::string> said = read_text_file(log);
+        return Error{said ? one_line(*said) : "glslc failed on " + source->string()};
+    }
+    const Result<std::vector<std::byte>> bytes = read_file(output);
+    if (!bytes) return bytes.error();
+    return to_words(name, *bytes);
+}
+
+}  // namespace
+
+ShaderSource embedded_shaders() {
+    return [](std::string_view name) -> Result<std::vector<uint32_t>> {
+        std::vector<std::string> names;
+        for (const EmbeddedShader& shader : shader_table()) {
+            if (shader.name == name) return std::vector<uint32_t>(shader.words.begin(), shader.words.end());
+            names.emplace_back(shader.name);
+        }
+        return Error{unknown_name("shader", name, names)};
+    };
+}
+
+ShaderSource disk_shaders(std::filesystem::path root) {
+    return [root = std::move(root)](std::string_view name) { return compile(root, name); };
+}
+
+}  // namespace dermis::gpu

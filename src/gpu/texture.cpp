@@ -1,0 +1,142 @@
+#include <cstring>
+
+#include "dermis/gpu/texture_state.h"
+
+namespace dermis::gpu {
+namespace {
+
+Error texture_error(const TextureData& data, const std::string& what) {
+    return Error{"texture '" + data.name + "': " + what};
+}
+
+size_t expected_bytes(const TextureData& data, int mips) {
+    size_t texels = 0;
+    for (int mip = 0; mip < mips; ++mip) {
+        const VkExtent2D extent = mip_extent({uint32_t(data.width), uint32_t(data.height)}, mip);
+        texels += size_t(extent.width) * extent.height * size_t(data.layers);
+    }
+    return texels * bytes_per_texel(data.format);
+}
+
+Result<void> check_data(const TextureData& data, const Context& context) {
+    const int limit = int(context.properties.limits.maxImageDimension2D);
+    if (data.width < 1 || data.height < 1 || data.width > limit || data.height > limit)
+        return texture_error(data, "size " + std::to_string(data.width) + "x" + std::to_string(data.height) +
+                                       "; each side must be 1 to " + std::to_string(limit));
+    if (data.layers < 1 || (data.cube && data.layers != 6) || (data.cube && data.width != data.height))
+        return texture_error(data, "a cube has six square layers, others at least one");
+    if (data.mips < 1 || data.mips > full_mip_count(data.width, data.height))
+        return texture_error(data, "has " + std::to_string(data.mips) + " mip levels; 1 to " +
+                                       std::to_string(full_mip_count(data.width, data.height)));
+    if (data.generate_mips && data.mips != 1)
+        return texture_error(data, "bytes must hold level 0 only when mips are generated");
+    if (data.srgb && data.format != ImageFormat::rgba8) return texture_error(data, "only rgba8 can be sRGB");
+    if (data.bytes.size() != expected_bytes(data, data.mips))
+        return texture_error(data, "has " + std::to_string(data.bytes.size()) + " bytes instead of " +
+                                       std::to_string(expected_bytes(data, data.mips)));
+    return {};
+}
+
+ImageInfo image_info(const TextureData& data) {
+    const FormatInfo format = format_info(data.format);
+    const int mips = data.generate_mips ? full_mip_count(data.width, data.height) : data.mips;
+    return {.format = data.srgb ? VK_FORMAT_R8G8B8A8_SRGB : format.format,
+            .aspect = format.aspect,
+            .extent = {uint32_t(data.width), uint32_t(data.height)},
+            .mips = uint32_t(mips),
+            .layers = uint32_t(data.layers),
+            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                     (data.generate_mips ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_SRC_BIT} : 0),
+            .cube = data.cube};
+}
+
+void copy_levels(const Context& context, VkCommandBuffer commands, const TextureData& data,
+                 const DeviceImage& image, VkBuffer staging) {
+    VkDeviceSize offset = 0;
+    for (int mip = 0; mip < data.mips; ++mip) {
+        const VkExtent2D extent = mip_extent(image.info.extent, mip);
+        const VkBufferImageCopy region = {
+            .bufferOffset = offset,
+            .imageSubresource = {image.info.aspect, uint32_t(mip), 0, image.info.layers},
+            .imageExtent = {extent.width, extent.height, 1}};
+        context.vk.vkCmdCopyBufferToImage(commands, staging, image.handle.get(),
+                                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+        offset +=
+            VkDeviceSize(extent.width) * extent.height * image.info.layers * bytes_per_texel(data.format);
+    }
+}
+
+void record_upload(const Context& context, VkCommandBuffer commands, const TextureData& data,
+                   const DeviceImage& image, VkBuffer staging) {
+    const uint32_t mips = image.info.mips;
+    constexpr VkImageLayout kDestination = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    constexpr VkImageLayout kSource = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    constexpr VkImageLayout kSampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    transition(context, commands, image, 0, mips, VK_IMAGE_LAYOUT_UNDEFINED, kDestination);
+    copy_levels(context, commands, data, image, staging);
+    const uint32_t generated = data.generate_mips ? mips - 1 : 0;
+    for (uint32_t mip = 1; mip <= generated; ++mip) {
+        transition(context, commands, image, mip - 1, 1, kDestination, kSource);
+        blit_mip(context, commands, image, mip);
+    }
+    if (generated) transition(context, commands, image, 0, generated, kSource, kSampled);
+    transition(context, commands, image, generated, mips - generated, kDestination, kSampled);
+}
+
+}  // namespace
+
+void transition(const Context& context, VkCommandBuffer commands, const DeviceImage& image,
+                uint32_t first_mip, uint32_t mips, VkImageLayout from, VkImageLayout to) {
+    const VkImageMemoryBarrier2 barrier = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+        .oldLayout = from,
+        .newLayout = to,
+        .image = image.handle.get(),
+        .subresourceRange = {image.info.aspect, first_mip, mips, 0, image.info.layers}};
+    const VkDependencyInfo dependency = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                         .imageMemoryBarrierCount = 1,
+                                         .pImageMemoryBarriers = &barrier};
+    context.vk.vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void blit_mip(const Context& context, VkCommandBuffer commands, const DeviceImage& image, uint32_t mip) {
+    const VkExtent2D from = mip_extent(image.info.extent, int(mip) - 1);
+    const VkExtent2D to = mip_extent(image.info.extent, int(mip));
+    const VkImageBlit region = {.srcSubresource = {image.info.aspect, mip - 1, 0, image.info.layers},
+                                .srcOffsets = {{}, {int32_t(from.width), int32_t(from.height), 1}},
+                                .dstSubresource = {image.info.aspect, mip, 0, image.info.layers},
+                                .dstOffsets = {{}, {int32_t(to.width), int32_t(to.height), 1}}};
+    context.vk.vkCmdBlitImage(commands, image.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                              image.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                              VK_FILTER_LINEAR);
+}
+
+Result<Texture> Texture::upload(Device& device, const TextureData& data) {
+    const Context& context = device.state().context;
+    if (Result<void> ok = check_data(data, context); !ok) return ok.error();
+    Result<DeviceImage> image = make_image(context, data.name, image_info(data));
+    if (!image) return image.error();
+    Result<Buffer> staging = make_buffer(context, "staging " + data.name, data.bytes.size(),
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
+    if (!staging) return staging.error();
+    std::memcpy(staging->mapped, data.bytes.data(), data.bytes.size());
+    Result<void> done = run_once(device.state(), "the upload of " + data.name, [&](VkCommandBuffer commands) {
+        record_upload(context, commands, data, *image, staging->handle.get());
+    });
+    if (!done) return done.error();
+    auto state = std::make_unique<State>();
+    state->image = std::move(*image);
+    state->name = data.name;
+    return Texture(std::move(state));
+}
+
+Texture::Texture(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Texture::~Texture() = default;
+Texture::Texture(Texture&&) noexcept = default;
+Texture& Texture::operator=(Texture&&) noexcept = default;
+
+}  // namespace dermis::gpu

@@ -1,0 +1,90 @@
+#pragma once
+// Vulkan for this folder only: the loader, owning handles, and results as text.
+
+#include <volk.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "dermis/base/result.h"
+
+namespace dermis::gpu {
+
+/// The logical device and what everything made from it needs. Never moves while the device lives.
+struct Context {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    uint32_t queue_family = 0;
+    VolkDeviceTable vk = {};
+    VkPhysicalDeviceProperties properties = {};
+    VkPhysicalDeviceMemoryProperties memory = {};
+    VkPhysicalDeviceFeatures features = {};  ///< those enabled
+    uint32_t max_push_descriptors = 0;
+    uint32_t timestamp_bits = 0;
+    VkSampleCountFlags sample_counts = 0;  ///< of colour and depth targets alike
+    bool is_cpu = false;
+    PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;  ///< null without VK_EXT_debug_utils
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
+};
+
+/// A device-level handle that destroys itself.
+template <class Handle, auto Destroy>
+class Owned {
+  public:
+    Owned() = default;
+    Owned(const Context& context, Handle handle) : context_(&context), handle_(handle) {}
+    ~Owned() { reset(); }
+    Owned(Owned&& other) noexcept
+        : context_(other.context_), handle_(std::exchange(other.handle_, Handle{})) {}
+    Owned& operator=(Owned&& other) noexcept {
+        if (this == &other) return *this;
+        reset();
+        context_ = other.context_;
+        handle_ = std::exchange(other.handle_, Handle{});
+        return *this;
+    }
+
+    [[nodiscard]] Handle get() const { return handle_; }
+    explicit operator bool() const { return handle_ != Handle{}; }
+
+  private:
+    void reset() {
+        if (handle_) (context_->vk.*Destroy)(context_->device, handle_, nullptr);
+        handle_ = {};
+    }
+
+    const Context* context_ = nullptr;
+    Handle handle_ = {};
+};
+
+using OwnedMemory = Owned<VkDeviceMemory, &VolkDeviceTable::vkFreeMemory>;
+using OwnedBuffer = Owned<VkBuffer, &VolkDeviceTable::vkDestroyBuffer>;
+using OwnedImage = Owned<VkImage, &VolkDeviceTable::vkDestroyImage>;
+using OwnedView = Owned<VkImageView, &VolkDeviceTable::vkDestroyImageView>;
+using OwnedSampler = Owned<VkSampler, &VolkDeviceTable::vkDestroySampler>;
+using OwnedShader = Owned<VkShaderModule, &VolkDeviceTable::vkDestroyShaderModule>;
+using OwnedSetLayout = Owned<VkDescriptorSetLayout, &VolkDeviceTable::vkDestroyDescriptorSetLayout>;
+using OwnedPipelineLayout = Owned<VkPipelineLayout, &VolkDeviceTable::vkDestroyPipelineLayout>;
+using OwnedPipeline = Owned<VkPipeline, &VolkDeviceTable::vkDestroyPipeline>;
+using OwnedPipelineCache = Owned<VkPipelineCache, &VolkDeviceTable::vkDestroyPipelineCache>;
+using OwnedCommandPool = Owned<VkCommandPool, &VolkDeviceTable::vkDestroyCommandPool>;
+using OwnedQueryPool = Owned<VkQueryPool, &VolkDeviceTable::vkDestroyQueryPool>;
+using OwnedFence = Owned<VkFence, &VolkDeviceTable::vkDestroyFence>;
+
+[[nodiscard]] std::string_view result_text(VkResult result);
+
+/// "cannot WHAT: out of GPU memory". Success codes that are no failure (VK_INCOMPLETE, ...) pass.
+[[nodiscard]] Result<void> check(VkResult result, std::string_view what);
+
+/// For RenderDoc and the validation layers; nothing happens without VK_EXT_debug_utils.
+void set_object_name(const Context& context, VkObjectType type, uint64_t handle, std::string_view name);
+template <class Handle>
+void set_object_name(const Context& context, VkObjectType type, Handle handle, std::string_view name) {
+    set_object_name(context, type, reinterpret_cast<uint64_t>(handle), name);
+}
+
+}  // namespace dermis::gpu

@@ -1,0 +1,94 @@
+#pragma once
+// For every test that touches Vulkan: one device with validation for the whole program, and no message from
+// the validation layers after any test.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/file.h"
+#include "dermis/base/hash.h"
+#include "dermis/gpu/device.h"
+#include "dermis/gpu/executor.h"
+
+namespace dermis::gpu {
+
+/// GLSL by name, compiled by glslc once per content and kept in the disk cache.
+inline ShaderSource glsl_shaders(std::map<std::string, std::string, std::less<>> sources) {
+    return [sources = std::move(sources)](std::string_view name) -> Result<std::vector<uint32_t>> {
+        const auto found = sources.find(name);
+        if (found == sources.end()) return Error{"no test shader '" + std::string(name) + "'"};
+        const std::string hash = Hasher().add(name).add(found->second).hex();
+        const Result<std::vector<std::byte>> bytes =
+            cached("test-shaders", hash, [&]() -> Result<std::vector<std::byte>> {
+                const auto root = std::filesystem::temp_directory_path() / ("dermis-test-" + hash);
+                Result<void> written = write_text_file(root / "shaders" / name, found->second);
+                if (!written) return written.error();
+                const Result<std::vector<uint32_t>> words = disk_shaders(root)(name);
+                std::filesystem::remove_all(root);
+                if (!words) return words.error();
+                const auto view = std::as_bytes(std::span(*words));
+                return std::vector<std::byte>(view.begin(), view.end());
+            });
+        if (!bytes) return bytes.error();
+        std::vector<uint32_t> words(bytes->size() / 4);
+        std::memcpy(words.data(), bytes->data(), bytes->size());
+        return words;
+    };
+}
+
+class GpuTest : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        Result<Device> made = Device::create({.validation = true});
+        ASSERT_TRUE(made) << made.error().message;
+        device_ = std::make_unique<Device>(std::move(*made));
+    }
+    static void TearDownTestSuite() { device_.reset(); }
+
+    void SetUp() override { ASSERT_TRUE(device_); }
+    void TearDown() override {
+        if (!device_) return;
+        EXPECT_THAT(take_messages(), ::testing::IsEmpty());
+    }
+
+    static Device& device() { return *device_; }
+
+    /// What the layers said since the last call.
+    static std::vector<std::string> take_messages() {
+        std::vector<std::string> all = device_->messages();
+        const size_t before = std::exchange(taken_, all.size());
+        all.erase(all.begin(), all.begin() + std::ptrdiff_t(std::min(before, all.size())));
+        return all;
+    }
+
+    static Executor make_executor(ShaderSource shaders) {
+        Result<Executor> executor = Executor::create(device(), std::move(shaders));
+        EXPECT_TRUE(executor) << executor.error().message;
+        return std::move(*executor);
+    }
+
+    /// Runs and expects success.
+    static FrameResult run(Executor& executor, const PassList& list, const FrameInputs& inputs) {
+        Result<FrameResult> result = executor.run(list, inputs);
+        EXPECT_TRUE(result) << result.error().message;
+        return result ? std::move(*result) : FrameResult{};
+    }
+
+    static Image read(Executor& executor, std::string_view name, int mip = 0) {
+        Result<Image> image = executor.read(name, mip);
+        EXPECT_TRUE(image) << image.error().message;
+        return image ? std::move(*image) : Image{};
+    }
+
+  private:
+    inline static std::unique_ptr<Device> device_;
+    inline static size_t taken_ = 0;
+};
+
+}  // namespace dermis::gpu
