@@ -47,6 +47,8 @@ inline constexpr Mat3 kLinearFromXyz = {{{3.2409699f, -1.5373832f, -0.4986108f},
                                          {-0.9692436f, 1.8759675f, 0.0415551f},
                                          {0.0556301f, -0.2039770f, 1.0569715f}}};
 
+inline constexpr Vec3 kWhiteXyz = kXyzFromLinear * Vec3{1, 1, 1};
+
 /// ACEScg (AP1 primaries, white D60; SMPTE ST 2065-1, S-2014-004) to linear sRGB with the Bradford adaptation
 /// of ACES to D65. White stays white (rows sum to 1); colours outside Rec. 709 come out negative.
 inline constexpr Mat3 kLinearFromAcesCg = {{{1.7050510f, -0.6217921f, -0.0832589f},

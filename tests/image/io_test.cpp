@@ -96,9 +96,16 @@ TEST(ReadImage, what_is_no_image_says_so) {
         ASSERT_FALSE(loaded);
         EXPECT_TRUE(is_one_line_about(loaded.error(), path.string())) << loaded.error().message;
     }
+}
+
+TEST(ReadImage, an_unreadable_file_is_named) {
     if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+    const TemporaryDirectory dir;
+    ASSERT_TRUE(write_image(dir.path / "a.png", Image(1, 1, 1)));
     ::chmod((dir.path / "a.png").c_str(), 0);
-    EXPECT_FALSE(read_image(dir.path / "a.png", ImageUse::color));
+    const Result<LoadedImage> loaded = read_image(dir.path / "a.png", ImageUse::color);
+    ASSERT_FALSE(loaded);
+    EXPECT_TRUE(is_one_line_about(loaded.error(), (dir.path / "a.png").string()));
 }
 
 TEST(WriteImage, an_unknown_extension_and_an_empty_image_are_refused) {
