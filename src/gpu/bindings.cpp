@@ -77,6 +77,19 @@ Result<BindingResolver::Found> BindingResolver::find_texture(const Pass& pass, c
     return missing(pass, binding, "texture");
 }
 
+// Pushed like everything else: immutable samplers in a push-descriptor layout are ignored by lavapipe
+// (Mesa 22.3), which then samples without filter or comparison.
+Result<Descriptor> BindingResolver::sampler(const Pass& pass, const Binding& binding) const {
+    const auto named = std::ranges::find(kSamplerNames, binding.name);
+    if (named == kSamplerNames.end()) {
+        const std::vector<std::string> names(kSamplerNames.begin(), kSamplerNames.end());
+        return Error{pass_label(pass) + ": " + unknown_name("sampler", binding.name, names)};
+    }
+    Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_SAMPLER};
+    descriptor.image.sampler = context_.device.samplers[size_t(named - kSamplerNames.begin())].get();
+    return descriptor;
+}
+
 Result<Descriptor> BindingResolver::texture(PlannedPass& planned, const Binding& binding, const Draw* draw) {
     const Result<Found> found = find_texture(*planned.pass, binding, draw);
     if (!found) return found.error();
@@ -106,7 +119,7 @@ Result<Descriptor> BindingResolver::storage_image(PlannedPass& planned, const Bi
 }
 
 size_t BindingResolver::reserve(size_t bytes) {
-    const VkPhysicalDeviceLimits& limits = context_.context.properties.limits;
+    const VkPhysicalDeviceLimits& limits = context_.device.context.properties.limits;
     const size_t alignment = std::max<size_t>(
         {16, limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment});
     const size_t offset = (plan_.uploads.size() + alignment - 1) / alignment * alignment;
@@ -165,16 +178,28 @@ Result<Descriptor> BindingResolver::storage_buffer(const Pass& pass, const Bindi
     return descriptor;
 }
 
+Result<Descriptor> BindingResolver::resolve_one(PlannedPass& planned, const Binding& binding,
+                                                const Draw* draw) {
+    switch (binding.kind) {
+        case BindingKind::texture:
+            return texture(planned, binding, draw);
+        case BindingKind::storage_image:
+            return storage_image(planned, binding);
+        case BindingKind::sampler:
+            return sampler(*planned.pass, binding);
+        case BindingKind::uniform_block:
+            return uniform_block(*planned.pass, binding, draw);
+        case BindingKind::storage_buffer:
+            return storage_buffer(*planned.pass, binding);
+    }
+    return Error{"unknown kind of binding"};
+}
+
 Result<void> BindingResolver::resolve(PlannedPass& planned, PlannedDraw& target, const Draw* draw) {
     const std::vector<Binding>& bindings = planned.pipeline->bindings;
     for (size_t i = 0; i < bindings.size(); ++i) {
         const Binding& binding = bindings[i];
-        if (binding.kind == BindingKind::sampler) continue;  // immutable
-        Result<Descriptor> descriptor =
-            binding.kind == BindingKind::texture         ? texture(planned, binding, draw)
-            : binding.kind == BindingKind::storage_image ? storage_image(planned, binding)
-            : binding.kind == BindingKind::uniform_block ? uniform_block(*planned.pass, binding, draw)
-                                                         : storage_buffer(*planned.pass, binding);
+        Result<Descriptor> descriptor = resolve_one(planned, binding, draw);
         if (!descriptor) return descriptor.error();
         descriptor->binding = uint32_t(i);
         target.descriptors.push_back(*descriptor);

@@ -35,7 +35,8 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
                                            .pQueuePriorities = &priority};
     VkPhysicalDeviceVulkan13Features v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
                                             .synchronization2 = VK_TRUE,
-                                            .dynamicRendering = VK_TRUE};
+                                            .dynamicRendering = VK_TRUE,
+                                            .maintenance4 = VK_TRUE};  // LocalSizeId, which glslc emits
     VkPhysicalDeviceVulkan12Features v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                             .pNext = &v13,
                                             .scalarBlockLayout = VK_TRUE};

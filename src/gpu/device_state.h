@@ -10,7 +10,7 @@
 
 namespace dermis::gpu {
 
-/// The samplers a shader may name, immutable in every layout.
+/// The samplers a shader may name.
 inline constexpr std::array<std::string_view, 6> kSamplerNames = {"linear_clamp",    "linear_repeat",
                                                                   "nearest_clamp",   "trilinear_repeat",
                                                                   "trilinear_clamp", "shadow_compare"};

@@ -69,7 +69,7 @@ Result<FrameResult> Executor::run(const PassList& list, const FrameInputs& input
     state.pipelines.begin_run();
     if (Result<void> ok = state.images.prepare(list, inputs.width, inputs.height); !ok) return ok.error();
     const Result<Plan> plan =
-        make_plan({context, list, inputs, state.images, state.shaders, state.pipelines});
+        make_plan({state.device, list, inputs, state.images, state.shaders, state.pipelines});
     if (!plan) return plan.error();
     if (Result<void> ok = state.store(plan->uploads); !ok) return ok.error();
     if (Result<void> ok = state.queries.prepare(context, plan->passes.size()); !ok) return ok.error();
@@ -89,6 +89,12 @@ Result<Image> Executor::read(std::string_view name, int mip) {
 void Executor::forget_shaders() {
     state_->shaders.forget();
     state_->pipelines.clear();
+}
+
+Footprint Executor::footprint() const {
+    return {.images = state_->images.count(),
+            .pipelines = state_->pipelines.size(),
+            .image_bytes = state_->images.bytes()};
 }
 
 Executor::Executor(std::unique_ptr<State> state) : state_(std::move(state)) {}

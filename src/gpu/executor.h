@@ -47,6 +47,12 @@ struct FrameResult {
     double frame_ms = 0;  ///< first timestamp to last
 };
 
+/// What an executor holds at present.
+struct Footprint {
+    size_t images = 0, pipelines = 0;
+    uint64_t image_bytes = 0;  ///< texels of the images, all levels and samples; drivers add padding
+};
+
 /// SPIR-V by name ("folder/name.frag"): the embedded library, or compiled from disk for hot reload.
 using ShaderSource = std::function<Result<std::vector<uint32_t>>(std::string_view name)>;
 
@@ -77,6 +83,8 @@ class Executor {
 
     /// Drops all pipelines, so that changed shaders are read again.
     void forget_shaders();
+
+    [[nodiscard]] Footprint footprint() const;
 
     struct State;
 

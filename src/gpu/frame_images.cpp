@@ -68,6 +68,17 @@ std::vector<std::string> FrameImages::names() const {
     return names;
 }
 
+uint64_t FrameImages::bytes() const {
+    uint64_t bytes = 0;
+    for (const auto& [key, image] : images_)
+        for (uint32_t mip = 0; mip < image.image.info.mips; ++mip) {
+            const VkExtent2D extent = image.extent(int(mip));
+            bytes += uint64_t(extent.width) * extent.height * image.image.info.samples *
+                     bytes_per_texel(image.declaration.format);
+        }
+    return bytes;
+}
+
 Result<FrameImage> FrameImages::make(const ImageDeclaration& declaration, VkExtent2D extent, bool storage) {
     const Context& context = device_->context;
     if (!(context.sample_counts & uint32_t(declaration.samples)))

@@ -40,6 +40,7 @@ class FrameImages {
     [[nodiscard]] FrameImage* find(std::string_view name) const;
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] size_t count() const { return images_.size(); }
+    [[nodiscard]] uint64_t bytes() const;
 
   private:
     [[nodiscard]] Result<FrameImage> make(const ImageDeclaration& declaration, VkExtent2D extent,

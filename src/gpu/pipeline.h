@@ -55,7 +55,7 @@ class PipelineStore {
 /// The shader's words with the merged binding numbers, set 0.
 [[nodiscard]] std::vector<uint32_t> renumbered(const Shader& shader, const Pipeline& pipeline);
 
-/// Descriptor set layout (push descriptors, immutable samplers) and pipeline layout.
+/// Descriptor set layout (push descriptors) and pipeline layout.
 [[nodiscard]] Result<void> make_layout(Device::State& device, Pipeline& pipeline);
 
 }  // namespace dermis::gpu

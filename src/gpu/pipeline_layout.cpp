@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "dermis/base/text.h"
 #include "dermis/gpu/pipeline.h"
 
 namespace dermis::gpu {
@@ -71,22 +70,12 @@ Result<void> make_layout(Device::State& device, Pipeline& pipeline) {
         return Error{"wants " + std::to_string(pipeline.push_constants.size) + " bytes of push constants; " +
                      device.info.name + " has " +
                      std::to_string(context.properties.limits.maxPushConstantsSize)};
-    std::vector<VkSampler> samplers(pipeline.bindings.size());
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const Binding& binding : pipeline.bindings) {
-        const auto number = uint32_t(bindings.size());
-        bindings.push_back({.binding = number,
+        bindings.push_back({.binding = uint32_t(bindings.size()),
                             .descriptorType = descriptor_type(binding.kind),
                             .descriptorCount = 1,
                             .stageFlags = VK_SHADER_STAGE_ALL});
-        if (binding.kind != BindingKind::sampler) continue;
-        const auto named = std::ranges::find(kSamplerNames, binding.name);
-        if (named == kSamplerNames.end()) {
-            const std::vector<std::string> names(kSamplerNames.begin(), kSamplerNames.end());
-            return Error{unknown_name("sampler", binding.name, names)};
-        }
-        samplers[number] = device.samplers[size_t(named - kSamplerNames.begin())].get();
-        bindings.back().pImmutableSamplers = &samplers[number];
     }
     const VkDescriptorSetLayoutCreateInfo set_info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,

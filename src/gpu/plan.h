@@ -50,7 +50,7 @@ struct Plan {
 [[nodiscard]] bool is_geometry(PassKind kind);
 
 struct PlanContext {
-    const Context& context;
+    Device::State& device;
     const PassList& list;
     const FrameInputs& inputs;
     FrameImages& images;
@@ -84,11 +84,14 @@ class BindingResolver {
 
     [[nodiscard]] Result<Found> find_texture(const Pass& pass, const Binding& binding,
                                              const Draw* draw) const;
+    [[nodiscard]] Result<Descriptor> sampler(const Pass& pass, const Binding& binding) const;
     [[nodiscard]] Result<Descriptor> texture(PlannedPass& planned, const Binding& binding, const Draw* draw);
     [[nodiscard]] Result<Descriptor> storage_image(PlannedPass& planned, const Binding& binding);
     [[nodiscard]] Result<Descriptor> uniform_block(const Pass& pass, const Binding& binding,
                                                    const Draw* draw);
     [[nodiscard]] Result<Descriptor> storage_buffer(const Pass& pass, const Binding& binding);
+    [[nodiscard]] Result<Descriptor> resolve_one(PlannedPass& planned, const Binding& binding,
+                                                 const Draw* draw);
     [[nodiscard]] const KnownBlock* known(const Binding& binding, const Draw* draw) const;
     size_t reserve(size_t bytes);
     [[nodiscard]] Error missing(const Pass& pass, const Binding& binding, std::string_view what) const;

@@ -48,6 +48,7 @@ class GpuTest : public ::testing::Test {
         Result<Device> made = Device::create({.validation = true});
         ASSERT_TRUE(made) << made.error().message;
         device_ = std::make_unique<Device>(std::move(*made));
+        taken_ = 0;
     }
     static void TearDownTestSuite() { device_.reset(); }
 

@@ -1,0 +1,58 @@
+#include "support/gpu_fixture.h"
+
+namespace dermis::gpu {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::HasSubstr;
+
+TEST(Devices, are_listed_with_what_they_can) {
+    const Result<std::vector<DeviceInfo>> devices = list_devices();
+    ASSERT_TRUE(devices) << devices.error().message;
+    ASSERT_FALSE(devices->empty());
+    for (const DeviceInfo& device : *devices) {
+        EXPECT_FALSE(device.name.empty());
+        EXPECT_THAT(device.sample_counts, Contains(1));
+    }
+}
+
+TEST(Devices, the_first_listed_is_the_one_taken) {
+    const Result<std::vector<DeviceInfo>> devices = list_devices();
+    ASSERT_TRUE(devices) << devices.error().message;
+    const Result<Device> device = Device::create({});
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_EQ(device->info().name, devices->front().name);
+    EXPECT_FALSE(device->info().driver.empty());
+}
+
+TEST(Devices, are_picked_by_part_of_their_name_in_any_case) {
+    const Result<std::vector<DeviceInfo>> devices = list_devices();
+    ASSERT_TRUE(devices) << devices.error().message;
+    std::string part = devices->back().name.substr(0, 5);
+    for (char& c : part) c = char(std::toupper(c));
+    const Result<Device> device = Device::create({.name_contains = part});
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_EQ(device->info().name.substr(0, 5), devices->back().name.substr(0, 5));
+}
+
+TEST(Devices, a_name_nobody_has_is_an_error_that_lists_them) {
+    const Result<Device> device = Device::create({.name_contains = "voodoo"});
+    ASSERT_FALSE(device);
+    EXPECT_THAT(device.error().message, HasSubstr("'voodoo'"));
+    EXPECT_THAT(device.error().message, HasSubstr(list_devices()->front().name));
+}
+
+TEST(Devices, a_machine_without_drivers_is_told_what_to_install) {
+    // The loader reads both variables when an instance is made.
+    setenv("VK_DRIVER_FILES", "/nonexistent.json", 1);
+    setenv("VK_ICD_FILENAMES", "/nonexistent.json", 1);
+    const Result<Device> device = Device::create({});
+    unsetenv("VK_DRIVER_FILES");
+    unsetenv("VK_ICD_FILENAMES");
+    ASSERT_FALSE(device);
+    EXPECT_THAT(device.error().message, HasSubstr("mesa-vulkan-drivers"));
+}
+
+}  // namespace
+}  // namespace dermis::gpu
