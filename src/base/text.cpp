@@ -84,7 +84,10 @@ std::optional<std::string> closest_name(std::string_view wrong, std::span<const 
     std::optional<std::string> best;
     size_t best_distance = std::max<size_t>(1, wrong.size() / 3) + 1;
     for (const std::string& name : names) {
-        const size_t distance = edit_distance(to_lower(wrong), to_lower(name));
+        // Leaving the unit off ("exposure" for "exposure_ev") is one mistake, however long the unit is.
+        const std::string word = to_lower(wrong), candidate = to_lower(name);
+        const size_t distance =
+            !word.empty() && candidate.starts_with(word + '_') ? 1 : edit_distance(word, candidate);
         if (distance < best_distance) best_distance = distance, best = name;
     }
     return best;

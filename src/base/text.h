@@ -23,7 +23,8 @@ namespace dermis {
 [[nodiscard]] std::string join(std::span<const std::string> parts, std::string_view separator);
 [[nodiscard]] std::string to_lower(std::string_view text);
 
-/// The candidate a person most likely meant (edit distance at most a third of the word), if there is one.
+/// The candidate a person most likely meant (edit distance at most a third of the word, or the word and a
+/// unit behind an underscore), if there is one.
 [[nodiscard]] std::optional<std::string> closest_name(std::string_view wrong,
                                                       std::span<const std::string> names);
 

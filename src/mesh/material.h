@@ -50,11 +50,11 @@ struct Material {
     ImageSource kernel_size_map;         ///< R, multiplies the width of scattering
     ImageSource curvature_map;           ///< R, signed; times curvature_scale_per_mm
 
-    float thickness_scale_mm = 1;      ///< thickness of a map value of 1
-    float curvature_scale_per_mm = 1;  ///< curvature of a map value of 1
-    float displacement_mid = 0.5f;     ///< the map value that moves nothing
-    float displacement_scale_mm = 0;   ///< along the normal, for a step of 1 in map value
-    int dilate_texels = 0;             ///< maps without a gutter: grow the UV islands by so much on load
+    float thickness_scale_mm = 1;         ///< thickness of a map value of 1
+    float curvature_scale_per_mm = 1;     ///< curvature of a map value of 1
+    float displacement_mid = 0.5f;        ///< the map value that moves nothing
+    float displacement_amplitude_mm = 0;  ///< along the normal, for a step of 1 in map value
+    int dilate_texels = 0;                ///< maps without a gutter: grow the UV islands by so much on load
 
     /// glTF's subsurface description, when the file has one (KHR_materials_volume, _diffuse_transmission,
     /// _volume_scatter, _scatter).

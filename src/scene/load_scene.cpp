@@ -1,17 +1,76 @@
+#include <algorithm>
+
+#include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/mesh/read_mesh.h"
 #include "dermis/scene/builtin.h"
+#include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_paths.h"
 
 namespace dermis {
+namespace fs = std::filesystem;
+namespace {
 
-Result<Scene> load_scene(const std::string& path_or_name) {
-    constexpr std::string_view kBuiltin = "builtin:";
-    const std::string name =
-        path_or_name.starts_with(kBuiltin) ? path_or_name.substr(kBuiltin.size()) : path_or_name;
+constexpr std::string_view kBuiltin = "builtin:";
+
+Result<Scene> load_builtin(std::string_view name) {
     Result<std::vector<SceneObject>> objects = make_builtin_objects(name);
     if (!objects) return objects.error();
-    Scene scene{.name = name, .objects = std::move(*objects)};
+    Scene scene{.name = std::string(name), .objects = std::move(*objects)};
     place_in_studio(scene);
     return scene;
+}
+
+Result<Scene> load_scene_file(const fs::path& path) {
+    const Result<std::string> text = read_text_file(path);
+    if (!text) return text.error();
+    const Result<SceneDescription> description = parse_scene(*text, path);
+    if (!description) return description.error();
+    return build_scene(*description);
+}
+
+// In a mesh that says which of its materials scatter, those are the skin; otherwise everything is.
+std::vector<MaterialClass> classes_of(const std::vector<Material>& materials) {
+    const auto scatters = [](const Material& m) { return m.scattering.has_value(); };
+    const bool stated = std::ranges::any_of(materials, scatters);
+    std::vector<MaterialClass> classes;
+    for (const Material& material : materials)
+        classes.push_back(!stated || scatters(material) ? MaterialClass::skin : MaterialClass::other);
+    return classes;
+}
+
+Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) {
+    Result<LoadedMesh> loaded = read_mesh(path, {.unit_mm = options.mesh_unit_mm});
+    if (!loaded) return loaded.error();
+    Scene scene{.name = path.stem().string(), .warnings = std::move(loaded->warnings)};
+    scene.objects.push_back({.name = scene.name, .mesh = std::move(loaded->mesh)});
+    SceneObject& object = scene.objects.back();
+    object.classes = classes_of(object.mesh.materials);
+    place_in_studio(scene);
+    return scene;
+}
+
+bool looks_like_a_name(std::string_view text) {
+    return text.find('/') == std::string_view::npos && text.find('.') == std::string_view::npos;
+}
+
+}  // namespace
+
+Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
+    if (path_or_name.starts_with(kBuiltin))
+        return load_builtin(std::string_view(path_or_name).substr(kBuiltin.size()));
+    const fs::path path = path_or_name;
+    std::error_code ec;
+    if (looks_like_a_name(path_or_name) && !fs::exists(path, ec)) {
+        if (const fs::path file = find_scene(path_or_name); !file.empty()) return load_scene_file(file);
+        return Error{unknown_name("scene", path_or_name, scene_names()) +
+                     ", or a .toml, .obj, .gltf or .glb file"};
+    }
+    const std::string extension = to_lower(path.extension().string());
+    if (extension == ".toml") return load_scene_file(path);
+    if (extension == ".obj" || extension == ".gltf" || extension == ".glb")
+        return load_mesh_file(path, options);
+    return Error{path_or_name + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)"};
 }
 
 }  // namespace dermis

@@ -77,13 +77,15 @@ struct Environment {
 
 enum class ToneMap { none, hable, aces, pbr_neutral };
 
-/// What all skin materials share; a material's own maps win over the constants.
+/// What all skin materials share. Loading a scene file copies ior, roughness and specular into every skin
+/// material that does not state its own, so the materials of skin can be drawn like any others.
 struct Skin {
     std::string profile = "gpu_gems_3";
     float ior = 1.4f;
-    float roughness = 0.45f;  ///< perceptual
-    float specular = 1;
-    Vec3 albedo_tint_linear = {1, 1, 1};
+    float roughness = 0.45f;                            ///< perceptual; of the first lobe
+    float specular = 1;                                 ///< scales F0
+    float second_roughness = 0.25f, second_weight = 0;  ///< a second lobe's share of the specular, 0..1
+    Vec3 albedo_tint_linear = {1, 1, 1};                ///< multiplies the materials' base colour
 };
 
 /// One mesh with its transform applied. A material is skin, other, or translucent (shadow-casting glass).
@@ -114,7 +116,12 @@ struct Scene {
     [[nodiscard]] const Light& key_light() const;
 };
 
-/// A scene file, a mesh file (placed in the default studio), or "builtin:NAME".
-[[nodiscard]] Result<Scene> load_scene(const std::string& path_or_name);
+struct SceneOptions {
+    std::optional<float> mesh_unit_mm;  ///< of a bare mesh file; a scene file states its own
+};
+
+/// A scene file, a mesh file (placed in the default studio), "builtin:NAME", or the name of a file of scenes/
+/// ("head_scan"). Errors name file, line and key; see docs/scene_file.md.
+[[nodiscard]] Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options = {});
 
 }  // namespace dermis

@@ -46,6 +46,8 @@ TEST(Text, an_unknown_name_proposes_the_closest) {
     EXPECT_EQ(unknown_name("technique", "lamber", names),
               "unknown technique 'lamber'; did you mean 'lambert'? Known: lambert, oren_nayar, wrap");
     EXPECT_EQ(closest_name("subsurface", names), std::nullopt);
+    const std::vector<std::string> keys = {"exposure_ev", "explosion"};
+    EXPECT_EQ(closest_name("exposure", keys), "exposure_ev");
 }
 
 TEST(File, reading_what_is_no_file_names_the_path) {

@@ -1,0 +1,238 @@
+// A description to a scene: load the meshes, place them, give their materials what the file says.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dermis/base/text.h"
+#include "dermis/mesh/read_mesh.h"
+#include "dermis/scene/builtin.h"
+#include "dermis/scene/place_mesh.h"
+#include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_paths.h"
+
+namespace dermis {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180;
+constexpr std::string_view kBuiltin = "builtin:";
+
+Error error_at(const SceneDescription& description, const NamedFile& file, const std::string& message) {
+    return Error{description.file.string() + ":" + std::to_string(file.line) + ": " + file.key + ": " +
+                 message};
+}
+
+Result<fs::path> resolve(const SceneDescription& description, const NamedFile& file) {
+    Result<fs::path> path = resolve_path(file.text, description.file);
+    if (!path) return error_at(description, file, path.error().message);
+    return path;
+}
+
+Result<std::vector<SceneObject>> load_objects(const SceneDescription& description,
+                                              const MeshDescription& mesh,
+                                              std::vector<std::string>& warnings) {
+    if (mesh.file.text.starts_with(kBuiltin)) {
+        auto objects = make_builtin_objects(std::string_view(mesh.file.text).substr(kBuiltin.size()));
+        if (!objects) return error_at(description, mesh.file, objects.error().message);
+        return objects;
+    }
+    const Result<fs::path> path = resolve(description, mesh.file);
+    if (!path) return path.error();
+    Result<LoadedMesh> loaded = read_mesh(*path, {.unit_mm = mesh.unit_mm});
+    if (!loaded) return error_at(description, mesh.file, loaded.error().message);
+    warnings.insert(warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
+    std::vector<SceneObject> objects(1);
+    objects[0] = {.name = mesh.name.empty() ? path->stem().string() : mesh.name,
+                  .mesh = std::move(loaded->mesh)};
+    return objects;
+}
+
+// Each map of the description, and where it goes in a material.
+struct MapRow {
+    NamedFile MapsDescription::*from;
+    ImageSource Material::*to;
+};
+constexpr MapRow kMapRows[] = {
+    {&MapsDescription::albedo, &Material::base_color_map},
+    {&MapsDescription::normal, &Material::normal_map},
+    {&MapsDescription::specular, &Material::specular_map},
+    {&MapsDescription::roughness, &Material::roughness_map},
+    {&MapsDescription::occlusion, &Material::occlusion_map},
+    {&MapsDescription::thickness, &Material::thickness_map},
+    {&MapsDescription::kernel_size, &Material::kernel_size_map},
+    {&MapsDescription::curvature, &Material::curvature_map},
+    {&MapsDescription::displacement, &Material::displacement_map},
+    {&MapsDescription::opacity, &Material::opacity_map},
+};
+
+template <class Value, class Stored>
+void assign(const std::optional<Value>& given, Stored& stored) {
+    if (given) stored = *given;
+}
+
+Result<void> apply_maps(const SceneDescription& description, const MapsDescription& maps,
+                        Material& material) {
+    for (const MapRow& row : kMapRows) {
+        const NamedFile& file = maps.*row.from;
+        if (!file.given()) continue;
+        const Result<fs::path> path = resolve(description, file);
+        if (!path) return path.error();
+        material.*row.to = {.name = path->string(), .encoded = {}};
+    }
+    // A map multiplies the constant beside it; the grey that mesh files leave there is no tint.
+    if (maps.albedo.given()) material.base_color_linear = {1, 1, 1};
+    assign(maps.normal_space, material.normal_space);
+    assign(maps.normal_scale, material.normal_scale);
+    assign(maps.thickness_scale_mm, material.thickness_scale_mm);
+    assign(maps.curvature_scale_per_mm, material.curvature_scale_per_mm);
+    assign(maps.displacement_mid, material.displacement_mid);
+    assign(maps.displacement_amplitude_mm, material.displacement_amplitude_mm);
+    assign(maps.dilate_texels, material.dilate_texels);
+    return {};
+}
+
+void apply_constants(const MaterialDescription& given, Material& material) {
+    assign(given.albedo_linear, material.base_color_linear);
+    assign(given.roughness, material.roughness);
+    assign(given.specular, material.specular);
+    assign(given.metallic, material.metallic);
+    assign(given.ior, material.ior);
+    assign(given.opacity, material.opacity);
+    assign(given.emission_linear, material.emission_linear);
+    assign(given.double_sided, material.double_sided);
+}
+
+Result<void> apply_material(const SceneDescription& description, const MaterialDescription* given,
+                            MaterialClass material_class, Material& material) {
+    if (material_class == MaterialClass::skin) {
+        material.roughness = description.skin.roughness;
+        material.specular = description.skin.specular;
+        material.ior = description.skin.ior;
+        if (const Result<void> applied = apply_maps(description, description.maps, material); !applied)
+            return applied;
+    }
+    if (!given) return {};
+    if (const Result<void> applied = apply_maps(description, given->maps, material); !applied) return applied;
+    apply_constants(*given, material);
+    return {};
+}
+
+Result<void> add_objects(const SceneDescription& description, const MeshDescription& mesh, Scene& scene) {
+    Result<std::vector<SceneObject>> objects = load_objects(description, mesh, scene.warnings);
+    if (!objects) return objects.error();
+    for (SceneObject& object : *objects) {
+        place_mesh(object.mesh, {.scale = mesh.scale,
+                                 .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
+                                 .translation_mm = mesh.translate_mm});
+        object.classes.clear();
+        std::vector<bool> hidden;
+        for (Material& material : object.mesh.materials) {
+            const auto found = description.materials.find(material.name);
+            const MaterialDescription* given =
+                found == description.materials.end() ? nullptr : &found->second;
+            object.classes.push_back(given && given->material_class ? *given->material_class
+                                                                    : mesh.default_class);
+            hidden.push_back(given && !given->visible.value_or(true));
+            if (const Result<void> applied =
+                    apply_material(description, given, object.classes.back(), material);
+                !applied)
+                return applied;
+        }
+        hide_materials(object.mesh, hidden);
+        scene.objects.push_back(std::move(object));
+    }
+    return {};
+}
+
+// A [material.NAME] that no mesh has is a mistake, most often in the name.
+Result<void> check_material_names(const SceneDescription& description, const Scene& scene) {
+    std::vector<std::string> names;
+    for (const SceneObject& object : scene.objects)
+        for (const Material& material : object.mesh.materials)
+            if (std::ranges::find(names, material.name) == names.end()) names.push_back(material.name);
+    for (const auto& [name, material] : description.materials)
+        if (std::ranges::find(names, name) == names.end())
+            return Error{description.file.string() + ":" + std::to_string(material.line) + ": [material." +
+                         name + "]: " + unknown_name("material", name, names)};
+    return {};
+}
+
+Light build_light(const LightDescription& given, Vec3 center_mm) {
+    const Vec3 target_mm = given.target_mm.value_or(center_mm);
+    const Vec3 direction = direction_from_yaw_pitch(given.yaw_deg.value_or(0) * kRadiansPerDegree,
+                                                    given.pitch_deg.value_or(0) * kRadiansPerDegree);
+    Light light{.name = given.name,
+                .kind = given.kind,
+                .color_linear = given.color_linear,
+                .intensity = given.intensity,
+                .to_light_world = direction,
+                .position_mm = target_mm + direction * given.distance_mm.value_or(0),
+                .inner_angle_rad = given.inner_angle_deg * kRadiansPerDegree,
+                .outer_angle_rad = given.outer_angle_deg * kRadiansPerDegree,
+                .is_key = given.key.value_or(false)};
+    if (given.position_mm) {
+        light.position_mm = *given.position_mm;
+        const Vec3 axis = normalize(*given.position_mm - target_mm);
+        if (length(axis) > 0) light.to_light_world = axis;
+    }
+    return light;
+}
+
+Camera build_camera(const CameraDescription& given, const Scene& scene) {
+    Camera camera = framing_camera(given.target_mm.value_or(scene.bounds_center_mm), scene.bounds_radius_mm,
+                                   given.fov_deg * kRadiansPerDegree);
+    const float framing_mm = length(camera.eye_mm - camera.target_mm);
+    camera.eye_mm = given.eye_mm.value_or(
+        camera.target_mm + direction_from_yaw_pitch(given.yaw_deg.value_or(0) * kRadiansPerDegree,
+                                                    given.pitch_deg.value_or(0) * kRadiansPerDegree) *
+                               given.distance_mm.value_or(framing_mm));
+    fit_depth_range(camera, scene.bounds_center_mm, scene.bounds_radius_mm);
+    return camera;
+}
+
+Result<Environment> build_environment(const SceneDescription& description,
+                                      const EnvironmentDescription& given) {
+    Environment environment{.kind = given.kind.value_or(EnvironmentKind::studio),
+                            .intensity = given.intensity,
+                            .yaw_rad = given.yaw_deg * kRadiansPerDegree,
+                            .visible = given.visible};
+    if (!given.file.given()) return environment;
+    const Result<fs::path> path = resolve(description, given.file);
+    if (!path) return path.error();
+    environment.kind = EnvironmentKind::file;
+    environment.file = *path;
+    return environment;
+}
+
+}  // namespace
+
+Result<Scene> build_scene(const SceneDescription& description) {
+    const HeadDescription& head = description.head;
+    Scene scene{.name = head.name.empty() ? description.file.stem().string() : head.name};
+    for (const MeshDescription& mesh : description.meshes)
+        if (const Result<void> added = add_objects(description, mesh, scene); !added) return added.error();
+    if (const Result<void> checked = check_material_names(description, scene); !checked)
+        return checked.error();
+
+    place_in_studio(scene);
+    scene.camera = build_camera(description.camera, scene);
+    if (!description.lights.empty()) scene.lights.clear();
+    for (const LightDescription& light : description.lights)
+        scene.lights.push_back(build_light(light, scene.bounds_center_mm));
+    if (description.environment) {
+        Result<Environment> environment = build_environment(description, *description.environment);
+        if (!environment) return environment.error();
+        scene.environment = *environment;
+    }
+    scene.skin = description.skin;
+    scene.background_linear = head.background_linear;
+    scene.tone_map = head.tone_map;
+    scene.exposure_ev = head.exposure_ev;
+    scene.credit = head.credit;
+    scene.technique = head.technique;
+    scene.settings = description.settings;
+    return scene;
+}
+
+}  // namespace dermis

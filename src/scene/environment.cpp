@@ -1,0 +1,100 @@
+#include "dermis/scene/environment.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/file.h"
+#include "dermis/base/hash.h"
+#include "dermis/image/io.h"
+#include "dermis/scene/panorama.h"
+#include "dermis/scene/prefilter.h"
+#include "dermis/scene/studio.h"
+
+namespace dermis {
+namespace {
+
+// Raise with every change to the studio, the prefilter or the layout of what is cached.
+constexpr uint32_t kVersion = 1;
+constexpr int kPanoramaWidth = 1024;
+constexpr int kStudioWidth = 512;  // its boxes are smooth
+
+Result<Image> decode_panorama(std::span<const std::byte> bytes, const std::filesystem::path& file) {
+    const Result<LoadedImage> loaded = decode_image(bytes, file.string(), ImageUse::data);
+    if (!loaded) return loaded.error();
+    const Image& image = loaded->image;
+    if (image.width != 2 * image.height)
+        return Error{file.string() + ": " + std::to_string(image.width) + " x " +
+                     std::to_string(image.height) +
+                     " texels; a latitude-longitude panorama is twice as wide as high"};
+    return clean_panorama(to_linear_float(image), kPanoramaWidth);
+}
+
+std::vector<std::byte> to_bytes(const EnvironmentLight& light) {
+    constexpr size_t kShBytes = sizeof light.radiance_sh;
+    std::vector<std::byte> bytes(kShBytes + light.cube.size());
+    std::memcpy(bytes.data(), light.radiance_sh.data(), kShBytes);
+    std::memcpy(bytes.data() + kShBytes, light.cube.data(), light.cube.size());
+    return bytes;
+}
+
+std::optional<EnvironmentLight> from_bytes(const std::vector<std::byte>& bytes) {
+    EnvironmentLight light{.base_size = kEnvironmentBaseSize, .mips = kEnvironmentMips};
+    const size_t cube_bytes = prefiltered_bytes(light.base_size, light.mips);
+    if (bytes.size() != sizeof light.radiance_sh + cube_bytes) return std::nullopt;
+    std::memcpy(light.radiance_sh.data(), bytes.data(), sizeof light.radiance_sh);
+    light.cube.assign(bytes.end() - std::ptrdiff_t(cube_bytes), bytes.end());
+    return light;
+}
+
+}  // namespace
+
+Vec3 to_environment(Vec3 d_world, float yaw_rad) {
+    const float c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+    return {c * d_world.x - s * d_world.z, d_world.y, s * d_world.x + c * d_world.z};
+}
+
+Result<Image> load_panorama(const Environment& environment) {
+    if (environment.kind == EnvironmentKind::none) return Image(1, 1, 3);
+    if (environment.kind == EnvironmentKind::studio) return make_studio_panorama(kStudioWidth);
+    const Result<std::vector<std::byte>> bytes = read_file(environment.file);
+    if (!bytes) return bytes.error();
+    return decode_panorama(*bytes, environment.file);
+}
+
+EnvironmentLight bake_environment(const Image& panorama, int base_size, int mips) {
+    // A face spans a quarter of the panorama's width, which is half of its height.
+    const int face_texels = int(std::bit_floor(unsigned(panorama.height / 2)));
+    const CubePyramid pyramid(panorama, std::max(base_size, face_texels));
+    return {.radiance_sh = project_radiance(panorama),
+            .base_size = base_size,
+            .mips = mips,
+            .cube = prefilter_ggx(pyramid, base_size, mips)};
+}
+
+Result<EnvironmentLight> prepare_environment(const Environment& environment) {
+    if (environment.kind == EnvironmentKind::none) return bake_environment(Image(1, 1, 3), 1, 1);
+    Hasher hasher;
+    hasher.add(kVersion).add(environment.kind).add(kEnvironmentBaseSize).add(kEnvironmentMips);
+    std::vector<std::byte> file;
+    if (environment.kind == EnvironmentKind::file) {
+        Result<std::vector<std::byte>> read = read_file(environment.file);
+        if (!read) return read.error();
+        file = std::move(*read);
+        hasher.add(file);
+    }
+    const std::string hash = hasher.hex();
+    if (const auto stored = cache_load("environment", hash))
+        if (std::optional<EnvironmentLight> light = from_bytes(*stored)) return std::move(*light);
+    Result<Image> panorama = environment.kind == EnvironmentKind::file
+                                 ? decode_panorama(file, environment.file)
+                                 : Result<Image>(make_studio_panorama(kStudioWidth));
+    if (!panorama) return panorama.error();
+    EnvironmentLight light = bake_environment(*panorama);
+    cache_store("environment", hash, to_bytes(light));
+    return light;
+}
+
+}  // namespace dermis

@@ -1,0 +1,50 @@
+#include "dermis/scene/place_mesh.h"
+
+#include <cmath>
+
+namespace dermis {
+namespace {
+
+// Columns are the images of the axes.
+struct Rotation {
+    Vec3 x, y, z;
+
+    explicit Rotation(Vec3 angle_rad) {
+        const float sx = std::sin(angle_rad.x), cx = std::cos(angle_rad.x);
+        const float sy = std::sin(angle_rad.y), cy = std::cos(angle_rad.y);
+        const float sz = std::sin(angle_rad.z), cz = std::cos(angle_rad.z);
+        x = {cz * cy, sz * cy, -sy};
+        y = {cz * sy * sx - sz * cx, sz * sy * sx + cz * cx, cy * sx};
+        z = {cz * sy * cx + sz * sx, sz * sy * cx - cz * sx, cy * cx};
+    }
+    Vec3 operator()(Vec3 v) const { return x * v.x + y * v.y + z * v.z; }
+};
+
+}  // namespace
+
+void place_mesh(Mesh& mesh, const Placement& placement) {
+    const Rotation rotate(placement.rotation_rad);
+    for (Vec3& p : mesh.positions_mm) p = rotate(p * placement.scale) + placement.translation_mm;
+    for (Vec3& n : mesh.normals) n = rotate(n);
+    for (Vec4& t : mesh.tangents) {
+        const Vec3 turned = rotate({t.x, t.y, t.z});
+        t = {turned.x, turned.y, turned.z, t.w};
+    }
+    for (float& curvature : mesh.curvatures_per_mm) curvature /= placement.scale;
+}
+
+void hide_materials(Mesh& mesh, const std::vector<bool>& hidden) {
+    std::vector<uint32_t> indices;
+    std::vector<Submesh> submeshes;
+    for (const Submesh& submesh : mesh.submeshes) {
+        if (hidden.at(submesh.material)) continue;
+        submeshes.push_back(submesh);
+        submeshes.back().first_index = uint32_t(indices.size());
+        const auto first = mesh.indices.begin() + submesh.first_index;
+        indices.insert(indices.end(), first, first + submesh.index_count);
+    }
+    mesh.indices = std::move(indices);
+    mesh.submeshes = std::move(submeshes);
+}
+
+}  // namespace dermis

@@ -1,0 +1,87 @@
+#include "dermis/scene/scene_checks.h"
+
+#include <algorithm>
+
+namespace dermis {
+namespace {
+
+Error error_at(const SceneDescription& scene, int line, std::string message) {
+    return Error{scene.file.string() + ":" + std::to_string(std::max(line, 1)) + ": " + std::move(message)};
+}
+
+Result<void> check_light(const SceneDescription& scene, const LightDescription& light) {
+    const bool orbits = light.yaw_deg || light.pitch_deg || light.distance_mm;
+    const bool directional = light.kind == LightKind::directional;
+    if (directional && (light.position_mm || light.distance_mm))
+        return error_at(
+            scene, light.line,
+            std::string("light.") + (light.position_mm ? "position_mm" : "distance_mm") +
+                ": a directional light has none; give yaw_deg and pitch_deg, or kind = \"point\"");
+    if (light.position_mm && orbits)
+        return error_at(
+            scene, light.line,
+            "light.position_mm excludes yaw_deg, pitch_deg and distance_mm; leave one or the others out");
+    if (!directional && !light.position_mm && !light.distance_mm)
+        return error_at(
+            scene, light.line,
+            "light: a point or spot light needs position_mm, or yaw_deg, pitch_deg and distance_mm");
+    if (light.kind == LightKind::spot && light.inner_angle_deg >= light.outer_angle_deg)
+        return error_at(scene, light.line, "light.inner_angle_deg must be smaller than outer_angle_deg");
+    return {};
+}
+
+Result<void> check_key_light(SceneDescription& scene) {
+    if (scene.lights.size() == 1 && !scene.lights[0].key) scene.lights[0].key = true;
+    const LightDescription* key = nullptr;
+    for (const LightDescription& light : scene.lights) {
+        if (!light.key.value_or(false)) continue;
+        if (key)
+            return error_at(scene, light.line,
+                            "light.key: the light of line " + std::to_string(key->line) +
+                                " is the key light already; exactly one casts the shadow");
+        key = &light;
+    }
+    if (!scene.lights.empty() && !key)
+        return error_at(scene, scene.lights[0].line,
+                        "light.key: no light is the key light; give one of them key = true");
+    return {};
+}
+
+Result<void> check_environment(const SceneDescription& scene) {
+    if (!scene.environment) return {};
+    const EnvironmentDescription& environment = *scene.environment;
+    if (environment.kind == EnvironmentKind::file && !environment.file.given())
+        return error_at(scene, environment.line, "environment.kind = \"file\" needs file = \"PANORAMA.hdr\"");
+    if (environment.file.given() && environment.kind && *environment.kind != EnvironmentKind::file)
+        return error_at(scene, environment.file.line,
+                        "environment.file: only for kind = \"file\"; leave kind or file out");
+    return {};
+}
+
+Result<void> check_camera(const SceneDescription& scene) {
+    const CameraDescription& camera = scene.camera;
+    if (camera.eye_mm && (camera.yaw_deg || camera.pitch_deg || camera.distance_mm))
+        return error_at(
+            scene, camera.line,
+            "camera.eye_mm excludes yaw_deg, pitch_deg and distance_mm; leave one or the others out");
+    return {};
+}
+
+}  // namespace
+
+Result<void> check_scene(SceneDescription& scene) {
+    if (scene.meshes.empty())
+        return error_at(scene, 1, "no [[mesh]]; a scene has at least one, with file = \"HEAD.obj\"");
+    for (const MeshDescription& mesh : scene.meshes)
+        if (!mesh.file.given())
+            return error_at(scene, mesh.line,
+                            "mesh.file is missing; give file = \"HEAD.obj\" or \"builtin:spheres\"");
+    for (const LightDescription& light : scene.lights)
+        if (const Result<void> checked = check_light(scene, light); !checked) return checked;
+    Result<void> checked = check_key_light(scene);
+    if (checked) checked = check_environment(scene);
+    if (checked) checked = check_camera(scene);
+    return checked;
+}
+
+}  // namespace dermis

@@ -1,0 +1,11 @@
+#pragma once
+// What one key alone cannot know to be wrong: keys that exclude one another, and how many there must be.
+
+#include "dermis/scene/scene_description.h"
+
+namespace dermis {
+
+/// Also makes a single light the key light.
+[[nodiscard]] Result<void> check_scene(SceneDescription& scene);
+
+}  // namespace dermis

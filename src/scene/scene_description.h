@@ -1,0 +1,116 @@
+#pragma once
+// What a scene file says, as plain data: nothing is loaded yet, and every file it names remembers its line.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/scene/scene.h"
+
+namespace dermis {
+
+/// A path as the file has it, and where it stands; `key` is its full name ("maps.albedo").
+struct NamedFile {
+    std::string text, key;
+    int line = 0;
+
+    [[nodiscard]] bool given() const { return line > 0; }
+};
+
+struct MapsDescription {
+    NamedFile albedo, normal, specular, roughness, occlusion, thickness, kernel_size, curvature, displacement,
+        opacity;
+    std::optional<NormalSpace> normal_space;
+    std::optional<float> normal_scale, thickness_scale_mm, curvature_scale_per_mm, displacement_mid,
+        displacement_amplitude_mm;
+    std::optional<int> dilate_texels;
+};
+
+struct MaterialDescription {
+    int line = 0;
+    std::optional<MaterialClass> material_class;
+    std::optional<Vec3> albedo_linear, emission_linear;
+    std::optional<float> roughness, specular, metallic, ior, opacity;
+    std::optional<bool> double_sided, visible;
+    MapsDescription maps;
+};
+
+struct MeshDescription {
+    int line = 0;
+    NamedFile file;
+    std::string name;
+    std::optional<float> unit_mm;
+    float scale = 1;
+    Vec3 rotate_deg, translate_mm;
+    int subdivision = 0;
+    MaterialClass default_class = MaterialClass::skin;
+};
+
+/// Either a position, or a yaw and pitch (and a distance, unless directional) around a target.
+struct LightDescription {
+    int line = 0;
+    std::string name;
+    LightKind kind = LightKind::directional;
+    Vec3 color_linear = {1, 1, 1};
+    float intensity = 3.14159265f;
+    std::optional<float> yaw_deg, pitch_deg, distance_mm;
+    std::optional<Vec3> position_mm, target_mm;
+    float inner_angle_deg = 20, outer_angle_deg = 28;
+    std::optional<bool> key;
+};
+
+/// Either an eye, or a yaw, pitch and distance around a target; what is missing frames the scene.
+struct CameraDescription {
+    int line = 0;
+    std::optional<Vec3> eye_mm, target_mm;
+    std::optional<float> yaw_deg, pitch_deg, distance_mm;
+    float fov_deg = 30;
+};
+
+struct EnvironmentDescription {
+    int line = 0;
+    std::optional<EnvironmentKind> kind;
+    NamedFile file;
+    float intensity = 1, yaw_deg = 0;
+    bool visible = false;
+};
+
+/// Keys that stand outside any section.
+struct HeadDescription {
+    std::string name, credit, technique;
+    Vec3 background_linear = {0.02f, 0.02f, 0.022f};
+    ToneMap tone_map = ToneMap::hable;
+    float exposure_ev = 0;
+};
+
+struct SceneDescription {
+    std::filesystem::path file;  ///< for messages and relative paths
+    HeadDescription head;
+    std::vector<MeshDescription> meshes;
+    MapsDescription maps;
+    std::map<std::string, MaterialDescription> materials;  ///< by the mesh's material names
+    Skin skin;
+    std::vector<LightDescription> lights;
+    std::optional<EnvironmentDescription> environment;
+    CameraDescription camera;
+    std::map<std::string, std::string> settings;
+};
+
+/// Largest scene file, in bytes.
+inline constexpr size_t kMaxSceneBytes = size_t{1} << 20;
+
+/// TOML text; no file is touched. Errors are "FILE:LINE: ..." and name the key and what would be right:
+/// syntax, unknown keys and sections, wrong types, values out of range, keys that exclude one another, no
+/// mesh, not exactly one key light.
+[[nodiscard]] Result<SceneDescription> parse_scene(std::string_view toml, const std::filesystem::path& file);
+
+/// Loads everything the description names. Errors name the line that named the file.
+[[nodiscard]] Result<Scene> build_scene(const SceneDescription& description);
+
+/// The manual page of the scene file, in Markdown, out of the tables that parse it.
+[[nodiscard]] std::string scene_file_manual();
+
+}  // namespace dermis

@@ -1,0 +1,144 @@
+#pragma once
+// One row for every key of the scene file: the row is what parses the key, checks it and documents it.
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/scene/scene_description.h"
+
+namespace dermis {
+
+enum class KeyKind { number, integer, toggle, text, file, choice, vector, color };
+
+/// Numbers (and the components of vectors and colours) lie in a closed range. `default_text` is empty where
+/// a key has none.
+struct KeyInfo {
+    std::string name, unit, doc;
+    KeyKind kind = KeyKind::number;
+    double min = 0, max = 1;
+    std::vector<std::string> choices;
+    std::string default_text;
+};
+
+/// A value that passed its row's checks. A choice is its index.
+struct KeyValue {
+    double numbers[3] = {};
+    int integer = 0;
+    std::string text, full_name;  ///< full_name: "maps.albedo"
+    int line = 0;
+};
+
+template <class Target>
+struct Key {
+    KeyInfo info;
+    std::function<void(Target&, const KeyValue&)> set;
+};
+
+/// Text of numbers, toggles and choices for `default_text`.
+[[nodiscard]] std::string key_text(const KeyInfo& info, const KeyValue& value);
+
+/// Collects {member, name, unit, min, max, doc}; defaults come from a default-constructed Target. A member
+/// may be optional: then it has no default and tells whether the key was given.
+template <class Target>
+class KeyTable {
+  public:
+    template <class Member>
+    KeyTable& number(Member Target::*member, KeyInfo info) {
+        info.kind = KeyKind::number;
+        return add(
+            std::move(info), [member](Target& t, const KeyValue& v) { t.*member = float(v.numbers[0]); },
+            [member](const Target& t, KeyValue& v) { return read(t.*member, v.numbers[0]); });
+    }
+    template <class Member>
+    KeyTable& integer(Member Target::*member, KeyInfo info) {
+        info.kind = KeyKind::integer;
+        return add(
+            std::move(info), [member](Target& t, const KeyValue& v) { t.*member = v.integer; },
+            [member](const Target& t, KeyValue& v) { return read(t.*member, v.integer); });
+    }
+    template <class Member>
+    KeyTable& toggle(Member Target::*member, KeyInfo info) {
+        info.kind = KeyKind::toggle;
+        return add(
+            std::move(info), [member](Target& t, const KeyValue& v) { t.*member = v.integer != 0; },
+            [member](const Target& t, KeyValue& v) { return read(t.*member, v.integer); });
+    }
+    template <class Enum, class Member>
+    KeyTable& choice(Member Target::*member, KeyInfo info) {
+        info.kind = KeyKind::choice;
+        return add(
+            std::move(info), [member](Target& t, const KeyValue& v) { t.*member = Enum(v.integer); },
+            [member](const Target& t, KeyValue& v) { return read(t.*member, v.integer); });
+    }
+    template <class Member>
+    KeyTable& vector(Member Target::*member, KeyInfo info, KeyKind kind = KeyKind::vector) {
+        info.kind = kind;
+        return add(
+            std::move(info),
+            [member](Target& t, const KeyValue& v) {
+                t.*member = Vec3{float(v.numbers[0]), float(v.numbers[1]), float(v.numbers[2])};
+            },
+            [member](const Target& t, KeyValue& v) { return read(t.*member, v); });
+    }
+    template <class Member>
+    KeyTable& color(Member Target::*member, KeyInfo info) {
+        return vector(member, std::move(info), KeyKind::color);
+    }
+    KeyTable& text(std::string Target::*member, KeyInfo info) {
+        info.kind = KeyKind::text;
+        return add(
+            std::move(info), [member](Target& t, const KeyValue& v) { t.*member = v.text; },
+            [member](const Target& t, KeyValue& v) { return !(v.text = t.*member).empty(); });
+    }
+    KeyTable& file(NamedFile Target::*member, KeyInfo info) {
+        info.kind = KeyKind::file;
+        return add(
+            std::move(info),
+            [member](Target& t, const KeyValue& v) {
+                t.*member = {.text = v.text, .key = v.full_name, .line = v.line};
+            },
+            [](const Target&, KeyValue&) { return false; });
+    }
+
+    [[nodiscard]] std::span<const Key<Target>> keys() const { return keys_; }
+
+  private:
+    template <class Member, class Stored>
+    static bool read(const Member& member, Stored& stored) {
+        stored = Stored(member);
+        return true;
+    }
+    template <class Member, class Stored>
+    static bool read(const std::optional<Member>& member, Stored& stored) {
+        return member && read(*member, stored);
+    }
+    static bool read(Vec3 member, KeyValue& value) {
+        value.numbers[0] = member.x, value.numbers[1] = member.y, value.numbers[2] = member.z;
+        return true;
+    }
+    template <class Read>
+    KeyTable& add(KeyInfo info, std::function<void(Target&, const KeyValue&)> set, const Read& read_default) {
+        KeyValue value;
+        if (read_default(Target{}, value)) info.default_text = key_text(info, value);
+        keys_.push_back({std::move(info), std::move(set)});
+        return *this;
+    }
+
+    std::vector<Key<Target>> keys_;
+};
+
+/// The tables, one a section of the file.
+[[nodiscard]] const KeyTable<HeadDescription>& head_keys();
+[[nodiscard]] const KeyTable<MeshDescription>& mesh_keys();
+[[nodiscard]] const KeyTable<MapsDescription>& maps_keys();
+[[nodiscard]] const KeyTable<MaterialDescription>& material_keys();
+[[nodiscard]] const KeyTable<Skin>& skin_keys();
+[[nodiscard]] const KeyTable<LightDescription>& light_keys();
+[[nodiscard]] const KeyTable<EnvironmentDescription>& environment_keys();
+[[nodiscard]] const KeyTable<CameraDescription>& camera_keys();
+
+}  // namespace dermis

@@ -1,0 +1,116 @@
+// docs/scene_file.md out of the rows that parse: the manual cannot say what the program does not do.
+
+#include "dermis/base/text.h"
+#include "dermis/scene/scene_keys.h"
+
+namespace dermis {
+namespace {
+
+std::string value_column(const KeyInfo& info) {
+    const std::string range = to_text(info.min) + " .. " + to_text(info.max);
+    switch (info.kind) {
+        case KeyKind::number:
+            return range;
+        case KeyKind::integer:
+            return "integer " + range;
+        case KeyKind::toggle:
+            return "true, false";
+        case KeyKind::text:
+            return "text";
+        case KeyKind::file:
+            return "path";
+        case KeyKind::choice:
+            return join(info.choices, ", ");
+        case KeyKind::vector:
+            return "[x, y, z], each " + range;
+        case KeyKind::color:
+            return "[r, g, b], each " + range;
+    }
+    return {};
+}
+
+template <class Target>
+std::string section_text(const std::string& heading, const std::string& intro,
+                         const KeyTable<Target>& table) {
+    std::string text = "\n## " + heading + "\n\n" + intro +
+                       "\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
+    for (const Key<Target>& key : table.keys())
+        text += "| `" + key.info.name + "` | " + value_column(key.info) + " | " + key.info.unit + " | " +
+                key.info.default_text + " | " + key.info.doc + " |\n";
+    return text;
+}
+
+constexpr std::string_view kIntroduction =
+    R"(# The scene file
+
+A scene is a TOML file: meshes, their maps, the skin, lights, surroundings and a camera. Everything but one
+`[[mesh]]` may be left out. Lengths are in mm and colours linear; a key with a unit says so in its name. An unknown
+key, a wrong type, a value out of range and a missing file are errors that name file, line and key.
+
+Paths are relative to the scene file. A path that starts with `assets:` is looked for in `$DERMIS_ASSETS`, in
+`../shared/assets` beside the source tree, and where `tools/get_head` puts its files (`~/.local/share/dermis`). The
+scenes of `scenes/` are also found by name: `dermis render head_scan`.
+
+```toml
+credit = "Scan by somebody, CC BY 4.0"
+
+[[mesh]]
+file = "head.obj"
+unit_mm = 10
+
+[maps]
+albedo = "head_color.png"
+
+[skin]
+roughness = 0.4
+
+[[light]]
+yaw_deg = -50
+pitch_deg = 35
+
+[camera]
+yaw_deg = 20
+distance_mm = 700
+```
+
+This page is what `dermis keys` prints; a test compares the two.
+)";
+
+}  // namespace
+
+std::string scene_file_manual() {
+    std::string text(kIntroduction);
+    text += section_text("Outside any section", "The picture as a whole.", head_keys());
+    text += section_text("`[[mesh]]`", "One or more.", mesh_keys());
+    text += section_text("`[maps]`",
+                         "For every material of class skin. A material's own maps, under "
+                         "`[material.NAME.maps]` with the same keys, "
+                         "win. Maps multiply the constant beside them.",
+                         maps_keys());
+    text += section_text(
+        "`[material.NAME]`",
+        "NAME is the material's name in the mesh file. What is not given stays as the mesh file has it, or, "
+        "for skin, as `[skin]` has it.",
+        material_keys());
+    text += section_text("`[skin]`", "What all skin materials share.", skin_keys());
+    text += section_text(
+        "`[[light]]`",
+        "Any number; without any, one warm key light from the upper left. A light is aimed from a yaw and a "
+        "pitch around a target, or, unless directional, stands at a position.",
+        light_keys());
+    text += section_text("`[environment]`",
+                         "Light from everywhere else; without the section, the studio at half intensity.",
+                         environment_keys());
+    text +=
+        section_text("`[camera]`", "An orbit around a target, or an eye. What is missing frames the scene.",
+                     camera_keys());
+    text += R"(
+## `[settings]`
+
+Parameters of the technique by name: numbers, `true` or `false`, names of choices, colours as three numbers. `dermis techniques`
+lists them with unit, range and default; `--set name=value` wins over the file.
+)";
+    return text;
+}
+
+}  // namespace dermis

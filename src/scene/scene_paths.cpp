@@ -1,0 +1,86 @@
+#include "dermis/scene/scene_paths.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "dermis/base/text.h"
+
+namespace dermis {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kAssets = "assets:";
+
+fs::path from_environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+}
+
+fs::path data_directory() {
+    if (const fs::path xdg = from_environment("XDG_DATA_HOME"); !xdg.empty()) return xdg / "dermis";
+    if (const fs::path home = from_environment("HOME"); !home.empty())
+        return home / ".local" / "share" / "dermis";
+    return {};
+}
+
+Result<fs::path> resolve_asset(std::string_view name) {
+    std::vector<std::string> looked;
+    for (const fs::path& directory : asset_directories()) {
+        std::error_code ec;
+        if (const fs::path file = directory / name; fs::is_regular_file(file, ec)) return file;
+        looked.push_back(directory.string());
+    }
+    return Error{"asset '" + std::string(name) + "' is in none of " + join(looked, ", ") +
+                 "; run tools/get_head, or set DERMIS_ASSETS to the directory that holds it"};
+}
+
+}  // namespace
+
+std::vector<fs::path> asset_directories() {
+    std::vector<fs::path> directories;
+    if (const fs::path own = from_environment("DERMIS_ASSETS"); !own.empty()) directories.push_back(own);
+    directories.push_back((fs::path(DERMIS_SOURCE_DIR) / ".." / "shared" / "assets").lexically_normal());
+    if (const fs::path data = data_directory(); !data.empty()) directories.push_back(data);
+    return directories;
+}
+
+Result<fs::path> resolve_path(std::string_view text, const fs::path& scene_file) {
+    if (text.starts_with(kAssets)) return resolve_asset(text.substr(kAssets.size()));
+    const fs::path path = (scene_file.parent_path() / text).lexically_normal();
+    std::error_code ec;
+    if (fs::is_directory(path, ec)) return Error{"'" + path.string() + "' is a directory, not a file"};
+    if (!fs::exists(path, ec))
+        return Error{"'" + path.string() + "' does not exist; paths are relative to the scene file"};
+    return path;
+}
+
+std::vector<fs::path> scene_directories() {
+    std::vector<fs::path> directories = {fs::path(DERMIS_SOURCE_DIR) / "scenes"};
+    std::error_code ec;
+    if (const fs::path program = fs::read_symlink("/proc/self/exe", ec); !ec)
+        directories.push_back(
+            (program.parent_path() / ".." / "share" / "dermis" / "scenes").lexically_normal());
+    return directories;
+}
+
+std::vector<std::string> scene_names() {
+    std::set<std::string> names;
+    for (const fs::path& directory : scene_directories()) {
+        std::error_code ec;
+        for (const fs::directory_entry& entry : fs::directory_iterator(directory, ec))
+            if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+    }
+    return {names.begin(), names.end()};
+}
+
+fs::path find_scene(std::string_view name) {
+    for (const fs::path& directory : scene_directories()) {
+        std::error_code ec;
+        const fs::path file = directory / (std::string(name) + ".toml");
+        if (fs::is_regular_file(file, ec)) return file;
+    }
+    return {};
+}
+
+}  // namespace dermis

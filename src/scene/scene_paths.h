@@ -1,0 +1,32 @@
+#pragma once
+// Where scenes and assets are found.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/result.h"
+
+namespace dermis {
+
+/// Directories that "assets:NAME" is looked for in, in order: $DERMIS_ASSETS; ../shared/assets beside the
+/// source tree; dermis below $XDG_DATA_HOME (~/.local/share), where tools/get_head puts its files.
+[[nodiscard]] std::vector<std::filesystem::path> asset_directories();
+
+/// A path as a scene file has it: "assets:NAME", absolute, or relative to the scene file. Errors, without a
+/// place: it does not exist, it is a directory; for assets, where it was looked for and how to get it.
+[[nodiscard]] Result<std::filesystem::path> resolve_path(std::string_view text,
+                                                         const std::filesystem::path& scene_file);
+
+/// Directories that scenes are found in by name: scenes/ of the source tree, ../share/dermis/scenes beside
+/// the program.
+[[nodiscard]] std::vector<std::filesystem::path> scene_directories();
+
+/// Names that load_scene() takes without a path, sorted.
+[[nodiscard]] std::vector<std::string> scene_names();
+
+/// The file of a name; empty when there is none.
+[[nodiscard]] std::filesystem::path find_scene(std::string_view name);
+
+}  // namespace dermis

@@ -1,0 +1,301 @@
+// The keys of the scene file, section by section. docs/scene_file.md is printed from these rows.
+
+#include "dermis/base/text.h"
+#include "dermis/scene/scene_keys.h"
+
+namespace dermis {
+namespace {
+
+const std::vector<std::string> kMaterialClasses = {"skin", "other", "translucent"};
+
+constexpr double kMaxLengthMm = 1e6;
+
+}  // namespace
+
+std::string key_text(const KeyInfo& info, const KeyValue& value) {
+    switch (info.kind) {
+        case KeyKind::number:
+            return to_text(float(value.numbers[0]));
+        case KeyKind::integer:
+            return std::to_string(value.integer);
+        case KeyKind::toggle:
+            return value.integer ? "true" : "false";
+        case KeyKind::choice:
+            return info.choices.at(size_t(value.integer));
+        case KeyKind::text:
+        case KeyKind::file:
+            return value.text;
+        case KeyKind::vector:
+        case KeyKind::color:
+            break;
+    }
+    return "[" + to_text(float(value.numbers[0])) + ", " + to_text(float(value.numbers[1])) + ", " +
+           to_text(float(value.numbers[2])) + "]";
+}
+
+const KeyTable<HeadDescription>& head_keys() {
+    using D = HeadDescription;
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .text(&D::name, {.name = "name",
+                             .doc = "what lists and windows call the scene; the file's name when absent"})
+            .text(&D::credit, {.name = "credit", .doc = "stands wherever a picture of the scene stands"})
+            .color(&D::background_linear,
+                   {.name = "background", .unit = "linear", .doc = "radiance behind everything", .max = 1e3})
+            .choice<ToneMap>(&D::tone_map, {.name = "tone_map",
+                                            .doc = "from radiance to the display",
+                                            .choices = {"none", "hable", "aces", "pbr_neutral"}})
+            .number(&D::exposure_ev, {.name = "exposure_ev",
+                                      .unit = "stops",
+                                      .doc = "scales radiance by 2^x",
+                                      .min = -20,
+                                      .max = 20})
+            .text(&D::technique,
+                  {.name = "technique",
+                   .doc = "id of the technique to draw the skin with; see `dermis techniques`"});
+    return table;
+}
+
+const KeyTable<MeshDescription>& mesh_keys() {
+    using D = MeshDescription;
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .file(&D::file, {.name = "file", .doc = "`.obj`, `.gltf`, `.glb`, or `builtin:spheres`"})
+            .text(&D::name, {.name = "name", .doc = "of the object; the file's name when absent"})
+            .number(&D::unit_mm,
+                    {.name = "unit_mm",
+                     .unit = "mm",
+                     .doc = "length of one unit of the file; 1000 for glTF and 1 for OBJ when absent",
+                     .min = 1e-6,
+                     .max = 1e6})
+            .number(
+                &D::scale,
+                {.name = "scale", .doc = "enlarges the mesh before it is turned", .min = 1e-6, .max = 1e6})
+            .vector(&D::rotate_deg,
+                    {.name = "rotate_deg",
+                     .unit = "degrees",
+                     .doc = "turns about X, then Y, then Z, counter-clockwise seen from the axis's tip",
+                     .min = -360,
+                     .max = 360})
+            .vector(&D::translate_mm, {.name = "translate_mm",
+                                       .unit = "mm",
+                                       .doc = "moves the mesh after it was turned",
+                                       .min = -kMaxLengthMm,
+                                       .max = kMaxLengthMm})
+            .integer(&D::subdivision, {.name = "subdivision",
+                                       .unit = "levels",
+                                       .doc = "of Catmull-Clark; each makes four times the faces",
+                                       .max = 4})
+            .choice<MaterialClass>(&D::default_class, {.name = "default_class",
+                                                       .doc = "class of the materials that state none",
+                                                       .choices = kMaterialClasses});
+    return table;
+}
+
+const KeyTable<MapsDescription>& maps_keys() {
+    using D = MapsDescription;
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .file(&D::albedo, {.name = "albedo", .doc = "diffuse colour, sRGB"})
+            .file(&D::normal, {.name = "normal", .doc = "normals as n * 0.5 + 0.5"})
+            .choice<NormalSpace>(
+                &D::normal_space,
+                {.name = "normal_space",
+                 .doc = "`object`: in the axes of the mesh as it stands in the scene, after rotate_deg",
+                 .choices = {"tangent", "object"}})
+            .number(&D::normal_scale,
+                    {.name = "normal_scale", .doc = "scales the slope; tangent space only", .max = 10})
+            .file(&D::specular,
+                  {.name = "specular", .doc = "scales the reflectance at normal incidence; red channel"})
+            .file(&D::roughness, {.name = "roughness", .doc = "perceptual roughness; red channel"})
+            .file(&D::occlusion, {.name = "occlusion", .doc = "visibility of the surroundings; red channel"})
+            .file(&D::thickness,
+                  {.name = "thickness", .doc = "thickness of the body behind the surface; green channel"})
+            .number(&D::thickness_scale_mm, {.name = "thickness_scale_mm",
+                                             .unit = "mm",
+                                             .doc = "thickness of a map value of 1",
+                                             .max = 1e3})
+            .file(&D::kernel_size,
+                  {.name = "kernel_size", .doc = "multiplies the width of scattering; red channel"})
+            .file(&D::curvature,
+                  {.name = "curvature", .doc = "signed mean curvature, positive where convex; red channel"})
+            .number(&D::curvature_scale_per_mm, {.name = "curvature_scale_per_mm",
+                                                 .unit = "1/mm",
+                                                 .doc = "curvature of a map value of 1",
+                                                 .min = -1e3,
+                                                 .max = 1e3})
+            .file(&D::displacement,
+                  {.name = "displacement", .doc = "moves vertices along the normal; red channel"})
+            .number(&D::displacement_mid,
+                    {.name = "displacement_mid", .doc = "the map value (0..1) that moves nothing"})
+            .number(&D::displacement_amplitude_mm, {.name = "displacement_amplitude_mm",
+                                                    .unit = "mm",
+                                                    .doc = "movement for a step of 1 in map value",
+                                                    .min = -100,
+                                                    .max = 100})
+            .file(&D::opacity, {.name = "opacity", .doc = "coloured transmittance of translucent materials"})
+            .integer(&D::dilate_texels, {.name = "dilate_texels",
+                                         .unit = "texels",
+                                         .doc = "grows the UV islands of maps that have no gutter",
+                                         .max = 64});
+    return table;
+}
+
+const KeyTable<MaterialDescription>& material_keys() {
+    using D = MaterialDescription;
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .choice<MaterialClass>(&D::material_class,
+                                   {.name = "class",
+                                    .doc = "skin is drawn by the technique; translucent lets the key light "
+                                           "through, coloured by its opacity map",
+                                    .choices = kMaterialClasses})
+            .color(&D::albedo_linear, {.name = "albedo",
+                                       .unit = "linear",
+                                       .doc = "diffuse colour; multiplies the map, if there is one"})
+            .number(&D::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
+            .number(&D::specular,
+                    {.name = "specular", .doc = "scales the reflectance at normal incidence", .max = 10})
+            .number(&D::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 3})
+            .number(&D::metallic, {.name = "metallic", .doc = "0 dielectric, 1 metal"})
+            .number(&D::opacity,
+                    {.name = "opacity", .doc = "coverage; below 1 what lies behind shows through"})
+            .color(&D::emission_linear,
+                   {.name = "emission", .unit = "linear", .doc = "radiance of its own", .max = 1e3})
+            .toggle(&D::double_sided, {.name = "double_sided", .doc = "draws back faces too"})
+            .toggle(&D::visible, {.name = "visible", .doc = "false leaves its triangles out"});
+    return table;
+}
+
+const KeyTable<Skin>& skin_keys() {
+    static const KeyTable<Skin> table =
+        KeyTable<Skin>()
+            .text(&Skin::profile,
+                  {.name = "profile", .doc = "name of the diffusion profile; see `dermis profiles`"})
+            .number(&Skin::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 2})
+            .number(&Skin::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
+            .number(&Skin::specular,
+                    {.name = "specular", .doc = "scales the reflectance at normal incidence", .max = 10})
+            .number(&Skin::second_roughness,
+                    {.name = "second_roughness", .doc = "perceptual roughness of a second lobe"})
+            .number(&Skin::second_weight,
+                    {.name = "second_weight", .doc = "share of the second lobe in the specular"})
+            .color(&Skin::albedo_tint_linear, {.name = "albedo_tint",
+                                               .unit = "linear",
+                                               .doc = "multiplies the colour of every skin material",
+                                               .max = 4});
+    return table;
+}
+
+const KeyTable<LightDescription>& light_keys() {
+    using D = LightDescription;
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .text(&D::name, {.name = "name", .doc = "for messages and windows"})
+            .choice<LightKind>(&D::kind, {.name = "kind",
+                                          .doc = "point and spot fall off with the square of the distance",
+                                          .choices = {"directional", "point", "spot"}})
+            .color(&D::color_linear,
+                   {.name = "color", .unit = "linear", .doc = "multiplies the intensity", .max = 1e3})
+            .number(&D::intensity, {.name = "intensity",
+                                    .unit = "irradiance",
+                                    .doc = "directional: on a surface that faces the light (pi makes white "
+                                           "Lambert shine with radiance 1); point "
+                                           "and spot: the same at 1 m",
+                                    .max = 1e6})
+            .number(&D::yaw_deg,
+                    {.name = "yaw_deg",
+                     .unit = "degrees",
+                     .doc = "direction from the target to the light: 0 in front (+Z), positive towards +X",
+                     .min = -360,
+                     .max = 360})
+            .number(&D::pitch_deg, {.name = "pitch_deg",
+                                    .unit = "degrees",
+                                    .doc = "the same, positive upwards",
+                                    .min = -90,
+                                    .max = 90})
+            .number(&D::distance_mm, {.name = "distance_mm",
+                                      .unit = "mm",
+                                      .doc = "point and spot: from the target",
+                                      .min = 0.1,
+                                      .max = kMaxLengthMm})
+            .vector(&D::position_mm, {.name = "position_mm",
+                                      .unit = "mm",
+                                      .doc = "point and spot: instead of yaw_deg, pitch_deg and distance_mm",
+                                      .min = -kMaxLengthMm,
+                                      .max = kMaxLengthMm})
+            .vector(&D::target_mm, {.name = "target_mm",
+                                    .unit = "mm",
+                                    .doc = "what the light is aimed at; the centre of the scene when absent",
+                                    .min = -kMaxLengthMm,
+                                    .max = kMaxLengthMm})
+            .number(&D::inner_angle_deg, {.name = "inner_angle_deg",
+                                          .unit = "degrees",
+                                          .doc = "spot: full light up to this angle from its axis",
+                                          .max = 89})
+            .number(&D::outer_angle_deg, {.name = "outer_angle_deg",
+                                          .unit = "degrees",
+                                          .doc = "spot: no light beyond it",
+                                          .min = 0.1,
+                                          .max = 89.5})
+            .toggle(&D::key,
+                    {.name = "key",
+                     .doc = "casts the shadow; exactly one light does. A single light need not say so"});
+    return table;
+}
+
+const KeyTable<EnvironmentDescription>& environment_keys() {
+    using D = EnvironmentDescription;
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .choice<EnvironmentKind>(&D::kind, {.name = "kind",
+                                                .doc = "studio is built in: soft boxes around the scene; "
+                                                       "`file` when `file` is given, else studio",
+                                                .choices = {"none", "studio", "file"}})
+            .file(&D::file, {.name = "file", .doc = "latitude-longitude panorama, `.hdr` or `.exr`"})
+            .number(&D::intensity, {.name = "intensity", .doc = "multiplies its radiance", .max = 1e3})
+            .number(&D::yaw_deg, {.name = "yaw_deg",
+                                  .unit = "degrees",
+                                  .doc = "turns it about Y; positive moves what is in front (+Z) towards +X",
+                                  .min = -360,
+                                  .max = 360})
+            .toggle(&D::visible, {.name = "visible", .doc = "shows it as the background"});
+    return table;
+}
+
+const KeyTable<CameraDescription>& camera_keys() {
+    using D = CameraDescription;
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .vector(&D::eye_mm, {.name = "eye_mm",
+                                 .unit = "mm",
+                                 .doc = "instead of yaw_deg, pitch_deg and distance_mm",
+                                 .min = -kMaxLengthMm,
+                                 .max = kMaxLengthMm})
+            .vector(&D::target_mm, {.name = "target_mm",
+                                    .unit = "mm",
+                                    .doc = "the middle of the picture; the centre of the scene when absent",
+                                    .min = -kMaxLengthMm,
+                                    .max = kMaxLengthMm})
+            .number(&D::yaw_deg, {.name = "yaw_deg",
+                                  .unit = "degrees",
+                                  .doc = "around the target: 0 from the front (+Z), positive towards +X",
+                                  .min = -360,
+                                  .max = 360})
+            .number(
+                &D::pitch_deg,
+                {.name = "pitch_deg", .unit = "degrees", .doc = "positive from above", .min = -90, .max = 90})
+            .number(&D::distance_mm, {.name = "distance_mm",
+                                      .unit = "mm",
+                                      .doc = "from the target; frames the scene when absent",
+                                      .min = 0.1,
+                                      .max = kMaxLengthMm})
+            .number(&D::fov_deg, {.name = "fov_deg",
+                                  .unit = "degrees",
+                                  .doc = "vertical field of view",
+                                  .min = 1,
+                                  .max = 120});
+    return table;
+}
+
+}  // namespace dermis

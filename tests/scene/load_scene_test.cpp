@@ -1,0 +1,269 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <optional>
+
+#include "dermis/base/file.h"
+#include "dermis/scene/place_mesh.h"
+#include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_paths.h"
+#include "support/temporary_directory.h"
+
+using namespace dermis;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Two triangles with two materials, named in the file alone.
+constexpr const char* kTwoMaterials =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+    "usemtl face\nf 1/1 2/2 3/3\nusemtl eyes\nf 1/1 3/2 4/3\n";
+
+struct SceneDirectory : TemporaryDirectory {
+    SceneDirectory() { put("two.obj", kTwoMaterials); }
+    void put(const std::string& name, const std::string& text) const {
+        ASSERT_TRUE(write_text_file(path / name, text));
+    }
+    Result<Scene> load(const std::string& toml) const {
+        put("s.toml", toml);
+        return load_scene((path / "s.toml").string());
+    }
+    std::string error(const std::string& toml) const {
+        const Result<Scene> scene = load(toml);
+        return scene ? "" : scene.error().message;
+    }
+    std::string file(const char* name) const { return (path / name).string(); }
+};
+
+// The environment variables of asset lookup, restored at the end.
+struct Variable {
+    std::string name;
+    std::optional<std::string> before;
+
+    Variable(const char* variable, const std::string& value) : name(variable) {
+        if (const char* old = std::getenv(variable)) before = old;
+        ::setenv(variable, value.c_str(), 1);
+    }
+    ~Variable() {
+        if (before)
+            ::setenv(name.c_str(), before->c_str(), 1);
+        else
+            ::unsetenv(name.c_str());
+    }
+};
+
+const std::string kMesh = "[[mesh]]\nfile = \"two.obj\"\nunit_mm = 100\n";
+
+}  // namespace
+
+TEST(PlaceMesh, scales_then_turns_about_x_y_z_then_moves) {
+    Mesh mesh{.positions_mm = {{1, 0, 0}, {0, 0, 1}},
+              .normals = {{1, 0, 0}, {0, 0, 1}},
+              .curvatures_per_mm = {0.5f, 0.5f}};
+    place_mesh(mesh, {.scale = 2, .rotation_rad = {kPi / 2, 0, kPi / 2}, .translation_mm = {10, 0, 0}});
+    // +X stays under X, then turns to +Y about Z; +Z turns to -Y about X, then to +X about Z.
+    EXPECT_LT(length(mesh.positions_mm[0] - Vec3{10, 2, 0}), 1e-5f);
+    EXPECT_LT(length(mesh.positions_mm[1] - Vec3{12, 0, 0}), 1e-5f);
+    EXPECT_LT(length(mesh.normals[1] - Vec3{1, 0, 0}), 1e-6f);
+    EXPECT_FLOAT_EQ(mesh.curvatures_per_mm[0], 0.25f);
+}
+
+TEST(PlaceMesh, half_a_turn_about_y_takes_a_head_from_minus_z_to_plus_z) {
+    Mesh mesh{.positions_mm = {{1, 2, -3}}, .tangents = {{1, 0, 0, -1}}};
+    place_mesh(mesh, {.rotation_rad = {0, kPi, 0}});
+    EXPECT_LT(length(mesh.positions_mm[0] - Vec3{-1, 2, 3}), 1e-5f);
+    EXPECT_NEAR(mesh.tangents[0].x, -1, 1e-6);
+    EXPECT_EQ(mesh.tangents[0].w, -1);
+}
+
+TEST(LoadScene, a_mesh_is_read_in_its_unit_and_placed) {
+    const SceneDirectory dir;
+    const Result<Scene> scene = dir.load(kMesh + "rotate_deg = [0, 180, 0]\n");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->name, "s");
+    float lowest_x = 0;
+    for (const Vec3 p : scene->objects[0].mesh.positions_mm) lowest_x = std::min(lowest_x, p.x);
+    EXPECT_NEAR(lowest_x, -100, 1e-3);
+}
+
+TEST(LoadScene, materials_take_class_constants_and_maps_from_the_file) {
+    const SceneDirectory dir;
+    dir.put("a.png", "x"), dir.put("b.png", "x");
+    const Result<Scene> scene =
+        dir.load(kMesh +
+                 "[maps]\nalbedo = \"a.png\"\nspecular = \"a.png\"\n"
+                 "[skin]\nroughness = 0.3\n"
+                 "[material.face.maps]\nspecular = \"b.png\"\n"
+                 "[material.eyes]\nclass = \"other\"\nroughness = 0.05\nalbedo = [1, 0, 0]\n");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const SceneObject& object = scene->objects[0];
+    ASSERT_EQ(object.mesh.materials.size(), 2u);
+    const Material &face = object.mesh.materials[0], &eyes = object.mesh.materials[1];
+    EXPECT_EQ(object.classes[0], MaterialClass::skin);
+    EXPECT_EQ(face.base_color_map.name, dir.file("a.png"));
+    EXPECT_EQ(face.specular_map.name, dir.file("b.png"));
+    EXPECT_EQ(face.base_color_linear, (Vec3{1, 1, 1}));
+    EXPECT_EQ(face.roughness, 0.3f);
+    EXPECT_EQ(object.classes[1], MaterialClass::other);
+    EXPECT_FALSE(eyes.base_color_map.present());
+    EXPECT_EQ(eyes.roughness, 0.05f);
+    EXPECT_EQ(eyes.base_color_linear, (Vec3{1, 0, 0}));
+}
+
+TEST(LoadScene, an_invisible_material_loses_its_triangles_and_the_others_keep_theirs) {
+    const SceneDirectory dir;
+    const Result<Scene> scene = dir.load(kMesh + "[material.face]\nvisible = false\n");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Mesh& mesh = scene->objects[0].mesh;
+    ASSERT_EQ(mesh.submeshes.size(), 1u);
+    EXPECT_EQ(mesh.submeshes[0].first_index, 0u);
+    EXPECT_EQ(mesh.materials[mesh.submeshes[0].material].name, "eyes");
+    ASSERT_EQ(mesh.indices.size(), 3u);
+    float highest_z = 0;
+    for (const uint32_t i : mesh.indices) highest_z = std::max(highest_z, mesh.positions_mm[i].z);
+    EXPECT_NEAR(highest_z, 100, 1e-3);
+}
+
+TEST(LoadScene, a_material_that_no_mesh_has_is_an_error) {
+    const SceneDirectory dir;
+    EXPECT_EQ(dir.error(kMesh + "[material.eye]\nclass = \"other\"\n"),
+              dir.file("s.toml") +
+                  ":4: [material.eye]: unknown material 'eye'; did you mean 'eyes'? Known: face, eyes");
+}
+
+TEST(LoadScene, a_missing_file_names_the_line_and_key_that_asked_for_it) {
+    const SceneDirectory dir;
+    EXPECT_EQ(dir.error("[[mesh]]\nfile = \"none.obj\"\n"),
+              dir.file("s.toml") + ":2: mesh.file: '" + dir.file("none.obj") +
+                  "' does not exist; paths are relative to the scene file");
+    EXPECT_EQ(dir.error(kMesh + "[maps]\n\nalbedo = \"none.png\"\n"),
+              dir.file("s.toml") + ":6: maps.albedo: '" + dir.file("none.png") +
+                  "' does not exist; paths are relative to the scene file");
+    EXPECT_EQ(dir.error(kMesh + "[environment]\nfile = \".\"\n"),
+              dir.file("s.toml") + ":5: environment.file: '" + dir.file("") + "' is a directory, not a file");
+}
+
+TEST(LoadScene, a_bad_mesh_names_the_scene_and_the_mesh) {
+    const SceneDirectory dir;
+    dir.put("bad.obj", "v 1 2\n");
+    const std::string message = dir.error("[[mesh]]\nfile = \"bad.obj\"\n");
+    EXPECT_EQ(message.rfind(dir.file("s.toml") + ":2: mesh.file: " + dir.file("bad.obj"), 0), 0u) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(LoadScene, assets_are_looked_for_in_three_places_in_order) {
+    const SceneDirectory dir;
+    const Variable assets("DERMIS_ASSETS", dir.file("mine")), data("XDG_DATA_HOME", dir.file("data"));
+    const std::vector<fs::path> directories = asset_directories();
+    ASSERT_EQ(directories.size(), 3u);
+    EXPECT_EQ(directories[0], dir.path / "mine");
+    EXPECT_EQ(directories[2], dir.path / "data" / "dermis");
+
+    dir.put("data/dermis/test_asset/a.obj", kTwoMaterials);
+    const Result<fs::path> from_data = resolve_path("assets:test_asset/a.obj", dir.path / "s.toml");
+    ASSERT_TRUE(from_data) << from_data.error().message;
+    EXPECT_EQ(*from_data, dir.path / "data/dermis/test_asset/a.obj");
+    dir.put("mine/test_asset/a.obj", kTwoMaterials);
+    EXPECT_EQ(*resolve_path("assets:test_asset/a.obj", dir.path / "s.toml"),
+              dir.path / "mine/test_asset/a.obj");
+}
+
+TEST(LoadScene, a_missing_asset_says_where_it_was_looked_for_and_how_to_get_it) {
+    const SceneDirectory dir;
+    const Variable assets("DERMIS_ASSETS", dir.file("mine")), data("XDG_DATA_HOME", dir.file("data"));
+    EXPECT_EQ(dir.error("[[mesh]]\nfile = \"assets:nobody/head.obj\"\n"),
+              dir.file("s.toml") + ":2: mesh.file: asset 'nobody/head.obj' is in none of " +
+                  dir.file("mine") + ", " + asset_directories()[1].string() + ", " + dir.file("data/dermis") +
+                  "; run tools/get_head, or set DERMIS_ASSETS to the directory that holds it");
+}
+
+TEST(LoadScene, point_and_spot_lights_stand_where_the_file_says) {
+    const SceneDirectory dir;
+    const Result<Scene> scene = dir.load(
+        kMesh +
+        "[[light]]\nkind = \"point\"\nkey = true\nyaw_deg = 90\ndistance_mm = 500\ntarget_mm = [0, 50, 0]\n"
+        "[[light]]\nkind = \"spot\"\nposition_mm = [0, 0, 700]\ntarget_mm = [0, 0, 0]\n");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_LT(length(scene->lights[0].position_mm - Vec3{500, 50, 0}), 1e-3f);
+    EXPECT_LT(length(scene->lights[1].to_light_world - Vec3{0, 0, 1}), 1e-6f);
+    EXPECT_EQ(&scene->key_light(), &scene->lights[0]);
+}
+
+TEST(LoadScene, a_camera_without_a_distance_frames_the_scene) {
+    const SceneDirectory dir;
+    const Result<Scene> scene = dir.load(kMesh + "[camera]\nyaw_deg = 90\nfov_deg = 20\n");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const float distance_mm = length(scene->camera.eye_mm - scene->bounds_center_mm);
+    EXPECT_NEAR(distance_mm, 1.05f * scene->bounds_radius_mm / std::sin(10 * kPi / 180), 0.1f);
+    EXPECT_GT(scene->camera.eye_mm.x, scene->bounds_center_mm.x + 100);
+}
+
+TEST(LoadScene, a_bare_mesh_stands_in_the_studio_in_the_unit_asked_for) {
+    const SceneDirectory dir;
+    const Result<Scene> scene = load_scene(dir.file("two.obj"), {.mesh_unit_mm = 10});
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->environment.kind, EnvironmentKind::studio);
+    EXPECT_EQ(scene->objects[0].classes, std::vector(2, MaterialClass::skin));
+    EXPECT_LT(scene->bounds_radius_mm, 10);
+    EXPECT_TRUE(scene->key_light().is_key);
+}
+
+TEST(LoadScene, names_without_a_path_are_scenes_of_the_project) {
+    const Result<Scene> scene = load_scene("spheres");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->objects.size(), 4u);
+    const std::string message = load_scene("sphere").error().message;
+    EXPECT_EQ(message.rfind("unknown scene 'sphere'; did you mean 'spheres'? Known: ", 0), 0u) << message;
+}
+
+TEST(LoadScene, what_is_neither_scene_nor_mesh_is_an_error) {
+    const SceneDirectory dir;
+    dir.put("a.txt", "hello");
+    EXPECT_EQ(load_scene(dir.file("a.txt")).error().message,
+              dir.file("a.txt") + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)");
+    EXPECT_FALSE(load_scene(dir.file("none.toml")));
+    EXPECT_FALSE(load_scene(""));
+}
+
+TEST(LoadScene, every_scene_of_the_project_loads_when_its_assets_are_there) {
+    for (const std::string& name : scene_names()) {
+        const Result<Scene> scene = load_scene(name);
+        if (!scene && scene.error().message.find("run tools/get_head") != std::string::npos) continue;
+        ASSERT_TRUE(scene) << scene.error().message;
+        EXPECT_FALSE(scene->objects.empty()) << name;
+        bool skin = false;
+        for (const SceneObject& object : scene->objects)
+            for (const MaterialClass c : object.classes) skin |= c == MaterialClass::skin;
+        EXPECT_TRUE(skin) << name << " has no skin";
+    }
+}
+
+TEST(LoadScene, the_heads_are_as_tall_as_heads_and_face_the_camera) {
+    for (const char* name : {"head_scan", "face"}) {
+        const Result<Scene> scene = load_scene(name);
+        if (!scene && scene.error().message.find("run tools/get_head") != std::string::npos)
+            GTEST_SKIP() << scene.error().message;
+        ASSERT_TRUE(scene) << scene.error().message;
+        float low = INFINITY, high = -INFINITY, front = -INFINITY;
+        for (const SceneObject& object : scene->objects)
+            for (const Vec3 p : object.mesh.positions_mm) {
+                low = std::min(low, p.y), high = std::max(high, p.y);
+                if (std::abs(p.x - scene->bounds_center_mm.x) < 10) front = std::max(front, p.z);
+            }
+        EXPECT_GT(high - low, 150) << name;
+        EXPECT_LT(high - low, 500) << name;
+        EXPECT_GT(scene->camera.eye_mm.z, front) << name;
+        EXPECT_FALSE(scene->credit.empty()) << name;
+    }
+}
+
+TEST(SceneManual, is_what_the_tables_print) {
+    const Result<std::string> page = read_text_file(fs::path(DERMIS_SOURCE_DIR) / "docs" / "scene_file.md");
+    ASSERT_TRUE(page) << page.error().message;
+    EXPECT_EQ(*page, scene_file_manual()) << "regenerate it: build/dermis keys > docs/scene_file.md";
+}
