@@ -1,0 +1,140 @@
+// The ear: a thin curved plate with a rolled rim (helix), a Y-shaped ridge (antihelix), a bowl (concha)
+// carved through to the side of the head, and the flaps before and below the ear canal (tragus, antitragus).
+
+#include <array>
+#include <numbers>
+
+#include "dermis/bust/parts.h"
+
+namespace dermis::bust {
+namespace {
+
+constexpr double kStandardLength = 63;
+
+// The plate's edge, counter-clockwise from the root of the helix, in the ear frame (back, up).
+constexpr std::array<double, 2> kOutline[] = {
+    {-6, 12},   {-5.5, 20}, {-1, 27},  {7, 31},   {15, 30.5}, {22, 26},    {26, 18},  {26.5, 9}, {24.5, 0},
+    {20.5, -8}, {16, -15},  {13, -22}, {10, -28}, {5, -31},   {-0.5, -29}, {-4, -23}, {-6, -14}, {-7, 0},
+};
+
+constexpr Ellipsoid kBowl = {{7.5, 0.5, -2.5}, {12.0, 15.5, 8.5}};  // the concha seen from behind
+
+// The upper ear leans back towards the head, and so does the lobe.
+double lean(double v) {
+    return 0.0045 * (v - 2) * (v - 2) - 0.5;
+}
+
+Point catmull(Point a, Point b, Point c, Point d, double t) {
+    return b + ((c - a) + (a * 2 - b * 5 + c * 4 - d) * t + ((b - c) * 3 + d - a) * (t * t)) * (0.5 * t);
+}
+
+}  // namespace
+
+Ear::Ear(double length_mm, double protrusion_rad) : scale_(length_mm / kStandardLength) {
+    const double tilt = 14 * std::numbers::pi / 180;
+    const Point rear = {0, -std::sin(tilt), -std::cos(tilt)}, side = {1, 0, 0};
+    origin_ = {75.0, 4, 10};
+    up_ = {0, std::cos(tilt), -std::sin(tilt)};
+    back_ = rear * std::cos(protrusion_rad) + side * std::sin(protrusion_rad);
+    out_ = side * std::cos(protrusion_rad) - rear * std::sin(protrusion_rad);
+
+    const size_t n = std::size(kOutline);
+    const auto knot = [&](size_t k) { return Point{kOutline[k % n][0], kOutline[k % n][1], 0}; };
+    for (size_t i = 0; i < n; ++i)
+        for (int k = 0; k < 4; ++k)
+            outline_.push_back(catmull(knot(i + n - 1), knot(i), knot(i + 1), knot(i + 2), k / 4.0));
+
+    const auto flat = [](Point p) { return p; };
+    const auto relief = [&](std::initializer_list<StrokePoint> curve) {
+        relief_.add(std::span(curve.begin(), curve.size()), Mirror::no, flat);
+    };
+    relief({{{19, 23}, 6, -0.6}, {{22.5, 12}, 6, -1.0}, {{21, 1}, 6, -1.0}, {{16, -9}, 5, -0.5}});  // scapha
+    relief({{{4, 22}, 5, -0.6}, {{10, 20}, 6, -1.2}, {{13, 18}, 5, -0.6}});  // triangular fossa
+    relief({{{3, -20}, 10, 0.8}, {{6, -26}, 8, 0.6}});                       // lobe
+    relief_.build();
+
+    const Knot rim[] = {{{-6.5, 8, -1.5}, 2.6},   {{-6.3, 16, 0.2}, 3.0},   {{-2.5, 24.5, 1.4}, 3.4},
+                        {{5.5, 29.0, 2.0}, 3.5},  {{14, 28.8, 2.0}, 3.5},   {{21, 24.8, 1.6}, 3.4},
+                        {{24.6, 17.5, 1.0}, 3.2}, {{25.0, 9, 0.6}, 3.0},    {{23.0, 0.5, 0.2}, 2.7},
+                        {{19.2, -8, 0}, 2.4},     {{15.2, -15, -0.2}, 2.1}, {{12, -21, -0.4}, 1.6}};
+    helix_ = Tube(rim, 3);
+    const Knot ridge[] = {{{7.0, -12.0, 0.2}, 2.6}, {{12, -10.0, -0.2}, 3.0}, {{15.8, -4, -0.6}, 3.6},
+                          {{16.8, 4, -0.4}, 4.0},   {{15.0, 12, -0.4}, 3.8},  {{12, 19, -1.0}, 3.0},
+                          {{10, 24, -1.8}, 2.0}};
+    antihelix_ = Tube(ridge, 3);
+    const Knot lower[] = {
+        {{16.4, 6, -0.6}, 3.6}, {{11.5, 12.4, -0.4}, 3.0}, {{5, 14.6, -0.8}, 2.6}, {{-2, 15.4, -1.6}, 2.0}};
+    crus_ = Tube(lower, 3);
+}
+
+Point Ear::to_ear(Point p) const {
+    const Point q = p - origin_;
+    return Point{dot(q, back_), dot(q, up_), dot(q, out_)} * (1 / scale_);
+}
+
+double Ear::outline(double u, double v) const {
+    double nearest2 = 1e18;
+    bool inside = false;
+    for (size_t i = 0, j = outline_.size() - 1; i < outline_.size(); j = i++) {
+        const Point a = outline_[j], b = outline_[i];
+        const double ex = b.x - a.x, ey = b.y - a.y, wx = u - a.x, wy = v - a.y;
+        const double t = std::clamp((wx * ex + wy * ey) / (ex * ex + ey * ey), 0.0, 1.0);
+        const double dx = wx - t * ex, dy = wy - t * ey;
+        nearest2 = std::min(nearest2, dx * dx + dy * dy);
+        if ((a.y > v) != (b.y > v) && u < a.x + ex * (v - a.y) / ey) inside = !inside;
+    }
+    const double distance = std::sqrt(nearest2);
+    return inside ? -distance : distance;
+}
+
+double Ear::plate(Point q) const {
+    const double height = relief_.at({q.x, q.y, 0}) - 0.6;
+    // The lobe is thicker and soft; the plate thins towards the top.
+    const double lobe = smooth_step(-8, -20, q.y);
+    const double half = mix(1.5, 2.2, lobe);
+    return smooth_max(std::abs(q.z - height) - half, outline(q.x, q.y), mix(1.6, 4.2, lobe));
+}
+
+double Ear::add(double d, Point p) const {
+    Point q = to_ear({std::abs(p.x), p.y, p.z});
+    if (length(q - Point{9, 0, 0}) > 46) return d;
+    q.z += lean(q.y);
+    double ear = plate(q);
+    ear = smooth_min(ear, helix_.distance_mm(q), 2.2);
+    ear = smooth_min(ear, antihelix_.distance_mm(q), 4.5);
+    ear = smooth_min(ear, crus_.distance_mm(q), 3.5);
+    ear = smooth_min(ear, smooth_max(kBowl.distance_mm(q), q.z + 0.5, 3), 3.5);
+    double all = smooth_min(d, ear * scale_, 4.5);
+    // Cymba and cavum of the concha, with the root of the helix running in between.
+    const Ellipsoid cavum = {{5.6, -3.6, 1.2}, {8.6, 8.2, 8.4}}, cymba = {{6.4, 7.4, 0.8}, {7.4, 4.8, 6.4}};
+    const double hollow = smooth_min(cavum.distance_mm(q), cymba.distance_mm(q), 3.0);
+    all = smooth_max(all, -hollow * scale_, 2.6);
+    const double root = swept_ball(q, {-6.5, 9.5, -1.5}, 2.8, {6.5, 2.6, -5.2}, 1.8);
+    all = smooth_min(all, root * scale_, 3.4);
+    // Ear canal, then the flaps that half cover it.
+    const double canal = swept_ball(q, {0.5, -3, -4}, 2.6, {-3.5, -2, -9}, 2.2);
+    all = smooth_max(all, -canal * scale_, 2.2);
+    const Ellipsoid tragus = Ellipsoid{{-3.0, -3.2, 0.4}, {4.4, 6.4, 2.3}}.turned(0.25, 0);
+    all = smooth_min(all, tragus.distance_mm(q) * scale_, 3.4);
+    const double antitragus = swept_ball(q, {6.2, -12.4, 0.2}, 2.4, {9.5, -11.6, 0.4}, 2.4);
+    return smooth_min(all, antitragus * scale_, 3.2);
+}
+
+Point Ear::to_head(Point q) const {
+    return origin_ + (back_ * q.x + up_ * q.y + out_ * q.z) * scale_;
+}
+
+bool Ear::on_front(Point p, double head_distance) const {
+    Point q = to_ear({std::abs(p.x), p.y, p.z});
+    if (length(q - Point{9, 0, 0}) > 46 || outline(q.x, q.y) > 2.5) return false;
+    q.z += lean(q.y);
+    // Half way through the plate, or through the wall of the bowl.
+    double middle = relief_.at({q.x, q.y, 0}) - 0.6;
+    const double u = (q.x - kBowl.center.x) / (kBowl.radii.x - 1),
+                 v = (q.y - kBowl.center.y) / (kBowl.radii.y - 1);
+    const double inside = 1 - u * u - v * v;
+    if (inside > 0) middle = std::min(middle, kBowl.center.z - (kBowl.radii.z - 1.2) * std::sqrt(inside));
+    return q.z > middle && (outline(q.x, q.y) < 1.5 || head_distance > 1.5);
+}
+
+}  // namespace dermis::bust

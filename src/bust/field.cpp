@@ -1,0 +1,101 @@
+// Composition of the parts: skull and neck, strokes of form, features, strokes of detail, ears, cut.
+
+#include "dermis/bust/field.h"
+
+#include <numbers>
+
+namespace dermis {
+
+using namespace bust;
+
+namespace {
+constexpr double kGradientStep = 0.02;
+
+Point difference(const auto& f, Point p, double h) {
+    return Point{f(p + Point{h, 0, 0}) - f(p - Point{h, 0, 0}), f(p + Point{0, h, 0}) - f(p - Point{0, h, 0}),
+                 f(p + Point{0, 0, h}) - f(p - Point{0, 0, h})} *
+           (0.5 / h);
+}
+
+Point newton(const auto& f, Point p, int steps) {
+    for (int i = 0; i < steps; ++i) {
+        const Point g = difference(f, p, kGradientStep);
+        const double g2 = std::max(dot(g, g), 1e-3), move = std::clamp(f(p) / std::sqrt(g2), -4.0, 4.0);
+        p = p - g * (move / std::sqrt(g2));
+    }
+    return p;
+}
+}  // namespace
+
+BustField::BustField(const BustParams& params)
+    : params_(params), ear_(params.ear_length_mm, params.ear_protrusion_deg * std::numbers::pi / 180) {
+    uint64_t state = params.seed * 0x9e3779b97f4a7c15ull + 1;
+    for (double& phase : phase_) {
+        state = state * 6364136223846793005ull + 1442695040888963407ull;
+        phase = double(state >> 11) / double(1ull << 53) * 2 * std::numbers::pi;
+    }
+    add_form_strokes(form_strokes_, [&](Point p) {
+        return newton([&](Point q) { return add_neck(skull_.distance_mm(q), q); }, p, 6);
+    });
+    form_strokes_.build();
+    add_detail_strokes(detail_strokes_,
+                       [&](Point p) { return newton([&](Point q) { return solids(q); }, p, 6); });
+    detail_strokes_.build();
+}
+
+double BustField::forms(Point p) const {
+    return add_neck(skull_.distance_mm(p), p) - form_strokes_.at(p);
+}
+
+double BustField::solids(Point p) const {
+    return add_lips(add_nose(add_eyes(forms(p), p), p), p, params_.lip_fullness);
+}
+
+Point BustField::to_standard(Point p) const {
+    // Low waves, at most 0.9 mm a term, differ from left to right; the nose leans.
+    const double a = params_.asymmetry;
+    Point q = p;
+    q.x += a * (0.7 * std::sin(p.y / 48 + phase_[0]) * std::exp(-p.x * p.x / 3600) +
+                0.3 * std::sin(p.z / 40 + phase_[1]));
+    q.y += a * (0.8 * std::sin(p.x / 42 + phase_[2]) + 0.35 * std::sin(p.x / 17 + phase_[3]));
+    q.z += a * (0.7 * std::sin(p.x / 45 + phase_[4]) + 0.3 * std::sin(p.x / 23 + p.y / 30 + phase_[5]));
+    return q;
+}
+
+double BustField::distance_mm(Point p_world) const {
+    const Point p = to_standard(p_world);
+    double d = solids(p) - detail_strokes_.at(p);
+    d = ear_.add(d, p);
+    return cut_bust(d, p);
+}
+
+Point BustField::gradient(Point p) const {
+    return difference([&](Point q) { return distance_mm(q); }, p, kGradientStep);
+}
+
+Point BustField::project(Point p, int steps) const {
+    return newton([&](Point q) { return distance_mm(q); }, p, steps);
+}
+
+double BustField::mean_curvature_per_mm(Point p, double h) const {
+    const auto n = [&](Point q) { return unit(difference([&](Point r) { return distance_mm(r); }, q, h)); };
+    const Point x = {h, 0, 0}, y = {0, h, 0}, z = {0, 0, h};
+    const double divergence =
+        (n(p + x).x - n(p - x).x + n(p + y).y - n(p - y).y + n(p + z).z - n(p - z).z) / (2 * h);
+    return 0.5 * divergence;
+}
+
+double BustField::thickness_mm(Point p, double most_mm) const {
+    const Point inward = normal(p) * -1;
+    double t = 0.05, last = distance_mm(p + inward * t);
+    while (t < most_mm) {
+        const double step = std::clamp(-last * 0.6, 0.05, 2.0);
+        const double now = distance_mm(p + inward * (t + step));
+        if (now >= 0) return t + step * last / (last - now);
+        t += step;
+        last = now;
+    }
+    return most_mm;
+}
+
+}  // namespace dermis

@@ -1,0 +1,88 @@
+// Neck and shoulders: an elliptic column that leans forward, sternomastoids, larynx, trapezius and collar
+// bones, cut below by an ellipsoid as sculptors cut a bust.
+
+#include <span>
+
+#include "dermis/bust/parts.h"
+
+namespace dermis::bust {
+namespace {
+
+struct Ring {
+    double y, center_z, half_width, half_depth;
+};
+// Column of the neck, from inside the skull to inside the chest.
+constexpr Ring kNeck[] = {{30, -20, 40, 42},   {-20, -13, 47, 48},  {-60, -10, 52, 51},
+                          {-90, -10, 54, 54},  {-115, -12, 56, 56}, {-140, -17, 58, 57},
+                          {-165, -22, 62, 58}, {-200, -26, 72, 60}, {-250, -26, 80, 64}};
+// Trapezius: from the nape out to the shoulders.
+constexpr Ring kTrapezius[] = {{-20, -36, 20, 18},   {-70, -40, 40, 26},   {-105, -42, 56, 30},
+                               {-130, -43, 76, 32},  {-150, -42, 102, 35}, {-168, -39, 136, 40},
+                               {-185, -36, 168, 46}, {-215, -33, 186, 56}, {-260, -33, 190, 60}};
+
+double column(std::span<const Ring> rings, Point p) {
+    size_t i = 0;
+    while (i + 2 < rings.size() && p.y < rings[i + 1].y) ++i;
+    const double span = rings[i].y - rings[i + 1].y;
+    const double t = std::clamp((rings[i].y - p.y) / span, 0.0, 1.0);
+    double slope = 0;
+    const auto at = [&](auto member) {
+        const auto tangent = [&](size_t k) {
+            if (k == 0 || k + 1 == rings.size()) return 0.0;
+            return (rings[k + 1].*member - rings[k - 1].*member) / (rings[k - 1].y - rings[k + 1].y);
+        };
+        const double a = rings[i].*member, b = rings[i + 1].*member, t2 = t * t, t3 = t2 * t;
+        slope = tangent(i);
+        return a * (2 * t3 - 3 * t2 + 1) + b * (3 * t2 - 2 * t3) +
+               span * (tangent(i) * (t3 - 2 * t2 + t) + tangent(i + 1) * (t3 - t2));
+    };
+    const double z = p.z - at(&Ring::center_z), b = at(&Ring::half_depth), a = at(&Ring::half_width);
+    const double k = std::hypot(p.x / a, z / b), steep = std::hypot(p.x / (a * a), z / (b * b));
+    if (steep < 1e-9) return -std::min(a, b);
+    // Where the column widens downwards, the way across is longer than the way to the surface.
+    const double widening = slope * std::abs(p.x) / a;
+    const double side = k * (k - 1) / steep / std::sqrt(1 + widening * widening);
+    return std::max(side, p.y - rings[0].y);
+}
+
+}  // namespace
+
+double add_neck(double d, Point p) {
+    if (p.y > 30) return d;
+    d = smooth_min(d, column(kNeck, p), 16);
+    d = smooth_min(d, column(kTrapezius, p), 22);
+    const Point q = {std::abs(p.x), p.y, p.z};
+    // Sternomastoid: mastoid process behind the ear to the sternum, and a flatter head to the collar bone.
+    const double sternal = smooth_min(swept_ball(q, {55, -28, -16}, 8, {45, -88, 8}, 10),
+                                      swept_ball(q, {45, -88, 8}, 10, {11, -166, 31}, 6.5), 6);
+    d = smooth_min(d, sternal, 13);
+    d = smooth_min(d, swept_ball(q, {47, -100, -2}, 8, {38, -168, 18}, 7), 16);
+    // Chest and collar bones.
+    const Ellipsoid chest = {{0, -252, -20}, {195, 98, 80}};
+    d = smooth_min(d, chest.distance_mm(p), 26);
+    const double bone = smooth_min(swept_ball(q, {12, -171, 30}, 6.5, {62, -168, 26}, 5),
+                                   swept_ball(q, {62, -168, 26}, 5, {150, -172, -22}, 7), 10);
+    d = smooth_min(d, bone, 18);
+    // Thyroid cartilage and windpipe.
+    d = smooth_min(d, swept_ball(p, {0, -116, 36}, 9, {0, -127, 36.5}, 9), 12);
+    d = smooth_min(d, swept_ball(p, {0, -128, 33}, 9, {0, -172, 22}, 9), 12);
+    return d;
+}
+
+namespace {
+double cut_distance(Point p) {
+    const Ellipsoid bowl = {{0, -110, -22}, {142, 112, 92}};
+    // The cut sinks away towards the chin, which stands in front of it.
+    return bowl.distance_mm(p) - 90 * smooth_step(-160, -112, p.y);
+}
+}  // namespace
+
+double cut_bust(double d, Point p) {
+    return p.y > -112 ? d : smooth_max(d, cut_distance(p), 5);
+}
+
+bool on_cut(Point p) {
+    return p.y < -130 && cut_distance(p) > -1.2;
+}
+
+}  // namespace dermis::bust

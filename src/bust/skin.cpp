@@ -1,0 +1,192 @@
+// Colour, gloss and relief of the skin from a few layers of noise. Zones say how much of each; borders that
+// must be sharp (vermilion, brows, lashes) come from the shapes themselves.
+
+#include "dermis/bust/skin.h"
+
+#include <array>
+
+#include "dermis/bust/noise.h"
+#include "dermis/bust/parts.h"
+#include "dermis/image/colour.h"
+
+namespace dermis::bust {
+namespace {
+
+// OpenPBR 1.1, skin examples I to VI, ACEScg.
+constexpr std::array<Vec3, 6> kTones = {{{.762f, .652f, .568f},
+                                         {.671f, .505f, .371f},
+                                         {.545f, .445f, .359f},
+                                         {.351f, .240f, .148f},
+                                         {.227f, .157f, .091f},
+                                         {.073f, .052f, .025f}}};
+
+float mixf(float a, float b, float t) {
+    return a + (b - a) * t;
+}
+Vec3 mixc(Vec3 a, Vec3 b, float t) {
+    return a + (b - a) * t;
+}
+float step(double low, double high, double v) {
+    return float(smooth_step(low, high, v));
+}
+
+// More or less blood: green and blue absorbed, red hardly. More pigment: all absorbed, blue most.
+Vec3 redder(Vec3 c, float amount) {
+    return c * Vec3{1 - 0.10f * amount, 1 - 0.50f * amount, 1 - 0.42f * amount};
+}
+Vec3 darker(Vec3 c, float amount) {
+    return c * Vec3{1 - 0.55f * amount, 1 - 0.68f * amount, 1 - 0.76f * amount};
+}
+
+struct Lips {
+    float vermilion = 0;  // 1 on the red of the lips
+    float along = 0;      // -1 at the meeting line .. 1 at the border
+};
+Lips lips(Point p) {
+    const LipShape s = lip_shape(p.x);
+    const double edge = std::min(s.top_y - p.y, p.y - s.bottom_y);
+    Lips l;
+    l.vermilion = step(-0.9, 0.9, edge) * (1 - step(24.0, 26.2, std::abs(p.x)));
+    l.along = float(std::min(std::abs(p.y - s.line_y) / 5.0, 1.0));
+    return l;
+}
+
+// Brow: a tapering band over the orbit's rim; hairs fan from upright at the nose to level at the tail.
+float brow(Point p, uint32_t seed) {
+    const double x = std::abs(p.x);
+    if (x < 6 || x > 56 || p.y < 30 || p.y > 60) return 0;
+    const double middle = 40.5 + 6.5 * std::sin(std::clamp((x - 8) / 40, 0.0, 1.3) * 2.0) -
+                          0.004 * std::max(0.0, x - 34) * (x - 34);
+    const double half = mix(4.8, 1.6, smooth_step(14, 54, x));
+    const double across = (p.y - middle) / half;
+    const double ends = smooth_step(7, 14, x) * (1 - smooth_step(46, 55, x));
+    const double body = ends * (1 - smooth_step(0.45, 1.25, std::abs(across)));
+    if (body <= 0) return 0;
+    const double lean = mix(0.35, 1.35, smooth_step(8, 30, x)) + (across > 0 ? 0.35 : -0.1) * across;
+    const double c = std::cos(lean), s = std::sin(lean);
+    const double along = x * s + p.y * c, side = x * c - p.y * s;
+    const float coarse = value_noise({side * 1.5, along * 0.22, p.x > 0 ? 3.0 : 9.0}, seed);
+    const float fine = value_noise({side * 3.1, along * 0.3, p.x > 0 ? 5.0 : 11.0}, seed + 1);
+    const float strands = step(-0.35, 0.75, 0.6 * coarse + 0.6 * fine + 0.9 * body - 0.25);
+    return float(body) * strands;
+}
+
+// Lashes of the closed eye: a dark line under the upper lid's edge and a short fringe below it.
+float lashes(Point p, uint32_t seed) {
+    const double x = std::abs(p.x), below = lid_slit_y(x) - p.y;
+    if (x < 15 || x > 50 || below < -2 || below > 7) return 0;
+    const double ends = smooth_step(15, 19, x) * (1 - smooth_step(46, 50, x));
+    const double line = 1 - smooth_step(0.25, 1.0, std::abs(below - 0.1));
+    const double length = 4.2 * smooth_step(17, 34, x);
+    const float strand =
+        value_noise({(x + 0.25 * below * (x - 26) / 12) * 1.9, 0.5, p.x > 0 ? 2.0 : 7.0}, seed + 2);
+    const double fringe = length > 0.1 && below > 0
+                              ? (1 - smooth_step(0.2, 1.0, below / length)) * smooth_step(0.05, 0.6, strand)
+                              : 0;
+    return float(ends * std::max(0.85 * line, 0.55 * fringe));
+}
+
+struct Relief {
+    float height_mm, pore;
+};
+Relief relief(Point p, const SkinZones& z, float vermilion, uint32_t seed) {
+    // Pores pull the skin down at the cells' centres; fine furrows run between them, drawn out across the
+    // lines of least tension: level on the forehead and neck.
+    const double level = 0.55 * z.forehead + 0.35 * z.neck + 0.25 * z.eye_ring;
+    const Point q = {p.x * (1 - level), p.y * (1 + 0.4 * level), p.z * (1 - 0.5 * level)};
+    const float coarse = mixf(0.78f, 1.0f, z.nose);
+    const Cells cells = cell_noise(q * (1 / 1.25), seed + 10);
+    const float size = 0.16f + 0.16f * cells.random;
+    const float amount =
+        std::clamp(0.35f + 0.75f * z.nose + 0.45f * z.cheek + 0.3f * z.t_zone - 0.6f * z.lid - 0.2f * z.neck,
+                   0.05f, 1.2f);
+    const float pore = (1 - std::min(cells.nearest / (size * 1.6f), 1.0f)) * amount * coarse;
+    const float furrow = 1 - std::min((cells.second - cells.nearest) * 3.2f, 1.0f);
+    const float grain = value_noise(q * 1.9, seed + 11);
+    float height = -0.070f * pore - 0.020f * furrow * (0.6f + 0.5f * z.eye_ring) + 0.009f * grain;
+    // Fine lines: level on the forehead, round the lids.
+    const float lines = value_noise({p.x * 0.05, p.y * 0.62, p.z * 0.05}, seed + 12);
+    height += 0.045f * z.forehead * std::min(0.0f, 0.25f - std::abs(lines)) * -1.0f * 0.6f;
+    const float crepe = value_noise({p.x * 0.25, p.y * 1.25, p.z * 0.2}, seed + 13);
+    height += 0.030f * z.lid * crepe;
+    if (vermilion > 0) {
+        const float wobble = value_noise({p.x * 0.35, p.y * 0.22, 4}, seed + 14);
+        const float folds = value_noise({p.x * 0.95 + 0.8 * wobble, p.y * 0.10, 0}, seed + 15);
+        const float small = value_noise({p.x * 2.1 + wobble, p.y * 0.22, 2}, seed + 16);
+        height = mixf(height, 0.085f * folds + 0.035f * small, vermilion);
+    }
+    return {height, pore * (1 - vermilion)};
+}
+
+}  // namespace
+
+Vec3 tone_albedo_linear(double tone) {
+    const double at = std::clamp(tone, 1.0, 6.0) - 1;
+    const int i = std::min(int(at), 4);
+    return kLinearFromAcesCg * mixc(kTones[size_t(i)], kTones[size_t(i) + 1], float(at - i));
+}
+
+SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params) {
+    const uint32_t seed = params.seed * 7919u;
+    const float broad = value_noise(p * (1 / 14.0), seed + 1), middle = value_noise(p * (1 / 5.0), seed + 2),
+                fine = value_noise(p * (1 / 1.8), seed + 3);
+    const float depth = float(std::clamp((params.tone - 1) / 5, 0.0, 1.0));  // dark skin hides blood
+    const float blood = mixf(1.0f, 0.45f, depth);
+    Vec3 c = tone_albedo_linear(params.tone);
+
+    float red = 0.30f * z.cheek + 0.38f * z.nose + 0.34f * z.ear + 0.12f * z.knob + 0.16f * z.eye_ring +
+                0.35f * z.nostril;
+    red += 0.07f * broad + 0.06f * middle * (0.6f + z.cheek + z.nose) + 0.03f * fine;
+    c = redder(c, blood * std::clamp(red, -0.15f, 0.8f));
+    c = darker(c, std::max(0.0f, 0.10f * z.lid + 0.07f * z.eye_ring + 0.03f * middle + 0.02f * fine +
+                                     0.04f * z.neck));
+    c = mixc(c, c * Vec3{1.04f, 1.03f, 0.94f}, 0.7f * z.forehead);
+
+    // Freckles: nose and cheeks first, each with a size and a strength of its own.
+    const float freckled =
+        float(params.freckles) * std::clamp(0.25f + z.cheek + 0.8f * z.nose + 0.3f * z.forehead, 0.0f, 1.0f);
+    if (freckled > 0) {
+        const Cells spots = cell_noise(p * (1 / 3.4) + Point{0.05 * middle, 0.05 * fine, 0}, seed + 4);
+        const float radius = 0.10f + 0.22f * spots.random * spots.random;
+        const float shown = spots.random * 7.31f - std::floor(spots.random * 7.31f) < freckled ? 1.0f : 0.0f;
+        c = darker(c, shown * (0.10f + 0.16f * spots.random) *
+                          (1 - step(radius * 0.5f, radius, spots.nearest)) * (1 - 0.7f * depth));
+    }
+
+    // Stubble: a cool shade with the roots as dots.
+    const float roots = cell_noise(p * (1 / 0.62), seed + 5).nearest;
+    const float hair = 1 - step(0.16, 0.42, roots);
+    const float shade = float(params.stubble) * z.beard * (0.75f + 0.25f * broad);
+    const float scalp = float(params.stubble) * 0.65f * z.scalp * (0.8f + 0.2f * broad);
+    const float cover = std::max(shade, scalp);
+    c = mixc(c, c * Vec3{0.66f, 0.70f, 0.76f}, 0.55f * cover);
+    c = darker(c, 0.50f * cover * hair);
+
+    Lips lip;
+    if (z.mouth > 0 && p.z > 60) lip = lips(p);
+    if (lip.vermilion > 0) {
+        Vec3 red_lip =
+            redder(tone_albedo_linear(params.tone), mixf(0.78f, 0.35f, depth)) * Vec3{0.90f, 0.84f, 0.86f};
+        red_lip = darker(red_lip, 0.10f * depth + 0.10f * (1 - lip.along) + 0.04f * middle + 0.03f * fine);
+        c = mixc(c, red_lip, 0.85f * lip.vermilion);
+    }
+    const Relief r = relief(p, z, lip.vermilion, seed);
+    c = darker(c, 0.10f * r.pore);
+    const float hairs = std::max(p.z > 40 ? brow(p, seed) : 0.0f, p.z > 60 ? lashes(p, seed) : 0.0f);
+    c = mixc(c, Vec3{0.032f, 0.021f, 0.015f}, 0.86f * hairs);
+
+    SkinSample s;
+    s.albedo_linear = c;
+    s.height_mm = r.height_mm + 0.05f * hairs * fine;
+    s.roughness = 0.50f - 0.10f * z.t_zone - 0.04f * z.nose + 0.05f * z.cheek + 0.04f * z.neck +
+                  0.05f * middle + 0.03f * fine + 0.06f * r.pore + 0.04f * cover;
+    s.roughness = mixf(s.roughness, 0.40f + 0.05f * fine, lip.vermilion);
+    s.specular =
+        std::clamp(0.92f + 0.08f * z.t_zone - 0.35f * r.pore + 0.05f * middle - 0.4f * hairs, 0.2f, 1.0f);
+    s.kernel_size =
+        1 - 0.45f * z.ear - 0.35f * z.nostril - 0.25f * z.lid - 0.15f * lip.vermilion - 0.5f * hairs;
+    s.kernel_size = std::clamp(s.kernel_size, 0.25f, 1.0f);
+    return s;
+}
+
+}  // namespace dermis::bust

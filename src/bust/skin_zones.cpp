@@ -1,0 +1,51 @@
+// Where the face reddens, shines, grows a beard: soft regions of the standard head.
+
+#include "dermis/bust/skin.h"
+
+namespace dermis::bust {
+namespace {
+
+// 1 in the middle of an ellipsoid, 0 outside it.
+float blob(Point p, Point center, Point radii) {
+    const Point q = {(p.x - center.x) / radii.x, (p.y - center.y) / radii.y, (p.z - center.z) / radii.z};
+    const double rest = std::max(0.0, 1 - dot(q, q));
+    return float(rest * rest * (3 - 2 * rest));
+}
+
+float ramp(double low, double high, double v) {
+    return float(smooth_step(low, high, v));
+}
+
+}  // namespace
+
+SkinZones skin_zones(Point p, ChartKind kind) {
+    const Point q = {std::abs(p.x), p.y, p.z};
+    SkinZones z;
+    z.cheek = blob(q, {43, -8, 84}, {32, 30, 40});
+    z.nose = std::max(blob(p, {0, -10, 124}, {26, 24, 24}), 0.6f * blob(p, {0, 8, 116}, {18, 34, 26}));
+    z.t_zone = std::max({blob(p, {0, 68, 95}, {58, 40, 45}), blob(p, {0, 10, 116}, {20, 50, 26}),
+                         blob(p, {0, -76, 106}, {26, 20, 24})});
+    z.ear =
+        kind == ChartKind::left_ear || kind == ChartKind::right_ear ? 1 : blob(q, {86, 4, -6}, {20, 44, 34});
+    z.lid = blob(q, {31, 22, 92}, {22, 14, 22});
+    z.eye_ring = blob(q, {30, 18, 92}, {30, 24, 30});
+    // Beard: upper lip, chin, jaw and under it; thin on the cheeks and the throat.
+    const float low = 1 - ramp(-40, -8, q.y - 0.35 * std::max(0.0, 60 - q.z) + 0.12 * q.x);
+    const float lip = blob(p, {0, -25, 110}, {36, 15, 26});
+    z.beard = std::max(low, lip) * ramp(2, 26, q.z) * ramp(-122, -92, q.y) *
+              (1 - 0.35f * blob(p, {0, -56, 108}, {9, 7, 20}));
+    // Scalp behind the hairline, round the ears and down to the nape.
+    const double hairline = 78 - 0.004 * q.x * q.x;
+    const float top = ramp(hairline - 6, hairline + 8, p.y);
+    const float behind = (1 - ramp(12, 30, p.z)) * ramp(-52, -34, p.y) * (1 - z.ear);
+    const float side = ramp(30, 44, p.y) * (1 - ramp(38, 56, p.z));
+    z.scalp = std::max({top, p.z < 30 ? behind * (p.z < -14 ? 1.0f : ramp(14, 34, p.y)) : 0.0f, side});
+    z.forehead = blob(p, {0, 62, 92}, {70, 36, 50});
+    z.neck = 1 - ramp(-112, -86, p.y);
+    z.mouth = blob(p, {0, -39, 108}, {48, 30, 40}) > 0 ? 1.0f : 0.0f;
+    z.knob = std::max(blob(p, {0, -78, 108}, {22, 18, 22}), blob(q, {30, 46, 98}, {30, 14, 24}));
+    z.nostril = blob(q, {8, -17, 112}, {12, 8, 14});
+    return z;
+}
+
+}  // namespace dermis::bust

@@ -1,0 +1,173 @@
+#include "dermis/bust/skull.h"
+
+#include <Eigen/Dense>
+#include <array>
+#include <numbers>
+#include <span>
+
+namespace dermis::bust {
+namespace {
+
+using std::numbers::pi;
+
+constexpr Point kCenter = {0, 20, 5};
+constexpr int kPolar = 20;    // spans from pole to pole
+constexpr int kAzimuth = 24;  // spans around; half of them are mirror images
+constexpr int kHalf = kAzimuth / 2 + 1;
+constexpr int kUnknowns = (kPolar + 1) * kHalf;
+
+// Radius in mm around the axis (x 0, z 10) at angles from the front (0) to the back (180 degrees) of an
+// average adult head, with nose, eyes, lips and ears taken out and the neck left to its own part. Height is
+// above the ear axis.
+constexpr std::array<double, 11> kAngles = {0, 15, 30, 45, 60, 75, 90, 112, 135, 157, 180};
+struct Section {
+    double y;
+    std::array<double, 11> radius;
+};
+constexpr Section kSections[] = {
+    {115, {60, 59, 56, 54, 52, 51, 52, 57, 63, 67, 68}},
+    {95, {80, 79, 76, 71, 68, 67, 69, 73, 80, 83, 84}},
+    {75, {90, 89.5, 87, 81, 77, 75, 76, 81, 87, 91, 93}},
+    {60, {95, 94, 91, 84, 79, 77, 78, 83, 90, 95, 96}},
+    {45, {97, 96.5, 94, 86, 80, 78, 78, 83, 91, 96, 97}},
+    {30, {91, 87, 89, 87, 81, 77, 77, 82, 89, 94, 96}},
+    {15, {91, 87, 89, 88, 82, 76.5, 76.5, 79, 86, 91, 92}},
+    {0, {95, 92.5, 93, 90, 82, 75, 74, 75, 80, 85, 87}},
+    {-15, {101, 97, 94, 88, 79, 72, 69, 70, 74, 78, 79}},
+    {-37, {105, 100, 92, 84, 75, 67, 61, 58, 60, 63, 65}},
+    {-50, {102, 98, 90, 80, 70, 61, 55, 50, 50, 52, 55}},
+    {-65, {100, 94, 84, 73, 62, 52, 45, 42, 42, 42, 42}},
+    {-78, {101, 93, 80, 66, 50, 42, 38, 36, 36, 36, 36}},
+};
+// Midline of crown, forehead, chin and the underside of the jaw: y, z.
+constexpr std::array<double, 2> kMidline[] = {
+    {135, 20},  {129, 44},  {123, 56}, {117, 67}, {111, 76},  {99, 87},   {87, 95},
+    {129, -37}, {123, -44}, {93, -75}, {87, -79}, {-85, 106}, {-90, 101}, {-93, 92},
+    {-96, 78},  {-99, 60},  {-99, 40}, {-98, 10}, {-92, -20}, {135.5, 5}, {134, -12},
+};
+// Under the jaw, off the midline.
+constexpr Point kUnderJaw[] = {{18, -91, 82}, {30, -88, 68}, {25, -96, 50}, {40, -80, 45},
+                               {35, -92, 25}, {50, -66, 20}, {30, -90, 0},  {12, -92, 94}};
+
+double basis(double t) {
+    const double a = std::abs(t);
+    if (a >= 2) return 0;
+    return a < 1 ? (4 - 6 * a * a + 3 * a * a * a) / 6 : (2 - a) * (2 - a) * (2 - a) / 6;
+}
+double basis_slope(double t) {
+    const double a = std::abs(t), s = t < 0 ? -1 : 1;
+    if (a >= 2) return 0;
+    return s * (a < 1 ? -2 * a + 1.5 * a * a : -0.5 * (2 - a) * (2 - a));
+}
+
+// The unknown that grid node (i, j) is: over a pole the grid continues on the other side of the head.
+int unknown(int i, int j) {
+    if (i < 0) i = -i, j += kAzimuth / 2;
+    if (i > kPolar) i = 2 * kPolar - i, j += kAzimuth / 2;
+    j = ((j % kAzimuth) + kAzimuth) % kAzimuth;
+    if (j > kAzimuth / 2) j = kAzimuth - j;
+    return i * kHalf + j;
+}
+
+struct Sample {
+    Point p;
+    double weight;
+};
+
+std::vector<Sample> samples() {
+    std::vector<Sample> list;
+    for (const Section& s : kSections)
+        for (size_t k = 0; k < kAngles.size(); ++k) {
+            const double angle = kAngles[k] * pi / 180;
+            list.push_back({{s.radius[k] * std::sin(angle), s.y, 10 + s.radius[k] * std::cos(angle)}, 1});
+        }
+    for (const auto& m : kMidline) list.push_back({{0, m[0], m[1]}, 1});
+    for (const Point& p : kUnderJaw) list.push_back({p, 1});
+    return list;
+}
+
+struct Direction {
+    double radius, polar, azimuth;
+};
+Direction direction(Point p) {
+    const Point q = p - kCenter;
+    const double r = std::max(length(q), 1e-9);
+    return {r, std::acos(std::clamp(q.y / r, -1.0, 1.0)), std::atan2(q.x, q.z)};
+}
+
+}  // namespace
+
+Skull::Skull() {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(kUnknowns);
+    const auto equation = [&](std::span<const std::pair<int, double>> terms, double value, double weight) {
+        for (const auto& [a, wa] : terms) {
+            right[a] += weight * wa * value;
+            for (const auto& [b, wb] : terms) normal(a, b) += weight * wa * wb;
+        }
+    };
+    const std::vector<Sample> data = samples();
+    for (const Sample& s : data) {
+        const Direction d = direction(s.p);
+        const double u = d.polar / pi * kPolar, v = d.azimuth / (2 * pi) * kAzimuth;
+        std::vector<std::pair<int, double>> terms;
+        for (int i = int(u) - 1; i <= int(u) + 2; ++i)
+            for (int j = int(std::floor(v)) - 1; j <= int(std::floor(v)) + 2; ++j)
+                terms.push_back({unknown(i, j), basis(u - i) * basis(v - j)});
+        equation(terms, d.radius, s.weight);
+    }
+    // Thin plate: second differences along both directions, equalised for the narrowing of the azimuth spans
+    // towards the poles.
+    constexpr double kSmoothness = 0.02;
+    for (int i = 0; i <= kPolar; ++i) {
+        const double ring = std::max(std::sin(pi * i / kPolar), 0.15);
+        for (int j = 0; j < kAzimuth; ++j) {
+            const std::pair<int, double> down[] = {
+                {unknown(i - 1, j), 1}, {unknown(i, j), -2}, {unknown(i + 1, j), 1}};
+            const std::pair<int, double> around[] = {
+                {unknown(i, j - 1), 1}, {unknown(i, j), -2}, {unknown(i, j + 1), 1}};
+            equation(down, 0, kSmoothness * ring);
+            equation(around, 0, kSmoothness / (ring * ring * ring) * 0.7);
+        }
+    }
+    const Eigen::VectorXd solution = normal.ldlt().solve(right);
+    // One row and column of margin each side, so that evaluation needs no wrapping.
+    coefficients_.resize((kPolar + 4) * (kAzimuth + 4));
+    for (int i = -1; i <= kPolar + 2; ++i)
+        for (int j = -1; j <= kAzimuth + 2; ++j)
+            coefficients_[(i + 1) * (kAzimuth + 4) + j + 1] = solution[unknown(i, j)];
+    double sum = 0;
+    for (const Sample& s : data) sum += distance_mm(s.p) * distance_mm(s.p);
+    fit_rms_mm_ = std::sqrt(sum / double(data.size()));
+}
+
+Skull::Value Skull::evaluate(double polar, double azimuth) const {
+    if (azimuth < 0) azimuth += 2 * pi;
+    const double u = polar / pi * kPolar, v = azimuth / (2 * pi) * kAzimuth;
+    const int i0 = std::min(int(u), kPolar), j0 = std::min(int(v), kAzimuth);
+    Value value = {0, 0, 0};
+    for (int i = i0 - 1; i <= i0 + 2; ++i) {
+        double row = 0, row_slope = 0;
+        for (int j = j0 - 1; j <= j0 + 2; ++j) {
+            const double c = coefficients_[(i + 1) * (kAzimuth + 4) + j + 1];
+            row += c * basis(v - j);
+            row_slope += c * basis_slope(v - j);
+        }
+        value.radius += row * basis(u - i);
+        value.by_polar += row * basis_slope(u - i);
+        value.by_azimuth += row_slope * basis(u - i);
+    }
+    value.by_polar *= kPolar / pi;
+    value.by_azimuth *= kAzimuth / (2 * pi);
+    return value;
+}
+
+double Skull::distance_mm(Point p) const {
+    const Direction d = direction(p);
+    const Value v = evaluate(d.polar, d.azimuth);
+    const double ring = std::max(std::sin(d.polar), 0.05);
+    const double a = v.by_polar / v.radius, b = v.by_azimuth / (v.radius * ring);
+    return (d.radius - v.radius) / std::sqrt(1 + a * a + b * b);
+}
+
+}  // namespace dermis::bust
