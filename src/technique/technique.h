@@ -30,7 +30,8 @@ struct FrameContext {
 
 /// The skin and the scene that tables are baked for.
 struct SkinContext {
-    GaussianSum profile;
+    Profile profile;
+    GaussianSum gaussians;  ///< the profile itself, or its fit
 };
 
 /// A table for the GPU: rows top to bottom, texels tightly packed in `format`.

@@ -1,0 +1,101 @@
+#include "render_options.h"
+
+#include <algorithm>
+
+#include "dermis/base/text.h"
+
+namespace dermis::cli {
+
+void RenderOptions::add_to(CLI::App& command) {
+    command
+        .add_option("scene", scene, "scene file, mesh (.glb .gltf .obj), name of a scene, or builtin:NAME")
+        ->capture_default_str();
+    command.add_option("-t,--technique", technique,
+                       "see dermis techniques (default: the scene's, or lambert)");
+    command.add_option("--set", settings, "a parameter of the technique, name=value; may be repeated")
+        ->allow_extra_args(false);
+    command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    command.add_option("--camera", camera, "\"yaw=30 pitch=5 distance_mm=600 fov_deg=30\", any of them");
+    command.add_option("--light", light, "\"yaw=-60 pitch=20 intensity=3\" of the key light, any of them");
+    command.add_option("--view", view, "final, diffuse, specular, normal, albedo, curvature, shadow, ...")
+        ->capture_default_str();
+    command.add_option("--samples", samples, "a pixel: 1 or 4")->capture_default_str();
+    command.add_option("--device", device, "part of a Vulkan device's name");
+    command.add_flag("--validate", validation, "run under the Vulkan validation layers; fail on any message");
+}
+
+Result<std::pair<int, int>> parse_size(std::string_view text) {
+    const std::vector<std::string_view> parts = split(text, 'x');
+    const auto side = [](std::string_view part) -> int {
+        const auto value = parse_number(part);
+        return value && *value >= 1 && *value <= 8192 && *value == int(*value) ? int(*value) : 0;
+    };
+    if (parts.size() == 2 && side(parts[0]) && side(parts[1]))
+        return std::pair(side(parts[0]), side(parts[1]));
+    return Error{"--size '" + std::string(text) + "': write WIDTHxHEIGHT, each 1 to 8192, such as 1024x1024"};
+}
+
+Result<void> apply_setting(ParameterValues& values, const std::string& setting) {
+    const size_t equals = setting.find('=');
+    if (equals == std::string::npos) return Error{"--set '" + setting + "': write name=value"};
+    return values.set(setting.substr(0, equals), setting.substr(equals + 1));
+}
+
+namespace {
+
+Result<void> apply_views(Scene& scene, const RenderOptions& options) {
+    if (!options.camera.empty()) {
+        const Result<Camera> camera = parse_camera(options.camera, scene.camera);
+        if (!camera) return camera.error();
+        scene.camera = *camera;
+    }
+    if (!options.light.empty()) {
+        const auto key = std::ranges::find(scene.lights, true, &Light::is_key);
+        if (key == scene.lights.end()) return Error{"--light: the scene has no key light to move"};
+        const Result<Light> light = parse_light(options.light, *key);
+        if (!light) return light.error();
+        *key = *light;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<Prepared> prepare(const RenderOptions& options) {
+    const Result<std::pair<int, int>> size = parse_size(options.size);
+    if (!size) return size.error();
+    if (options.samples != 1 && options.samples != 4)
+        return Error{"--samples " + std::to_string(options.samples) + ": 1 or 4"};
+    if (!options.technique.empty())
+        if (const auto known = find_technique(options.technique); !known) return known.error();
+
+    Result<Scene> scene = load_scene(options.scene);
+    if (!scene) return scene.error();
+    if (Result<void> applied = apply_views(*scene, options); !applied) return applied.error();
+
+    const bool scenes_own = options.technique.empty() || options.technique == scene->technique;
+    const std::string id = !options.technique.empty()  ? options.technique
+                           : !scene->technique.empty() ? scene->technique
+                                                       : "lambert";
+    const Result<const Technique*> technique = find_technique(id);
+    if (!technique) return technique.error();
+    ParameterValues values((*technique)->parameters);
+    if (scenes_own)
+        for (const auto& [name, text] : scene->settings)
+            if (Result<void> set = values.set(name, text); !set)
+                return Error{options.scene + ": [settings] " + set.error().message};
+    for (const std::string& setting : options.settings)
+        if (Result<void> set = apply_setting(values, setting); !set) return set.error();
+
+    const std::vector<std::string> views = view_names(**technique);
+    if (std::ranges::find(views, options.view) == views.end())
+        return Error{unknown_name("view", options.view, views)};
+    return Prepared{
+        .scene = std::move(*scene),
+        .technique = *technique,
+        .values = values,
+        .draw = {
+            .width = size->first, .height = size->second, .samples = options.samples, .view = options.view}};
+}
+
+}  // namespace dermis::cli

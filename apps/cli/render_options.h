@@ -1,0 +1,42 @@
+#pragma once
+// What render shares with every command that draws: scene, technique, settings, size, view.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dermis/render/renderer.h"
+#include "dermis/scene/scene.h"
+#include "dermis/technique/technique.h"
+
+namespace dermis::cli {
+
+struct RenderOptions {
+    std::string scene = "builtin:spheres", technique, size = "1024x1024", camera, light, view = "final",
+                device;
+    std::vector<std::string> settings;  ///< name=value
+    int samples = 1;
+    bool validation = false;
+
+    void add_to(CLI::App& command);
+};
+
+/// A scene, ready to draw with a technique and its settings.
+struct Prepared {
+    Scene scene;
+    const Technique* technique = nullptr;
+    std::optional<ParameterValues> values;
+    DrawSettings draw;
+};
+
+/// Everything that can be wrong with the options is found here, before a device is opened.
+[[nodiscard]] Result<Prepared> prepare(const RenderOptions& options);
+
+/// "1024x768", each side 1 to 8192.
+[[nodiscard]] Result<std::pair<int, int>> parse_size(std::string_view text);
+
+/// Splits name=value and sets it.
+[[nodiscard]] Result<void> apply_setting(ParameterValues& values, const std::string& setting);
+
+}  // namespace dermis::cli

@@ -1,0 +1,9 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// From the key light, into its shadow map.
+#include "shared/mesh_vertex.glsl"
+
+void main() {
+    write_varyings();
+    gl_Position = light_view_projection * vec4(position_mm, 1.0);
+}

@@ -1,0 +1,9 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Through the camera.
+#include "shared/mesh_vertex.glsl"
+
+void main() {
+    write_varyings();
+    gl_Position = view_projection * vec4(position_mm, 1.0);
+}

@@ -1,0 +1,44 @@
+// Specular reflection of one light: f_r * n_dot_l. Which model is a specialisation constant.
+#ifndef DERMIS_SPECULAR_GLSL
+#define DERMIS_SPECULAR_GLSL
+
+const int kSpecularNone = 0, kSpecularBlinnPhong = 1, kSpecularGgx = 2;
+layout(constant_id = 0) const int specular_model = kSpecularGgx;
+
+// Schlick 1994.
+float fresnel_schlick(float f0, float cos_theta) {
+    float m = clamp(1.0 - cos_theta, 0.0, 1.0);
+    float m2 = m * m;
+    return f0 + (1.0 - f0) * m2 * m2 * m;
+}
+
+// Normalised Blinn-Phong: exponent from alpha as 2 / alpha^2 - 2, which gives the lobe of a Beckmann surface (Walter
+// et al. 2007); energy (n + 8) / (8 pi) (Hoffman 2010).
+float blinn_phong(float n_dot_h, float n_dot_l, float alpha) {
+    float exponent = max(2.0 / (alpha * alpha) - 2.0, 1.0);
+    return (exponent + 8.0) / (8.0 * kPi) * pow(n_dot_h, exponent) * n_dot_l;
+}
+
+// Trowbridge, Reitz 1975 with height-correlated Smith visibility (Heitz 2014).
+float ggx(float n_dot_h, float n_dot_l, float n_dot_v, float alpha) {
+    float a2 = alpha * alpha;
+    float d = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;
+    float distribution = a2 / (kPi * d * d);
+    float smith_l = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - a2) + a2);
+    float smith_v = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - a2) + a2);
+    return distribution * 0.5 / max(smith_l + smith_v, 1e-6) * n_dot_l;
+}
+
+float specular_reflection(vec3 n_world, vec3 to_eye_world, vec3 to_light_world, float roughness, float f0) {
+    float n_dot_l = dot(n_world, to_light_world);
+    if (n_dot_l <= 0.0 || specular_model == kSpecularNone) return 0.0;
+    vec3 h = normalize(to_eye_world + to_light_world);
+    float n_dot_h = clamp(dot(n_world, h), 0.0, 1.0);
+    float n_dot_v = clamp(dot(n_world, to_eye_world), 1e-3, 1.0);
+    float fresnel = fresnel_schlick(f0, clamp(dot(h, to_eye_world), 0.0, 1.0));
+    float alpha = roughness * roughness;
+    if (specular_model == kSpecularBlinnPhong) return fresnel * blinn_phong(n_dot_h, n_dot_l, alpha);
+    return fresnel * ggx(n_dot_h, n_dot_l, n_dot_v, alpha);
+}
+
+#endif

@@ -1,0 +1,26 @@
+#pragma once
+// What the shaders know of a frame, by the names of shaders/shared/frame.glsl.
+
+#include "dermis/gpu/executor.h"
+#include "dermis/scene/scene.h"
+
+namespace dermis {
+
+struct FrameValueSettings {
+    int width = 1024, height = 1024;
+    int shadow_map_size = 2048;
+    float penumbra_mm = 2;
+    int environment_mip_count = 1;
+};
+
+/// The block Frame.
+[[nodiscard]] gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings);
+
+/// The buffer Lights, one element a light in the scene's order; never empty (a dark light stands in).
+[[nodiscard]] std::vector<gpu::Values> light_values(const Scene& scene);
+
+/// From world mm to the key light's clip space: the frustum that just holds the bounding sphere, so that no
+/// texel of the shadow map is wasted (parallel for a directional light, perspective otherwise).
+[[nodiscard]] Mat4 light_matrix(const Light& light, Vec3 center_mm, float radius_mm);
+
+}  // namespace dermis

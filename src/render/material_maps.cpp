@@ -1,0 +1,118 @@
+#include "dermis/render/material_maps.h"
+
+#include <cstring>
+
+#include "dermis/image/io.h"
+
+namespace dermis {
+namespace {
+
+// 8-bit images keep their bits (a copy, four channels); anything deeper becomes half floats.
+std::vector<std::byte> expand_to_four(const Image& image) {
+    const size_t count = image.pixel_count();
+    std::vector<std::byte> out(count * 4, std::byte{255});
+    const auto* in = image.bytes.data();
+    const int channels = image.channels;
+    for (size_t i = 0; i < count; ++i) {
+        const std::byte* texel = in + i * size_t(channels);
+        std::byte* target = out.data() + i * 4;
+        target[0] = texel[0];
+        target[1] = texel[channels >= 3 ? 1 : 0];
+        target[2] = texel[channels >= 3 ? 2 : 0];
+        if (channels == 4) target[3] = texel[3];
+    }
+    return out;
+}
+
+Image to_half(const Image& image, int channels) {
+    Image half(image.width, image.height, channels, PixelFormat::f16);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < channels; ++c) {
+                const bool present = c < image.channels;
+                half.set(x, y, c, present ? image.at(x, y, c) : c == 3 ? 1.0f : image.at(x, y, 0));
+            }
+    return half;
+}
+
+Image single_channel(const Image& image, int preferred) {
+    const int channel = preferred < image.channels ? preferred : 0;
+    Image single(image.width, image.height, 1, image.format);
+    const size_t size = bytes_per_channel(image.format), stride = size * size_t(image.channels);
+    for (size_t i = 0; i < image.pixel_count(); ++i)
+        std::memcpy(single.bytes.data() + i * size, image.bytes.data() + i * stride + size_t(channel) * size,
+                    size);
+    return single;
+}
+
+}  // namespace
+
+const std::vector<MaterialMap>& material_maps() {
+    static const std::vector<MaterialMap> kMaps = {
+        {.texture = "albedo_map", .source = &Material::base_color_map, .is_color = true},
+        {.texture = "normal_map", .source = &Material::normal_map, .neutral = {128, 128, 255, 255}},
+        {.texture = "specular_map",
+         .source = &Material::specular_map,
+         .is_single = true,
+         .preferred_channel = 3},
+        {.texture = "roughness_map",
+         .source = &Material::roughness_map,
+         .is_single = true,
+         .packed = &Material::metallic_roughness_map,
+         .packed_channel = 1},
+        {.texture = "metallic_map",
+         .source = &Material::metallic_roughness_map,
+         .is_single = true,
+         .preferred_channel = 2},
+        {.texture = "occlusion_map", .source = &Material::occlusion_map, .is_single = true},
+        {.texture = "thickness_map",
+         .source = &Material::thickness_map,
+         .is_single = true,
+         .preferred_channel = 1},
+        {.texture = "kernel_size_map", .source = &Material::kernel_size_map, .is_single = true},
+        {.texture = "curvature_map", .source = &Material::curvature_map, .is_single = true, .neutral = {}},
+        {.texture = "opacity_map", .source = &Material::opacity_map, .is_color = true}};
+    return kMaps;
+}
+
+const ImageSource* map_source(const MaterialMap& map, const Material& material) {
+    if ((material.*map.source).present()) return &(material.*map.source);
+    if (map.packed && (material.*map.packed).present()) return &(material.*map.packed);
+    return nullptr;
+}
+
+gpu::TextureData neutral_map(const MaterialMap& map) {
+    gpu::TextureData data = {.name = map.texture + " (neutral)",
+                             .format = map.is_single ? ImageFormat::r8 : ImageFormat::rgba8,
+                             .srgb = map.is_color};
+    for (size_t i = 0; i < bytes_per_texel(data.format); ++i) data.bytes.push_back(std::byte{map.neutral[i]});
+    return data;
+}
+
+Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material) {
+    const ImageSource& source = *map_source(map, material);
+    const int channel = &source == &(material.*map.source) ? map.preferred_channel : map.packed_channel;
+    const ImageUse use = map.is_color ? ImageUse::color : ImageUse::data;
+    const Result<LoadedImage> loaded = source.encoded.empty()
+                                           ? read_image(source.name, use)
+                                           : decode_image(source.encoded, source.name, use);
+    if (!loaded) return loaded.error();
+    const Image& image = loaded->image;
+    gpu::TextureData data = {
+        .name = source.name, .width = image.width, .height = image.height, .mips = 0, .generate_mips = true};
+    if (map.is_single) {
+        const Image single = single_channel(image, channel);
+        data.format = single.format == PixelFormat::u8 ? ImageFormat::r8 : ImageFormat::r16f;
+        data.bytes = single.format == PixelFormat::u8 ? single.bytes : to_half(single, 1).bytes;
+    } else if (image.format == PixelFormat::u8) {
+        data.format = ImageFormat::rgba8;
+        data.srgb = image.encoding == Encoding::srgb;
+        data.bytes = expand_to_four(image);
+    } else {
+        data.format = ImageFormat::rgba16f;
+        data.bytes = to_half(to_linear_float(image), 4).bytes;
+    }
+    return data;
+}
+
+}  // namespace dermis

@@ -1,0 +1,33 @@
+#pragma once
+// A material's maps, decoded and laid out for the GPU.
+
+#include "dermis/gpu/device.h"
+#include "dermis/image/image.h"
+#include "dermis/mesh/material.h"
+
+namespace dermis {
+
+/// One texture of shaders/shared/surface.glsl: where a material names its image and what stands in when it
+/// has none.
+struct MaterialMap {
+    std::string texture;  ///< the shader's name
+    ImageSource Material::*source;
+    bool is_color = false;                    ///< sRGB colour with four channels; otherwise data
+    bool is_single = false;                   ///< one channel is taken
+    int preferred_channel = 0;                ///< where it lies, if the image has that many channels; else 0
+    ImageSource Material::*packed = nullptr;  ///< taken when `source` is absent: a map that holds several
+    int packed_channel = 0;
+    std::array<uint8_t, 4> neutral = {255, 255, 255, 255};
+};
+[[nodiscard]] const std::vector<MaterialMap>& material_maps();
+
+/// The image that fills `map` for this material, or null.
+[[nodiscard]] const ImageSource* map_source(const MaterialMap& map, const Material& material);
+
+/// Reads and decodes one map; level 0 only, mips are made on the device. Errors name the file.
+[[nodiscard]] Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material);
+
+/// A 1 x 1 stand-in.
+[[nodiscard]] gpu::TextureData neutral_map(const MaterialMap& map);
+
+}  // namespace dermis

@@ -1,0 +1,92 @@
+#include "dermis/render/output.h"
+
+#include "dermis/base/text.h"
+#include "dermis/image/io.h"
+
+namespace dermis {
+namespace {
+
+Image channels_of(const Image& image, int first, int count) {
+    Image part(image.width, image.height, count, PixelFormat::f32);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < count; ++c) part.set(x, y, c, image.at(x, y, first + c));
+    return part;
+}
+
+// Which channels of which G-buffer image make a layer (shaders/shared/gbuffer.frag).
+struct GbufferLayer {
+    const char *layer, *image;
+    int first, count;
+};
+constexpr GbufferLayer kGbufferLayers[] = {{"position_world_mm", "gbuffer_position", 0, 3},
+                                           {"distance_mm", "gbuffer_position", 3, 1},
+                                           {"normal_world", "gbuffer_normal", 0, 3},
+                                           {"curvature_per_mm", "gbuffer_normal", 3, 1},
+                                           {"geometry_normal_world", "gbuffer_geometry", 0, 3},
+                                           {"occlusion", "gbuffer_geometry", 3, 1},
+                                           {"albedo_linear", "gbuffer_albedo", 0, 3},
+                                           {"roughness", "gbuffer_albedo", 3, 1},
+                                           {"uv", "gbuffer_light", 0, 2},
+                                           {"n_dot_l", "gbuffer_light", 2, 1},
+                                           {"shadow", "gbuffer_light", 3, 1}};
+
+Result<std::vector<ImageLayer>> collect_layers(Renderer& renderer, const Technique& technique,
+                                               const ParameterValues& values, DrawSettings draw) {
+    std::vector<ImageLayer> layers;
+    const auto add = [&layers](std::string name, Result<Image> image) -> Result<void> {
+        if (!image) return image.error();
+        layers.push_back({std::move(name), std::move(*image)});
+        return {};
+    };
+    draw.gbuffer = true;
+    for (const char* view : {"final", "diffuse", "specular"}) {
+        draw.view = view;
+        if (const auto drawn = renderer.draw(technique, values, draw); !drawn) return drawn.error();
+        const bool beauty = draw.view == "final";
+        if (const auto added = add(beauty ? "" : view, renderer.radiance()); !added) return added.error();
+    }
+    for (const GbufferLayer& layer : kGbufferLayers) {
+        const Result<Image> image = renderer.read(layer.image);
+        if (!image) return image.error();
+        layers.push_back({layer.layer, channels_of(*image, layer.first, layer.count)});
+    }
+    return layers;
+}
+
+}  // namespace
+
+Result<void> check_output(const std::filesystem::path& path, const OutputSettings& settings) {
+    const std::string extension = to_lower(path.extension().string());
+    if (extension != ".png" && extension != ".exr")
+        return Error{path.string() + ": a picture is a .png or an .exr file"};
+    if (settings.layers && extension != ".exr") return Error{path.string() + ": --layers needs an .exr file"};
+    if (settings.png_bits != 8 && settings.png_bits != 16)
+        return Error{"--bits " + std::to_string(settings.png_bits) + ": 8 or 16"};
+    return {};
+}
+
+Result<void> write_output(Renderer& renderer, const Technique& technique, const ParameterValues& values,
+                          const DrawSettings& draw, const std::filesystem::path& path,
+                          const OutputSettings& settings) {
+    ImageText text = {{"Software", "dermis"}, {"Description", settings.description}};
+    if (!settings.credit.empty()) text["Copyright"] = settings.credit;
+    if (settings.layers) {
+        const Result<std::vector<ImageLayer>> layers = collect_layers(renderer, technique, values, draw);
+        if (!layers) return layers.error();
+        return write_layered_exr(path, *layers, text);
+    }
+    if (to_lower(path.extension().string()) == ".exr") {
+        const Result<Image> radiance = renderer.radiance();
+        return radiance ? write_image(path, *radiance, text) : radiance.error();
+    }
+    Result<Image> display = renderer.display();
+    if (!display) return display.error();
+    Image picture = settings.png_bits == 16
+                        ? convert(channels_of(*display, 0, 3), PixelFormat::u16, Encoding::linear)
+                        : std::move(*display);
+    picture.encoding = Encoding::srgb;  // the tone map pass encoded it
+    return write_image(path, picture, text);
+}
+
+}  // namespace dermis

@@ -1,0 +1,27 @@
+#pragma once
+// A drawn frame to files.
+
+#include <filesystem>
+#include <string>
+
+#include "dermis/render/renderer.h"
+
+namespace dermis {
+
+struct OutputSettings {
+    int png_bits = 8;     ///< 8 or 16
+    bool layers = false;  ///< EXR only: diffuse, specular and the G-buffer beside the beauty
+    std::string credit;   ///< travels inside the file
+    std::string description;
+};
+
+/// Whether `path` and the settings go together, before anything expensive runs.
+[[nodiscard]] Result<void> check_output(const std::filesystem::path& path, const OutputSettings& settings);
+
+/// PNG: the tone-mapped picture. EXR: linear radiance (half), layered when asked; layers draw the frame again
+/// for each view. Uses the renderer's last draw, whose arguments these are.
+[[nodiscard]] Result<void> write_output(Renderer& renderer, const Technique& technique,
+                                        const ParameterValues& values, const DrawSettings& draw,
+                                        const std::filesystem::path& path, const OutputSettings& settings);
+
+}  // namespace dermis

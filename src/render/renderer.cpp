@@ -1,0 +1,137 @@
+#include "dermis/render/renderer.h"
+
+#include <algorithm>
+
+#include "dermis/base/hash.h"
+#include "dermis/base/text.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/presets.h"
+#include "dermis/render/frame_values.h"
+
+namespace dermis {
+namespace {
+
+// A technique's parameters as the block Params has them: choices and toggles are integers.
+gpu::Values parameter_block(const ParameterValues& values) {
+    gpu::Values block;
+    for (const Parameter& parameter : values.table().parameters) {
+        const std::array<double, 3> value = values.get(parameter);
+        switch (parameter.kind) {
+            case ParameterKind::number:
+                block[parameter.name] = float(value[0]);
+                break;
+            case ParameterKind::color:
+                block[parameter.name] = Vec3{float(value[0]), float(value[1]), float(value[2])};
+                break;
+            default:
+                block[parameter.name] = int32_t(value[0]);
+        }
+    }
+    return block;
+}
+
+std::string settings_key(const Technique& technique, const ParameterValues& values, const SkinContext& skin) {
+    Hasher hasher;
+    hasher.add(technique.id).add(skin.profile.name);
+    for (const Parameter& parameter : values.table().parameters) hasher.add(values.text(parameter));
+    for (const GaussianTerm& term : skin.gaussians.terms)
+        hasher.add(term.variance_mm2).add(term.weight[0]).add(term.weight[1]).add(term.weight[2]);
+    return hasher.hex();
+}
+
+}  // namespace
+
+Renderer::Renderer(gpu::Device& device, gpu::Executor executor, SceneOnDevice uploaded, const Scene& scene)
+    : device_(&device), executor_(std::move(executor)), uploaded_(std::move(uploaded)), scene_(&scene) {}
+
+Result<Renderer> Renderer::create(gpu::Device& device, gpu::ShaderSource shaders, const Scene& scene) {
+    Result<SceneOnDevice> uploaded = SceneOnDevice::upload(device, scene);
+    if (!uploaded) return uploaded.error();
+    Result<gpu::Executor> executor = gpu::Executor::create(device, std::move(shaders));
+    if (!executor) return executor.error();
+    return Renderer(device, std::move(*executor), std::move(*uploaded), scene);
+}
+
+Result<void> Renderer::prepare_tables(const Technique& technique, const ParameterValues& values) {
+    if (!technique.tables) {
+        tables_.clear();
+        tables_key_.clear();
+        return {};
+    }
+    const Result<Profile> profile = find_profile(scene_->skin.profile);
+    if (!profile) return profile.error();
+    const SkinContext skin = {.profile = *profile, .gaussians = to_gaussian_sum(*profile).sum};
+    const std::string key = settings_key(technique, values, skin);
+    if (key == tables_key_) return {};
+    const Result<std::vector<TableImage>> tables = technique.tables(values, skin);
+    if (!tables) return tables.error();
+    tables_.clear();
+    for (const TableImage& table : *tables) {
+        Result<gpu::Texture> texture = gpu::Texture::upload(*device_, {.name = table.name,
+                                                                       .format = table.format,
+                                                                       .width = table.width,
+                                                                       .height = table.height,
+                                                                       .bytes = table.bytes});
+        if (!texture) return texture.error();
+        tables_.emplace(table.name, std::move(*texture));
+    }
+    tables_key_ = key;
+    return {};
+}
+
+gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
+    gpu::FrameInputs inputs = {.width = settings.width, .height = settings.height};
+    inputs.textures["environment_cube"] = &uploaded_.environment_cube();
+    for (const auto& [name, texture] : tables_) inputs.textures[name] = &texture;
+    inputs.blocks["Frame"] =
+        frame_values(*scene_, {.width = settings.width,
+                               .height = settings.height,
+                               .shadow_map_size = settings.shadow_map_size,
+                               .penumbra_mm = settings.penumbra_mm,
+                               .environment_mip_count = uploaded_.environment_mip_count()});
+    inputs.blocks["Params"] = parameter_block(values);
+    inputs.arrays["Lights"] = light_values(*scene_);
+    inputs.arrays["EnvironmentSh"] = uploaded_.environment_sh();
+    inputs.draws = uploaded_.draws();
+    return inputs;
+}
+
+Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const ParameterValues& values,
+                                        const DrawSettings& settings) {
+    const std::vector<std::string> views = view_names(technique);
+    if (std::ranges::find(views, settings.view) == views.end())
+        return Error{unknown_name("view", settings.view, views)};
+    if (Result<void> ready = prepare_tables(technique, values); !ready) return ready.error();
+
+    const FrameContext frame = {
+        .width = settings.width,
+        .height = settings.height,
+        .samples = settings.samples,
+        .view = settings.view,
+        .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
+        .frame_index = settings.frame_index};
+    const SharedPassSettings shared = {
+        .samples = settings.samples,
+        .shadow_map_size = settings.shadow_map_size,
+        .display_format = settings.deep_display ? ImageFormat::rgba32f : ImageFormat::rgba8,
+        .tone_map = scene_->tone_map,
+        .view = settings.view,
+        .has_other = uploaded_.has(gpu::DrawClass::other),
+        .has_translucent = uploaded_.has(gpu::DrawClass::translucent),
+        .gbuffer = settings.gbuffer};
+    list_ = frame_passes(technique.build(values, frame), shared);
+    radiance_name_ = radiance_image(shared);
+    return executor_.run(list_, inputs(values, settings));
+}
+
+Result<Image> Renderer::radiance() {
+    return executor_.read(radiance_name_);
+}
+Result<Image> Renderer::display() {
+    return executor_.read("display");
+}
+Result<Image> Renderer::read(std::string_view image) {
+    return executor_.read(image);
+}
+
+}  // namespace dermis

@@ -1,0 +1,62 @@
+#pragma once
+// Scene + technique + device = picture.
+
+#include <map>
+#include <memory>
+
+#include "dermis/gpu/executor.h"
+#include "dermis/render/scene_upload.h"
+#include "dermis/render/shared_passes.h"
+#include "dermis/scene/scene.h"
+#include "dermis/technique/technique.h"
+
+namespace dermis {
+
+struct DrawSettings {
+    int width = 1024, height = 1024;
+    int samples = 1;             ///< 1 or 4
+    std::string view = "final";  ///< see view_names()
+    bool gbuffer = false;        ///< keep its images for read()
+    bool deep_display = false;   ///< display in float, for 16-bit files
+    int shadow_map_size = 2048;
+    float penumbra_mm = 2;
+    int frame_index = 0;
+};
+
+class Renderer {
+  public:
+    /// `device` and `scene` must outlive it. Camera, lights, exposure and the like may change between draws;
+    /// objects and materials may not.
+    [[nodiscard]] static Result<Renderer> create(gpu::Device& device, gpu::ShaderSource shaders,
+                                                 const Scene& scene);
+
+    /// One frame. Errors name the pass, or what the technique lacks.
+    [[nodiscard]] Result<gpu::FrameResult> draw(const Technique& technique, const ParameterValues& values,
+                                                const DrawSettings& settings);
+
+    /// Of the last frame: linear radiance (f16, RGBA; alpha is coverage), the tone-mapped picture
+    /// (sRGB-encoded, u8, or f32 when deep), any image of its list by name.
+    [[nodiscard]] Result<Image> radiance();
+    [[nodiscard]] Result<Image> display();
+    [[nodiscard]] Result<Image> read(std::string_view image);
+
+    /// The last frame's list, whole.
+    [[nodiscard]] const PassList& pass_list() const { return list_; }
+    gpu::Executor& executor() { return executor_; }
+
+  private:
+    Renderer(gpu::Device& device, gpu::Executor executor, SceneOnDevice uploaded, const Scene& scene);
+    Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
+    [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;
+
+    gpu::Device* device_;
+    gpu::Executor executor_;
+    SceneOnDevice uploaded_;
+    const Scene* scene_;
+    PassList list_;
+    std::string radiance_name_;
+    std::string tables_key_;
+    std::map<std::string, gpu::Texture> tables_;
+};
+
+}  // namespace dermis

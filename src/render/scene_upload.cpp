@@ -1,0 +1,152 @@
+#include "dermis/render/scene_upload.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "dermis/base/hash.h"
+#include "dermis/base/parallel.h"
+#include "dermis/render/material_maps.h"
+
+namespace dermis {
+namespace {
+
+// The same image taken for the same use is one texture, however many materials name it.
+std::string texture_key(const MaterialMap& map, const Material& material) {
+    const ImageSource* source = map_source(map, material);
+    if (!source) return map.texture;
+    Hasher hasher;
+    hasher.add(source->name).add(source->encoded).add(map.texture).add(material.dilate_texels);
+    return hasher.hex();
+}
+
+std::span<const float> floats_of(const auto& attribute) {
+    using Element = typename std::remove_cvref_t<decltype(attribute)>::value_type;
+    return {reinterpret_cast<const float*>(attribute.data()),
+            attribute.size() * sizeof(Element) / sizeof(float)};
+}
+
+// Missing attributes get values that change nothing.
+template <class T>
+std::vector<T> filled(const std::vector<T>& attribute, size_t count, T neutral) {
+    return attribute.size() == count ? attribute : std::vector<T>(count, neutral);
+}
+
+Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, const Mesh& mesh) {
+    const size_t count = mesh.positions_mm.size();
+    const auto normals = filled(mesh.normals, count, Vec3{0, 0, 1});
+    const auto tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
+    const auto uvs = filled(mesh.uvs, count, Vec2{});
+    const auto curvatures = filled(mesh.curvatures_per_mm, count, 0.0f);
+    const auto occlusions = filled(mesh.occlusions, count, 1.0f);
+    const gpu::VertexStream streams[] = {{"position_mm", 3, floats_of(mesh.positions_mm)},
+                                         {"normal", 3, floats_of(normals)},
+                                         {"tangent", 4, floats_of(tangents)},
+                                         {"uv", 2, floats_of(uvs)},
+                                         {"curvature_per_mm", 1, curvatures},
+                                         {"occlusion", 1, occlusions}};
+    return gpu::Geometry::upload(device, name, streams, mesh.indices);
+}
+
+float dielectric_f0(float ior) {
+    const float r = (ior - 1) / (ior + 1);
+    return r * r;
+}
+
+// The block Material of shaders/shared/surface.glsl.
+gpu::Values material_values(const Material& material, const Skin* skin) {
+    const bool mapped = material.normal_map.present();
+    const int32_t normal_space = !mapped ? 2 : material.normal_space == NormalSpace::object ? 1 : 0;
+    const Vec3 tint = skin ? skin->albedo_tint_linear : Vec3{1, 1, 1};
+    return {{"albedo_linear", material.base_color_linear * tint},
+            {"roughness", skin ? skin->roughness : material.roughness},
+            {"emission_linear", material.emission_linear},
+            {"specular", skin ? skin->specular : material.specular},
+            {"f0", dielectric_f0(skin ? skin->ior : material.ior)},
+            {"metallic", material.metallic},
+            {"opacity", material.opacity},
+            {"normal_space", normal_space},
+            {"normal_scale", material.normal_scale},
+            {"thickness_scale_mm", material.thickness_scale_mm},
+            {"curvature_scale_per_mm", material.curvature_scale_per_mm},
+            {"curvature_from_map", int32_t(material.curvature_map.present())}};
+}
+
+gpu::DrawClass draw_class(MaterialClass material_class) {
+    switch (material_class) {
+        case MaterialClass::skin:
+            return gpu::DrawClass::skin;
+        case MaterialClass::other:
+            return gpu::DrawClass::other;
+        case MaterialClass::translucent:
+            return gpu::DrawClass::translucent;
+    }
+    return gpu::DrawClass::other;
+}
+
+}  // namespace
+
+bool SceneOnDevice::has(gpu::DrawClass wanted) const {
+    return std::ranges::any_of(draws_, [&](const gpu::Draw& draw) { return draw.draw_class == wanted; });
+}
+
+// Decoding dominates, so all maps decode at once; uploads follow one by one.
+Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene) {
+    struct Job {
+        std::string key;
+        const MaterialMap* map;
+        const Material* material;
+        std::optional<Result<gpu::TextureData>> data;
+    };
+    std::vector<Job> jobs;
+    for (const SceneObject& object : scene.objects)
+        for (const Material& material : object.mesh.materials)
+            for (const MaterialMap& map : material_maps()) {
+                const std::string key = texture_key(map, material);
+                if (std::ranges::find(jobs, key, &Job::key) == jobs.end())
+                    jobs.push_back({key, &map, &material, {}});
+            }
+    parallel_for(jobs.size(), 1, [&](size_t begin, size_t end) {
+        for (Job& job : std::span(jobs).subspan(begin, end - begin))
+            job.data = map_source(*job.map, *job.material) ? load_material_map(*job.map, *job.material)
+                                                           : Result<gpu::TextureData>(neutral_map(*job.map));
+    });
+    for (const Job& job : jobs) {
+        if (!*job.data) return job.data->error();
+        Result<gpu::Texture> texture = gpu::Texture::upload(device, **job.data);
+        if (!texture) return texture.error();
+        textures_.emplace(job.key, std::move(*texture));
+    }
+    return {};
+}
+
+Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& scene) {
+    for (const SceneObject& object : scene.objects) {
+        Result<gpu::Geometry> geometry = upload_mesh(device, object.name, object.mesh);
+        if (!geometry) return geometry.error();
+        geometries_.push_back(std::make_unique<gpu::Geometry>(std::move(*geometry)));
+        for (const Submesh& submesh : object.mesh.submeshes) {
+            const Material& material = object.mesh.materials[submesh.material];
+            const MaterialClass material_class = object.classes[submesh.material];
+            gpu::Draw draw = {.geometry = geometries_.back().get(),
+                              .first_index = submesh.first_index,
+                              .index_count = submesh.index_count,
+                              .draw_class = draw_class(material_class)};
+            for (const MaterialMap& map : material_maps())
+                draw.textures[map.texture] = &textures_.at(texture_key(map, material));
+            draw.values =
+                material_values(material, material_class == MaterialClass::skin ? &scene.skin : nullptr);
+            draws_.push_back(std::move(draw));
+        }
+    }
+    return {};
+}
+
+Result<SceneOnDevice> SceneOnDevice::upload(gpu::Device& device, const Scene& scene) {
+    SceneOnDevice uploaded;
+    if (Result<void> done = uploaded.upload_maps(device, scene); !done) return done.error();
+    if (Result<void> done = uploaded.upload_objects(device, scene); !done) return done.error();
+    if (Result<void> done = uploaded.upload_environment(device, scene); !done) return done.error();
+    return uploaded;
+}
+
+}  // namespace dermis

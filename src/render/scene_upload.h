@@ -1,0 +1,38 @@
+#pragma once
+// A scene on the device: geometry, maps, environment.
+
+#include <map>
+#include <memory>
+
+#include "dermis/gpu/executor.h"
+#include "dermis/scene/scene.h"
+
+namespace dermis {
+
+/// Owns what was uploaded; draws() point into it.
+class SceneOnDevice {
+  public:
+    /// Decodes maps on all cores. Errors name the file.
+    [[nodiscard]] static Result<SceneOnDevice> upload(gpu::Device& device, const Scene& scene);
+
+    [[nodiscard]] const std::vector<gpu::Draw>& draws() const { return draws_; }
+    [[nodiscard]] bool has(gpu::DrawClass draw_class) const;
+    [[nodiscard]] const gpu::Texture& environment_cube() const { return *environment_cube_; }
+    [[nodiscard]] int environment_mip_count() const { return environment_mip_count_; }
+    [[nodiscard]] const std::vector<gpu::Values>& environment_sh() const { return environment_sh_; }
+
+  private:
+    Result<void> upload_maps(gpu::Device& device, const Scene& scene);
+    Result<void> upload_objects(gpu::Device& device, const Scene& scene);
+    Result<void> upload_environment(gpu::Device& device, const Scene& scene);
+
+    // Pointers stay valid when the whole moves: textures and geometries live in node-based containers.
+    std::map<std::string, gpu::Texture> textures_;
+    std::vector<std::unique_ptr<gpu::Geometry>> geometries_;
+    std::unique_ptr<gpu::Texture> environment_cube_;
+    int environment_mip_count_ = 1;
+    std::vector<gpu::Values> environment_sh_;
+    std::vector<gpu::Draw> draws_;
+};
+
+}  // namespace dermis

@@ -1,0 +1,135 @@
+#include "dermis/render/shared_passes.h"
+
+#include <algorithm>
+
+namespace dermis {
+namespace {
+
+Pass shadow_pass() {
+    return {.name = "shadow",
+            .kind = PassKind::geometry_light,
+            .depth = DepthTarget{.image = "shadow_map"},
+            .geometry = GeometryFilter::opaque};
+}
+
+// Clears depth on its way, so that every later pass loads both.
+Pass background_pass() {
+    return {.name = "background",
+            .kind = PassKind::fullscreen,
+            .shader = "shared/background.frag",
+            .colors = {{.image = "radiance", .load = LoadOp::discard}},
+            .depth = DepthTarget{.image = "depth", .write = false, .compare = Compare::always}};
+}
+
+Pass other_pass(std::string name, GeometryFilter geometry, Blend blend) {
+    return {.name = std::move(name),
+            .kind = PassKind::geometry_screen,
+            .shader = "shared/standard.frag",
+            .reads = {"shadow_map"},
+            .colors = {{.image = "radiance", .load = LoadOp::load, .blend = blend}},
+            .depth = DepthTarget{.image = "depth", .load = LoadOp::load, .write = blend == Blend::none},
+            .geometry = geometry};
+}
+
+Pass gbuffer_pass() {
+    Pass pass = {.name = "gbuffer",
+                 .kind = PassKind::geometry_screen,
+                 .shader = "shared/gbuffer.frag",
+                 .reads = {"shadow_map"},
+                 .depth = DepthTarget{.image = "gbuffer_depth"},
+                 .geometry = GeometryFilter::opaque};
+    for (const std::string& image : gbuffer_images()) pass.colors.push_back({.image = image});
+    return pass;
+}
+
+Pass tone_map_pass(const SharedPassSettings& settings) {
+    return {.name = "tone map",
+            .kind = PassKind::fullscreen,
+            .shader = "shared/tone_map.frag",
+            .reads = {{"radiance", radiance_image(settings)}},
+            .colors = {{.image = "display", .load = LoadOp::discard}},
+            .constants = {{"tone_map", int32_t(settings.tone_map)}}};
+}
+
+Pass view_pass(int32_t view) {
+    Pass pass = {.name = "view",
+                 .kind = PassKind::fullscreen,
+                 .shader = "shared/view.frag",
+                 .colors = {{.image = "display", .load = LoadOp::discard}},
+                 .constants = {{"shown", view}}};
+    for (const std::string& image : gbuffer_images()) pass.reads.push_back(image);
+    return pass;
+}
+
+}  // namespace
+
+const std::vector<std::string>& gbuffer_images() {
+    static const std::vector<std::string> kNames = {"gbuffer_position", "gbuffer_normal", "gbuffer_geometry",
+                                                    "gbuffer_albedo", "gbuffer_light"};
+    return kNames;
+}
+
+const std::vector<std::string>& gbuffer_views() {
+    // The order is that of shaders/shared/view.frag.
+    static const std::vector<std::string> kNames = {
+        "normal", "geometry_normal", "albedo", "roughness", "curvature", "occlusion",
+        "shadow", "n_dot_l",         "depth",  "uv",        "position"};
+    return kNames;
+}
+
+std::vector<std::string> view_names(const Technique& technique) {
+    std::vector<std::string> names = {"final", "diffuse", "specular"};
+    names.insert(names.end(), technique.views.begin(), technique.views.end());
+    names.insert(names.end(), gbuffer_views().begin(), gbuffer_views().end());
+    return names;
+}
+
+std::string radiance_image(const SharedPassSettings& settings) {
+    return settings.samples > 1 ? "radiance_resolved" : "radiance";
+}
+
+std::vector<std::string> shared_inputs() {
+    return {"environment_cube"};
+}
+
+PassList frame_passes(const PassList& technique, const SharedPassSettings& settings) {
+    const auto view = std::ranges::find(gbuffer_views(), settings.view);
+    const bool shows_gbuffer = view != gbuffer_views().end();
+    const int shadow_size = settings.shadow_map_size;
+
+    PassList list;
+    list.images = {
+        {.name = "shadow_map", .format = ImageFormat::depth32f, .size = {shadow_size, shadow_size}},
+        {.name = "radiance", .format = ImageFormat::rgba16f, .samples = settings.samples},
+        {.name = "depth", .format = ImageFormat::depth32f, .samples = settings.samples},
+        {.name = "display", .format = settings.display_format}};
+    list.passes = {shadow_pass()};
+    if (settings.gbuffer || shows_gbuffer) {
+        for (const std::string& image : gbuffer_images())
+            list.images.push_back({.name = image, .format = ImageFormat::rgba32f});
+        list.images.push_back({.name = "gbuffer_depth", .format = ImageFormat::depth32f});
+        list.passes.push_back(gbuffer_pass());
+    }
+    if (shows_gbuffer) {
+        list.passes.push_back(view_pass(int32_t(view - gbuffer_views().begin())));
+        if (!settings.gbuffer) return list;
+    }
+
+    list.passes.push_back(background_pass());
+    list.images.insert(list.images.end(), technique.images.begin(), technique.images.end());
+    list.passes.insert(list.passes.end(), technique.passes.begin(), technique.passes.end());
+    if (settings.has_other) list.passes.push_back(other_pass("other", GeometryFilter::other, Blend::none));
+    if (settings.has_translucent)
+        list.passes.push_back(other_pass("translucent", GeometryFilter::translucent, Blend::alpha));
+    if (settings.samples > 1) {
+        list.images.push_back({.name = "radiance_resolved", .format = ImageFormat::rgba16f});
+        list.passes.push_back({.name = "resolve",
+                               .kind = PassKind::resolve,
+                               .reads = {"radiance"},
+                               .colors = {{.image = "radiance_resolved", .load = LoadOp::discard}}});
+    }
+    if (!shows_gbuffer) list.passes.push_back(tone_map_pass(settings));
+    return list;
+}
+
+}  // namespace dermis

@@ -1,0 +1,16 @@
+#include "dermis/technique/technique.h"
+
+#include "dermis/base/text.h"
+
+namespace dermis {
+
+Result<const Technique*> find_technique(std::string_view id) {
+    std::vector<std::string> ids;
+    for (const Technique& technique : all_techniques()) {
+        if (technique.id == id) return &technique;
+        ids.push_back(technique.id);
+    }
+    return Error{unknown_name("technique", id, ids)};
+}
+
+}  // namespace dermis

@@ -1,0 +1,33 @@
+// Lambert 1760, Photometria: a surface that sends what it receives evenly everywhere. No scattering, so no
+// width to set; the baseline of every comparison.
+
+#include "dermis/technique/forward.h"
+
+namespace dermis {
+namespace {
+
+struct Params {
+    SpecularModel specular = SpecularModel::ggx;
+};
+
+ParameterTable parameters() {
+    return ParameterTableBuilder<Params>()
+        .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .build();
+}
+
+PassList build(const ParameterValues& values, const FrameContext& frame) {
+    return {.passes = {forward_skin_pass("lambert/lambert.frag", values.as<Params>().specular, frame)}};
+}
+
+}  // namespace
+
+Technique make_lambert_technique() {
+    return {.id = "lambert",
+            .summary = "no scattering: the baseline",
+            .source = "Lambert 1760, Photometria",
+            .parameters = parameters(),
+            .build = build};
+}
+
+}  // namespace dermis

@@ -1,0 +1,89 @@
+// What holds for every technique, whatever it does; none of this needs a GPU.
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "dermis/base/text.h"
+#include "dermis/render/shared_passes.h"
+
+using namespace dermis;
+
+namespace {
+
+// Every choice of every parameter, one at a time, and both ends of every range.
+std::vector<ParameterValues> variations(const Technique& technique) {
+    std::vector<ParameterValues> all = {ParameterValues(technique.parameters)};
+    for (const Parameter& parameter : technique.parameters.parameters) {
+        std::vector<double> values = {parameter.min, parameter.max};
+        if (!parameter.choices.empty())
+            for (size_t i = 0; i < parameter.choices.size(); ++i) values.push_back(double(i));
+        for (const double value : values) {
+            ParameterValues varied(technique.parameters);
+            varied.put(parameter, {value, value, value});
+            all.push_back(varied);
+        }
+    }
+    return all;
+}
+
+std::vector<std::string> inputs_of(const Technique& technique, const ParameterValues& values) {
+    std::vector<std::string> inputs = shared_inputs();
+    if (!technique.tables) return inputs;
+    const Profile skin = {.name = "gpu_gems_3", .model = gpu_gems_3_skin()};
+    const auto tables = technique.tables(values, {.profile = skin, .gaussians = gpu_gems_3_skin()});
+    EXPECT_TRUE(tables.ok()) << technique.id;
+    if (tables)
+        for (const TableImage& table : *tables) inputs.push_back(table.name);
+    return inputs;
+}
+
+}  // namespace
+
+TEST(AllTechniques, are_found_by_their_folders) {
+    std::set<std::string> ids;
+    for (const Technique& technique : all_techniques()) EXPECT_TRUE(ids.insert(technique.id).second);
+    for (const char* id : {"lambert", "oren_nayar", "wrap"}) EXPECT_TRUE(ids.contains(id)) << id;
+    EXPECT_EQ(find_technique("lambart").error().message.substr(0, 52),
+              "unknown technique 'lambart'; did you mean 'lambert'?");
+}
+
+TEST(AllTechniques, say_what_they_are_and_document_every_parameter) {
+    for (const Technique& technique : all_techniques()) {
+        EXPECT_FALSE(technique.summary.empty()) << technique.id;
+        EXPECT_FALSE(technique.source.empty()) << technique.id;
+        std::set<std::string> names;
+        for (const Parameter& parameter : technique.parameters.parameters) {
+            EXPECT_FALSE(parameter.doc.empty()) << technique.id << " " << parameter.name;
+            EXPECT_TRUE(names.insert(parameter.name).second) << technique.id << " " << parameter.name;
+            for (size_t c = 0; c < parameter.component_count(); ++c) {
+                EXPECT_GE(parameter.default_value[c], parameter.min) << technique.id << " " << parameter.name;
+                EXPECT_LE(parameter.default_value[c], parameter.max) << technique.id << " " << parameter.name;
+            }
+        }
+    }
+}
+
+TEST(AllTechniques, build_sound_frames_for_every_setting_view_and_sample_count) {
+    for (const Technique& technique : all_techniques()) {
+        for (const ParameterValues& values : variations(technique)) {
+            const std::vector<std::string> inputs = inputs_of(technique, values);
+            for (const std::string& view : view_names(technique))
+                for (const int samples : {1, 4}) {
+                    const PassList own = technique.build(values, {.samples = samples, .view = view});
+                    const PassList frame = frame_passes(
+                        own, {.samples = samples, .view = view, .has_other = true, .has_translucent = true});
+                    for (const std::string& problem : problems(frame, inputs))
+                        ADD_FAILURE() << technique.id << " view " << view << ": " << problem;
+                }
+        }
+    }
+}
+
+TEST(AllTechniques, building_is_pure) {
+    for (const Technique& technique : all_techniques()) {
+        const ParameterValues values(technique.parameters);
+        EXPECT_EQ(describe(technique.build(values, {})), describe(technique.build(values, {})))
+            << technique.id;
+    }
+}
