@@ -1,0 +1,2 @@
+// Carries the precompiled GoogleTest headers that every test program reuses.
+int main() {}
