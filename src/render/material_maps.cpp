@@ -98,8 +98,8 @@ Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Materia
                                            : decode_image(source.encoded, source.name, use);
     if (!loaded) return loaded.error();
     const Image& image = loaded->image;
-    gpu::TextureData data = {
-        .name = source.name, .width = image.width, .height = image.height, .mips = 0, .generate_mips = true};
+    gpu::TextureData data = {.name = source.name, .width = image.width, .height = image.height};
+    data.generate_mips = true;
     if (map.is_single) {
         const Image single = single_channel(image, channel);
         data.format = single.format == PixelFormat::u8 ? ImageFormat::r8 : ImageFormat::r16f;

@@ -1,0 +1,174 @@
+// dermis render: one scene, one technique, one picture (or a turn of the camera).
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "dermis/render/output.h"
+#include "render_options.h"
+
+namespace dermis::cli {
+namespace {
+
+struct Options {
+    RenderOptions render;
+    std::string output = "out/dermis.png";
+    OutputSettings file;
+    int frames = 1;
+    double turn_deg = 0;
+    bool timings = false, json = false;
+};
+
+// Medians over the frames after the first, which pays for compilation.
+gpu::FrameResult median_timings(const std::vector<gpu::FrameResult>& frames) {
+    const auto median = [&](auto value_of) {
+        std::vector<double> values;
+        for (size_t i = frames.size() > 1 ? 1 : 0; i < frames.size(); ++i)
+            values.push_back(value_of(frames[i]));
+        std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
+        return values[values.size() / 2];
+    };
+    gpu::FrameResult result = frames.back();
+    result.frame_ms = median([](const gpu::FrameResult& f) { return f.frame_ms; });
+    for (size_t pass = 0; pass < result.passes.size(); ++pass)
+        result.passes[pass].time_ms = median(
+            [&](const gpu::FrameResult& f) { return pass < f.passes.size() ? f.passes[pass].time_ms : 0.0; });
+    return result;
+}
+
+nlohmann::json to_json(const Prepared& prepared, const Options& options, const gpu::Device& device,
+                       const gpu::FrameResult& timings) {
+    nlohmann::json settings = nlohmann::json::object(), passes = nlohmann::json::array();
+    for (const Parameter& parameter : prepared.technique->parameters.parameters)
+        settings[parameter.name] = prepared.values->text(parameter);
+    for (const gpu::PassTiming& pass : timings.passes)
+        passes.push_back(
+            {{"name", pass.name}, {"time_ms", pass.time_ms}, {"samples_passed", pass.samples_passed}});
+    return {{"scene", prepared.scene.name},
+            {"technique", prepared.technique->id},
+            {"settings", settings},
+            {"view", prepared.draw.view},
+            {"device", device.info().name},
+            {"width", prepared.draw.width},
+            {"height", prepared.draw.height},
+            {"frame_ms", timings.frame_ms},
+            {"passes", passes},
+            {"camera", camera_text(prepared.scene.camera)},
+            {"output", options.output},
+            {"credit", prepared.scene.credit},
+            {"warnings", prepared.scene.warnings}};
+}
+
+void print_timings(const gpu::FrameResult& timings, const gpu::Device& device) {
+    for (const gpu::PassTiming& pass : timings.passes)
+        std::printf("  %-24s %9.3f ms\n", pass.name.c_str(), pass.time_ms);
+    std::printf("  %-24s %9.3f ms  on %s\n", "frame", timings.frame_ms, device.info().name.c_str());
+}
+
+// "out/%04d.png" numbers the frames; any other name is written once, after the last.
+std::string frame_path(const std::string& pattern, int frame) {
+    const size_t percent = pattern.find('%');
+    const size_t d = percent == std::string::npos ? percent : pattern.find('d', percent);
+    if (d == std::string::npos) return pattern;
+    const std::string digits = pattern.substr(percent + 1, d - percent - 1);
+    const size_t width = digits.empty() ? 0 : size_t(std::clamp(std::atoi(digits.c_str()), 0, 12));
+    std::string number = std::to_string(frame);
+    if (number.size() < width) number.insert(0, width - number.size(), '0');
+    return pattern.substr(0, percent) + number + pattern.substr(d + 1);
+}
+
+// The eye turned about the target's vertical.
+Camera turned(Camera camera, double angle_rad) {
+    const Vec3 offset = camera.eye_mm - camera.target_mm;
+    const float c = float(std::cos(angle_rad)), s = float(std::sin(angle_rad));
+    camera.eye_mm =
+        camera.target_mm + Vec3{c * offset.x + s * offset.z, offset.y, c * offset.z - s * offset.x};
+    return camera;
+}
+
+Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& prepared,
+                                                  const Options& options) {
+    const bool numbered = frame_path(options.output, 0) != options.output;
+    const Camera start = prepared.scene.camera;
+    // Timings of a still need a few frames; the first compiles.
+    const int frames = options.timings && options.frames == 1 ? 4 : options.frames;
+    std::vector<gpu::FrameResult> results;
+    for (int frame = 0; frame < frames; ++frame) {
+        const double turn_rad = options.turn_deg * 3.14159265358979 / 180 * frame / frames;
+        prepared.scene.camera = turned(start, turn_rad);
+        prepared.draw.frame_index = frame;
+        Result<gpu::FrameResult> drawn = renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
+        if (!drawn) return drawn.error();
+        results.push_back(std::move(*drawn));
+        if (!numbered && frame + 1 < frames) continue;
+        if (numbered && frame >= options.frames) continue;
+        if (Result<void> written =
+                write_output(renderer, *prepared.technique, *prepared.values, prepared.draw,
+                             frame_path(options.output, frame), options.file);
+            !written)
+            return written.error();
+    }
+    return results;
+}
+
+Result<int> render(Options options) {
+    if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
+    if (options.frames < 1 || options.frames > 100000)
+        return Error{"--frames " + std::to_string(options.frames) + ": 1 to 100000"};
+    Result<Prepared> prepared = prepare(options.render);
+    if (!prepared) return prepared.error();
+    for (const std::string& warning : prepared->scene.warnings)
+        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    Result<gpu::Device> device = gpu::Device::create(
+        {.validation = options.render.validation, .name_contains = options.render.device});
+    if (!device) return device.error();
+    Result<Renderer> renderer = Renderer::create(*device, gpu::embedded_shaders(), prepared->scene);
+    if (!renderer) return renderer.error();
+
+    prepared->draw.deep_display = options.file.png_bits == 16;
+    options.file.credit = prepared->scene.credit;
+    options.file.description = prepared->scene.name + ", " + prepared->technique->id;
+    const Result<std::vector<gpu::FrameResult>> frames = draw_frames(*renderer, *prepared, options);
+    if (!frames) return frames.error();
+
+    const gpu::FrameResult timings = median_timings(*frames);
+    if (options.json) {
+        std::printf("%s\n", to_json(*prepared, options, *device, timings).dump(2).c_str());
+    } else {
+        std::printf("%s\n", options.output.c_str());
+        if (!prepared->scene.credit.empty()) std::printf("%s\n", prepared->scene.credit.c_str());
+        if (options.timings) print_timings(timings, *device);
+    }
+    for (const std::string& message : device->messages())
+        std::fprintf(stderr, "dermis: %s\n", message.c_str());
+    if (!device->messages().empty()) return Error{"the validation layers complained (above)"};
+    return 0;
+}
+
+}  // namespace
+
+void add_render_command(CommandLine& line) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command =
+        line.add("render", "draw a scene with a technique",
+                 "dermis render head_scan --technique wrap --set wrap=0.4 -o out/head.png --timings");
+    options->render.add_to(*command);
+    command
+        ->add_option("-o,--output", options->output,
+                     "picture: .png (tone-mapped) or .exr (linear); %04d numbers frames")
+        ->capture_default_str();
+    command->add_option("--bits", options->file.png_bits, "of a PNG: 8 or 16")->capture_default_str();
+    command->add_flag("--layers", options->file.layers, "all debug views as layers of the EXR");
+    command->add_option("--frames", options->frames, "how many to draw")->capture_default_str();
+    command->add_option("--turn", options->turn_deg, "degrees the camera turns over all frames")
+        ->capture_default_str();
+    command->add_flag("--timings", options->timings,
+                      "print the time of each pass (median, first frame left out)");
+    command->add_flag("--json", options->json, "print one JSON object instead");
+    line.when_chosen(command, [options] { return render(*options); });
+}
+
+}  // namespace dermis::cli
