@@ -24,7 +24,7 @@ struct LoadedImage {
 };
 
 /// PNG (1 to 16 bit, palette; u8 or u16), JPEG (u8), Radiance HDR (f32), OpenEXR (any compression; f16 or
-/// f32), DDS and KTX2 (uncompressed, the largest mip). A 2048x2048 JPEG takes 20 to 60 ms, the same as PNG 80
+/// f32), DDS and KTX2 (uncompressed, the largest mip). A 2048x2048 JPEG takes 15 to 45 ms, the same as PNG 80
 /// ms. Errors name the file: unreadable, truncated, corrupt, a side over kMaxImageSide, an unknown format.
 [[nodiscard]] Result<LoadedImage> read_image(const std::filesystem::path& path, ImageUse use);
 /// The same from memory (embedded glTF images); `name` stands in errors.

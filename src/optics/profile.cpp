@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "dermis/optics/check_value.h"
+#include "dermis/optics/fresnel.h"
 
 namespace dermis {
 namespace {
@@ -124,9 +125,7 @@ struct Dipole {
 
 Dipole dipole_of(const DipoleProfile& profile, int channel) {
     const ScatteringMedium& medium = profile.medium;
-    const double eta = medium.eta;
-    // Diffuse Fresnel reflectance: the fit of Egan, Hilgeman 1973 that Jensen 2001 uses, section 2.1.
-    const double fdr = -1.440 / square(eta) + 0.710 / eta + 0.668 + 0.0636 * eta;
+    const double fdr = diffuse_internal_reflectance(medium.eta);
     const double boundary = (1 + fdr) / (1 - fdr);
     const double depth = 1 / reduced_sigma_t_per_mm(medium, channel);
     return {reduced_albedo(medium, channel) / 2,

@@ -44,7 +44,7 @@ struct GaussianSum {
 [[nodiscard]] GaussianSum gpu_gems_3_skin();
 
 /// R(r) = A (exp(-r/d) + exp(-r/3d)) / (8 pi d r), infinite at r = 0 but integrable. Source: Christensen,
-/// Burley 2015, Approximate Reflectance Profiles for Efficient Subsurface Scattering, equation 2.
+/// Burley 2015, Approximate Reflectance Profiles for Efficient Subsurface Scattering, equation 3.
 struct BurleyProfile {
     std::array<double, 3> albedo = {1, 1, 1};  ///< 0..1
     std::array<double, 3> d_mm = {1, 1, 1};    ///< > 0

@@ -1,0 +1,75 @@
+#include "bake_options.h"
+
+#include <cstdio>
+
+#include "dermis/bake/table_report.h"
+#include "dermis/base/text.h"
+
+namespace dermis::cli {
+
+CLI::App* bake_group(CommandLine& line) {
+    const auto is_bake = [](const CLI::App* command) { return command->get_name() == "bake"; };
+    for (CLI::App* group : line.app.get_subcommands(is_bake)) return group;
+    CLI::App* group = line.add("bake", "Tables and maps that techniques need",
+                               "dermis bake lut --profile jensen_skin1 -o skin.exr --plot skin.svg");
+    group->require_subcommand(1);
+    return group;
+}
+
+void TableOutput::add_to(CLI::App* command) {
+    command
+        ->add_option("-o,--output", path,
+                     "File: .exr, .png, .ktx2, .dds, .h or .csv; FILE.json is written beside")
+        ->required();
+    command->add_option("--storage", storage, "auto, 8, 16 (PNG), half, float (EXR)");
+    command->add_option("--plot", plot_path, "SVG of the curves and of the file's error");
+}
+
+Result<TableStorage> TableOutput::chosen_storage(TableStorage preferred) const {
+    static const std::vector<std::string> kNames = {"auto", "8", "16", "half", "float"};
+    for (size_t i = 0; i < kNames.size(); ++i)
+        if (kNames[i] == storage) {
+            // A published convention's own storage is a default, where the file can hold it.
+            if (i == 0 && preferred != TableStorage::automatic && storage_for(path, preferred))
+                return preferred;
+            return storage_for(path, TableStorage(i));
+        }
+    return Error{unknown_name("storage", storage, kNames)};
+}
+
+Result<Size> parse_table_size(const std::string& text) {
+    const std::vector<std::string_view> sides = split(text, 'x');
+    const std::optional<double> width = parse_number(sides.front()), height = parse_number(sides.back());
+    const auto is_side = [](std::optional<double> side) { return side && *side == int(*side); };
+    if (sides.size() > 2 || !is_side(width) || !is_side(height))
+        return Error{"--size is '" + text + "', must be WIDTHxHEIGHT or one side, like 512x256"};
+    return Size{int(*width), int(*height)};
+}
+
+Result<Range> parse_range(const std::string& option, const std::string& text) {
+    const std::vector<std::string_view> ends = split(text, ',');
+    const std::optional<double> min = parse_number(ends.front()), max = parse_number(ends.back());
+    if (ends.size() != 2 || !min || !max)
+        return Error{option + " is '" + text + "', must be MIN,MAX, like 0,0.5"};
+    return Range{*min, *max};
+}
+
+Result<int> deliver(const Table& table, const Profile& profile, const TableOutput& output,
+                    TableStorage storage) {
+    if (Result<void> written = write_table(output.path, table, storage); !written) return written.error();
+    const Result<LookupError> error = lookup_error(quantised(table, storage), exact_function(table, profile));
+    if (!error) return error.error();
+    if (!output.plot_path.empty()) {
+        const Result<Plot> plot = table_plot(table, profile, storage);
+        if (!plot) return plot.error();
+        if (Result<void> drawn = write_plot(output.plot_path, *plot); !drawn) return drawn.error();
+    }
+    const Convention& convention = table.convention;
+    std::printf("%s: %s\n", output.path.c_str(), describe(table).c_str());
+    std::printf("largest error of a lookup %.2g (%s %.3g, %s %.3g), rms %.2g\n", error->max,
+                convention.axes[0].name.c_str(), error->u, convention.axes[1].name.c_str(), error->v,
+                error->rms);
+    return 0;
+}
+
+}  // namespace dermis::cli

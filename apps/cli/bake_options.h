@@ -1,0 +1,39 @@
+#pragma once
+// What the bake commands share: the `bake` command itself, and options that mean the same in each of them.
+
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "dermis/bake/table_io.h"
+#include "dermis/optics/profile.h"
+
+namespace dermis::cli {
+
+/// `dermis bake`, made by whichever subcommand asks first.
+[[nodiscard]] CLI::App* bake_group(CommandLine& line);
+
+/// -o FILE, --storage, --plot.
+struct TableOutput {
+    std::string path, plot_path, storage = "auto";
+    void add_to(CLI::App* command);
+    [[nodiscard]] Result<TableStorage> chosen_storage(TableStorage preferred = TableStorage::automatic) const;
+};
+
+/// "512x256" or "512" (square).
+struct Size {
+    int width = 0, height = 0;
+};
+[[nodiscard]] Result<Size> parse_table_size(const std::string& text);
+/// "0,0.5".
+struct Range {
+    double min = 0, max = 0;
+};
+[[nodiscard]] Result<Range> parse_range(const std::string& option, const std::string& text);
+
+/// Writes the table, the plot if one is asked for, and prints what was written and how exact a lookup in it
+/// is.
+[[nodiscard]] Result<int> deliver(const Table& table, const Profile& profile, const TableOutput& output,
+                                  TableStorage storage);
+
+}  // namespace dermis::cli

@@ -1,0 +1,20 @@
+#pragma once
+// The published loops, literally: for reproducing old tables, never for new ones.
+
+#include <span>
+#include <vector>
+
+#include "dermis/bake/table.h"
+#include "dermis/optics/profile.h"
+
+namespace dermis {
+
+/// Interleaved RGB, row by row. unity_taps: a = -pi/2, -pi/2 + 0.05, ... up to pi/2, the profile at the chord
+/// 2 r |sin(a/2)| of one-dimensional Gaussians, divided by the sum of weights ("Pre-Integrated Skin Shading"
+/// for Unity 3.5, 2011). faceworks_taps: 200 midpoints over arc lengths of min(pi r, 10 mm) to both sides,
+/// the profile at the arc length, not divided (NVIDIA FaceWorks 1.0, 2016; its standard deviations are
+/// rounded to three digits there). Error: the profile is no sum of Gaussians.
+[[nodiscard]] Result<std::vector<float>> integrate_by_taps(const Table& table, const Profile& profile,
+                                                           std::span<const double> n_dot_l);
+
+}  // namespace dermis

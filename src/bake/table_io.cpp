@@ -1,0 +1,209 @@
+#include "dermis/bake/table_io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "dermis/bake/table_text.h"
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/image/io.h"
+
+namespace dermis {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kTextKey = "dermis";
+
+struct Format {
+    std::string_view extension;
+    TableStorage automatic;
+    std::vector<TableStorage> others;
+    std::string_view holds;
+};
+
+const std::vector<Format>& formats() {
+    static const std::vector<Format> all = {
+        {".exr", TableStorage::f16, {TableStorage::f32}, "half or float"},
+        {".png", TableStorage::u16, {TableStorage::u8}, "16 or 8 bit"},
+        {".ktx2", TableStorage::f16, {}, "half"},
+        {".dds", TableStorage::f16, {}, "half"},
+        {".h", TableStorage::f32, {}, "float"},
+        {".csv", TableStorage::f32, {}, "float"},
+    };
+    return all;
+}
+
+std::string_view name_of(TableStorage storage) {
+    constexpr std::string_view kNames[] = {"automatic", "8 bit", "16 bit", "half", "float"};
+    return kNames[size_t(storage)];
+}
+
+PixelFormat pixel_format(TableStorage storage) {
+    switch (storage) {
+        case TableStorage::u8:
+            return PixelFormat::u8;
+        case TableStorage::u16:
+            return PixelFormat::u16;
+        case TableStorage::f16:
+            return PixelFormat::f16;
+        default:
+            return PixelFormat::f32;
+    }
+}
+
+int file_row(const Table& table, int y) {
+    return table.convention.v_origin == VOrigin::top ? y : table.height - 1 - y;
+}
+
+// Encoded values; the encoding flag is set so that a PNG says sRGB when its numbers are.
+Image encoded_image(const Table& table, TableStorage storage) {
+    const bool srgb = table.convention.encoding == TableEncoding::srgb;
+    Image image(table.width, table.height, table.channels, pixel_format(storage),
+                srgb ? Encoding::srgb : Encoding::linear);
+    for (int y = 0; y < table.height; ++y)
+        for (int x = 0; x < table.width; ++x)
+            for (int c = 0; c < table.channels; ++c)
+                image.set(x, file_row(table, y), c,
+                          float(encode_value(table.convention, table.at(x, y, c), table.u_value(x))));
+    return image;
+}
+
+Result<void> write_content(const fs::path& path, const Table& table, TableStorage storage,
+                           const std::string& json) {
+    const std::string extension = to_lower(path.extension().string());
+    if (extension == ".csv") return write_text_file(path, table_csv(table));
+    if (extension == ".h") return write_text_file(path, table_c_header(table, path.stem().string()));
+    return write_image(path, encoded_image(table, storage), {{kTextKey, json}});
+}
+
+// The embedded text where there is one, else the sidecar; both must agree.
+Result<ParsedConvention> load_convention(const fs::path& path, const std::string& embedded) {
+    const fs::path beside = sidecar_path(path);
+    std::error_code ec;
+    std::string sidecar;
+    if (fs::exists(beside, ec)) {
+        Result<std::string> text = read_text_file(beside);
+        if (!text) return text.error();
+        sidecar = std::move(*text);
+    }
+    if (embedded.empty() && sidecar.empty())
+        return Error{path.string() + ": carries no convention (neither inside nor as " +
+                     beside.filename().string() + "); 'dermis lint' finds out what it is"};
+    if (!embedded.empty() && !sidecar.empty() && trim(embedded) != trim(sidecar))
+        return Error{path.string() + ": the convention inside differs from the one in " +
+                     beside.filename().string() + "; delete the wrong one"};
+    return embedded.empty() ? parse_convention(sidecar, beside.string())
+                            : parse_convention(embedded, path.string());
+}
+
+Result<Table> decoded_table(const LoadedImage& loaded, const ParsedConvention& parsed, const fs::path& path) {
+    const Image& image = loaded.image;
+    if (image.width != parsed.width || image.height != parsed.height)
+        return Error{path.string() + ": is " + std::to_string(image.width) + " x " +
+                     std::to_string(image.height) + " texels, convention keys 'width' and 'height' say " +
+                     std::to_string(parsed.width) + " x " + std::to_string(parsed.height)};
+    const Image stored = to_linear_float(image);
+    Table table{.width = image.width,
+                .height = image.height,
+                .channels = parsed.convention.kind == TableKind::beckmann ? 1 : 3,
+                .convention = parsed.convention};
+    if (stored.channels < table.channels)
+        return Error{path.string() + ": has " + std::to_string(stored.channels) + " channel(s), a " +
+                     std::string(dermis::name_of(parsed.convention.kind)) + " table has 3"};
+    for (int y = 0; y < table.height; ++y)
+        for (int x = 0; x < table.width; ++x)
+            for (int c = 0; c < table.channels; ++c) {
+                const float value = stored.at(x, file_row(table, y), c);
+                if (!std::isfinite(value))
+                    return Error{path.string() + ": texel (" + std::to_string(x) + ", " + std::to_string(y) +
+                                 ") is not finite"};
+                table.data.push_back(float(decode_value(table.convention, value, table.u_value(x))));
+            }
+    return table;
+}
+
+Result<Table> read_csv(const fs::path& path, const TableUse& use) {
+    const Result<ParsedConvention> parsed = load_convention(path, "");
+    if (!parsed) return parsed.error();
+    if (Result<void> fits = check_use(parsed->convention, use, path.string()); !fits) return fits.error();
+    const Result<std::string> text = read_text_file(path);
+    if (!text) return text.error();
+    return parse_table_csv(*text, *parsed, path.string());
+}
+
+Result<void> check_flag(std::span<const std::byte> file, const Convention& convention, const fs::path& path) {
+    if (convention.encoding == TableEncoding::srgb || !png_is_flagged_srgb(file)) return {};
+    return Error{path.string() + ": the PNG is flagged sRGB, but convention key 'encoding' is '" +
+                 std::string(dermis::name_of(convention.encoding)) +
+                 "'; some tool resaved it: bake it again or remove its sRGB chunk"};
+}
+
+}  // namespace
+
+fs::path sidecar_path(const fs::path& path) {
+    return path.string() + ".json";
+}
+
+Result<TableStorage> storage_for(const fs::path& path, TableStorage storage) {
+    std::vector<std::string> extensions;
+    for (const Format& format : formats()) {
+        extensions.emplace_back(format.extension);
+        if (format.extension != to_lower(path.extension().string())) continue;
+        if (storage == TableStorage::automatic || storage == format.automatic) return format.automatic;
+        if (std::ranges::count(format.others, storage)) return storage;
+        return Error{path.string() + ": a " + std::string(format.extension) + " table holds " +
+                     std::string(format.holds) + ", not " + std::string(name_of(storage))};
+    }
+    return Error{path.string() + ": " +
+                 unknown_name("table extension", path.extension().string(), extensions)};
+}
+
+TableEncoding encoding_for(TableKind kind, TableStorage storage) {
+    if (storage != TableStorage::u8) return TableEncoding::linear;
+    if (kind == TableKind::beckmann) return TableEncoding::tenth_power;
+    return TableEncoding::srgb;
+}
+
+Result<void> write_table(const fs::path& path, const Table& table, TableStorage storage) {
+    const Result<TableStorage> chosen = storage_for(path, storage);
+    if (!chosen) return chosen.error();
+    const std::string json = convention_json(table.convention, table.width, table.height);
+    if (Result<void> written = write_content(path, table, *chosen, json); !written) return written;
+    return write_text_file(sidecar_path(path), json + "\n");
+}
+
+Result<Table> read_table(const fs::path& path, const TableUse& use) {
+    const std::string extension = to_lower(path.extension().string());
+    if (extension == ".csv") return read_csv(path, use);
+    if (extension == ".h")
+        return Error{path.string() + ": a .h table is for a compiler; read .exr, .png or .csv"};
+    const Result<std::vector<std::byte>> file = read_file(path);
+    if (!file) return file.error();
+    const Result<LoadedImage> loaded = decode_image(*file, path.string(), ImageUse::data);
+    if (!loaded) return loaded.error();
+    const auto text = loaded->text.find(kTextKey);
+    const Result<ParsedConvention> parsed =
+        load_convention(path, text == loaded->text.end() ? std::string() : text->second);
+    if (!parsed) return parsed.error();
+    if (Result<void> fits = check_use(parsed->convention, use, path.string()); !fits) return fits.error();
+    if (Result<void> flag = check_flag(*file, parsed->convention, path); !flag) return flag.error();
+    return decoded_table(*loaded, *parsed, path);
+}
+
+bool png_is_flagged_srgb(std::span<const std::byte> file) {
+    constexpr unsigned char kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    if (file.size() < 8 || std::memcmp(file.data(), kSignature, 8) != 0) return false;
+    // Chunks: length (big-endian), four letters, that many bytes, a checksum.
+    for (size_t at = 8; at + 12 <= file.size();) {
+        uint32_t length = 0;
+        for (size_t i = 0; i < 4; ++i) length = length << 8 | uint32_t(file[at + i]);
+        const std::string_view type(reinterpret_cast<const char*>(file.data()) + at + 4, 4);
+        if (type == "sRGB") return true;
+        if (type == "IDAT") return false;
+        at += 12 + size_t(length);
+    }
+    return false;
+}
+
+}  // namespace dermis

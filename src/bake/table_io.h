@@ -1,0 +1,43 @@
+#pragma once
+// Tables as files, by extension:
+//
+//   .exr         half (default) or float             convention embedded
+//   .png         16 bit (default) or 8 bit           convention embedded; flagged sRGB if its encoding is
+//   .ktx2 .dds   RGBA16F                             convention embedded in KTX2
+//   .h           C array of floats, rows in file order
+//   .csv         "n_dot_l,curvature_per_mm,r,g,b": one row a texel, decoded values, shortest exact numbers
+//
+// Beside every file lies FILE.json, the same convention. No mips, no compression of blocks; use clamp-to-edge
+// and keep lookups half a texel inside (axis coordinates already are: texels are at their centres).
+
+#include <filesystem>
+#include <string>
+
+#include "dermis/bake/table.h"
+
+namespace dermis {
+
+/// What `automatic` means for this extension. Error: an unknown extension or one that cannot hold `storage`;
+/// the message lists what can.
+[[nodiscard]] Result<TableStorage> storage_for(const std::filesystem::path& path, TableStorage storage);
+
+/// 8 bits hold a table of light only sRGB-encoded (the first linear step is 0.004); all others hold it
+/// linear.
+[[nodiscard]] TableEncoding encoding_for(TableKind kind, TableStorage storage);
+
+/// Encodes as the table's convention says, rounds to `storage`, writes file and sidecar whole or not at all.
+[[nodiscard]] Result<void> write_table(const std::filesystem::path& path, const Table& table,
+                                       TableStorage storage = TableStorage::automatic);
+
+/// The table as the file has it, decoded. Refuses: a file without a convention (see `dermis lint`), one whose
+/// embedded and sidecar conventions differ, a size that contradicts it, a PNG flagged sRGB whose convention
+/// is not, a convention that does not match `use` (the message says which key), a .h file (it is for
+/// compilers).
+[[nodiscard]] Result<Table> read_table(const std::filesystem::path& path, const TableUse& use);
+
+[[nodiscard]] std::filesystem::path sidecar_path(const std::filesystem::path& path);
+
+/// Whether a PNG's chunks claim sRGB. Files that are no PNG do not.
+[[nodiscard]] bool png_is_flagged_srgb(std::span<const std::byte> file);
+
+}  // namespace dermis

@@ -1,0 +1,85 @@
+#pragma once
+// The same skin in the words of other tools, and back.
+//
+// "Radius" is four different lengths in them: Burley's d, the mean free path 1 / sigma_t, the diffuse mean
+// free path 1 / sigma_tr, or a look radius; in mm, cm, m or scene units. Everything goes through one
+// canonical form, per channel {albedo A, Burley d in mm}, so that a conversion is two steps and each names
+// its quantity, unit and boundary assumption. The table of docs/profiles.md is made from this.
+//
+//     Result<ToolId> hdrp = find_tool("hdrp");
+//     ToolSettings settings = to_tool(*hdrp, burley_equivalent(*find_profile("jensen_skin1")));
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/optics/profile.h"
+
+namespace dermis {
+
+enum class ToolId {
+    faceworks,
+    separable_sss,
+    hdrp,
+    unreal,
+    blender_burley,
+    blender_random_walk,
+    blender_random_walk_skin,
+    openpbr,
+    gltf_volume_scatter,
+    pbrt,
+};
+
+/// One parameter of a tool as its own interface names it. Scalars hold their number in value[0].
+struct ToolKey {
+    std::string_view name;
+    int count;  ///< 1, or 3 for red, green, blue
+    std::array<double, 3> default_value;
+    double min, max;
+    std::string_view unit;  ///< "" for ratios and colours
+    std::string_view meaning;
+};
+
+/// What a tool means by its numbers.
+struct ToolConvention {
+    ToolId id;
+    std::string_view name;
+    std::string_view length;    ///< the physical quantity behind its "radius"
+    std::string_view boundary;  ///< what is assumed of the surface that light enters and leaves by
+    std::string_view lost;      ///< what of {A, d} it cannot hold; "" if nothing
+    std::vector<ToolKey> keys;
+};
+
+struct ToolSettings {
+    ToolId tool;
+    std::vector<std::array<double, 3>> values;  ///< in the order of the convention's keys
+};
+
+[[nodiscard]] const std::vector<ToolConvention>& tool_conventions();
+[[nodiscard]] const ToolConvention& convention_of(ToolId tool);
+/// Errors: an unknown name proposes the closest.
+[[nodiscard]] Result<ToolId> find_tool(std::string_view name);
+
+/// The tool's own defaults where it has some, else a plausible skin.
+[[nodiscard]] ToolSettings default_settings(ToolId tool);
+
+/// Sets one key. Errors: an unknown key, a number out of the key's range, not `count` (or one) numbers.
+[[nodiscard]] Result<void> set_value(ToolSettings& settings, std::string_view key,
+                                     const std::vector<double>& numbers);
+
+/// burley is check()ed. Round trips to_canonical(to_tool(x)) = x within 1e-9 but for what the convention
+/// names as lost.
+[[nodiscard]] ToolSettings to_tool(ToolId tool, const BurleyProfile& burley);
+[[nodiscard]] Result<BurleyProfile> to_canonical(const ToolSettings& settings);
+
+/// The volume whose half-space shows the profile's albedo under diffuse light and, by Christensen and Burley
+/// 2015, equation 6, blurs it with the profile's d: index-matched albedo inversion, reduced mean free path
+/// s(A) d. For a random walk. An albedo of 1 gives a medium without absorption, whose walk ends only at the
+/// surface.
+[[nodiscard]] ScatteringMedium medium_of(const BurleyProfile& burley, double g, double eta);
+/// The other way, within 1e-4 in albedo (that of the inversion).
+[[nodiscard]] BurleyProfile burley_of(const ScatteringMedium& medium);
+
+}  // namespace dermis

@@ -1,0 +1,26 @@
+// The tests' cache is their own: results of an earlier build must not pass for this one's.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "support/temporary_directory.h"
+
+namespace {
+
+class OwnCache : public testing::Environment {
+  public:
+    void SetUp() override {
+        directory_ = std::make_unique<dermis::TemporaryDirectory>();
+        ::setenv("DERMIS_CACHE", directory_->path.c_str(), 1);
+    }
+    void TearDown() override { directory_.reset(); }
+
+  private:
+    std::unique_ptr<dermis::TemporaryDirectory> directory_;
+};
+
+testing::Environment* const kOwnCache = testing::AddGlobalTestEnvironment(new OwnCache);
+
+}  // namespace
