@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dermis/base/text.h"
+#include "dermis/render/complete_scene.h"
 
 namespace dermis::cli {
 
@@ -71,6 +72,7 @@ Result<Prepared> prepare(const RenderOptions& options) {
 
     Result<Scene> scene = load_scene(options.scene);
     if (!scene) return scene.error();
+    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     if (Result<void> applied = apply_views(*scene, options); !applied) return applied.error();
 
     const bool scenes_own = options.technique.empty() || options.technique == scene->technique;

@@ -13,8 +13,7 @@
 namespace dermis::cli {
 
 struct RenderOptions {
-    std::string scene = "builtin:spheres", technique, size = "1024x1024", camera, light, view = "final",
-                device;
+    std::string scene = "bust", technique, size = "1024x1024", camera, light, view = "final", device;
     std::vector<std::string> settings;  ///< name=value
     int samples = 1;
     bool validation = false;

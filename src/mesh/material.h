@@ -10,10 +10,13 @@
 
 namespace dermis {
 
-/// An image named by a mesh file or a scene: a path, or the encoded bytes of an embedded one.
+/// An image named by a mesh file or a scene: a path, the encoded bytes of an embedded one, or the pixels of
+/// one that was made by code.
 struct ImageSource {
-    std::string name;                ///< path, or a name for errors
+    std::string name;                ///< path, or a name for errors (unique, when there are pixels)
     std::vector<std::byte> encoded;  ///< empty: read `name` from disk
+    int width = 0, height = 0, channels = 0;
+    std::vector<std::byte> pixels;  ///< 8 bit, rows from the top; sRGB where the map is a colour
 
     [[nodiscard]] bool present() const { return !name.empty() || !encoded.empty(); }
 };

@@ -2,7 +2,9 @@
 
 #include <cstring>
 
+#include "dermis/image/dilate.h"
 #include "dermis/image/io.h"
+#include "dermis/render/atlas_mask.h"
 
 namespace dermis {
 namespace {
@@ -43,6 +45,21 @@ Image single_channel(const Image& image, int preferred) {
         std::memcpy(single.bytes.data() + i * size, image.bytes.data() + i * stride + size_t(channel) * size,
                     size);
     return single;
+}
+
+Result<Image> decode(const ImageSource& source, ImageUse use) {
+    if (!source.pixels.empty()) {
+        Image image;
+        image.width = source.width, image.height = source.height, image.channels = source.channels;
+        image.format = PixelFormat::u8;
+        image.encoding = use == ImageUse::color ? Encoding::srgb : Encoding::linear;
+        image.bytes = source.pixels;
+        return image;
+    }
+    Result<LoadedImage> loaded = source.encoded.empty() ? read_image(source.name, use)
+                                                        : decode_image(source.encoded, source.name, use);
+    if (!loaded) return loaded.error();
+    return std::move(loaded->image);
 }
 
 }  // namespace
@@ -89,15 +106,15 @@ gpu::TextureData neutral_map(const MaterialMap& map) {
     return data;
 }
 
-Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material) {
+Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material,
+                                           const Mesh& mesh) {
     const ImageSource& source = *map_source(map, material);
     const int channel = &source == &(material.*map.source) ? map.preferred_channel : map.packed_channel;
-    const ImageUse use = map.is_color ? ImageUse::color : ImageUse::data;
-    const Result<LoadedImage> loaded = source.encoded.empty()
-                                           ? read_image(source.name, use)
-                                           : decode_image(source.encoded, source.name, use);
-    if (!loaded) return loaded.error();
-    const Image& image = loaded->image;
+    Result<Image> decoded = decode(source, map.is_color ? ImageUse::color : ImageUse::data);
+    if (!decoded) return decoded.error();
+    Image& image = *decoded;
+    if (material.dilate_texels > 0)
+        dilate(image, atlas_mask(mesh, image.width, image.height), material.dilate_texels);
     gpu::TextureData data = {.name = source.name, .width = image.width, .height = image.height};
     data.generate_mips = true;
     if (map.is_single) {

@@ -3,7 +3,7 @@
 
 #include "dermis/gpu/device.h"
 #include "dermis/image/image.h"
-#include "dermis/mesh/material.h"
+#include "dermis/mesh/mesh.h"
 
 namespace dermis {
 
@@ -24,8 +24,10 @@ struct MaterialMap {
 /// The image that fills `map` for this material, or null.
 [[nodiscard]] const ImageSource* map_source(const MaterialMap& map, const Material& material);
 
-/// Reads and decodes one map; level 0 only, mips are made on the device. Errors name the file.
-[[nodiscard]] Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material);
+/// Reads and decodes one map; level 0 only, mips are made on the device. Where the material asks for it the
+/// islands of the mesh's atlas grow into their gutter. Errors name the file.
+[[nodiscard]] Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material,
+                                                         const Mesh& mesh);
 
 /// A 1 x 1 stand-in.
 [[nodiscard]] gpu::TextureData neutral_map(const MaterialMap& map);

@@ -95,6 +95,7 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
         std::string key;
         const MaterialMap* map;
         const Material* material;
+        const Mesh* mesh;
         std::optional<Result<gpu::TextureData>> data;
     };
     std::vector<Job> jobs;
@@ -103,12 +104,13 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
             for (const MaterialMap& map : material_maps()) {
                 const std::string key = texture_key(map, material);
                 if (std::ranges::find(jobs, key, &Job::key) == jobs.end())
-                    jobs.push_back({key, &map, &material, {}});
+                    jobs.push_back({key, &map, &material, &object.mesh, {}});
             }
     parallel_for(jobs.size(), 1, [&](size_t begin, size_t end) {
         for (Job& job : std::span(jobs).subspan(begin, end - begin))
-            job.data = map_source(*job.map, *job.material) ? load_material_map(*job.map, *job.material)
-                                                           : Result<gpu::TextureData>(neutral_map(*job.map));
+            job.data = map_source(*job.map, *job.material)
+                           ? load_material_map(*job.map, *job.material, *job.mesh)
+                           : Result<gpu::TextureData>(neutral_map(*job.map));
     });
     for (const Job& job : jobs) {
         if (!*job.data) return job.data->error();

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "dermis/base/text.h"
+#include "dermis/bust/bust.h"
 
 namespace dermis {
 namespace {
@@ -63,14 +64,41 @@ std::vector<SceneObject> make_spheres() {
     return objects;
 }
 
+ImageSource made_by_code(std::string name, const Image& image) {
+    return {.name = std::move(name),
+            .width = image.width,
+            .height = image.height,
+            .channels = image.channels,
+            .pixels = image.bytes};
+}
+
+Result<std::vector<SceneObject>> make_bust_objects() {
+    Result<Bust> bust = make_bust();
+    if (!bust) return bust.error();
+    SceneObject object{.name = "bust", .mesh = std::move(bust->mesh), .classes = {MaterialClass::skin}};
+    object.mesh.materials.resize(1);
+    Material& skin = object.mesh.materials[0];
+    skin.base_color_linear = {1, 1, 1};
+    skin.roughness = 1;
+    skin.base_color_map = made_by_code("builtin:bust albedo", bust->albedo);
+    skin.normal_map = made_by_code("builtin:bust normal", bust->normal);
+    skin.roughness_map = made_by_code("builtin:bust roughness", bust->roughness);
+    skin.specular_map = made_by_code("builtin:bust specular", bust->specular);
+    skin.kernel_size_map = made_by_code("builtin:bust kernel size", bust->kernel_size);
+    std::vector<SceneObject> objects;
+    objects.push_back(std::move(object));
+    return objects;
+}
+
 }  // namespace
 
 std::vector<std::string> builtin_mesh_names() {
-    return {"spheres"};
+    return {"bust", "spheres"};
 }
 
 Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name) {
     if (name == "spheres") return make_spheres();
+    if (name == "bust") return make_bust_objects();
     return Error{unknown_name("built-in scene", name, builtin_mesh_names())};
 }
 
