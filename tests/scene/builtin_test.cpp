@@ -82,5 +82,5 @@ TEST(BuiltinSpheres, the_default_scene_has_one_key_light_and_frames_its_bounds) 
 
 TEST(LoadScene, an_unknown_built_in_name_says_which_exist) {
     EXPECT_EQ(load_scene("builtin:sphere").error().message,
-              "unknown built-in scene 'sphere'; did you mean 'spheres'? Known: spheres");
+              "unknown built-in scene 'sphere'; did you mean 'spheres'? Known: bust, spheres");
 }
