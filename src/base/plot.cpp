@@ -11,6 +11,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/base/vec.h"
 
 namespace dermis {
 namespace {
@@ -187,26 +188,48 @@ std::string circle(double x, double y, std::string_view color) {
     return "<circle cx=\"" + px(x) + "\" cy=\"" + px(y) + "\" r=\"2.6\" fill=\"" + escaped(color) + "\"/>\n";
 }
 
-std::string_view color_of(const PlotSeries& series, size_t index) {
-    return series.color.empty() ? kPalette[index % kPalette.size()] : std::string_view(series.color);
+std::string_view color_of(const PlotPanel& panel, size_t index) {
+    if (!panel.series[index].color.empty()) return panel.series[index].color;
+    const auto without_color = [](const PlotSeries& series) { return series.color.empty(); };
+    const auto before =
+        std::count_if(panel.series.begin(), panel.series.begin() + long(index), without_color);
+    return kPalette[size_t(before) % kPalette.size()];
+}
+
+// Leaves out points that the straight line between the last kept one and the next passes close to: flat parts
+// of finely sampled curves are most of a file otherwise.
+std::string path_data(const std::vector<Vec2>& points) {
+    constexpr float kTolerance_px = 0.03f;
+    std::string path;
+    Vec2 kept;
+    for (size_t i = 0; i < points.size(); ++i) {
+        if (i > 0 && i + 1 < points.size()) {
+            const Vec2 chord = points[i + 1] - kept;
+            if (std::abs(cross(chord, points[i] - kept)) < kTolerance_px * length(chord)) continue;
+        }
+        path += (i == 0 ? "M" : "L") + px(points[i].x) + " " + px(points[i].y);
+        kept = points[i];
+    }
+    return path;
 }
 
 std::string draw_series(const PlotSeries& series, std::string_view color, const Scale& x_scale,
                         const Scale& y_scale, const Rect& area) {
     assert(series.x.size() == series.y.size());
     std::string path, marks;
-    bool pen_down = false;
+    std::vector<Vec2> unbroken;
+    const auto lift_pen = [&] { path += path_data(unbroken), unbroken.clear(); };
     for (size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
         if (!x_scale.shows(series.x[i]) || !y_scale.shows(series.y[i])) {
-            pen_down = false;
+            lift_pen();
             continue;
         }
         const double x = area.x + area.width * x_scale.position(series.x[i]);
         const double y = area.y + area.height * (1 - y_scale.position(series.y[i]));
-        path += (pen_down ? "L" : "M") + px(x) + " " + px(y);
-        pen_down = true;
+        unbroken.push_back({float(std::clamp(x, -1e5, 1e5)), float(std::clamp(y, -1e5, 1e5))});
         if (series.mark != PlotMark::line) marks += circle(x, y, color);
     }
+    lift_pen();
     std::string out;
     if (series.mark != PlotMark::points && !path.empty())
         out += "<path " + stroke_attributes(series, color) + " d=\"" + path + "\"/>\n";
@@ -257,7 +280,7 @@ std::string draw_legend(const PlotPanel& panel, const std::vector<LegendEntry>& 
     std::string out;
     for (const LegendEntry& entry : entries) {
         const PlotSeries& series = panel.series[entry.series];
-        const std::string_view color = color_of(series, entry.series);
+        const std::string_view color = color_of(panel, entry.series);
         const double x0 = x + entry.x, y0 = y + kLegendLine * entry.line;
         if (series.mark != PlotMark::points)
             out += line_element(x0, y0, x0 + 24, y0, stroke_attributes(series, color));
@@ -290,7 +313,7 @@ std::string draw_panel(const PlotPanel& panel, const Rect& cell, const std::stri
     out += "<clipPath id=\"" + clip_id + "\"><rect" + box + "/></clipPath>\n<g clip-path=\"url(#" + clip_id +
            ")\">\n";
     for (size_t i = 0; i < panel.series.size(); ++i)
-        out += draw_series(panel.series[i], color_of(panel.series[i], i), x_scale, y_scale, area);
+        out += draw_series(panel.series[i], color_of(panel, i), x_scale, y_scale, area);
     out += "</g>\n<rect" + box + " fill=\"none\" stroke=\"#868e96\"/>\n";
 
     const double x_middle = area.x + area.width / 2, y_middle = area.y + area.height / 2;

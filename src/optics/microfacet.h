@@ -30,7 +30,7 @@ namespace dermis {
 
 /// D F / (4 (l.h)^2): the shadowing term of Kelemen, Szirmay-Kalos 2001, A Microfacet Based Coupled
 /// Specular-Matte BRDF Model, equation 11 (G / (n.l n.v) taken as 1 / (l.h)^2). With D = beckmann_d; the code
-/// of GPU Gems 3, listing 14-1, leaves out the 1 / pi of D and is pi times brighter.
+/// of GPU Gems 3, section 14.3, leaves out the 1 / pi of D and is pi times brighter.
 [[nodiscard]] double kelemen_szirmay_kalos_brdf(double d, double fresnel, double l_dot_h);
 
 /// A rough matte surface relative to Lambert's: multiply by albedo / pi. sigma_rad is the standard deviation

@@ -13,7 +13,7 @@ namespace {
 using Rgb = std::array<double, 3>;
 
 Profile gpu_gems_3() {
-    return {"gpu_gems_3", "d'Eon, Luebke 2007, GPU Gems 3, chapter 14, section 14.3", gpu_gems_3_skin()};
+    return {"gpu_gems_3", "d'Eon, Luebke 2007, GPU Gems 3, section 14.4", gpu_gems_3_skin()};
 }
 
 // Jensen et al. 2001, table 1: reduced scattering and absorption; g is part of the reduced coefficient.

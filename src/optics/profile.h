@@ -39,7 +39,7 @@ struct GaussianSum {
     std::vector<GaussianTerm> terms;
 };
 
-/// GPU Gems 3, section 14.3, table of the skin profile: six Gaussians fitted to a three-layer skin; weights
+/// GPU Gems 3, section 14.4: six Gaussians fitted to a three-layer skin; weights
 /// of each channel sum to 1.
 [[nodiscard]] GaussianSum gpu_gems_3_skin();
 
@@ -91,7 +91,7 @@ struct Profile {
 /// The part of the light that passes a slab of the same material, 1 at thickness 0: the profile at the
 /// straight distance sqrt(r^2 + t^2) integrated over the far plane and divided by the albedo, which is 1 -
 /// cdf(t). For a Gaussian exp(-t^2 / 2v); for Burley (exp(-t/d) + 3 exp(-t/3d)) / 4. Source: d'Eon, Luebke
-/// 2007, section 14.5.4. It ignores the far boundary.
+/// 2007, section 14.5. It ignores the far boundary.
 [[nodiscard]] double slab_transmittance(const Profile& profile, int channel, double thickness_mm);
 
 /// The Burley profile of the same albedo and mean radius: d = mean / 2.5. The common currency of conversions.

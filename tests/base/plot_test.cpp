@@ -68,3 +68,15 @@ TEST(Plot, only_svg_is_written) {
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find("curve.png"), std::string::npos);
 }
+
+TEST(Plot, leaves_out_points_on_a_straight_line_but_no_corner) {
+    const auto corners = [](const std::string& svg) {
+        const size_t path = svg.find(" d=\"M");
+        return count(svg.substr(path, svg.find('"', path + 5) - path), "L");
+    };
+    std::vector<double> x, straight, bent;
+    for (int i = 0; i <= 100; ++i)
+        x.push_back(i), straight.push_back(2 * i), bent.push_back(std::abs(i - 50));
+    EXPECT_EQ(corners(plot_svg(one_curve(x, straight))), 1u);
+    EXPECT_EQ(corners(plot_svg(one_curve(x, bent))), 2u);
+}

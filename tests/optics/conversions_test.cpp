@@ -8,8 +8,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/base/file.h"
 #include "dermis/optics/burley_scaling.h"
 #include "dermis/optics/presets.h"
+#include "dermis/optics/profile_report.h"
 
 using namespace dermis;
 using testing::HasSubstr;
@@ -138,4 +140,11 @@ TEST(Medium, the_medium_of_a_profile_has_its_albedo_and_d_whatever_the_anisotrop
                     1e-12)
             << g;
     }
+}
+
+TEST(Documentation, its_tables_are_what_the_code_says) {
+    const Result<std::string> page = read_text_file(DERMIS_SOURCE_DIR "/docs/profiles.md");
+    ASSERT_TRUE(page);
+    EXPECT_TRUE(page->ends_with(profile_tables_markdown()))
+        << "regenerate: keep docs/profiles.md up to '## Tables' and append `dermis profile table`";
 }
