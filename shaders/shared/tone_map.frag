@@ -12,5 +12,5 @@ layout(location = 0) out vec4 display_out;
 
 void main() {
     vec4 color = texelFetch(sampler2D(radiance, nearest_clamp), ivec2(gl_FragCoord.xy), 0);
-    display_out = vec4(srgb_encode(tone_mapped(max(color.rgb, vec3(0.0)) * exposure, tone_map)), color.a);
+    display_out = vec4(srgb_encode(tone_mapped(max(color.rgb, vec3(0.0)) * exposure, tone_map)), 1.0);
 }

@@ -68,7 +68,7 @@ Vec3 neutral(Vec3 c) {
 }  // namespace
 
 std::span<const std::string> tone_map_names() {
-    static const std::array<std::string, 4> names = {"none", "hable", "aces", "neutral"};
+    static const std::array<std::string, 4> names = {"none", "hable", "aces", "pbr_neutral"};
     return names;
 }
 
@@ -87,7 +87,7 @@ Vec3 tone_map(ToneMap curve, Vec3 c_linear) {
             return hable(c);
         case ToneMap::aces:
             return aces(c);
-        case ToneMap::neutral:
+        case ToneMap::pbr_neutral:
             return neutral(c);
         case ToneMap::none:
             break;

@@ -7,7 +7,7 @@
 //              channel at a time (bright colours lose saturation)
 //     aces     the ACES reference and sRGB output transforms as S. Hill fitted them (BakingLab, 2016): light
 //              of 1 becomes 0.62 (0.81 encoded)
-//     neutral  Khronos PBR Neutral (E. Malan, 2024): colours up to 0.8 stay as they are less the Fresnel
+//     pbr_neutral  Khronos PBR Neutral (E. Malan, 2024): colours up to 0.8 stay as they are less the Fresnel
 //              reflection of 0.04, only highlights are compressed; the one to judge skin albedo by
 
 #include <span>
@@ -19,9 +19,9 @@
 
 namespace dermis {
 
-enum class ToneMap { none, hable, aces, neutral };
+enum class ToneMap { none, hable, aces, pbr_neutral };
 
-/// "none", "hable", "aces", "neutral", in the order of the enumerators.
+/// "none", "hable", "aces", "pbr_neutral", in the order of the enumerators.
 [[nodiscard]] std::span<const std::string> tone_map_names();
 [[nodiscard]] Result<ToneMap> parse_tone_map(std::string_view name);
 

@@ -10,6 +10,7 @@
 
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
+#include "dermis/image/tone_map.h"
 #include "dermis/mesh/mesh.h"
 
 namespace dermis {
@@ -74,8 +75,6 @@ struct Environment {
     float yaw_rad = 0;
     bool visible = false;  ///< as the background
 };
-
-enum class ToneMap { none, hable, aces, pbr_neutral };
 
 /// What all skin materials share. Loading a scene file copies ior, roughness and specular into every skin
 /// material that does not state its own, so the materials of skin can be drawn like any others.

@@ -8,7 +8,7 @@ using namespace dermis;
 
 namespace {
 
-constexpr ToneMap kCurves[] = {ToneMap::none, ToneMap::hable, ToneMap::aces, ToneMap::neutral};
+constexpr ToneMap kCurves[] = {ToneMap::none, ToneMap::hable, ToneMap::aces, ToneMap::pbr_neutral};
 
 Vec3 grey(float x) {
     return {x, x, x};
@@ -52,18 +52,18 @@ TEST(ToneMap, curves_have_their_published_values) {
 }
 
 TEST(ToneMap, neutral_keeps_base_colours_less_the_fresnel_offset_and_compresses_above) {
-    const Vec3 skin = tone_map(ToneMap::neutral, Vec3{0.6f, 0.4f, 0.3f});
+    const Vec3 skin = tone_map(ToneMap::pbr_neutral, Vec3{0.6f, 0.4f, 0.3f});
     EXPECT_NEAR(skin.x, 0.56f, 1e-6f);
     EXPECT_NEAR(skin.y, 0.36f, 1e-6f);
     EXPECT_NEAR(skin.z, 0.26f, 1e-6f);
-    EXPECT_NEAR(tone_map(ToneMap::neutral, grey(0.04f)).x, 6.25f * 0.04f * 0.04f, 1e-6f);
+    EXPECT_NEAR(tone_map(ToneMap::pbr_neutral, grey(0.04f)).x, 6.25f * 0.04f * 0.04f, 1e-6f);
     // Grey 1: less 0.04, peak 0.96 becomes 1 - 0.24^2 / (0.96 + 0.24 - 0.76).
-    EXPECT_NEAR(tone_map(ToneMap::neutral, grey(1.0f)).x, 1.0f - 0.0576f / 0.44f, 1e-6f);
+    EXPECT_NEAR(tone_map(ToneMap::pbr_neutral, grey(1.0f)).x, 1.0f - 0.0576f / 0.44f, 1e-6f);
     // The slope is continuous where compression starts.
-    const auto at = [](float x) { return tone_map(ToneMap::neutral, grey(x)).x; };
+    const auto at = [](float x) { return tone_map(ToneMap::pbr_neutral, grey(x)).x; };
     EXPECT_NEAR((at(0.801f) - at(0.8f)) / 0.001f, (at(0.799f) - at(0.798f)) / 0.001f, 0.02f);
     // A bright saturated red goes towards white.
-    EXPECT_GT(tone_map(ToneMap::neutral, Vec3{20.0f, 0.0f, 0.0f}).y, 0.5f);
+    EXPECT_GT(tone_map(ToneMap::pbr_neutral, Vec3{20.0f, 0.0f, 0.0f}).y, 0.5f);
 }
 
 TEST(ToneMap, negative_infinite_and_undefined_light_gives_a_displayable_colour) {

@@ -1,0 +1,174 @@
+// What physics asks of every technique, whatever it does.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "dermis/image/io.h"
+#include "render/render_test.h"
+
+using namespace dermis;
+
+namespace {
+
+constexpr DrawSettings kSmall = {.width = 128, .height = 128, .shadow_map_size = 512};
+
+class Properties : public RenderTest {};
+
+void scale_lengths(Scene& scene, float factor) {
+    for (SceneObject& object : scene.objects) {
+        for (Vec3& p : object.mesh.positions_mm) p *= factor;
+        for (float& curvature : object.mesh.curvatures_per_mm) curvature /= factor;
+    }
+    scene.camera.eye_mm *= factor;
+    scene.camera.target_mm *= factor;
+    scene.camera.near_mm *= factor;
+    scene.camera.far_mm *= factor;
+    scene.bounds_center_mm *= factor;
+    scene.bounds_radius_mm *= factor;
+}
+
+// Only directional light: no environment, no specular, no point lights.
+Scene key_light_only(Scene scene) {
+    std::erase_if(scene.lights, [](const Light& light) { return !light.is_key; });
+    scene.environment.kind = EnvironmentKind::none;
+    scene.background_linear = {};
+    return scene;
+}
+
+}  // namespace
+
+TEST_F(Properties, every_technique_is_linear_in_light) {
+    Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    scene.background_linear = {};
+    for (const Technique& technique : all_techniques()) {
+        const Image once = radiance(renderer, technique, kSmall);
+        for (Light& light : scene.lights) light.intensity *= 2;
+        scene.environment.intensity *= 2;
+        const Image twice = radiance(renderer, technique, kSmall);
+        for (Light& light : scene.lights) light.intensity /= 2;
+        scene.environment.intensity /= 2;
+        EXPECT_LT(relative_difference(once, twice, 2), 4e-3) << technique.id;
+    }
+}
+
+TEST_F(Properties, every_technique_draws_the_same_frame_twice) {
+    const Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    for (const Technique& technique : all_techniques()) {
+        const Image first = radiance(renderer, technique, kSmall),
+                    second = radiance(renderer, technique, kSmall);
+        EXPECT_EQ(first.bytes, second.bytes) << technique.id;
+    }
+}
+
+TEST_F(Properties, baselines_know_no_length) {
+    Scene scene = key_light_only(load("builtin:spheres")), large = scene;
+    scale_lengths(large, 10);
+    Renderer renderer = make_renderer(scene), large_renderer = make_renderer(large);
+    DrawSettings large_settings = kSmall;
+    large_settings.penumbra_mm = kSmall.penumbra_mm * 10;
+    for (const char* id : {"lambert", "oren_nayar", "wrap"}) {
+        const Technique& technique = **find_technique(id);
+        const Image a = radiance(renderer, technique, kSmall),
+                    b = radiance(large_renderer, technique, large_settings);
+        // Half floats and shadow edges: a few pixels may fall on the other side of a comparison.
+        EXPECT_LT(relative_difference(a, b, 1), 0.06) << id;
+    }
+}
+
+TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
+    // The diffuse light of a white sphere under even light from all around is 1, whatever the scattering.
+    Scene scene = load("builtin:spheres");
+    scene.lights.clear();
+    scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 3);
+    for (SceneObject& object : scene.objects) {
+        object.mesh.materials[0].base_color_linear = {1, 1, 1};
+        object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1.0f);
+    }
+    const auto panorama = std::filesystem::temp_directory_path() / "dermis-furnace.exr";
+    Image white(64, 32, 3);
+    std::ranges::fill(white.floats(), 1.0f);
+    ASSERT_TRUE(write_image(panorama, white));
+    scene.environment = {.kind = EnvironmentKind::file, .file = panorama, .intensity = 1};
+    scene.background_linear = {};
+    Renderer renderer = make_renderer(scene);
+    for (const Technique& technique : all_techniques()) {
+        DrawSettings diffuse = kSmall;
+        diffuse.view = "diffuse";
+        const Image image = radiance(renderer, technique, diffuse);
+        const Image ones = [&] {
+            Image filled = image;
+            std::ranges::fill(filled.floats(), 1.0f);
+            return filled;
+        }();
+        EXPECT_LT(relative_difference(image, ones, 1), 0.02) << technique.id;
+    }
+    std::filesystem::remove(panorama);
+}
+
+TEST_F(Properties, lambert_on_a_sphere_is_the_clamped_cosine) {
+    const Scene scene = key_light_only([] {
+        Scene loaded = load("builtin:spheres");
+        loaded.skin.specular = 0;
+        loaded.skin.ior = 1;
+        return loaded;
+    }());
+    Renderer renderer = make_renderer(scene);
+    DrawSettings settings = kSmall;
+    settings.gbuffer = true;
+    const Image image = radiance(renderer, **find_technique("lambert"), settings);
+    const Image normal = *renderer.read("gbuffer_geometry"), albedo = *renderer.read("gbuffer_albedo");
+    const Image light = *renderer.read("gbuffer_light");
+    const Light& key = scene.key_light();
+    size_t compared = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            if (image.at(x, y, 3) == 0 || light.at(x, y, 3) < 1) continue;
+            const Vec3 n = {normal.at(x, y, 0), normal.at(x, y, 1), normal.at(x, y, 2)};
+            const float cosine = std::max(0.0f, dot(n, key.to_light_world));
+            for (int c = 0; c < 3; ++c) {
+                const float color = c == 0   ? key.color_linear.x
+                                    : c == 1 ? key.color_linear.y
+                                             : key.color_linear.z;
+                const float expected = albedo.at(x, y, c) * color * key.intensity * cosine / 3.14159265f;
+                EXPECT_NEAR(image.at(x, y, c), expected, 2e-3f + 2e-3f * expected);
+            }
+            ++compared;
+        }
+    EXPECT_GT(compared, 1000u);
+}
+
+TEST_F(Properties, four_samples_a_pixel_change_edges_only) {
+    const Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    for (const Technique& technique : all_techniques()) {
+        DrawSettings smooth = kSmall;
+        smooth.samples = 4;
+        const Image one = radiance(renderer, technique, kSmall), four = radiance(renderer, technique, smooth);
+        size_t inside = 0, far_off = 0;
+        for (int y = 0; y < one.height; ++y)
+            for (int x = 0; x < one.width; ++x) {
+                if (one.at(x, y, 3) < 1 || four.at(x, y, 3) < 1) continue;
+                ++inside;
+                far_off += std::abs(one.at(x, y, 0) - four.at(x, y, 0)) > 0.05f;
+            }
+        EXPECT_GT(inside, 1000u);
+        EXPECT_LT(far_off, inside / 50) << technique.id;
+    }
+}
+
+TEST_F(Properties, every_view_of_every_technique_can_be_drawn) {
+    const Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    for (const Technique& technique : all_techniques())
+        for (const std::string& view : view_names(technique)) {
+            DrawSettings settings = {.width = 32, .height = 32, .view = view, .shadow_map_size = 64};
+            const auto drawn = renderer.draw(technique, ParameterValues(technique.parameters), settings);
+            EXPECT_TRUE(drawn) << technique.id << " " << view << ": " << drawn.error().message;
+            EXPECT_TRUE(renderer.display()) << technique.id << " " << view;
+        }
+}
