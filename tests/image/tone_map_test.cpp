@@ -87,5 +87,6 @@ TEST(ToneMap, a_picture_is_exposed_first_and_alpha_passes) {
 
 TEST(ToneMap, names_parse_and_unknown_ones_propose) {
     for (const ToneMap curve : kCurves) EXPECT_EQ(*parse_tone_map(tone_map_names()[size_t(curve)]), curve);
-    EXPECT_NE(parse_tone_map("neutrl").error().message.find("did you mean 'neutral'"), std::string::npos);
+    EXPECT_NE(parse_tone_map("pbr_neutrl").error().message.find("did you mean 'pbr_neutral'"),
+              std::string::npos);
 }
