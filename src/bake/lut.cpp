@@ -1,8 +1,5 @@
 #include "dermis/bake/lut.h"
 
-#include <cmath>
-#include <limits>
-
 #include "dermis/bake/lut_taps.h"
 #include "dermis/bake/rows.h"
 #include "dermis/base/text.h"
@@ -88,17 +85,12 @@ Result<Table> bake_lut(const LutOptions& options) {
     std::vector<double> n_dot_l;
     for (int x = 0; x < table.width; ++x) n_dot_l.push_back(table.u_value(x));
 
-    if (options.convention.integration != Integration::exact) {
-        Result<std::vector<float>> data = integrate_by_taps(table, options.profile, n_dot_l);
-        if (!data) return data.error();
-        table.data = std::move(*data);
-        return table;
-    }
     std::vector<double> radii_mm;
     for (int y = 0; y < table.height; ++y)
         radii_mm.push_back(radius_of(table.convention.axes[1], table.v_value(y)));
+    const Convention& convention = options.convention;
     Result<std::vector<float>> data =
-        integrate_rows(options.profile, n_dot_l, radii_mm, options.convention.how);
+        integrate_model(options.profile, convention.integration, n_dot_l, radii_mm, convention.how);
     if (!data) return data.error();
     table.data = std::move(*data);
     return table;

@@ -11,6 +11,7 @@ namespace dermis {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kMaxRadius_mm = 1e6;  // infinity times an angle of 0 is none
 
 struct Tap {
     double angle_rad;
@@ -37,8 +38,13 @@ std::vector<Tap> unity_taps(const GaussianSum& sum, double radius_mm, double var
         taps.push_back({a, gaussian_line_profile(sum, chord_mm, variance_scale)});
         for (size_t c = 0; c < 3; ++c) total[c] += taps.back().weight[c];
     }
-    for (Tap& tap : taps)
-        for (size_t c = 0; c < 3; ++c) tap.weight[c] /= total[c];
+    // On a nearly flat ring every tap lies beyond the profile; the nearest one is the limit.
+    const auto nearest =
+        std::ranges::min_element(taps, {}, [](const Tap& tap) { return std::abs(tap.angle_rad); });
+    for (size_t c = 0; c < 3; ++c) {
+        if (!(total[c] > 0)) nearest->weight[c] = total[c] = 1;
+        for (Tap& tap : taps) tap.weight[c] /= total[c];
+    }
     return taps;
 }
 
@@ -56,34 +62,49 @@ std::vector<Tap> faceworks_taps(const GaussianSum& sum, double radius_mm, double
     return taps;
 }
 
+Rgb lit_by(const std::vector<Tap>& taps, double theta_rad) {
+    Rgb light = {};
+    for (const Tap& tap : taps) {
+        const double cosine = std::max(0.0, std::cos(theta_rad + tap.angle_rad));
+        for (size_t c = 0; c < 3; ++c) light[c] += cosine * tap.weight[c];
+    }
+    return light;
+}
+
 }  // namespace
 
-Result<std::vector<float>> integrate_by_taps(const Table& table, const Profile& profile,
-                                             std::span<const double> n_dot_l) {
+Result<std::vector<float>> integrate_by_taps(const Profile& profile, Integration integration,
+                                             std::span<const double> n_dot_l,
+                                             std::span<const double> radii_mm, const Preintegration& how) {
     const auto* sum = std::get_if<GaussianSum>(&profile.model);
     if (!sum)
-        return Error{"profile '" + profile.name + "' is " + model_name(profile) + "; the taps of " +
-                     std::string(name_of(table.convention.integration)) + " need a sum of Gaussians"};
-    if (Result<void> valid = check_preintegrable(profile, table.convention.how); !valid) return valid.error();
-    const bool unity = table.convention.integration == Integration::unity_taps;
-    std::vector<float> data(3 * n_dot_l.size() * size_t(table.height));
-    parallel_for(size_t(table.height), 1, [&](size_t begin, size_t end) {
+        return Error{"profile '" + profile.name + "' is " + model_name(profile) + "; " +
+                     std::string(name_of(integration)) + " need a sum of Gaussians"};
+    if (Result<void> valid = check_preintegrable(profile, how); !valid) return valid.error();
+    std::vector<double> theta;
+    for (double t : n_dot_l) theta.push_back(std::acos(t));
+    std::vector<float> data(3 * n_dot_l.size() * radii_mm.size());
+    parallel_for(radii_mm.size(), 1, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y) {
-            const double radius_mm = radius_of(table.convention.axes[1], table.v_value(double(y)));
-            const double scale = table.convention.how.variance_scale;
-            const std::vector<Tap> taps =
-                unity ? unity_taps(*sum, radius_mm, scale) : faceworks_taps(*sum, radius_mm, scale);
-            for (size_t x = 0; x < n_dot_l.size(); ++x) {
-                Rgb light = {};
-                for (const Tap& tap : taps) {
-                    const double cosine = std::cos(std::acos(n_dot_l[x]) + tap.angle_rad);
-                    for (size_t c = 0; c < 3; ++c) light[c] += std::max(0.0, cosine) * tap.weight[c];
-                }
-                for (size_t c = 0; c < 3; ++c) data[3 * (n_dot_l.size() * y + x) + c] = float(light[c]);
+            const double radius_mm = std::min(radii_mm[y], kMaxRadius_mm);
+            const std::vector<Tap> taps = integration == Integration::unity_taps
+                                              ? unity_taps(*sum, radius_mm, how.variance_scale)
+                                              : faceworks_taps(*sum, radius_mm, how.variance_scale);
+            float* out = data.data() + 3 * n_dot_l.size() * y;
+            for (double angle_rad : theta) {
+                const Rgb light = lit_by(taps, angle_rad);
+                for (size_t c = 0; c < 3; ++c) *out++ = float(light[c]);
             }
         }
     });
     return data;
+}
+
+Result<std::vector<float>> integrate_model(const Profile& profile, Integration integration,
+                                           std::span<const double> n_dot_l, std::span<const double> radii_mm,
+                                           const Preintegration& how) {
+    if (integration == Integration::exact) return integrate_rows(profile, n_dot_l, radii_mm, how);
+    return integrate_by_taps(profile, integration, n_dot_l, radii_mm, how);
 }
 
 }  // namespace dermis

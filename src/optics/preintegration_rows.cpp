@@ -10,7 +10,7 @@ namespace dermis {
 namespace pre = preintegration;
 namespace {
 
-constexpr size_t kLanes = 4;  // elevations in a block: three channels of accumulators fit 16 SSE registers
+constexpr size_t kLanes = 8;  // elevations in a block: three channels of accumulators fit 16 SSE registers
 
 using Block = std::array<std::array<double, kLanes>, 3>;
 

@@ -1,0 +1,60 @@
+#pragma once
+// What is this table? Finds the convention that explains a pre-integrated diffuse table from anywhere best,
+// says how far it is from the exact function, and what to do about it.
+//
+// The search holds every candidate model (construction x profile, and the published taps) against a sample of
+// the texels, for each way the picture may lie and be encoded; the radius of each row is free at first, which
+// needs no guess about the axis. The best few are then fitted with a straight axis in curvature or in radius.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dermis/bake/table.h"
+#include "dermis/image/image.h"
+
+namespace dermis {
+
+/// How stored numbers become light.
+enum class StoredAs {
+    linear,         ///< light as it is
+    srgb,           ///< sRGB-encoded light
+    decoded_twice,  ///< light that went through an sRGB decoding it never needed
+    difference      ///< 2 (light - max(0, N.L)) + 1/2, FaceWorks
+};
+
+/// One explanation of a picture.
+struct LintHypothesis {
+    Preintegration how = {};
+    Integration integration = Integration::exact;
+    std::string profile;
+    StoredAs stored_as = StoredAs::linear;
+    bool transposed = false;        ///< N.L runs down the picture, not across
+    bool n_dot_l_mirrored = false;  ///< the lit side comes first
+    TexelSampling sampling = TexelSampling::centre;
+    TableAxis axis;           ///< of the other direction, as of texel centres, first to last in the picture
+    double rms = 0, max = 0;  ///< what it leaves unexplained, in light
+};
+
+struct LintReport {
+    LintHypothesis best;
+    /// The best one of another construction or profile.
+    LintHypothesis runner_up;
+    /// The table, read as `best` says, against the exact sphere of the same profile and axis.
+    double error_rms = 0, error_max = 0, error_max_n_dot_l = 0, error_max_radius_mm = 0;
+    /// `best` leaves an rms under 0.01.
+    bool explained = false;
+    std::vector<std::string> findings;  ///< one line each, for a person
+    std::vector<std::string> advice;
+};
+
+/// Takes about a second. Errors: a picture smaller than 8 x 2 texels or without colour.
+[[nodiscard]] Result<LintReport> lint_table(const Image& image);
+
+/// Reads the file; adds what its embedded convention and its sRGB flag say. Errors as read_image and above.
+[[nodiscard]] Result<LintReport> lint_file(const std::filesystem::path& path);
+
+/// "ring from -90 to 90 degrees, GPU Gems 3 ..., sRGB, ..." on one line.
+[[nodiscard]] std::string describe(const LintHypothesis& hypothesis);
+
+}  // namespace dermis

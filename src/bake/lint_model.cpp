@@ -1,0 +1,253 @@
+#include "dermis/bake/lint_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "dermis/bake/lut_taps.h"
+#include "dermis/bake/rows.h"
+#include "dermis/base/parallel.h"
+#include "dermis/image/colour.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/presets.h"
+
+namespace dermis::lint {
+namespace {
+
+constexpr size_t kMostColumns = 40, kMostRows = 20;
+constexpr double kLeastRadius_mm = 0.25, kMostRadius_mm = 2000;
+
+std::vector<int> spread(int count, size_t most) {
+    const int picks = int(std::min<size_t>(most, size_t(count)));
+    std::vector<int> texels;
+    for (int i = 0; i < picks; ++i) texels.push_back(int((i + 0.5) * count / picks));
+    return texels;
+}
+
+double squared_distance(std::span<const float> a, std::span<const float> b) {
+    float sum = 0;  // a few hundred terms of about 1e-3: float is enough, and vectorises
+    for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sum;
+}
+
+// A fitted axis may begin a little below zero; no surface there is flatter than flat.
+double radius_at(const TableAxis& axis, double s) {
+    const double value = axis.min + (axis.max - axis.min) * s;
+    return radius_of(axis,
+                     axis.name == "radius_mm" ? std::max(kLeastRadius_mm, value) : std::max(0.0, value));
+}
+
+// Curves between those of the bank, straight in the logarithm of the radius.
+double squared_distance_at(const Bank& bank, double radius_mm, std::span<const float> light) {
+    const double index = std::clamp(bank_index(radius_mm), 0.0, kRadii - 1.001);
+    const size_t low = size_t(index);
+    const float weight = float(index - double(low));
+    const std::span<const float> a = bank.curve(low), b = bank.curve(low + 1);
+    float sum = 0;
+    for (size_t i = 0; i < light.size(); ++i) {
+        const float difference = a[i] + weight * (b[i] - a[i]) - light[i];
+        sum += difference * difference;
+    }
+    return sum;
+}
+
+double mean_square(const Bank& bank, const Sample& sample, std::span<const float> light,
+                   const TableAxis& axis) {
+    double sum = 0;
+    for (size_t y = 0; y < sample.v.size(); ++y)
+        sum += squared_distance_at(bank, radius_at(axis, sample.v[y]),
+                                   light.subspan(y * bank.row_values, bank.row_values));
+    return sum / double(light.size());
+}
+
+// Straight line through (s, value) with weights: where the search begins.
+void regress(const Sample& sample, std::span<const double> values, std::span<const double> weights,
+             TableAxis& axis) {
+    double w = 0, s = 0, ss = 0, v = 0, sv = 0;
+    for (size_t i = 0; i < values.size(); ++i) {
+        w += weights[i];
+        s += weights[i] * sample.v[i];
+        ss += weights[i] * sample.v[i] * sample.v[i];
+        v += weights[i] * values[i];
+        sv += weights[i] * sample.v[i] * values[i];
+    }
+    const double determinant = w * ss - s * s;
+    const double slope = std::abs(determinant) > 1e-12 ? (w * sv - s * v) / determinant : 0;
+    axis.min = (v - slope * s) / w;
+    axis.max = axis.min + slope;
+}
+
+// Pattern search on the axis' two ends, steps relative to its length.
+void refine(const Bank& bank, const Sample& sample, std::span<const float> light, TableAxis& axis) {
+    double best = mean_square(bank, sample, light, axis);
+    double step = 0.1 * std::max({std::abs(axis.max - axis.min), 0.1 * std::abs(axis.max), 1e-4});
+    for (int round = 0; round < 120 && step > 1e-7; ++round) {
+        bool better = false;
+        constexpr std::array<std::array<int, 2>, 8> kMoves = {
+            {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
+        for (const auto& [low, high] : kMoves) {
+            TableAxis moved = axis;
+            moved.min += low * step;
+            moved.max += high * step;
+            const double value = mean_square(bank, sample, light, moved);
+            if (value >= best) continue;
+            best = value;
+            axis = moved;
+            better = true;
+        }
+        step *= better ? 1.0 : 0.5;
+    }
+}
+
+}  // namespace
+
+double bank_radius_mm(double index) {
+    return kLeastRadius_mm * std::pow(kMostRadius_mm / kLeastRadius_mm, index / (kRadii - 1));
+}
+
+double bank_index(double radius_mm) {
+    return (kRadii - 1) * std::log(radius_mm / kLeastRadius_mm) / std::log(kMostRadius_mm / kLeastRadius_mm);
+}
+
+Sample sample_of(const Image& image, bool transposed) {
+    const int u_count = transposed ? image.height : image.width;
+    const int v_count = transposed ? image.width : image.height;
+    Sample sample{.u_count = u_count};
+    const std::vector<int> columns = spread(u_count, kMostColumns), rows = spread(v_count, kMostRows);
+    for (int x : columns) sample.u.push_back((x + 0.5) / u_count);
+    for (int y : rows) sample.v.push_back((y + 0.5) / v_count);
+    for (int y : rows)
+        for (int x : columns)
+            for (int c = 0; c < 3; ++c)
+                sample.stored.push_back(transposed ? image.at(y, x, c) : image.at(x, y, c));
+    return sample;
+}
+
+std::vector<double> n_dot_l_of(const Sample& sample, const LintHypothesis& hypothesis) {
+    const double half_texel = 0.5 / sample.u_count;
+    std::vector<double> n_dot_l;
+    for (double u : sample.u) {
+        double s = hypothesis.n_dot_l_mirrored ? 1 - u : u;
+        if (hypothesis.sampling == TexelSampling::low_edge) s -= half_texel;
+        if (hypothesis.sampling == TexelSampling::high_edge) s += half_texel;
+        n_dot_l.push_back(std::clamp(2 * s - 1, -1.0, 1.0));
+    }
+    return n_dot_l;
+}
+
+std::vector<double> radii_of(const Sample& sample, const TableAxis& axis) {
+    std::vector<double> radii_mm;
+    for (double s : sample.v) radii_mm.push_back(radius_at(axis, s));
+    return radii_mm;
+}
+
+std::vector<float> decoded(const Sample& sample, const LintHypothesis& hypothesis) {
+    std::vector<float> light = sample.stored;
+    const std::vector<double> n_dot_l = n_dot_l_of(sample, hypothesis);
+    for (size_t i = 0; i < light.size(); ++i) {
+        const float cosine = float(std::max(0.0, n_dot_l[i / 3 % n_dot_l.size()]));
+        switch (hypothesis.stored_as) {
+            case StoredAs::linear:
+                break;
+            case StoredAs::srgb:
+                light[i] = srgb_decode(light[i]);
+                break;
+            case StoredAs::decoded_twice:
+                light[i] = srgb_encode(light[i]);
+                break;
+            case StoredAs::difference:
+                light[i] = 0.5f * (light[i] - 0.5f) + cosine;
+                break;
+        }
+    }
+    return light;
+}
+
+Bank make_bank(const LintHypothesis& hypothesis, const Profile& profile, std::span<const double> n_dot_l) {
+    std::vector<double> radii_mm;
+    for (int i = 0; i < kRadii; ++i) radii_mm.push_back(bank_radius_mm(i));
+    Result<std::vector<float>> curves =
+        integrate_model(profile, hypothesis.integration, n_dot_l, radii_mm, hypothesis.how);
+    // Presets are preintegrable (a test asserts it).
+    return {std::move(curves).value(), 3 * n_dot_l.size()};
+}
+
+double free_fit(const Bank& bank, std::span<const float> light, std::vector<double>& radii_mm) {
+    const size_t rows = light.size() / bank.row_values;
+    radii_mm.assign(rows, 0);
+    double total = 0;
+    for (size_t y = 0; y < rows; ++y) {
+        const std::span<const float> row = light.subspan(y * bank.row_values, bank.row_values);
+        size_t best = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (size_t i = 0; i < kRadii; ++i) {
+            const double distance = squared_distance(bank.curve(i), row);
+            if (distance < least) least = distance, best = i;
+        }
+        // Between the curves: the better of the halfway marks to both sides, twice.
+        double index = double(best);
+        for (double step : {0.5, 0.25, 0.125})
+            for (double candidate : {index - step, index + step}) {
+                const double distance = squared_distance_at(bank, bank_radius_mm(candidate), row);
+                if (distance < least) least = distance, index = candidate;
+            }
+        radii_mm[y] = bank_radius_mm(index);
+        total += least;
+    }
+    return total / double(light.size());
+}
+
+void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> light,
+              const std::vector<double>& radii_mm, LintHypothesis& hypothesis) {
+    // Errors of the fitted radii are even in curvature; in radius they grow with its square.
+    std::vector<double> curvatures, even(radii_mm.size(), 1), by_radius;
+    for (double radius_mm : radii_mm) {
+        curvatures.push_back(1 / radius_mm);
+        by_radius.push_back(1 / std::pow(radius_mm, 4));
+    }
+    TableAxis curvature{.name = "curvature_per_mm", .unit = "1/mm"},
+        radius{.name = "radius_mm", .unit = "mm"};
+    regress(sample, curvatures, even, curvature);
+    regress(sample, radii_mm, by_radius, radius);
+    refine(bank, sample, light, curvature);
+    refine(bank, sample, light, radius);
+    const double a = mean_square(bank, sample, light, curvature),
+                 b = mean_square(bank, sample, light, radius);
+    hypothesis.axis = a <= b ? curvature : radius;
+    hypothesis.rms = std::sqrt(std::min(a, b));
+}
+
+std::vector<Model> all_models() {
+    constexpr Preintegration kHow[] = {
+        {.construction = Construction::sphere},
+        {.construction = Construction::ring},
+        {.construction = Construction::half_ring},
+        {.construction = Construction::ring, .ring_weights = RingWeights::area},
+        {.construction = Construction::half_ring, .ring_weights = RingWeights::area},
+    };
+    constexpr int kTerms = 5;
+    const std::vector<std::string> names = profile_names();
+    std::vector<std::shared_ptr<const Profile>> profiles(names.size());
+    parallel_for(names.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            Profile profile = *find_profile(names[i]);
+            profile.model = to_gaussian_sum(profile, kTerms).sum;
+            profiles[i] = std::make_shared<const Profile>(std::move(profile));
+        }
+    });
+    std::vector<Model> models;
+    for (size_t i = 0; i < names.size(); ++i) {
+        for (const Preintegration& how : kHow)
+            models.push_back({{.how = how, .profile = names[i]}, profiles[i]});
+        if (names[i] != "gpu_gems_3") continue;
+        for (Integration taps : {Integration::unity_taps, Integration::faceworks_taps})
+            models.push_back({{.how = taps == Integration::unity_taps ? kHow[2] : kHow[1],
+                               .integration = taps,
+                               .profile = names[i]},
+                              profiles[i]});
+    }
+    return models;
+}
+
+}  // namespace dermis::lint
