@@ -225,6 +225,12 @@ size_t RayScene::all_hits(RaySet which, const Ray& ray, std::span<RayHit> hits) 
     return context.count;
 }
 
+RayScene::Bounds RayScene::bounds(RaySet which) const {
+    RTCBounds box;
+    rtcGetSceneBounds(impl_->set(which).scene.get(), &box);
+    return {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};
+}
+
 bool RayScene::has(RaySet which) const {
     return impl_->set(which).scene != nullptr;
 }

@@ -71,6 +71,12 @@ class RayScene {
     [[nodiscard]] const Mesh& mesh(uint32_t object) const;
     [[nodiscard]] size_t object_count() const;
 
+    struct Bounds {
+        Vec3 min_mm, max_mm;
+    };
+    /// The box of a set that has triangles.
+    [[nodiscard]] Bounds bounds(RaySet set) const;
+
     /// A length below which two points of this scene are the same to a ray: 2e-6 of its extent from the
     /// origin.
     [[nodiscard]] float epsilon_mm() const;

@@ -35,6 +35,11 @@ struct Placed {
     Vec3 position, normal;
 };
 
+/// Whole turns end where they began, to the last bit: a seam is welded by equal positions.
+inline float turn_rad(float u) {
+    return u == 1 ? 0 : 2 * std::numbers::pi_v<float> * u;
+}
+
 /// An icosahedron cut `levels` times, vertices on the sphere; no uvs. 20 * 4^levels triangles of nearly one
 /// size.
 inline Mesh sphere(float radius_mm, int levels) {
@@ -80,7 +85,7 @@ inline Mesh sphere(float radius_mm, int levels) {
 /// Longitude along u, latitude along v; with the seam and the poles such a sphere has in UV.
 inline Mesh uv_sphere(float radius_mm, int across, int down) {
     return grid(across, down, [&](float u, float v) {
-        const float azimuth = 2 * std::numbers::pi_v<float> * u, polar = std::numbers::pi_v<float> * v;
+        const float azimuth = turn_rad(u), polar = std::numbers::pi_v<float> * v;
         const Vec3 n{std::sin(polar) * std::sin(azimuth), std::cos(polar),
                      std::sin(polar) * std::cos(azimuth)};
         return Placed{n * radius_mm, n};

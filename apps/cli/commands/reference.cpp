@@ -1,0 +1,271 @@
+// `dermis reference`: the ground truth of a scene as a layered EXR.
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "dermis/base/progress.h"
+#include "dermis/base/text.h"
+#include "dermis/image/io.h"
+#include "dermis/reference/picture.h"
+
+namespace dermis::cli {
+namespace {
+
+struct Options {
+    std::string scene, output, size = "512x512", camera, light, profile;
+    std::string integrator = "surface", filter = "box", shadows = "key", ambient = "traced", specular = "ggx";
+    std::string normalisation = "area", medium;
+    int samples = 64, probes = 32;
+    uint32_t seed = 1;
+    double noise = 0, width_scale = 1;
+    float penumbra_mm = 2;
+    bool json = false;
+};
+
+// Set by Ctrl-C: the picture so far is written, then the program ends. A second one ends it at once.
+std::atomic<bool> g_stop = false;
+
+extern "C" void stop_on_signal(int) {
+    g_stop = true;
+    std::signal(SIGINT, SIG_DFL);
+}
+
+template <class Enum>
+struct Named {
+    std::string_view name;
+    Enum value;
+};
+
+template <class Enum, size_t N>
+Result<Enum> choose(std::string_view what, const std::string& text, const Named<Enum> (&all)[N]) {
+    std::vector<std::string> names;
+    for (const Named<Enum>& one : all) {
+        if (one.name == text) return one.value;
+        names.emplace_back(one.name);
+    }
+    return Error{unknown_name(what, text, names)};
+}
+
+constexpr Named<Integrator> kIntegrators[] = {
+    {"surface", Integrator::surface}, {"walk", Integrator::walk}, {"lambert", Integrator::lambert}};
+constexpr Named<PixelFilter> kFilters[] = {{"box", PixelFilter::box}, {"center", PixelFilter::center}};
+constexpr Named<ShadowCasters> kShadows[] = {{"key", ShadowCasters::key}, {"all", ShadowCasters::all}};
+constexpr Named<AmbientModel> kAmbient[] = {{"traced", AmbientModel::traced},
+                                            {"renderer", AmbientModel::renderer}};
+constexpr Named<SpecularReflection> kSpecular[] = {{"none", SpecularReflection::none},
+                                                   {"blinn_phong", SpecularReflection::blinn_phong},
+                                                   {"ggx", SpecularReflection::ggx}};
+constexpr Named<Normalisation> kNormalisations[] = {{"area", Normalisation::by_area},
+                                                    {"none", Normalisation::none}};
+
+template <class Enum, size_t N>
+Result<void> set(Enum& target, std::string_view what, const std::string& text, const Named<Enum> (&all)[N]) {
+    const Result<Enum> value = choose(what, text, all);
+    if (!value) return value.error();
+    target = *value;
+    return {};
+}
+
+// "sigma_s=1,2,3 sigma_a=.1,.2,.3 g=0 eta=1.4", 1/mm; one number stands for all three channels.
+Result<ScatteringMedium> parse_medium(const std::string& text) {
+    const auto wrong = [&](std::string_view part) {
+        return Error{"--medium: '" + std::string(part) +
+                     "' is not one of sigma_s=R,G,B sigma_a=R,G,B (1/mm) g=VALUE eta=VALUE"};
+    };
+    ScatteringMedium medium;
+    for (const std::string_view part : split(text, ' ')) {
+        if (part.empty()) continue;
+        const std::vector<std::string_view> pair = split(part, '=');
+        if (pair.size() != 2) return wrong(part);
+        std::vector<double> numbers;
+        for (const std::string_view word : split(pair[1], ',')) {
+            const std::optional<double> number = parse_number(trim(word));
+            if (!number) return wrong(part);
+            numbers.push_back(*number);
+        }
+        const bool is_sigma = pair[0] == "sigma_s" || pair[0] == "sigma_a";
+        if (numbers.size() != 1 && !(is_sigma && numbers.size() == 3)) return wrong(part);
+        numbers.resize(3, numbers[0]);
+        if (pair[0] == "sigma_s")
+            medium.sigma_s_per_mm = {numbers[0], numbers[1], numbers[2]};
+        else if (pair[0] == "sigma_a")
+            medium.sigma_a_per_mm = {numbers[0], numbers[1], numbers[2]};
+        else if (pair[0] == "g")
+            medium.g = numbers[0];
+        else if (pair[0] == "eta")
+            medium.eta = numbers[0];
+        else
+            return wrong(part);
+    }
+    return medium;
+}
+
+Result<ReferenceSettings> settings_of(const Options& options) {
+    ReferenceSettings settings{.samples = options.samples,
+                               .seed = options.seed,
+                               .probes = options.probes,
+                               .width_scale = options.width_scale};
+    settings.lighting.penumbra_mm = options.penumbra_mm;
+    if (options.noise != 0) settings.noise = options.noise;
+    const std::vector<std::string_view> sides = split(options.size, 'x');
+    const std::optional<double> width = parse_number(sides[0]), height = parse_number(sides.back());
+    if (sides.size() > 2 || !width || !height || *width != int(*width) || *height != int(*height))
+        return Error{"--size '" + options.size + "' is not WIDTHxHEIGHT, such as 512x512"};
+    settings.width = int(*width);
+    settings.height = int(*height);
+    for (const Result<void>& step :
+         {set(settings.integrator, "integrator", options.integrator, kIntegrators),
+          set(settings.filter, "pixel filter", options.filter, kFilters),
+          set(settings.normalisation, "normalisation", options.normalisation, kNormalisations),
+          set(settings.lighting.shadows, "choice of shadows", options.shadows, kShadows),
+          set(settings.lighting.ambient, "ambient model", options.ambient, kAmbient),
+          set(settings.lighting.specular, "specular model", options.specular, kSpecular)})
+        if (!step) return step.error();
+    if (!options.medium.empty()) {
+        Result<ScatteringMedium> medium = parse_medium(options.medium);
+        if (!medium) return medium.error();
+        settings.medium = *medium;
+    }
+    return settings;
+}
+
+Result<Scene> scene_of(const Options& options) {
+    Result<Scene> scene = load_scene(options.scene);
+    if (!scene) return scene;
+    if (!options.camera.empty()) {
+        const Result<Camera> camera = parse_camera(options.camera, scene->camera);
+        if (!camera) return camera.error();
+        scene->camera = *camera;
+        fit_depth_range(scene->camera, scene->bounds_center_mm, scene->bounds_radius_mm);
+    }
+    if (!options.light.empty())
+        for (Light& light : scene->lights) {
+            if (!light.is_key) continue;
+            const Result<Light> changed = parse_light(options.light, light, scene->bounds_center_mm);
+            if (!changed) return changed.error();
+            light = *changed;
+        }
+    if (!options.profile.empty()) scene->skin.profile = options.profile;
+    return scene;
+}
+
+nlohmann::ordered_json description(const Options& options, const ReferenceSettings& settings,
+                                   const ReferencePicture& picture, bool stopped) {
+    return {{"scene", options.scene},
+            {"integrator", options.integrator},
+            {"width", settings.width},
+            {"height", settings.height},
+            {"passes", picture.passes},
+            {"probes", settings.probes},
+            {"seed", settings.seed},
+            {"filter", options.filter},
+            {"shadows", options.shadows},
+            {"ambient", options.ambient},
+            {"specular", options.specular},
+            {"normalisation", options.normalisation},
+            {"width_scale", settings.width_scale},
+            {"penumbra_mm", options.penumbra_mm},
+            {"relative_error", picture.relative_error},
+            {"time_ms", picture.time_ms},
+            {"stopped", stopped},
+            {"warnings", picture.warnings}};
+}
+
+Result<void> write_picture(const Options& options, const Scene& scene, const ReferencePicture& picture,
+                           const std::string& text) {
+    const ImageLayer layers[] = {{"", picture.radiance},
+                                 {"diffuse", picture.diffuse},
+                                 {"specular", picture.specular},
+                                 {"variance", picture.variance},
+                                 {"samples", picture.samples}};
+    ImageText inside = {{"dermis", text}};
+    if (!scene.credit.empty()) inside["credit"] = scene.credit;
+    return write_layered_exr(options.output, layers, inside);
+}
+
+Result<int> run(const Options& options) {
+    if (to_lower(std::filesystem::path(options.output).extension().string()) != ".exr")
+        return Error{"-o " + options.output + ": the ground truth is linear and layered; name a .exr file"};
+    const Result<ReferenceSettings> settings = settings_of(options);
+    if (!settings) return settings.error();
+    const Result<Scene> scene = scene_of(options);
+    if (!scene) return scene.error();
+    std::signal(SIGINT, stop_on_signal);
+    Result<ReferencePicture> picture = [&] {
+        constexpr double kSteps = 1000;
+        Progress line("ground truth", size_t(kSteps));
+        size_t shown = 0;
+        return render_reference(
+            *scene, *settings,
+            [&](double done) {
+                const auto now = size_t(done * kSteps);
+                if (now > shown) line.advance(now - shown);
+                shown = std::max(shown, now);
+            },
+            &g_stop);
+    }();
+    std::signal(SIGINT, SIG_DFL);
+    if (!picture) return picture.error();
+    picture->warnings.insert(picture->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
+    const nlohmann::ordered_json json = description(options, *settings, *picture, g_stop);
+    if (Result<void> written = write_picture(options, *scene, *picture, json.dump()); !written)
+        return written.error();
+    for (const std::string& warning : picture->warnings)
+        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    if (options.json)
+        std::printf("%s\n", json.dump(2).c_str());
+    else
+        std::printf("%s: %s%d passes, relative error %.4f, %.1f s%s%s\n", options.output.c_str(),
+                    g_stop ? "stopped after " : "", picture->passes, picture->relative_error,
+                    picture->time_ms / 1000, scene->credit.empty() ? "" : "\n", scene->credit.c_str());
+    return g_stop ? 130 : 0;
+}
+
+}  // namespace
+
+void add_reference_command(CommandLine& line) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = line.add(
+        "reference",
+        "The ground truth of a scene: surface integral of the diffusion profile, or random walks",
+        "dermis reference head_scan -o truth.exr --noise 0.01\n"
+        "  dermis reference head_scan --integrator walk --profile jensen_skin1 --samples 256 -o walk.exr\n"
+        "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples\n"
+        "  Ctrl-C writes the picture so far and says how noisy it is");
+    command->add_option("scene", options->scene, "scene file, mesh, scene name or builtin:NAME")->required();
+    command->add_option("-o,--output", options->output, "FILE.exr")->required();
+    command->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
+    command->add_option("--integrator", options->integrator, "surface, walk or lambert")
+        ->capture_default_str();
+    command->add_option("--samples,--spp", options->samples, "samples a pixel, at most")
+        ->capture_default_str();
+    command->add_option("--noise", options->noise, "stop at this relative error, such as 0.01");
+    command->add_option("--seed", options->seed, "same seed, same picture")->capture_default_str();
+    command->add_option("--probes", options->probes, "probes or walks a sample, even")->capture_default_str();
+    command->add_option("--camera", options->camera, "\"yaw=30 pitch=5 distance_mm=600 fov_deg=30\"");
+    command->add_option("--light", options->light, "\"yaw=-60 pitch=20 intensity=3\" for the key light");
+    command->add_option("--profile", options->profile, "diffusion profile instead of the scene's");
+    command->add_option(
+        "--medium", options->medium,
+        "walk: \"sigma_s=1,1,1 sigma_a=.1,.1,.1 g=0 eta=1.4\" in 1/mm instead of the profile's");
+    command->add_option("--width-scale", options->width_scale, "stretches the profile; 0 is Lambert")
+        ->capture_default_str();
+    command->add_option("--normalisation", options->normalisation, "area, or none")->capture_default_str();
+    command->add_option("--filter", options->filter, "box, or center as without multisampling")
+        ->capture_default_str();
+    command->add_option("--shadows", options->shadows, "key, or all lights")->capture_default_str();
+    command->add_option("--ambient", options->ambient, "traced, or renderer for its approximation")
+        ->capture_default_str();
+    command->add_option("--specular", options->specular, "ggx, blinn_phong or none")->capture_default_str();
+    command->add_option("--penumbra-mm", options->penumbra_mm, "width of the key light's shadow edge")
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "print one JSON object");
+    line.when_chosen(command, [options] { return run(*options); });
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,87 @@
+#include "dermis/reference/environment_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dermis/image/colour.h"
+#include "dermis/scene/panorama.h"
+
+namespace dermis {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Solid angle per unit of the uv square at this height: 2 pi wide, pi high, times the sine of the polar
+// angle.
+float uv_solid_angle(float v) {
+    return 2 * kPi * kPi * std::max(std::sin(kPi * v), 1e-6f);
+}
+
+}  // namespace
+
+Result<EnvironmentSampler> EnvironmentSampler::load(const Environment& environment) {
+    EnvironmentSampler sampler;
+    sampler.intensity_ = environment.intensity;
+    sampler.yaw_rad_ = environment.yaw_rad;
+    if (environment.kind == EnvironmentKind::none || environment.intensity <= 0) return sampler;
+    Result<Image> panorama = load_panorama(environment);
+    if (!panorama) return panorama.error();
+    sampler.panorama_ = std::move(*panorama);
+    sampler.sh_ = project_radiance(sampler.panorama_);
+    const Image& image = sampler.panorama_;
+    const std::span<const float> texels = image.floats();
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            // Bilinear lookups spread a texel's light over its neighbours, so no texel may go without
+            // samples.
+            const float* t = &texels[3 * (size_t(y) * size_t(image.width) + size_t(x))];
+            sum += (double(luminance(Vec3{t[0], t[1], t[2]})) + 1e-4) * panorama_texel_solid_angle(image, y);
+            sampler.cumulative_.push_back(sum);
+        }
+    for (double& share : sampler.cumulative_) share /= sum;
+    sampler.cumulative_.back() = 1;
+    return sampler;
+}
+
+Vec3 EnvironmentSampler::to_world(Vec3 d) const {
+    return to_environment(d, -yaw_rad_);
+}
+
+Vec3 EnvironmentSampler::radiance(Vec3 d_world) const {
+    if (dark()) return {};
+    return panorama_radiance(panorama_, to_environment(d_world, yaw_rad_)) * intensity_;
+}
+
+Vec3 EnvironmentSampler::harmonic_irradiance(Vec3 n_world) const {
+    if (dark()) return {};
+    const Vec3 e = sh_irradiance(sh_, to_environment(n_world, yaw_rad_)) * intensity_;
+    return {std::max(e.x, 0.0f), std::max(e.y, 0.0f), std::max(e.z, 0.0f)};
+}
+
+EnvironmentSampler::Sample EnvironmentSampler::sample(Vec2 u) const {
+    const size_t texel =
+        size_t(std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, u.x) - cumulative_.begin());
+    const double below = texel == 0 ? 0 : cumulative_[texel - 1];
+    const auto share = float(cumulative_[texel] - below);
+    const auto width = size_t(panorama_.width);
+    // What is left of u.x within the texel's share is a fresh uniform number.
+    const float across = share > 0 ? std::clamp(float(u.x - below) / share, 0.0f, 1.0f) : 0.5f;
+    const float uv_x = (float(texel % width) + across) / float(panorama_.width);
+    const float uv_y = (float(texel / width) + u.y) / float(panorama_.height);
+    const float texels = float(panorama_.pixel_count());
+    return {.direction_world = to_world(panorama_direction(uv_x, uv_y)),
+            .density = share * texels / uv_solid_angle(uv_y)};
+}
+
+float EnvironmentSampler::density(Vec3 d_world) const {
+    const Vec2 uv = panorama_uv(to_environment(d_world, yaw_rad_));
+    const int x = std::clamp(int(uv.x * float(panorama_.width)), 0, panorama_.width - 1);
+    const int y = std::clamp(int(uv.y * float(panorama_.height)), 0, panorama_.height - 1);
+    const size_t texel = size_t(y) * size_t(panorama_.width) + size_t(x);
+    const double below = texel == 0 ? 0 : cumulative_[texel - 1];
+    return float(cumulative_[texel] - below) * float(panorama_.pixel_count()) / uv_solid_angle(uv.y);
+}
+
+}  // namespace dermis

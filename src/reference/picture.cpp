@@ -1,0 +1,233 @@
+#include "dermis/reference/picture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "dermis/base/parallel.h"
+#include "dermis/image/colour.h"
+#include "dermis/optics/presets.h"
+#include "dermis/reference/pixel_sampler.h"
+
+namespace dermis {
+namespace {
+
+constexpr int kPassesBeforeResting = 8;
+constexpr float kDarkShare = 0.05f;
+
+// One pixel so far: means, and sums of squared differences from the mean, updated as Welford 1962 does, so
+// that little noise on much light does not drown in rounding.
+struct PixelState {
+    Vec3 radiance, squares, diffuse, specular;
+    float coverage = 0, luminance_squares = 0;
+    uint32_t count = 0;
+};
+
+struct Canvas {
+    int width, height;
+    std::vector<PixelState> pixels;
+    std::vector<uint8_t> active;
+};
+
+float mean_variance(float squares, uint32_t count) {
+    return count < 2 ? 0 : squares / (float(count) * float(count - 1));
+}
+
+void add(PixelState& pixel, const PixelSample& sample) {
+    const float share = 1.0f / float(++pixel.count);
+    const Vec3 radiance = sample.radiance(), before = radiance - pixel.radiance;
+    pixel.radiance += before * share;
+    pixel.squares += before * (radiance - pixel.radiance);
+    pixel.luminance_squares += luminance(before) * luminance(radiance - pixel.radiance);
+    pixel.diffuse += (sample.diffuse - pixel.diffuse) * share;
+    pixel.specular += (sample.specular - pixel.specular) * share;
+    pixel.coverage += (sample.coverage - pixel.coverage) * share;
+}
+
+// The luminance below which an error is held against this one: a part of the brightest percentile of
+// surfaces.
+float least_luminance(const Canvas& canvas) {
+    std::vector<float> values;
+    for (const PixelState& pixel : canvas.pixels)
+        if (pixel.coverage > 0) values.push_back(luminance(pixel.radiance));
+    if (values.empty()) return 1;
+    const auto at = values.begin() + std::ptrdiff_t(double(values.size() - 1) * 0.99);
+    std::nth_element(values.begin(), at, values.end());
+    return std::max(kDarkShare * *at, 1e-12f);
+}
+
+std::vector<float> relative_errors(const Canvas& canvas) {
+    const float least = least_luminance(canvas);
+    std::vector<float> errors;
+    for (const PixelState& pixel : canvas.pixels) {
+        const float deviation = std::sqrt(mean_variance(pixel.luminance_squares, pixel.count));
+        errors.push_back(pixel.coverage > 0 ? deviation / std::max(luminance(pixel.radiance), least) : -1.0f);
+    }
+    return errors;
+}
+
+double root_mean_square(const std::vector<float>& errors) {
+    double sum = 0;
+    size_t count = 0;
+    for (const float e : errors)
+        if (e >= 0) {
+            sum += double(e) * e;
+            ++count;
+        }
+    return count > 0 ? std::sqrt(sum / double(count)) : 0;
+}
+
+// A pixel rests when it and its eight neighbours are good enough: one that looks good by luck has worse
+// neighbours.
+void let_rest(Canvas& canvas, const std::vector<float>& errors, double wanted) {
+    for (int y = 0; y < canvas.height; ++y)
+        for (int x = 0; x < canvas.width; ++x) {
+            float worst = 0;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, canvas.height - 1); ++v)
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, canvas.width - 1); ++u)
+                    worst = std::max(worst, errors[size_t(v) * size_t(canvas.width) + size_t(u)]);
+            canvas.active[size_t(y) * size_t(canvas.width) + size_t(x)] = worst > wanted;
+        }
+}
+
+struct WalkCounts {
+    std::atomic<size_t> walks = 0, lost = 0;
+};
+
+// False when stopped: then the canvas is not to be used.
+bool run_pass(const PixelSampler& sampler, int pass, Canvas& canvas, WalkCounts& counts,
+              const std::atomic<bool>* stop) {
+    std::atomic<bool> complete = true;
+    parallel_for(size_t(canvas.height), 1, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y) {
+            if (stop && stop->load(std::memory_order_relaxed)) {
+                complete = false;
+                return;
+            }
+            size_t walks = 0, lost = 0;
+            for (size_t x = 0; x < size_t(canvas.width); ++x) {
+                const size_t i = y * size_t(canvas.width) + x;
+                if (!canvas.active[i]) continue;
+                const PixelSample sample = sampler.sample(int(x), int(y), uint32_t(pass));
+                add(canvas.pixels[i], sample);
+                walks += size_t(sample.walks);
+                lost += size_t(sample.lost_walks);
+            }
+            counts.walks += walks;
+            counts.lost += lost;
+        }
+    });
+    return complete;
+}
+
+void put(Image& image, size_t pixel, Vec3 value) {
+    float* at = &image.floats()[pixel * size_t(image.channels)];
+    at[0] = value.x;
+    at[1] = value.y;
+    at[2] = value.z;
+}
+
+ReferencePicture develop(const Canvas& canvas) {
+    const int w = canvas.width, h = canvas.height;
+    ReferencePicture picture{.radiance = Image(w, h, 4),
+                             .diffuse = Image(w, h, 3),
+                             .specular = Image(w, h, 3),
+                             .variance = Image(w, h, 3),
+                             .samples = Image(w, h, 1)};
+    for (size_t i = 0; i < canvas.pixels.size(); ++i) {
+        const PixelState& pixel = canvas.pixels[i];
+        put(picture.radiance, i, pixel.radiance);
+        picture.radiance.floats()[4 * i + 3] = pixel.coverage;
+        put(picture.diffuse, i, pixel.diffuse);
+        put(picture.specular, i, pixel.specular);
+        put(picture.variance, i,
+            {mean_variance(pixel.squares.x, pixel.count), mean_variance(pixel.squares.y, pixel.count),
+             mean_variance(pixel.squares.z, pixel.count)});
+        picture.samples.floats()[i] = float(pixel.count);
+    }
+    return picture;
+}
+
+Result<void> check_settings(const ReferenceSettings& s) {
+    const auto out_of_range = [](std::string_view what, auto value, std::string_view range) {
+        return Error{std::string(what) + " is " + std::to_string(value) + ", not within " +
+                     std::string(range)};
+    };
+    if (Result<void> good = check_image_size(uint64_t(std::max(s.width, 0)), uint64_t(std::max(s.height, 0)),
+                                             4, PixelFormat::f32);
+        !good)
+        return good.error();
+    if (s.samples < 2 || s.samples > 65536) return out_of_range("samples a pixel", s.samples, "2..65536");
+    if (s.probes < 2 || s.probes > 65536 || s.probes % 2)
+        return out_of_range("probes", s.probes, "2..65536, even");
+    if (!(s.width_scale >= 0 && s.width_scale <= 1000))
+        return out_of_range("width scale", s.width_scale, "0..1000");
+    if (s.noise && !(*s.noise > 0 && *s.noise < 1))
+        return out_of_range("noise", *s.noise, "0..1, both excluded");
+    if (!(s.lighting.penumbra_mm >= 0 && s.lighting.penumbra_mm <= 1000))
+        return out_of_range("penumbra_mm", s.lighting.penumbra_mm, "0..1000");
+    return {};
+}
+
+// How far the work is: by passes, or by how near the error has come when it falls as one over the root of the
+// work.
+double share_done(const ReferenceSettings& settings, int pass, double error) {
+    const double by_passes = double(pass) / settings.samples;
+    if (!settings.noise || error <= 0 || pass < 2) return by_passes;
+    const double ratio = *settings.noise / error;
+    return std::clamp(std::max(by_passes, ratio * ratio), 0.0, 1.0);
+}
+
+}  // namespace
+
+Result<ScatteringMedium> medium_of_scene(const Scene& scene) {
+    Result<Profile> profile = find_profile(scene.skin.profile);
+    if (!profile) return profile.error();
+    if (const auto* dipole = std::get_if<DipoleProfile>(&profile->model)) return dipole->medium;
+    return Error{"the profile '" + scene.skin.profile + "' (" + model_name(*profile) +
+                 ") says nothing of a volume; give a medium, or a dipole profile such as jensen_skin1"};
+}
+
+Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
+                                          const ReferenceProgress& progress, const std::atomic<bool>* stop) {
+    if (Result<void> good = check_settings(settings); !good) return good.error();
+    const auto start = std::chrono::steady_clock::now();
+    Result<std::unique_ptr<PixelSampler>> sampler = PixelSampler::create(scene, settings);
+    if (!sampler) return sampler.error();
+    const size_t count = size_t(settings.width) * size_t(settings.height);
+    Canvas canvas{settings.width, settings.height, std::vector<PixelState>(count),
+                  std::vector<uint8_t>(count, 1)};
+    WalkCounts counts;
+    double error = 0;
+    int pass = 0;
+    while (pass < settings.samples) {
+        Canvas next = canvas;
+        if (!run_pass(**sampler, pass, next, counts, stop)) break;
+        canvas = std::move(next);
+        ++pass;
+        if (pass >= 2) {
+            const std::vector<float> errors = relative_errors(canvas);
+            error = root_mean_square(errors);
+            if (settings.noise && pass >= kPassesBeforeResting) {
+                if (error <= *settings.noise) break;
+                let_rest(canvas, errors, *settings.noise);
+            }
+        }
+        if (progress) progress(share_done(settings, pass, error));
+    }
+    if (pass == 0) return Error{"stopped before the first pass was complete: there is no picture yet"};
+    ReferencePicture picture = develop(canvas);
+    picture.relative_error = error;
+    picture.passes = pass;
+    picture.walks = counts.walks;
+    picture.lost_walks = counts.lost;
+    if (picture.lost_walks > 0)
+        picture.warnings.push_back(std::to_string(picture.lost_walks) + " of " +
+                                   std::to_string(picture.walks) +
+                                   " walks found no way out: the skin has holes, and is too dark near them");
+    picture.time_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return picture;
+}
+
+}  // namespace dermis

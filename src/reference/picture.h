@@ -1,0 +1,73 @@
+#pragma once
+// The ground truth of a scene as a picture: the same camera, lights, materials and meaning as the renderer's,
+// with the diffuse transport integrated instead of approximated.
+//
+//     radiance = albedo_linear * exitance / pi + specular + emission
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/image/image.h"
+#include "dermis/optics/medium.h"
+#include "dermis/reference/lighting.h"
+#include "dermis/reference/surface_integrator.h"
+#include "dermis/scene/scene.h"
+
+namespace dermis {
+
+/// lambert: light leaves where it entered, the limit of `surface` at width 0.
+enum class Integrator { surface, walk, lambert };
+
+/// A pixel is the mean over its square, or what lies behind its middle (as a renderer without multisampling
+/// draws it).
+enum class PixelFilter { box, center };
+
+struct ReferenceSettings {
+    Integrator integrator = Integrator::surface;
+    int width = 512, height = 512;  ///< 1..16384
+    int samples = 64;               ///< a pixel at most, 2..65536
+    std::optional<double> noise;    ///< stop when the picture's relative error is at most this
+    uint32_t seed = 1;
+    int probes = 32;         ///< probes or walks a sample
+    double width_scale = 1;  ///< stretches the profile; 0 is lambert
+    Normalisation normalisation = Normalisation::by_area;
+    PixelFilter filter = PixelFilter::box;
+    LightingSettings lighting;               ///< entry_eta is set from the medium
+    std::optional<ScatteringMedium> medium;  ///< walk: else the dipole of the scene's profile
+};
+
+/// What a picture is right now. Linear f32. The error of a pixel is the standard error of its mean luminance
+/// over max(luminance, 5 % of the brightest percentile); the picture's is the root mean square over all
+/// pixels that show skin or another surface.
+struct ReferencePicture {
+    Image radiance;           ///< RGBA; alpha is coverage
+    Image diffuse, specular;  ///< RGB, sum to the radiance of surfaces (emission is in diffuse)
+    Image variance;           ///< RGB, of the pixel's mean, from its independent samples
+    Image samples;            ///< one channel: how many each pixel took
+    double relative_error = 0;
+    int passes = 0;
+    double time_ms = 0;
+    size_t lost_walks = 0, walks = 0;
+    std::vector<std::string> warnings;
+};
+
+/// Called after every pass, between 0 and 1.
+using ReferenceProgress = std::function<void(double done)>;
+
+/// One sample a pixel a pass; after eight passes, pixels whose neighbourhood has reached the wanted error
+/// rest. Setting `stop` ends it after the row in work and returns the passes that are complete (none: an
+/// error). The result depends on the seed and the passes, not on the threads. Errors: sizes out of range,
+/// unreadable maps, walk without a medium.
+[[nodiscard]] Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
+                                                        const ReferenceProgress& progress = {},
+                                                        const std::atomic<bool>* stop = nullptr);
+
+/// The medium that `walk` takes when none is given. Errors: the scene's profile says nothing of a volume.
+[[nodiscard]] Result<ScatteringMedium> medium_of_scene(const Scene& scene);
+
+}  // namespace dermis

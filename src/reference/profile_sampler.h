@@ -1,0 +1,39 @@
+#pragma once
+// A diffusion profile made ready for sampling: its reflectance by one table lookup, and radii drawn from the
+// mean of its channels.
+
+#include <vector>
+
+#include "dermis/base/vec.h"
+#include "dermis/optics/profile.h"
+
+namespace dermis {
+
+/// Radii are cells of equal ratio. Sampling picks a cell by the exact CDF, then a point evenly in its ring,
+/// so that the density is known exactly; the reflectance is interpolated (as r * R(r), linear in log r;
+/// relative error below 2e-4 within the 99 % radius, tested). Beyond max_mm(), which leaves out 1e-5 of the
+/// widest channel, everything is 0.
+class ProfileSampler {
+  public:
+    /// The profile passed check(); width_scale > 0 stretches all radii.
+    ProfileSampler(const Profile& profile, double width_scale);
+
+    /// Red, green, blue in 1/mm^2.
+    [[nodiscard]] Vec3 reflectance(float r_mm) const;
+    [[nodiscard]] float sample_radius_mm(float u) const;
+    /// Of the sampled points, per mm^2 of the plane.
+    [[nodiscard]] float density_per_mm2(float r_mm) const;
+    [[nodiscard]] float max_mm() const { return max_mm_; }
+
+  private:
+    /// Cell 0 is the disk within least_mm_, cell k the ring up to radius_mm_[k].
+    [[nodiscard]] float cell_position(float r_mm) const;
+
+    float least_mm_ = 0, max_mm_ = 0, cells_per_log_ = 0;
+    std::vector<float> radius_mm_;          // outer, of every cell
+    std::vector<float> cumulative_;         // share of the samples up to that radius
+    std::vector<float> density_;            // of every cell
+    std::vector<Vec3> radius_reflectance_;  // r R(r) at every outer radius
+};
+
+}  // namespace dermis

@@ -1,0 +1,42 @@
+#pragma once
+// Random walks inside the scene's skin: the exitance of a visible point from the light that enters elsewhere.
+
+#include "dermis/reference/lighting.h"
+#include "dermis/reference/random_walk.h"
+#include "dermis/reference/surface_integrator.h"
+
+namespace dermis {
+
+struct WalkIntegratorSettings {
+    int walks = 32;  ///< a visible point, 1..65536
+    Vec3 normalisation = {1, 1,
+                          1};  ///< divides the result: the half-space's albedo makes it a blur of the light
+};
+
+/// M(x) = mean over walks of throughput * E(y) / normalisation, E with Lighting's entry_eta, which must be
+/// the medium's. Skin must be closed: what leaves through a hole is lost, and counted. Safe from any thread.
+class WalkIntegrator {
+  public:
+    WalkIntegrator(const RayScene& rays, const MaterialSet& materials, const Lighting& lighting,
+                   const ScatteringMedium& medium, const WalkIntegratorSettings& settings)
+        : rays_(rays),
+          materials_(materials),
+          lighting_(lighting),
+          medium_(walk_medium(medium)),
+          settings_(settings) {}
+
+    struct Result {
+        Vec3 exitance;
+        int lost = 0;  ///< walks that found no way out
+    };
+    [[nodiscard]] Result exitance(const DiffusePoint& point, Vec3 n_face, uint32_t seed) const;
+
+  private:
+    const RayScene& rays_;
+    const MaterialSet& materials_;
+    const Lighting& lighting_;
+    WalkMedium medium_;
+    WalkIntegratorSettings settings_;
+};
+
+}  // namespace dermis

@@ -1,0 +1,122 @@
+#include "dermis/reference/random_walk.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "dermis/base/parallel.h"
+
+namespace dermis {
+namespace {
+
+// Chandrasekhar's H for isotropic scattering, Radiative Transfer 1950, chapter V, by the iteration
+//   1 / H(mu) = sqrt(1 - alpha) + alpha / 2 * integral of t H(t) / (mu + t) over 0..1.
+class ChandrasekharH {
+  public:
+    explicit ChandrasekharH(double alpha) : alpha_(alpha), h_(kPoints, 1.0) {
+        for (int round = 0; round < 400; ++round) {
+            std::vector<double> next(kPoints);
+            for (int i = 0; i < kPoints; ++i) next[size_t(i)] = at(mu(i));
+            h_ = next;
+        }
+    }
+    [[nodiscard]] double at(double m) const {
+        double sum = 0;
+        for (int i = 0; i < kPoints; ++i) sum += mu(i) * h_[size_t(i)] / (m + mu(i)) / kPoints;
+        return 1 / (std::sqrt(1 - alpha_) + alpha_ / 2 * sum);
+    }
+    [[nodiscard]] double plane_albedo(double m) const { return 1 - at(m) * std::sqrt(1 - alpha_); }
+    // Of diffuse light: 2 * integral of mu * plane albedo.
+    [[nodiscard]] double spherical_albedo() const {
+        double sum = 0;
+        for (int i = 0; i < kPoints; ++i) sum += 2 * mu(i) * plane_albedo(mu(i)) / kPoints;
+        return sum;
+    }
+
+  private:
+    static constexpr int kPoints = 400;
+    static double mu(int i) { return (i + 0.5) / kPoints; }
+    double alpha_;
+    std::vector<double> h_;
+};
+
+ScatteringMedium medium_of_albedo(double red, double green, double blue, double eta) {
+    return {.sigma_s_per_mm = {red, 2 * green, 0.5 * blue},
+            .sigma_a_per_mm = {1 - red, 2 * (1 - green), 0.5 * (1 - blue)},
+            .g = 0,
+            .eta = eta};
+}
+
+TEST(RandomWalk, the_test_s_own_h_function_has_the_known_moment) {
+    // Integral of H over 0..1 is 2 / alpha * (1 - sqrt(1 - alpha)).
+    const double alpha = 0.8;
+    const ChandrasekharH h(alpha);
+    double sum = 0;
+    for (int i = 0; i < 400; ++i) sum += h.at((i + 0.5) / 400) / 400;
+    EXPECT_NEAR(sum, 2 / alpha * (1 - std::sqrt(1 - alpha)), 2e-4);
+}
+
+TEST(RandomWalk, an_index_matched_isotropic_half_space_reflects_what_chandrasekhar_says) {
+    const ScatteringMedium medium = medium_of_albedo(0.5, 0.8, 0.95, 1);
+    const double alpha[3] = {0.5, 0.8, 0.95};
+    for (const double mu : {0.2, 0.6, 1.0}) {
+        const Vec3 start{float(std::sqrt(1 - mu * mu)), 0, float(-mu)};
+        const HalfSpaceAlbedo albedo = half_space_albedo(medium, start, 150'000, 1);
+        const float mean[3] = {albedo.mean.x, albedo.mean.y, albedo.mean.z};
+        const float error[3] = {albedo.standard_error.x, albedo.standard_error.y, albedo.standard_error.z};
+        for (int c = 0; c < 3; ++c) {
+            const double exact = ChandrasekharH(alpha[c]).plane_albedo(mu);
+            EXPECT_NEAR(mean[c], exact, 0.01 * exact) << "mu " << mu << " alpha " << alpha[c];
+            EXPECT_LT(std::abs(mean[c] - exact), 4 * error[c]) << "mu " << mu << " alpha " << alpha[c];
+        }
+    }
+}
+
+TEST(RandomWalk, diffuse_light_on_an_index_matched_half_space_gives_the_spherical_albedo) {
+    const HalfSpaceAlbedo albedo =
+        half_space_albedo(medium_of_albedo(0.5, 0.8, 0.95, 1), std::nullopt, 150'000, 2);
+    EXPECT_NEAR(albedo.mean.x, ChandrasekharH(0.5).spherical_albedo(), 4 * albedo.standard_error.x);
+    EXPECT_NEAR(albedo.mean.y, ChandrasekharH(0.8).spherical_albedo(), 4 * albedo.standard_error.y);
+    EXPECT_NEAR(albedo.mean.z, ChandrasekharH(0.95).spherical_albedo(), 4 * albedo.standard_error.z);
+}
+
+TEST(RandomWalk, more_absorption_less_albedo_whatever_the_boundary) {
+    for (const double eta : {1.0, 1.3, 1.5}) {
+        const Vec3 albedo =
+            half_space_albedo(medium_of_albedo(0.9, 0.7, 0.4, eta), std::nullopt, 20'000, 3).mean;
+        EXPECT_GT(albedo.x, albedo.y + 0.05f) << eta;
+        EXPECT_GT(albedo.y, albedo.z + 0.02f) << eta;
+    }
+}
+
+TEST(RandomWalk, without_scattering_nothing_comes_back) {
+    const ScatteringMedium medium{
+        .sigma_s_per_mm = {0, 0, 0}, .sigma_a_per_mm = {1, 2, 3}, .g = 0, .eta = 1.4};
+    EXPECT_EQ(half_space_albedo(medium, std::nullopt, 1000, 1).mean, (Vec3{0, 0, 0}));
+}
+
+TEST(RandomWalk, the_number_of_threads_changes_nothing) {
+    const ScatteringMedium medium = medium_of_albedo(0.9, 0.7, 0.4, 1.4);
+    const Vec3 all = half_space_albedo(medium, std::nullopt, 5000, 9).mean;
+    set_thread_limit(1);
+    EXPECT_EQ(half_space_albedo(medium, std::nullopt, 5000, 9).mean, all);
+    set_thread_limit(0);
+}
+
+// A reduced medium (g = 0) and one that scatters forward with the same sigma_s' look nearly alike:
+// similarity.
+TEST(RandomWalk, forward_scattering_with_the_same_reduced_coefficients_looks_alike) {
+    ScatteringMedium isotropic{
+        .sigma_s_per_mm = {1, 1, 1}, .sigma_a_per_mm = {0.02, 0.05, 0.1}, .g = 0, .eta = 1};
+    ScatteringMedium forward = isotropic;
+    forward.g = 0.7;
+    for (double& sigma : forward.sigma_s_per_mm) sigma /= 0.3;
+    const Vec3 a = half_space_albedo(isotropic, std::nullopt, 40'000, 4).mean;
+    const Vec3 b = half_space_albedo(forward, std::nullopt, 40'000, 5).mean;
+    EXPECT_NEAR(a.x, b.x, 0.03);
+    EXPECT_NEAR(a.z, b.z, 0.03);
+}
+
+}  // namespace
+}  // namespace dermis

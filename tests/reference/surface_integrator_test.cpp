@@ -1,0 +1,198 @@
+#include "dermis/reference/surface_integrator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dermis/base/parallel.h"
+#include "dermis/optics/preintegration.h"
+#include "dermis/optics/presets.h"
+#include "reference/shapes.h"
+
+namespace dermis {
+namespace {
+
+// One white object under one directional light of irradiance 1, everything that an integrator needs around
+// it.
+struct Stage {
+    Scene scene;
+    std::optional<RayScene> rays;
+    std::optional<MaterialSet> materials;
+    std::optional<EnvironmentSampler> environment;
+    std::optional<Lighting> lighting;
+
+    Stage(Mesh mesh, Vec3 to_light, const LightingSettings& settings = {}) {
+        scene.objects.push_back({.name = "white", .mesh = std::move(mesh), .classes = {MaterialClass::skin}});
+        scene.lights.push_back({.intensity = 1, .to_light_world = to_light, .is_key = true});
+        scene.environment.kind = EnvironmentKind::none;
+        rays.emplace(*RayScene::build(scene.objects));
+        materials.emplace(*MaterialSet::load(scene));
+        environment.emplace(*EnvironmentSampler::load(scene.environment));
+        lighting.emplace(scene, *rays, *materials, *environment, settings);
+    }
+    [[nodiscard]] SurfaceIntegrator integrator(const Profile& profile,
+                                               const SurfaceIntegratorSettings& settings = {},
+                                               double width_scale = 1) const {
+        return {*rays, *materials, *lighting, ProfileSampler(profile, width_scale), settings};
+    }
+    // The point of the surface that a line towards the origin of `from` meets first.
+    [[nodiscard]] DiffusePoint point_towards(Vec3 from) const {
+        const Vec3 n = normalize(from);
+        const auto hit = rays->closest_hit(RaySet::skin, {.origin_mm = n * 1000.0f, .direction = -n});
+        return {rays->surface_at(*hit).p_world_mm, n};
+    }
+};
+
+Profile sum_of(std::vector<GaussianTerm> terms) {
+    return {.name = "test", .source = {}, .model = GaussianSum{"test", std::move(terms)}};
+}
+
+// Largest |z| of the estimate at points around the terminator and beyond, over all three channels.
+template <class Exact>
+double worst_deviation(const Profile& profile, float radius_mm, int estimates, Exact exact) {
+    const Stage stage(test::sphere(radius_mm, 6), {0, 0, 1});
+    const SurfaceIntegrator integrator = stage.integrator(profile);
+    double worst = 0;
+    for (const float t : {-0.5f, 0.0f, 0.3f, 1.0f}) {
+        const Vec3 from{std::sqrt(1 - t * t) * 0.6f, std::sqrt(1 - t * t) * 0.8f, t};
+        const Estimate m = estimate_exitance(integrator, stage.point_towards(from), estimates, 17);
+        const Rgb truth = exact(t);
+        const float mean[3] = {m.mean.x, m.mean.y, m.mean.z};
+        const float error[3] = {m.standard_error.x, m.standard_error.y, m.standard_error.z};
+        for (size_t c = 0; c < 3; ++c) {
+            // Facets of 0.017 radii displace the truth by some 1e-5; an exact 0 has no error of its own.
+            const double z = (mean[c] - truth[c]) / std::hypot(error[c], 5e-5);
+            EXPECT_LT(error[c], 0.02) << "t " << t << " channel " << c;
+            EXPECT_LT(std::abs(z), 4.5)
+                << "t " << t << " channel " << c << ": " << mean[c] << " against " << truth[c];
+            worst = std::max(worst, std::abs(z));
+        }
+    }
+    return worst;
+}
+
+class SphereRadius : public testing::TestWithParam<float> {};
+
+TEST_P(SphereRadius, every_gaussian_agrees_with_the_exact_sphere_integral) {
+    for (const GaussianTerm& term : gpu_gems_3_skin().terms) {
+        const GaussianSum one{"one", {{term.variance_mm2, {1, 1, 1}}}};
+        const Profile profile = sum_of(one.terms);
+        worst_deviation(profile, GetParam(), 100,
+                        [&](double t) { return preintegrated_diffuse(one, t, GetParam()); });
+    }
+}
+
+TEST_P(SphereRadius, the_gpu_gems_3_skin_agrees_with_the_exact_sphere_integral) {
+    worst_deviation(*find_profile("gpu_gems_3"), GetParam(), 200,
+                    [&](double t) { return preintegrated_diffuse(gpu_gems_3_skin(), t, GetParam()); });
+}
+
+TEST_P(SphereRadius, burley_agrees_with_the_exact_sphere_integral) {
+    const BurleyProfile burley{.albedo = {1, 1, 1}, .d_mm = {0.448, 0.104, 0.067}};
+    const Profile profile{.name = "burley", .source = {}, .model = burley};
+    const RadialProfile radial{.reflectance =
+                                   [&](double r_mm) {
+                                       return Rgb{reflectance_per_mm2(profile, kRed, r_mm),
+                                                  reflectance_per_mm2(profile, kGreen, r_mm),
+                                                  reflectance_per_mm2(profile, kBlue, r_mm)};
+                                   },
+                               .finest_mm = 0.067};
+    worst_deviation(profile, GetParam(), 200,
+                    [&](double t) { return preintegrated_diffuse(radial, std::span(&t, 1), GetParam())[0]; });
+}
+
+INSTANTIATE_TEST_SUITE_P(Spheres, SphereRadius, testing::Values(2.0f, 4.0f, 8.0f, 16.0f));
+
+TEST(SurfaceIntegrator, even_light_comes_back_without_any_noise) {
+    const Stage stage(test::plane(200, 0, 20), {0, 0, 1});
+    const SurfaceIntegrator integrator = stage.integrator(*find_profile("gpu_gems_3"), {.probes = 4});
+    for (uint32_t seed = 0; seed < 20; ++seed) {
+        const Vec3 m = integrator.exitance({{1, 2, 0}, {0, 0, 1}}, seed);
+        EXPECT_NEAR(m.x, 1, 1e-5);
+        EXPECT_NEAR(m.z, 1, 1e-5);
+    }
+}
+
+TEST(SurfaceIntegrator, without_normalisation_a_plane_returns_the_albedo) {
+    const Stage stage(test::plane(400, 0, 20), {0, 0, 1});
+    const Profile profile = *find_profile("jensen_skin1");
+    const SurfaceIntegrator integrator =
+        stage.integrator(profile, {.probes = 64, .normalisation = Normalisation::none});
+    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}}, 200, 3);
+    EXPECT_NEAR(m.mean.x, diffuse_albedo(profile, kRed), 4 * m.standard_error.x + 1e-4);
+    EXPECT_NEAR(m.mean.y, diffuse_albedo(profile, kGreen), 4 * m.standard_error.y + 1e-4);
+    EXPECT_NEAR(m.mean.z, diffuse_albedo(profile, kBlue), 4 * m.standard_error.z + 1e-4);
+    EXPECT_LT(m.standard_error.x, 0.02 * m.mean.x);
+}
+
+TEST(SurfaceIntegrator, a_shadow_s_edge_bleeds_by_the_integral_of_the_profile) {
+    // A wall's shadow covers x < 0 of the floor. One Gaussian across a straight edge is the normal
+    // distribution of the distance to it.
+    Mesh floor = test::plane(200, 0, 4);
+    Mesh lid = test::grid(1, 1, [](float u, float v) {
+        return test::Placed{{-100 * (1 - u), (0.5f - v) * 400, 50}, {0, 0, 1}};
+    });
+    lid.materials[0].name = "lid";
+    Stage stage(test::joined(floor, lid), {0, 0, 1});
+    stage.scene.objects[0].classes = {MaterialClass::skin, MaterialClass::other};
+    stage.rays.emplace(*RayScene::build(stage.scene.objects));
+    const double sigma_mm = 1.5;
+    const SurfaceIntegrator integrator = stage.integrator(sum_of({{sigma_mm * sigma_mm, {1, 1, 1}}}));
+    for (const float x_mm : {-2.0f, -0.5f, 0.0f, 1.0f, 3.0f}) {
+        const Estimate m = estimate_exitance(integrator, {{x_mm, 0, 0}, {0, 0, 1}}, 100, 5);
+        const double exact = 0.5 * std::erfc(-x_mm / sigma_mm / std::sqrt(2.0));
+        EXPECT_NEAR(m.mean.x, exact, 4 * m.standard_error.x + 1e-4) << x_mm;
+    }
+}
+
+TEST(SurfaceIntegrator, light_crosses_a_thin_sheet) {
+    // Two faces of a sheet of thickness h, light from behind: the back's Gaussian at distance h, over both
+    // faces'.
+    const float h_mm = 2;
+    const Mesh sheet = test::joined(test::plane(200, 0, 4), test::ceiling(200, -h_mm));
+    const Stage stage(sheet, {0, 0, -1});
+    const double v = 3;
+    const SurfaceIntegrator integrator = stage.integrator(sum_of({{v, {1, 1, 1}}}), {.probes = 64});
+    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}}, 200, 5);
+    const double through = std::exp(-h_mm * h_mm / (2 * v));
+    EXPECT_NEAR(m.mean.x, through / (1 + through), 4 * m.standard_error.x + 2e-5);
+    EXPECT_LT(m.standard_error.x, 0.01);
+}
+
+TEST(SurfaceIntegrator, the_tenfold_scene_with_the_tenfold_profile_looks_the_same) {
+    const Profile profile = *find_profile("gpu_gems_3");
+    const Stage small(test::sphere(5, 5), {0, 0, 1}), large(test::sphere(50, 5), {0, 0, 1});
+    const Vec3 from{0.8f, 0.3f, 0.1f};
+    const Vec3 a = small.integrator(profile).exitance(small.point_towards(from), 3);
+    const Vec3 b = large.integrator(profile, {}, 10).exitance(large.point_towards(from), 3);
+    EXPECT_NEAR(a.x, b.x, 2e-3);
+    EXPECT_NEAR(a.z, b.z, 2e-3);
+}
+
+TEST(ProfileSampler, radii_follow_the_mean_of_the_channels_and_the_table_is_the_profile) {
+    for (const char* name : {"gpu_gems_3", "jensen_skin1", "burley:0.448,0.104,0.067"}) {
+        const Profile profile = *find_profile(name);
+        const ProfileSampler sampler(profile, 1);
+        for (const double u : {0.05, 0.3, 0.5, 0.9, 0.99}) {
+            const float r = sampler.sample_radius_mm(float(u));
+            const double share = (cdf(profile, 0, r) + cdf(profile, 1, r) + cdf(profile, 2, r)) / 3;
+            EXPECT_NEAR(share, u, 2e-3) << name << " " << u;
+            for (int c = 0; c < 3; ++c) {
+                const double exact = reflectance_per_mm2(profile, c, r);
+                const Vec3 table = sampler.reflectance(r);
+                const double value = c == 0 ? table.x : c == 1 ? table.y : table.z;
+                EXPECT_NEAR(value, exact, 2e-4 * exact + 1e-7) << name << " " << u << " " << c;
+            }
+        }
+        // The density integrates to 1 over the disk, and what it says of a ring is what falls there.
+        double sum = 0;
+        for (int i = 0; i < 20'000; ++i) {
+            const double r = sampler.max_mm() * std::exp((i + 0.5) / 20'000 * std::log(1e6)) / 1e6;
+            sum += sampler.density_per_mm2(float(r)) * 2 * M_PI * r * r * std::log(1e6) / 20'000;
+        }
+        EXPECT_NEAR(sum, 1, 2e-3) << name;
+    }
+}
+
+}  // namespace
+}  // namespace dermis
