@@ -38,10 +38,10 @@ double add_nose(double d, Point p) {
     nose = smooth_min(nose, swept_ball(p, {0, -12.5, 121.5}, 3.8, {0, -19.5, 112}, 4.6), 5);
     const double body = smooth_min(d, nose, 10);
     // Wings.
-    const Ellipsoid wing = Ellipsoid{{11.0, -12.2, 111.5}, {5.6, 6.8, 9.6}}.turned(-0.36, 0.25);
-    double all = smooth_min(body, wing.distance_mm(q), 7);
+    const Ellipsoid wing = Ellipsoid{{11.2, -11.6, 111.4}, {5.8, 7.4, 10.4}}.turned(-0.36, 0.28);
+    double all = smooth_min(body, wing.distance_mm(q), 8.5);
     // Nostrils open down and a little outward, and run up and back.
-    const Ellipsoid nostril = Ellipsoid{{6.6, -17.8, 114.6}, {2.6, 4.6, 5.4}}.turned(-0.38, 0.2);
+    const Ellipsoid nostril = Ellipsoid{{6.6, -19.4, 114.4}, {2.3, 4.0, 5.0}}.turned(-0.42, 0.2);
     return smooth_max(all, -nostril.distance_mm(q), 2.4);
 }
 

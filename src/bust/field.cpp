@@ -52,9 +52,21 @@ double BustField::solids(Point p) const {
 }
 
 Point BustField::to_standard(Point p) const {
-    // Low waves, at most 0.9 mm a term, differ from left to right; the nose leans.
-    const double a = params_.asymmetry;
+    const BustParams standard;
     Point q = p;
+    // Proportions: the face grows downwards from the nasion with the nose; breadths fade towards the neck.
+    const double below = 1 - smooth_step(-21, 39, p.y), front = smooth_step(-10, 70, p.z);
+    q.y += (params_.nose_length_mm - standard.nose_length_mm) * below * front;
+    const double head = smooth_step(-110, -10, q.y);
+    const double jaw =
+        smooth_step(-125, -60, q.y) * (1 - smooth_step(-50, 10, q.y)) * smooth_step(-50, 0, q.z);
+    const double nose_box =
+        smooth_step(92, 112, q.z) * smooth_step(-30, -16, q.y) * (1 - smooth_step(10, 30, q.y));
+    q.x /= 1 + (params_.head_width_mm / standard.head_width_mm - 1) * head;
+    q.x /= 1 + (params_.jaw_width_mm / standard.jaw_width_mm - 1) * jaw;
+    q.x /= 1 + (params_.nose_width_mm / standard.nose_width_mm - 1) * nose_box;
+    // Low waves that differ from left to right, under a millimetre each.
+    const double a = params_.asymmetry;
     q.x += a * (0.7 * std::sin(p.y / 48 + phase_[0]) * std::exp(-p.x * p.x / 3600) +
                 0.3 * std::sin(p.z / 40 + phase_[1]));
     q.y += a * (0.8 * std::sin(p.x / 42 + phase_[2]) + 0.35 * std::sin(p.x / 17 + phase_[3]));

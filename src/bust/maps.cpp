@@ -65,13 +65,10 @@ void grow(std::vector<int>& owner, int side) {
     });
 }
 
-std::vector<SkinZones> zones_by_vertex(const Atlas& atlas, const std::vector<Point>& standard) {
-    std::vector<ChartKind> kind(standard.size());
-    for (size_t i = 0; i < atlas.mesh.triangles.size(); ++i)
-        for (const int v : atlas.mesh.triangles[i]) kind[size_t(v)] = atlas.kind[i];
+std::vector<SkinZones> zones_by_vertex(const std::vector<Point>& standard) {
     std::vector<SkinZones> zones(standard.size());
     parallel_for(standard.size(), 1024, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) zones[i] = skin_zones(standard[i], kind[i]);
+        for (size_t i = begin; i < end; ++i) zones[i] = skin_zones(standard[i]);
     });
     return zones;
 }
@@ -128,7 +125,7 @@ std::vector<int> rasterize(const Atlas& atlas, int side, int gutter) {
 SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams& params, int side) {
     std::vector<Point> standard(atlas.mesh.points.size());
     for (size_t i = 0; i < standard.size(); ++i) standard[i] = field.to_standard(atlas.mesh.points[i]);
-    const std::vector<SkinZones> zones = zones_by_vertex(atlas, standard);
+    const std::vector<SkinZones> zones = zones_by_vertex(standard);
     const std::vector<int> owner = rasterize(atlas, side, kGutter * side / kAtlasSide + 1);
 
     SkinMaps maps = {Image(side, side, 3, PixelFormat::u8, Encoding::srgb),

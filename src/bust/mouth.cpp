@@ -13,9 +13,9 @@ struct Column {
     double x, line, top, bottom, upper, lower;
 };
 constexpr Column kColumns[] = {
-    {0, -39.4, -31.8, -49.6, 4.6, 5.4},    {5.5, -38.7, -30.2, -49.6, 4.5, 5.6},
-    {11, -38.3, -31.2, -48.8, 4.0, 5.0},   {16, -38.5, -33.2, -47.0, 3.1, 3.8},
-    {20.5, -39.0, -35.8, -44.4, 2.0, 2.3}, {25.5, -39.8, -39.2, -40.6, 0.2, 0.2},
+    {0, -39.4, -31.8, -49.4, 4.6, 5.6},    {5.5, -38.7, -30.2, -49.3, 4.5, 5.7},
+    {11, -38.3, -31.2, -48.0, 4.0, 5.0},   {16, -38.5, -33.2, -45.6, 3.1, 3.7},
+    {20.5, -39.0, -35.9, -43.0, 1.9, 2.1}, {25.5, -39.8, -39.2, -40.7, 0.2, 0.2},
     {31, -40.2, -40.0, -40.4, 0, 0},
 };
 
@@ -61,8 +61,8 @@ double add_lips(double d, Point p, double fullness) {
         swell = s.upper_swell_mm * lip_profile((p.y - s.line_y) / std::max(s.top_y - s.line_y, 0.4), 0.5);
     else
         swell = s.lower_swell_mm * lip_profile((s.line_y - p.y) / std::max(s.line_y - s.bottom_y, 0.4), 0.3);
-    const double floor_mm = 0.55 * std::min(s.upper_swell_mm, s.lower_swell_mm);
-    const double near_line = 1 - smooth_step(0.0, 3.0, std::abs(p.y - s.line_y));
+    const double floor_mm = 0.72 * std::min(s.upper_swell_mm, s.lower_swell_mm);
+    const double near_line = 1 - smooth_step(0.0, 4.0, std::abs(p.y - s.line_y));
     swell = std::hypot(swell, floor_mm * near_line);
     return d - fullness * swell;
 }

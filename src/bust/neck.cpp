@@ -32,7 +32,7 @@ double column(std::span<const Ring> rings, Point p) {
             return (rings[k + 1].*member - rings[k - 1].*member) / (rings[k - 1].y - rings[k + 1].y);
         };
         const double a = rings[i].*member, b = rings[i + 1].*member, t2 = t * t, t3 = t2 * t;
-        slope = tangent(i);
+        slope = mix(tangent(i), tangent(i + 1), t);
         return a * (2 * t3 - 3 * t2 + 1) + b * (3 * t2 - 2 * t3) +
                span * (tangent(i) * (t3 - 2 * t2 + t) + tangent(i + 1) * (t3 - t2));
     };
@@ -53,9 +53,9 @@ double add_neck(double d, Point p) {
     d = smooth_min(d, column(kTrapezius, p), 22);
     const Point q = {std::abs(p.x), p.y, p.z};
     // Sternomastoid: mastoid process behind the ear to the sternum, and a flatter head to the collar bone.
-    const double sternal = smooth_min(swept_ball(q, {55, -28, -16}, 8, {45, -88, 8}, 10),
+    const double sternal = smooth_min(swept_ball(q, {52, -30, -16}, 8, {45, -88, 8}, 10),
                                       swept_ball(q, {45, -88, 8}, 10, {11, -166, 31}, 6.5), 6);
-    d = smooth_min(d, sternal, 13);
+    d = smooth_min(d, sternal, 17);
     d = smooth_min(d, swept_ball(q, {47, -100, -2}, 8, {38, -168, 18}, 7), 16);
     // Chest and collar bones.
     const Ellipsoid chest = {{0, -252, -20}, {195, 98, 80}};
@@ -70,19 +70,23 @@ double add_neck(double d, Point p) {
 }
 
 namespace {
+// An oval column cut off level, its lower edge well rounded.
 double cut_distance(Point p) {
-    const Ellipsoid bowl = {{0, -110, -22}, {142, 112, 92}};
+    const double a = 128, b = 92, z = p.z + 22;
+    const double k = std::hypot(p.x / a, z / b),
+                 steep = std::max(std::hypot(p.x / (a * a), z / (b * b)), 1e-9);
+    const double cut = smooth_max(k * (k - 1) / steep, -208 - p.y, 40);
     // The cut sinks away towards the chin, which stands in front of it.
-    return bowl.distance_mm(p) - 90 * smooth_step(-160, -112, p.y);
+    return cut - 90 * smooth_step(-152, -112, p.y);
 }
 }  // namespace
 
 double cut_bust(double d, Point p) {
-    return p.y > -112 ? d : smooth_max(d, cut_distance(p), 5);
+    return p.y > -112 ? d : smooth_max(d, cut_distance(p), 7);
 }
 
 bool on_cut(Point p) {
-    return p.y < -130 && cut_distance(p) > -1.2;
+    return p.y < -130 && cut_distance(p) > -2.0;
 }
 
 }  // namespace dermis::bust

@@ -46,7 +46,7 @@ Lips lips(Point p) {
     const LipShape s = lip_shape(p.x);
     const double edge = std::min(s.top_y - p.y, p.y - s.bottom_y);
     Lips l;
-    l.vermilion = step(-0.9, 0.9, edge) * (1 - step(24.0, 26.2, std::abs(p.x)));
+    l.vermilion = step(-1.1, 1.3, edge) * (1 - step(24.0, 26.2, std::abs(p.x)));
     l.along = float(std::min(std::abs(p.y - s.line_y) / 5.0, 1.0));
     return l;
 }
@@ -60,15 +60,17 @@ float brow(Point p, uint32_t seed) {
     const double half = mix(4.8, 1.6, smooth_step(14, 54, x));
     const double across = (p.y - middle) / half;
     const double ends = smooth_step(7, 14, x) * (1 - smooth_step(46, 55, x));
-    const double body = ends * (1 - smooth_step(0.45, 1.25, std::abs(across)));
+    const double body = ends * (1 - smooth_step(0.35, 1.35, std::abs(across)));
     if (body <= 0) return 0;
-    const double lean = mix(0.35, 1.35, smooth_step(8, 30, x)) + (across > 0 ? 0.35 : -0.1) * across;
-    const double c = std::cos(lean), s = std::sin(lean);
-    const double along = x * s + p.y * c, side = x * c - p.y * s;
-    const float coarse = value_noise({side * 1.5, along * 0.22, p.x > 0 ? 3.0 : 9.0}, seed);
-    const float fine = value_noise({side * 3.1, along * 0.3, p.x > 0 ? 5.0 : 11.0}, seed + 1);
-    const float strands = step(-0.35, 0.75, 0.6 * coarse + 0.6 * fine + 0.9 * body - 0.25);
-    return float(body) * strands;
+    // Hairs run along lines side = const: steep beside the nose, nearly level at the tail.
+    const double slope = mix(0.35, 2.6, smooth_step(8, 40, x));
+    const double side = x - (p.y - middle) * slope, stretch = 1 / std::sqrt(1 + slope * slope);
+    const double seed_side = p.x > 0 ? 3 : 9;
+    const float coarse = value_noise({side * 1.3 * stretch + 0.3 * side, across * 0.8, seed_side}, seed);
+    const float fine =
+        value_noise({side * 2.3 * stretch + 0.4 * side, across * 0.9, seed_side + 5}, seed + 1);
+    const float hair = 0.55f * coarse + 0.65f * fine;
+    return float(body) * step(-0.55, 0.75, hair + 1.15 * body - 0.7);
 }
 
 // Lashes of the closed eye: a dark line under the upper lid's edge and a short fringe below it.
@@ -157,7 +159,7 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params) {
     const float roots = cell_noise(p * (1 / 0.62), seed + 5).nearest;
     const float hair = 1 - step(0.16, 0.42, roots);
     const float shade = float(params.stubble) * z.beard * (0.75f + 0.25f * broad);
-    const float scalp = float(params.stubble) * 0.65f * z.scalp * (0.8f + 0.2f * broad);
+    const float scalp = float(params.stubble) * 0.9f * z.scalp * (0.8f + 0.2f * broad);
     const float cover = std::max(shade, scalp);
     c = mixc(c, c * Vec3{0.66f, 0.70f, 0.76f}, 0.55f * cover);
     c = darker(c, 0.50f * cover * hair);
@@ -168,17 +170,17 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params) {
         Vec3 red_lip =
             redder(tone_albedo_linear(params.tone), mixf(0.78f, 0.35f, depth)) * Vec3{0.90f, 0.84f, 0.86f};
         red_lip = darker(red_lip, 0.10f * depth + 0.10f * (1 - lip.along) + 0.04f * middle + 0.03f * fine);
-        c = mixc(c, red_lip, 0.85f * lip.vermilion);
+        c = mixc(c, red_lip, 0.78f * lip.vermilion);
     }
     const Relief r = relief(p, z, lip.vermilion, seed);
     c = darker(c, 0.10f * r.pore);
     const float hairs = std::max(p.z > 40 ? brow(p, seed) : 0.0f, p.z > 60 ? lashes(p, seed) : 0.0f);
-    c = mixc(c, Vec3{0.032f, 0.021f, 0.015f}, 0.86f * hairs);
+    c = mixc(c, Vec3{0.045f, 0.030f, 0.021f}, 0.82f * hairs);
 
     SkinSample s;
     s.albedo_linear = c;
     s.height_mm = r.height_mm + 0.05f * hairs * fine;
-    s.roughness = 0.50f - 0.10f * z.t_zone - 0.04f * z.nose + 0.05f * z.cheek + 0.04f * z.neck +
+    s.roughness = 0.52f - 0.08f * z.t_zone - 0.04f * z.nose + 0.05f * z.cheek + 0.04f * z.neck +
                   0.05f * middle + 0.03f * fine + 0.06f * r.pore + 0.04f * cover;
     s.roughness = mixf(s.roughness, 0.40f + 0.05f * fine, lip.vermilion);
     s.specular =

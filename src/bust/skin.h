@@ -2,8 +2,8 @@
 // What the skin is like at a point of the standard head.
 
 #include "dermis/base/vec.h"
-#include "dermis/bust/charts.h"
 #include "dermis/bust/params.h"
+#include "dermis/bust/point.h"
 
 namespace dermis::bust {
 
@@ -15,7 +15,7 @@ struct SkinZones {
 };
 inline constexpr int kZoneCount = sizeof(SkinZones) / sizeof(float);
 
-[[nodiscard]] SkinZones skin_zones(Point p_standard, ChartKind kind);
+[[nodiscard]] SkinZones skin_zones(Point p_standard);
 
 struct SkinSample {
     Vec3 albedo_linear;

@@ -18,15 +18,14 @@ float ramp(double low, double high, double v) {
 
 }  // namespace
 
-SkinZones skin_zones(Point p, ChartKind kind) {
+SkinZones skin_zones(Point p) {
     const Point q = {std::abs(p.x), p.y, p.z};
     SkinZones z;
     z.cheek = blob(q, {43, -8, 84}, {32, 30, 40});
     z.nose = std::max(blob(p, {0, -10, 124}, {26, 24, 24}), 0.6f * blob(p, {0, 8, 116}, {18, 34, 26}));
     z.t_zone = std::max({blob(p, {0, 68, 95}, {58, 40, 45}), blob(p, {0, 10, 116}, {20, 50, 26}),
                          blob(p, {0, -76, 106}, {26, 20, 24})});
-    z.ear =
-        kind == ChartKind::left_ear || kind == ChartKind::right_ear ? 1 : blob(q, {86, 4, -6}, {20, 44, 34});
+    z.ear = blob(q, {91, 4, -7}, {32, 47, 36});
     z.lid = blob(q, {31, 22, 92}, {22, 14, 22});
     z.eye_ring = blob(q, {30, 18, 92}, {30, 24, 30});
     // Beard: upper lip, chin, jaw and under it; thin on the cheeks and the throat.
