@@ -3,6 +3,11 @@
 #ifndef DERMIS_FORWARD_GLSL
 #define DERMIS_FORWARD_GLSL
 
+// DERMIS_SHADOW_WIDTH_MM: the width of the key light's filtered shadow, when it is not the scene's penumbra.
+#ifndef DERMIS_SHADOW_WIDTH_MM
+#define DERMIS_SHADOW_WIDTH_MM penumbra_mm
+#endif
+
 #include "shared/environment.glsl"
 #include "shared/lights.glsl"
 #include "shared/shadow.glsl"
@@ -30,7 +35,8 @@ void main() {
         LightSample light = sample_light(i, s.p_world_mm);
         float visibility = 1.0;
         if (i == key_light)
-            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world,
+                                           DERMIS_SHADOW_WIDTH_MM);
         exitance += light.irradiance_linear * direct_response(s, light.to_light_world, visibility);
         specular_radiance += light.irradiance_linear * visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);

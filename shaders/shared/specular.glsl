@@ -2,7 +2,7 @@
 #ifndef DERMIS_SPECULAR_GLSL
 #define DERMIS_SPECULAR_GLSL
 
-const int kSpecularNone = 0, kSpecularBlinnPhong = 1, kSpecularGgx = 2;
+const int kSpecularNone = 0, kSpecularBlinnPhong = 1, kSpecularGgx = 2, kSpecularTwoLobe = 3, kSpecularKsk = 4;
 layout(constant_id = 0) const int specular_model = kSpecularGgx;
 
 // Schlick 1994.
@@ -29,15 +29,33 @@ float ggx(float n_dot_h, float n_dot_l, float n_dot_v, float alpha) {
     return distribution * 0.5 / max(smith_l + smith_v, 1e-6) * n_dot_l;
 }
 
+// Two GGX lobes around one roughness, .75 and 1.3 times as rough, .85 of the first: skin's sharp oil over a broad sheen
+// (the published defaults of Unreal Engine's subsurface profile).
+float two_lobe_ggx(float n_dot_h, float n_dot_l, float n_dot_v, float roughness) {
+    float first = 0.75 * roughness, second = min(1.3 * roughness, 1.0);
+    return mix(ggx(n_dot_h, n_dot_l, n_dot_v, second * second), ggx(n_dot_h, n_dot_l, n_dot_v, first * first), 0.85);
+}
+
+// Kelemen, Szirmay-Kalos 2001: Beckmann's distribution over |l + v|^2, which stands for 4 (h.v)^2 and most of the
+// shadowing. d'Eon, Luebke 2007 leave out the distribution's 1 / pi; here it is normalised.
+float kelemen_szirmay_kalos(float n_dot_h, float n_dot_l, float h_dot_v, float alpha) {
+    float c2 = max(n_dot_h * n_dot_h, 1e-4), a2 = alpha * alpha;
+    float beckmann = exp((c2 - 1.0) / (a2 * c2)) / (kPi * a2 * c2 * c2);
+    return beckmann * n_dot_l / max(4.0 * h_dot_v * h_dot_v, 1e-3);
+}
+
 float specular_reflection(vec3 n_world, vec3 to_eye_world, vec3 to_light_world, float roughness, float f0) {
     float n_dot_l = dot(n_world, to_light_world);
     if (n_dot_l <= 0.0 || specular_model == kSpecularNone) return 0.0;
     vec3 h = normalize(to_eye_world + to_light_world);
     float n_dot_h = clamp(dot(n_world, h), 0.0, 1.0);
     float n_dot_v = clamp(dot(n_world, to_eye_world), 1e-3, 1.0);
-    float fresnel = fresnel_schlick(f0, clamp(dot(h, to_eye_world), 0.0, 1.0));
+    float h_dot_v = clamp(dot(h, to_eye_world), 0.0, 1.0);
+    float fresnel = fresnel_schlick(f0, h_dot_v);
     float alpha = roughness * roughness;
     if (specular_model == kSpecularBlinnPhong) return fresnel * blinn_phong(n_dot_h, n_dot_l, alpha);
+    if (specular_model == kSpecularTwoLobe) return fresnel * two_lobe_ggx(n_dot_h, n_dot_l, n_dot_v, roughness);
+    if (specular_model == kSpecularKsk) return fresnel * kelemen_szirmay_kalos(n_dot_h, n_dot_l, h_dot_v, alpha);
     return fresnel * ggx(n_dot_h, n_dot_l, n_dot_v, alpha);
 }
 

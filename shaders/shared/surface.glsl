@@ -21,6 +21,7 @@ layout(set = 0, binding = 2, scalar) uniform Material {
     float opacity;
     int normal_space;  // 0 tangent, 1 object, 2 no map
     float normal_scale;
+    float curvature_scale_per_mm;  // of a value of 1 in the curvature map
 };
 
 layout(set = 0, binding = 12) uniform texture2D albedo_map;

@@ -110,15 +110,14 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
         .view = settings.view,
         .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
         .frame_index = settings.frame_index};
-    const SharedPassSettings shared = {
-        .samples = settings.samples,
-        .shadow_map_size = settings.shadow_map_size,
-        .display_format = settings.deep_display ? ImageFormat::rgba32f : ImageFormat::rgba8,
-        .tone_map = scene_->tone_map,
-        .view = settings.view,
-        .has_other = uploaded_.has(gpu::DrawClass::other),
-        .has_translucent = uploaded_.has(gpu::DrawClass::translucent),
-        .gbuffer = settings.gbuffer};
+    const SharedPassSettings shared = {.samples = settings.samples,
+                                       .shadow_map_size = settings.shadow_map_size,
+                                       .deep = settings.deep,
+                                       .tone_map = scene_->tone_map,
+                                       .view = settings.view,
+                                       .has_other = uploaded_.has(gpu::DrawClass::other),
+                                       .has_translucent = uploaded_.has(gpu::DrawClass::translucent),
+                                       .gbuffer = settings.gbuffer};
     list_ = frame_passes(technique.build(values, frame), shared);
     radiance_name_ = radiance_image(shared);
     return executor_.run(list_, inputs(values, settings));

@@ -17,7 +17,7 @@ struct DrawSettings {
     int samples = 1;             ///< 1 or 4
     std::string view = "final";  ///< see view_names()
     bool gbuffer = false;        ///< keep its images for read()
-    bool deep_display = false;   ///< display in float, for 16-bit files
+    bool deep = false;           ///< radiance and display in float: for 16-bit files and for measuring
     int shadow_map_size = 2048;
     float penumbra_mm = 2;
     int frame_index = 0;

@@ -96,13 +96,14 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     const auto view = std::ranges::find(gbuffer_views(), settings.view);
     const bool shows_gbuffer = view != gbuffer_views().end();
     const int shadow_size = settings.shadow_map_size;
+    const ImageFormat radiance_format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba16f;
 
     PassList list;
     list.images = {
         {.name = "shadow_map", .format = ImageFormat::depth32f, .size = {shadow_size, shadow_size}},
-        {.name = "radiance", .format = ImageFormat::rgba16f, .samples = settings.samples},
+        {.name = "radiance", .format = radiance_format, .samples = settings.samples},
         {.name = "depth", .format = ImageFormat::depth32f, .samples = settings.samples},
-        {.name = "display", .format = settings.display_format}};
+        {.name = "display", .format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba8}};
     list.passes = {shadow_pass()};
     if (settings.gbuffer || shows_gbuffer) {
         for (const std::string& image : gbuffer_images())
@@ -122,7 +123,7 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     if (settings.has_translucent)
         list.passes.push_back(other_pass("translucent", GeometryFilter::translucent, Blend::alpha));
     if (settings.samples > 1) {
-        list.images.push_back({.name = "radiance_resolved", .format = ImageFormat::rgba16f});
+        list.images.push_back({.name = "radiance_resolved", .format = radiance_format});
         list.passes.push_back({.name = "resolve",
                                .kind = PassKind::resolve,
                                .reads = {"radiance"},

@@ -3,7 +3,7 @@
 namespace dermis {
 
 const std::vector<std::string>& specular_model_names() {
-    static const std::vector<std::string> kNames = {"none", "blinn_phong", "ggx"};
+    static const std::vector<std::string> kNames = {"none", "blinn_phong", "ggx", "two_lobe_ggx", "ksk"};
     return kNames;
 }
 

@@ -8,7 +8,7 @@
 namespace dermis {
 
 /// The order is that of shaders/shared/specular.glsl.
-enum class SpecularModel : int32_t { none, blinn_phong, ggx };
+enum class SpecularModel : int32_t { none, blinn_phong, ggx, two_lobe_ggx, ksk };
 
 [[nodiscard]] const std::vector<std::string>& specular_model_names();
 

@@ -25,7 +25,7 @@ TEST_F(Pictures, the_shader_tone_maps_as_the_library_does) {
     const Technique& technique = **find_technique("lambert");
     for (const ToneMap curve : {ToneMap::none, ToneMap::hable, ToneMap::aces, ToneMap::pbr_neutral}) {
         scene.tone_map = curve;
-        const DrawSettings settings = {.width = 96, .height = 64, .deep_display = true};
+        const DrawSettings settings = {.width = 96, .height = 64, .deep = true};
         const Image linear = radiance(renderer, technique, settings);
         const Image display = *renderer.display();
         for (int y = 0; y < linear.height; ++y)

@@ -128,7 +128,7 @@ Result<int> render(Options options) {
     Result<Renderer> renderer = Renderer::create(*device, gpu::embedded_shaders(), prepared->scene);
     if (!renderer) return renderer.error();
 
-    prepared->draw.deep_display = options.file.png_bits == 16;
+    prepared->draw.deep = options.file.png_bits == 16;
     options.file.credit = prepared->scene.credit;
     options.file.description = prepared->scene.name + ", " + prepared->technique->id;
     const Result<std::vector<gpu::FrameResult>> frames = draw_frames(*renderer, *prepared, options);

@@ -1,0 +1,48 @@
+// The hand-made curves of Simon Yeung 2015, "Pre-Integrated Skin Shading" (his blog): fitted by eye to a ring table for
+// radii of 2 to 16 mm. Error against the sphere integral: 0.20 at r = 2 mm, 0.07 at 4, 0.014 at 8 (red channel).
+#ifndef DERMIS_CURVE_2015_GLSL
+#define DERMIS_CURVE_2015_GLSL
+
+vec3 saturate(vec3 x) { return clamp(x, 0.0, 1.0); }
+
+// 0 at a radius of 2 mm, 1 at 16 mm.
+float curve_2015_radius(float curvature_per_mm) {
+    return (1.0 / clamp(curvature_per_mm, 0.0625, 0.5) - 2.0) / 14.0;
+}
+
+vec3 curve_2015_direct(vec3 n_dot_l, float curvature_per_mm) {
+    vec3 x = n_dot_l * 0.5 + 0.5;
+    float away = 1.0 - curve_2015_radius(curvature_per_mm);
+
+    // Tightest: a parabola (a cubic in blue) in the dark that turns into a line in the light.
+    const vec3 low = vec3(0.0, 0.3, 0.3), high = vec3(1.0, 0.7, 0.7), offset = vec3(0.0, 0.06, 0.06);
+    vec3 t = saturate((x - low - offset) / (high - low));
+    vec3 dark = t * t * vec3(0.65, 0.5, 0.9) * vec3(1.0, 1.0, t.b) + vec3(0.045, 0.0, 0.0);
+    vec3 light = saturate((x - 1.0) * vec3(1.75, 2.0, 1.97) + 0.99);
+    const vec3 mix_low = vec3(0.0, 0.35, 0.35), mix_high = vec3(1.0, 0.7, 0.6);
+    vec3 m = saturate((x - mix_low) / (mix_high - mix_low));
+    vec3 tight = mix(dark, light, m * m);
+
+    // Flattest: lines.
+    vec3 flat_skin = saturate((x - 1.0) * vec3(1.95, 2.0, 2.0) + vec3(0.99, 0.99, 1.0));
+
+    float away2 = away * away;
+    return mix(tight, flat_skin, 1.0 - away2 * away2);
+}
+
+// Orders 0 and 1; order 2 he leaves as it is for Lambert.
+void curve_2015_zonal(float curvature_per_mm, out vec3 zh[3]) {
+    float c = curve_2015_radius(curvature_per_mm);
+    vec2 near = 1.0 - clamp(c * vec2(3.0, 2.7), 0.0, 1.0);
+    near *= near;
+    near *= near;
+    zh[0] = vec3(1.0 / (c * 3.2 + 0.4), near) * vec3(0.061659, 0.00991683, 0.003783) +
+            vec3(0.868938, 0.885506, 0.885400);
+    float nearest = 1.0 - clamp(c * 2.7, 0.0, 1.0);
+    vec3 tight = vec3(0.197573092, 0.0117447875, 0.0040980375) * (1.0 - nearest * nearest * nearest) +
+                 vec3(0.7672169, 1.009236, 1.017741);
+    zh[1] = mix(vec3(1.018366, 1.022107, 1.022232), tight, (1.0 - c) * (1.0 - c));
+    zh[2] = vec3(0.495416);
+}
+
+#endif
