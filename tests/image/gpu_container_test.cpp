@@ -133,6 +133,7 @@ TEST(GpuContainer, what_is_not_a_flat_plain_image_is_refused) {
     EXPECT_TRUE(refused(ktx2, 36, 6));           // cube map
     EXPECT_TRUE(refused(ktx2, 32, 2));           // array
     EXPECT_TRUE(refused(ktx2, 44, 2));           // Zstandard
+    EXPECT_TRUE(refused(ktx2, 20, 5));           // narrower than its texels
     EXPECT_TRUE(refused(ktx2, 20, 7));           // wider than its texels
     EXPECT_TRUE(refused(ktx2, 84, 1));           // texels beyond 4 GiB
     EXPECT_TRUE(refused(ktx2, 60, 0xffffffff));  // key/value data beyond the end

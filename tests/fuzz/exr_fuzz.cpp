@@ -1,0 +1,11 @@
+// OpenEXR, behind the look at the header that keeps it from allocating what a file claims.
+
+#include "dermis/image/codec/codec.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace dermis;
+    const codec::Bytes file = std::as_bytes(std::span(data, size));
+    (void)codec::decode_exr(file, ImageUse::color);
+    (void)codec::decode_layered_exr(file);
+    return 0;
+}

@@ -1,0 +1,10 @@
+// KTX2 and its key/value data.
+
+#include "dermis/image/codec/codec.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace dermis;
+    const codec::Bytes file = std::as_bytes(std::span(data, size));
+    (void)codec::decode_ktx2(file, ImageUse::color);
+    return 0;
+}
