@@ -20,10 +20,14 @@ constexpr Decoder kDecoders[] = {
     {codec::is_dds, codec::decode_dds},           {codec::is_ktx2, codec::decode_ktx2},
 };
 
+// A message may quote names out of the file; whatever they hold, it stays one printable line.
 template <class T>
 Result<T> named(Result<T> result, std::string_view name) {
-    if (!result) return Error{std::string(name) + ": " + result.error().message};
-    return result;
+    if (result) return result;
+    std::string reason = result.error().message;
+    std::ranges::replace_if(
+        reason, [](char c) { return (c >= 0 && c < 32) || c == 127; }, '?');
+    return Error{std::string(name) + ": " + reason};
 }
 
 // One channel is grey, two are red and green (grey and alpha when sRGB-encoded), alpha is 1 where there is

@@ -8,13 +8,15 @@ using namespace dermis;
 
 namespace {
 
-// Islands of a hash, an eighth of all texels.
+// One texel in forty, by a hash without rows or columns of its own.
 Image scattered_mask(int width, int height) {
     Image mask(width, height, 1, PixelFormat::u8);
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            mask.set(x, y, 0,
-                     (uint32_t(x) * 2654435761u ^ uint32_t(y) * 2246822519u) >> 29 == 0 ? 1.0f : 0.0f);
+        for (int x = 0; x < width; ++x) {
+            uint32_t h = uint32_t(y * width + x) * 2654435761u;
+            h = (h ^ h >> 15) * 2246822519u;
+            mask.set(x, y, 0, (h ^ h >> 13) % 40 == 0 ? 1.0f : 0.0f);
+        }
     return mask;
 }
 
@@ -22,7 +24,7 @@ Image scattered_mask(int width, int height) {
 
 TEST(Dilate, every_texel_within_reach_takes_the_nearest_one_inside_and_no_other_changes) {
     const Image mask = scattered_mask(37, 29), before = test_pattern(37, 29, 3);
-    for (const int reach : {0, 1, 2, 5}) {
+    for (const int reach : {0, 1, 2, 5, 20}) {
         Image after = before;
         dilate(after, mask, reach);
         for (int y = 0; y < 29; ++y)
@@ -59,4 +61,15 @@ TEST(Dilate, one_texel_fills_a_disc) {
     for (int y = 0; y < 11; ++y)
         for (int x = 0; x < 11; ++x)
             EXPECT_EQ(image.at(x, y, 0), (x - 5) * (x - 5) + (y - 5) * (y - 5) <= 9 ? 2.0f : 0.0f);
+}
+
+TEST(Dilate, between_two_texels_of_a_row_or_column_each_takes_its_half) {
+    for (const bool column : {false, true}) {
+        const int width = column ? 1 : 10, height = column ? 10 : 1;
+        Image image(width, height, 1), mask(width, height, 1);
+        image.floats()[0] = 1, image.floats()[9] = 2;
+        mask.floats()[0] = mask.floats()[9] = 1;
+        dilate(image, mask, 9);
+        for (size_t i = 0; i < 10; ++i) EXPECT_EQ(image.floats()[i], i < 5 ? 1.0f : 2.0f) << i;
+    }
 }

@@ -153,3 +153,9 @@ TEST(Exr, a_header_that_claims_too_much_is_refused_before_openexr_allocates) {
               "test.exr: corrupt EXR: the file is too short for its size");
     EXPECT_NE(message(Imf::ZIP_COMPRESSION, 16383, 127).find("too short a file"), std::string::npos);
 }
+
+TEST(Exr, a_channel_name_with_line_breaks_stays_on_the_line_of_the_error) {
+    const Result<LoadedImage> loaded = decode(make_exr(4, 4, {.channels = {"a\n.R", "b.R"}}));
+    ASSERT_FALSE(loaded);
+    EXPECT_NE(loaded.error().message.find("a?.R, b.R"), std::string::npos) << loaded.error().message;
+}

@@ -62,8 +62,8 @@ TEST(ToneMap, neutral_keeps_base_colours_less_the_fresnel_offset_and_compresses_
     // The slope is continuous where compression starts.
     const auto at = [](float x) { return tone_map(ToneMap::pbr_neutral, grey(x)).x; };
     EXPECT_NEAR((at(0.801f) - at(0.8f)) / 0.001f, (at(0.799f) - at(0.798f)) / 0.001f, 0.02f);
-    // A bright saturated red goes towards white.
-    EXPECT_GT(tone_map(ToneMap::pbr_neutral, Vec3{20.0f, 0.0f, 0.0f}).y, 0.5f);
+    // A bright saturated red goes towards white: peak 1 - 0.0576 / 19.48, share 1 - 1 / (0.15 * 19.003 + 1).
+    EXPECT_NEAR(tone_map(ToneMap::pbr_neutral, Vec3{20.0f, 0.0f, 0.0f}).y, 0.738100f, 1e-4f);
 }
 
 TEST(ToneMap, negative_infinite_and_undefined_light_gives_a_displayable_colour) {

@@ -147,9 +147,7 @@ Result<LayeredImage> read_guarded(Bytes file, Pick pick) {
     try {
         return read_layers(file, pick);
     } catch (const std::exception& e) {
-        std::string reason = e.what();
-        std::ranges::replace(reason, '\n', ' ');
-        return Error{"corrupt EXR: " + reason};
+        return Error{std::string("corrupt EXR: ") + e.what()};
     }
 }
 
