@@ -1,0 +1,109 @@
+// Whatever is wrong: one line that names it, a non-zero exit, nothing half-written, no crash.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/run_program.h"
+#include "support/temporary_directory.h"
+
+using namespace dermis;
+using testing::HasSubstr;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class BadInput : public testing::Test {
+  protected:
+    ProgramResult dermis(const std::string& arguments) {
+        return run_shell(std::string(DERMIS_PROGRAM) + " " + arguments, directory_.path.string());
+    }
+    void expect_error(const std::string& arguments, const std::string& message) {
+        const ProgramResult result = dermis(arguments);
+        EXPECT_TRUE(result.exit_code == 1 || result.exit_code == 2)
+            << arguments << ": exit " << result.exit_code;
+        EXPECT_THAT(result.err, HasSubstr(message)) << arguments;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_EQ(result.out, "") << arguments;
+    }
+    std::string file(const std::string& name, const std::string& content) {
+        std::ofstream(directory_.path / name, std::ios::binary) << content;
+        return (directory_.path / name).string();
+    }
+    std::string path(const std::string& name) { return (directory_.path / name).string(); }
+
+    TemporaryDirectory directory_;
+};
+
+constexpr const char* kQuick = "render builtin:spheres --size 16x16 -o ";
+
+}  // namespace
+
+TEST_F(BadInput, options_that_are_wrong_say_what_would_be_right) {
+    expect_error("", "A subcommand is required");
+    expect_error("rendr", "unknown command 'rendr'; did you mean 'render'?");
+    expect_error("render builtin:spheres --size 0x4", "--size '0x4': write WIDTHxHEIGHT");
+    expect_error("render builtin:spheres --size 99999x4", "each 1 to 8192");
+    expect_error("render builtin:spheres --technique lambart", "did you mean 'lambert'?");
+    expect_error("render builtin:spheres --set roughness=1", "unknown parameter 'roughness'");
+    expect_error("render builtin:spheres --technique wrap --set wrap=3", "'3' is not in its range, 0 to 1");
+    expect_error("render builtin:spheres --technique wrap --set wrap", "--set 'wrap': write name=value");
+    expect_error("render builtin:spheres --samples 3", "--samples 3: 1 or 4");
+    expect_error("render builtin:spheres --view norml", "did you mean 'normal'?");
+    expect_error("render builtin:spheres --camera 'yaw=x'", "yaw");
+    expect_error("render builtin:spheres --light 'pitch=1000'", "pitch");
+    expect_error("render builtin:spheres --frames 0", "--frames 0: 1 to 100000");
+    expect_error("render builtin:spheres -o a.tga", "a.tga: a picture is a .png or an .exr file");
+    expect_error("render builtin:spheres --device none", "none");
+    expect_error("passes lambart", "did you mean 'lambert'?");
+    expect_error("techniques lambart", "did you mean 'lambert'?");
+}
+
+TEST_F(BadInput, scenes_and_meshes_that_cannot_be_read_are_named) {
+    expect_error("render builtin:sphere", "did you mean 'spheres'?");
+    expect_error("render no/such.toml", "no/such.toml");
+    expect_error("render " + directory_.path.string(), directory_.path.string());
+    expect_error("render " + file("empty.obj", ""), "empty.obj");
+    expect_error("render " + file("short.glb", "glTF"), "short.glb");
+    expect_error("render " + file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "nan.obj");
+    expect_error("render " + file("far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "far.obj");
+    expect_error("render " + file("bad.toml", "[camra]\n"), "bad.toml:1");
+    expect_error("render " + file("cut.toml", "[camera\n"), "cut.toml");
+}
+
+TEST_F(BadInput, maps_that_cannot_be_read_are_named) {
+    file("broken.png", "\x89PNG\r\n\x1a\n....");
+    const std::string scene =
+        file("scene.toml", "[[mesh]]\nfile = \"builtin:spheres\"\n[maps]\nalbedo = \"broken.png\"\n");
+    expect_error("render " + scene + " --size 16x16 -o " + path("a.png"), "broken.png");
+    EXPECT_FALSE(fs::exists(path("a.png")));
+}
+
+TEST_F(BadInput, places_that_cannot_be_written_keep_what_is_there) {
+    fs::create_directory(path("folder.png"));
+    expect_error(kQuick + path("folder.png"), "folder.png: is a directory");
+    const std::string plain = file("plain", "x");
+    expect_error(kQuick + plain + "/a.png", "plain: cannot make the directory: Not a directory");
+    if (fs::exists("/dev/full")) {
+        // A link, so that the name ends in .png.
+        fs::create_symlink("/dev/full", path("full.png"));
+        expect_error(kQuick + path("full.png"), "full.png: cannot write");
+    }
+    for (const auto& entry : fs::directory_iterator(directory_.path))
+        EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+}
+
+TEST_F(BadInput, help_of_every_command_has_an_example) {
+    const ProgramResult all = dermis("--help");
+    EXPECT_EQ(all.exit_code, 0);
+    for (const char* command : {"render", "techniques", "passes"}) {
+        const ProgramResult help = dermis(std::string(command) + " --help");
+        EXPECT_EQ(help.exit_code, 0);
+        EXPECT_THAT(help.out, HasSubstr("Example:\n  dermis ")) << command;
+        EXPECT_THAT(all.out, HasSubstr(command));
+    }
+}

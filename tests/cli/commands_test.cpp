@@ -1,0 +1,101 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "dermis/image/io.h"
+#include "support/temporary_directory.h"
+
+using namespace dermis;
+using testing::HasSubstr;
+
+namespace {
+
+class Commands : public testing::Test {
+  protected:
+    ProgramResult shell(const std::string& line) { return run_shell(line, directory_.path.string()); }
+    ProgramResult dermis(const std::string& arguments) {
+        return shell(std::string(DERMIS_PROGRAM) + " " + arguments);
+    }
+    std::string path(const std::string& name) { return (directory_.path / name).string(); }
+
+    TemporaryDirectory directory_;
+};
+
+}  // namespace
+
+TEST_F(Commands, render_prints_one_json_object_with_a_time_for_every_pass) {
+    const ProgramResult result = dermis(
+        "render builtin:spheres -t wrap --set wrap=0.5 --size 32x16 --frames 2 --json "
+        "--validate -o " +
+        path("a.png"));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const nlohmann::json json = nlohmann::json::parse(result.out, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << result.out;
+    EXPECT_EQ(json["technique"], "wrap");
+    EXPECT_EQ(json["settings"]["wrap"], "0.5");
+    EXPECT_EQ(json["width"], 32);
+    EXPECT_EQ(json["height"], 16);
+    EXPECT_TRUE(json["device"].is_string());
+    EXPECT_TRUE(json["warnings"].is_array());
+    EXPECT_GT(json["frame_ms"], 0.0);
+    std::vector<std::string> names;
+    for (const auto& pass : json["passes"]) names.push_back(pass["name"]);
+    EXPECT_THAT(names, testing::ElementsAre("shadow", "background", "skin", "tone map"));
+    EXPECT_EQ(read_image(path("a.png"), ImageUse::color)->image.width, 32);
+}
+
+TEST_F(Commands, frames_are_numbered_and_the_camera_turns) {
+    ASSERT_EQ(
+        dermis("render builtin:spheres --size 16x16 --frames 3 --turn 90 -o " + path("f%03d.png")).exit_code,
+        0);
+    const Image first = read_image(path("f000.png"), ImageUse::color)->image;
+    const Image last = read_image(path("f002.png"), ImageUse::color)->image;
+    EXPECT_NE(first.bytes, last.bytes);
+    EXPECT_FALSE(std::filesystem::exists(path("f003.png")));
+}
+
+TEST_F(Commands, sixteen_bit_png_and_layered_exr_come_out) {
+    ASSERT_EQ(dermis("render builtin:spheres --size 16x16 --bits 16 -o " + path("deep.png")).exit_code, 0);
+    EXPECT_EQ(read_image(path("deep.png"), ImageUse::color)->image.format, PixelFormat::u16);
+    ASSERT_EQ(dermis("render builtin:spheres --size 16x16 --layers -o " + path("l.exr")).exit_code, 0);
+    EXPECT_EQ(read_image(path("l.exr"), ImageUse::color)->image.width, 16);
+}
+
+TEST_F(Commands, passes_and_techniques_need_no_device) {
+    // No driver can be found: anything that opened a device would fail.
+    const std::string no_driver = "VK_DRIVER_FILES=/nowhere VK_ICD_FILENAMES=/nowhere ";
+    const ProgramResult passes = shell(no_driver + DERMIS_PROGRAM " passes lambert");
+    EXPECT_EQ(passes.exit_code, 0) << passes.err;
+    EXPECT_THAT(passes.out,
+                HasSubstr("pass skin  [geometry, screen]  lambert/lambert.frag  reads shadow_map"));
+    const ProgramResult techniques = shell(no_driver + DERMIS_PROGRAM " techniques --json");
+    EXPECT_EQ(techniques.exit_code, 0);
+    EXPECT_TRUE(nlohmann::json::parse(techniques.out, nullptr, false).is_array());
+    const ProgramResult render =
+        shell(no_driver + DERMIS_PROGRAM " render builtin:spheres -o " + path("a.png"));
+    EXPECT_EQ(render.exit_code, 1);
+    EXPECT_THAT(render.err, HasSubstr("mesa-vulkan-drivers"));
+}
+
+TEST_F(Commands, a_new_technique_is_a_folder_that_compiles_as_it_is) {
+    const std::string root = DERMIS_SOURCE_DIR;
+    const ProgramResult made = shell("DERMIS_TECHNIQUES=" + directory_.path.string() + " " + root +
+                                     "/tools/new_technique my_skin 'a test'");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const std::string folder = path("my_skin");
+    const ProgramResult shader = shell("glslc --target-env=vulkan1.3 -Werror -I " + root + "/shaders -o " +
+                                       path("a.spv") + " " + folder + "/my_skin.frag");
+    EXPECT_EQ(shader.exit_code, 0) << shader.err;
+    const ProgramResult code =
+        shell(std::string(DERMIS_COMPILER) + " -std=c++20 -fsyntax-only -I " DERMIS_BINARY_DIR "/include " +
+              folder + "/technique.cpp");
+    EXPECT_EQ(code.exit_code, 0) << code.err;
+    EXPECT_NE(
+        shell("DERMIS_TECHNIQUES=" + directory_.path.string() + " " + root + "/tools/new_technique my_skin x")
+            .exit_code,
+        0);
+    EXPECT_NE(shell(root + "/tools/new_technique 'Bad Name'").exit_code, 0);
+}
