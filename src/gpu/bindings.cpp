@@ -45,8 +45,11 @@ std::string pass_label(const Pass& pass) {
     return label;
 }
 
-Error BindingResolver::missing(const Pass& pass, const Binding& binding, std::string_view what) const {
-    std::string message = binding_label(pass, what, binding) + ": nothing supplies it";
+Error BindingResolver::missing(const Pass& pass, const Binding& binding, std::string_view what,
+                               const Draw* draw) const {
+    std::string message = binding_label(pass, what, binding);
+    if (draw) message += " for geometry '" + draw->geometry->state().name + "'";
+    message += ": nothing supplies it";
     if (context_.list.find_image(binding.name))
         return Error{message + "; it is an image of the list, so add it to the pass's reads"};
     std::vector<std::string> names;
@@ -74,7 +77,7 @@ Result<BindingResolver::Found> BindingResolver::find_texture(const Pass& pass, c
             return Found{image->image.view.get(), shape_of(image->image.info), image};
     if (const auto* texture = find_in(context_.inputs.textures, source); texture && *texture)
         return of_texture(**texture);
-    return missing(pass, binding, "texture");
+    return missing(pass, binding, "texture", draw);
 }
 
 // Pushed like everything else: immutable samplers in a push-descriptor layout are ignored by lavapipe
@@ -97,11 +100,14 @@ Result<Descriptor> BindingResolver::texture(PlannedPass& planned, const Binding&
         return Error{binding_label(*planned.pass, "texture", binding) + " is " +
                      std::string(shape_name(binding.shape)) + " in the shader, but what is bound to it is " +
                      std::string(shape_name(found->shape))};
+    const std::optional<DepthTarget>& depth = planned.pass->depth;
+    const bool tested = found->image && depth && depth->image == found->image->declaration.name;
+    const ImageUse use = tested ? ImageUse::depth_test : ImageUse::sampled;
     if (found->image)
         add_access(planned.accesses,
-                   {.image = found->image, .mips = found->image->image.info.mips, .use = ImageUse::sampled});
+                   {.image = found->image, .mips = found->image->image.info.mips, .use = use});
     Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
-    descriptor.image = {VK_NULL_HANDLE, found->view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    descriptor.image = {VK_NULL_HANDLE, found->view, use_scope(use).layout};
     return descriptor;
 }
 
@@ -113,6 +119,10 @@ Result<Descriptor> BindingResolver::storage_image(PlannedPass& planned, const Bi
     FrameImage* image = context_.images.find(named->image);
     if (binding.shape != TextureShape::plane || image->declaration.samples > 1)
         return Error{binding_label(pass, "storage image", binding) + " must be an image2D with one sample"};
+    if (binding.texel_format != format_name(image->declaration.format))
+        return Error{binding_label(pass, "storage image", binding) + " must be declared layout(" +
+                     std::string(format_name(image->declaration.format)) + "), the format of image '" +
+                     named->image + "'"};
     Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     descriptor.image = {VK_NULL_HANDLE, image->mip_views[0].get(), VK_IMAGE_LAYOUT_GENERAL};
     return descriptor;
@@ -143,7 +153,7 @@ Result<Descriptor> BindingResolver::uniform_block(const Pass& pass, const Bindin
         return descriptor;
     }
     const Values* values = owner ? &owner->values : find_in(context_.inputs.blocks, binding.name);
-    if (!values) return missing(pass, binding, "uniform block");
+    if (!values) return missing(pass, binding, "uniform block", draw);
     // Rounded up: drivers may read whole 16-byte rows.
     descriptor.size = (binding.block.size + 15) / 16 * 16;
     descriptor.offset = reserve(descriptor.size);
@@ -162,7 +172,7 @@ Result<Descriptor> BindingResolver::storage_buffer(const Pass& pass, const Bindi
         return descriptor;
     }
     const std::vector<Values>* elements = find_in(context_.inputs.arrays, binding.name);
-    if (!elements) return missing(pass, binding, "storage buffer");
+    if (!elements) return missing(pass, binding, "storage buffer", nullptr);
     const size_t stride = binding.block.size;
     descriptor.size = std::max<size_t>(1, elements->size()) * stride;  // no buffer has size 0
     descriptor.offset = reserve(descriptor.size);

@@ -89,6 +89,9 @@ Result<FrameImage> FrameImages::make(const ImageDeclaration& declaration, VkExte
     if (declaration.mips < 0 || declaration.mips > chain)
         return Error{"image '" + declaration.name + "' has " + std::to_string(declaration.mips) +
                      " mip levels; at most " + std::to_string(chain) + ", 0 for all"};
+    if (declaration.samples > 1 && (declaration.mips != 1 || storage))
+        return Error{"image '" + declaration.name +
+                     "' is multisampled; such images have neither mips nor storage writes"};
     VkImageUsageFlags usage =
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     usage |= is_depth(declaration.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT

@@ -8,7 +8,17 @@
 namespace dermis::gpu {
 
 /// What a pass does with an image; decides layout, stages and access.
-enum class ImageUse { none, sampled, storage, color_target, depth_target, copy_source, copy_target };
+/// depth_test: tested and perhaps sampled, never written.
+enum class ImageUse {
+    none,
+    sampled,
+    storage,
+    color_target,
+    depth_target,
+    depth_test,
+    copy_source,
+    copy_target
+};
 
 struct UseScope {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;

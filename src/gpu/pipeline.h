@@ -16,7 +16,7 @@ struct Pipeline {
     std::vector<Binding> bindings;  ///< of all stages; the index is the binding number
     BlockLayout push_constants;
     VkShaderStageFlags push_stages = 0;
-    std::vector<VertexInput> inputs;  ///< the index is the vertex buffer binding
+    std::vector<StageVariable> inputs;  ///< the index is the vertex buffer binding
     std::array<uint32_t, 3> local_size = {1, 1, 1};
     uint64_t last_run = 0;
 };
@@ -44,10 +44,17 @@ class PipelineStore {
     [[nodiscard]] size_t size() const { return pipelines_.size(); }
 
   private:
+    [[nodiscard]] Result<const Pipeline*> find_or_build(const std::string& key, const Pass& pass,
+                                                        const std::function<Result<Pipeline>()>& build);
+
     Device::State* device_;
     std::map<std::string, Pipeline> pipelines_;
     uint64_t run_ = 0;
 };
+
+/// Every target has an output, every input of the fragment shader an output of the vertex shader.
+[[nodiscard]] Result<void> check_stage_borders(const Pass& pass, const Shader& vertex,
+                                               const Shader* fragment);
 
 /// One interface for all stages: bindings united by name, numbered in order.
 [[nodiscard]] Result<void> merge_interface(std::span<const Shader* const> stages, Pipeline& pipeline);

@@ -36,6 +36,22 @@ Result<void> add_binding(const Shader& shader, const Binding& binding, Pipeline&
 
 }  // namespace
 
+Result<void> check_stage_borders(const Pass& pass, const Shader& vertex, const Shader* fragment) {
+    const auto has = [](const std::vector<StageVariable>& variables, size_t location) {
+        return std::ranges::count(variables, location, &StageVariable::location) > 0;
+    };
+    for (size_t i = 0; i < pass.colors.size(); ++i)
+        if (pass.colors[i].write_mask && (!fragment || !has(fragment->interface.outputs, i)))
+            return Error{"target '" + pass.colors[i].image + "' needs an output at location " +
+                         std::to_string(i) + ", which the shader lacks"};
+    if (!fragment) return {};
+    for (const StageVariable& input : fragment->interface.inputs)
+        if (!has(vertex.interface.outputs, input.location))
+            return Error{"input '" + input.name + "' at location " + std::to_string(input.location) +
+                         " is not written by vertex shader '" + vertex.name + "'"};
+    return {};
+}
+
 Result<void> merge_interface(std::span<const Shader* const> stages, Pipeline& pipeline) {
     for (const Shader* shader : stages) {
         for (const Binding& binding : shader->interface.bindings)

@@ -46,7 +46,7 @@ class Planner {
     Result<Plan> run() {
         for (const Pass& pass : context_.list.passes) {
             PlannedPass planned{.pass = &pass};
-            Result<void> ok = is_transfer(pass.kind)           ? transfer(planned)
+            Result<void> ok = is_transfer(pass.kind)           ? plan_transfer(context_, planned)
                               : pass.kind == PassKind::compute ? compute(planned)
                                                                : raster(planned);
             if (!ok) return ok.error();
@@ -89,7 +89,12 @@ class Planner {
             if (target.mip < 0 || uint32_t(target.mip) >= image->image.info.mips)
                 return pass_error(pass,
                                   "'" + target.image + "' has no mip level " + std::to_string(target.mip));
-            formats.colors.push_back(image->image.info.format);
+            const VkFormat format = image->image.info.format;
+            if (target.blend != Blend::none &&
+                !context_.device.context.can(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
+                return pass_error(pass, context_.device.info.name + " cannot blend into " +
+                                            std::string(format_name(image->declaration.format)));
+            formats.colors.push_back(format);
             formats.samples = image->image.info.samples;
             if (Result<void> ok = extent(planned, target.image, image->extent(target.mip)); !ok) return ok;
             planned.accesses.push_back({.image = image,
@@ -104,7 +109,9 @@ class Planner {
         formats.depth = image->image.info.format;
         formats.samples = image->image.info.samples;
         planned.accesses.push_back(
-            {.image = image, .use = ImageUse::depth_target, .discard = pass.depth->load != LoadOp::load});
+            {.image = image,
+             .use = only_tests(*pass.depth) ? ImageUse::depth_test : ImageUse::depth_target,
+             .discard = pass.depth->load != LoadOp::load});
         return extent(planned, pass.depth->image, image->extent());
     }
 
@@ -129,7 +136,7 @@ class Planner {
             if (draw.index_count == 0) continue;
             if (uint64_t(draw.first_index) + draw.index_count > geometry.index_count)
                 return pass_error(pass, "a draw goes beyond the indices of geometry '" + geometry.name + "'");
-            for (const VertexInput& input : planned.pipeline->inputs)
+            for (const StageVariable& input : planned.pipeline->inputs)
                 if (Result<void> ok = check_stream(pass, vertex_name, geometry, input); !ok) return ok;
             PlannedDraw& target =
                 planned.draws.emplace_back(PlannedDraw{&geometry, draw.first_index, draw.index_count, {}});
@@ -139,7 +146,7 @@ class Planner {
     }
 
     static Result<void> check_stream(const Pass& pass, std::string_view vertex_name,
-                                     const Geometry::State& geometry, const VertexInput& input) {
+                                     const Geometry::State& geometry, const StageVariable& input) {
         const auto stream = geometry.streams.find(input.name);
         const std::string what =
             "vertex shader '" + std::string(vertex_name) + "' wants input '" + input.name + "'";
@@ -168,59 +175,6 @@ class Planner {
         return resolver_.resolve(planned, planned.draws.emplace_back(), nullptr);
     }
 
-    // A transfer works on images of the list alone; the recorder knows how.
-    Result<void> transfer(PlannedPass& planned) {
-        const Pass& pass = *planned.pass;
-        FrameImage* source = context_.images.find(pass.reads.front().image);
-        if (!source) return pass_error(pass, "'" + pass.reads.front().image + "' is no image of the list");
-        if (pass.kind == PassKind::generate_mips) return generate_mips(planned, source);
-        const std::string& target_name = pass.colors.empty() ? pass.depth->image : pass.colors.front().image;
-        const int mip = pass.colors.empty() ? 0 : pass.colors.front().mip;
-        FrameImage* target = context_.images.find(target_name);
-        if (mip < 0 || uint32_t(mip) >= target->image.info.mips)
-            return pass_error(pass, "'" + target_name + "' has no mip level " + std::to_string(mip));
-        planned.extent = target->extent(mip);
-        return pass.kind == PassKind::resolve ? resolve(planned, source, target, mip)
-                                              : copy(planned, source, target, mip);
-    }
-
-    Result<void> generate_mips(PlannedPass& planned, FrameImage* image) {
-        if (is_depth(image->declaration.format) || image->declaration.samples > 1)
-            return pass_error(*planned.pass, "only colour images with one sample have mips generated");
-        planned.extent = image->extent();
-        planned.accesses.push_back({.image = image, .use = ImageUse::copy_source});
-        return {};
-    }
-
-    Result<void> resolve(PlannedPass& planned, FrameImage* source, FrameImage* target, int mip) {
-        const ImageInfo &from = source->image.info, &to = target->image.info;
-        const bool same_size =
-            from.extent.width == planned.extent.width && from.extent.height == planned.extent.height;
-        if (from.samples < 2 || to.samples != 1 || from.format != to.format || !same_size)
-            return pass_error(*planned.pass,
-                              "resolve needs a multisampled source and a target of the same format and size");
-        const ImageUse use =
-            is_depth(source->declaration.format) ? ImageUse::depth_target : ImageUse::color_target;
-        planned.accesses = {{.image = source, .use = use},
-                            {.image = target, .first_mip = uint32_t(mip), .use = use, .discard = true}};
-        return {};
-    }
-
-    Result<void> copy(PlannedPass& planned, FrameImage* source, FrameImage* target, int mip) {
-        const ImageInfo &from = source->image.info, &to = target->image.info;
-        const bool same = from.format == to.format && from.extent.width == planned.extent.width &&
-                          from.extent.height == planned.extent.height && from.samples == to.samples;
-        const bool depth = is_depth(source->declaration.format) || is_depth(target->declaration.format);
-        if (!same && (depth || from.samples > 1 || to.samples > 1))
-            return pass_error(*planned.pass,
-                              "copy of depth or multisampled images needs the same format, "
-                              "size and sample count");
-        planned.accesses = {
-            {.image = source, .use = ImageUse::copy_source},
-            {.image = target, .first_mip = uint32_t(mip), .use = ImageUse::copy_target, .discard = true}};
-        return {};
-    }
-
     const PlanContext& context_;
     Plan plan_;
     BindingResolver resolver_;
@@ -230,6 +184,10 @@ class Planner {
 
 bool is_transfer(PassKind kind) {
     return kind == PassKind::resolve || kind == PassKind::generate_mips || kind == PassKind::copy;
+}
+
+bool only_tests(const DepthTarget& depth) {
+    return depth.load == LoadOp::load && !depth.write;
 }
 
 bool is_geometry(PassKind kind) {

@@ -48,6 +48,8 @@ struct Plan {
 
 [[nodiscard]] bool is_transfer(PassKind kind);
 [[nodiscard]] bool is_geometry(PassKind kind);
+/// Depth that a pass tests and leaves as it is, and may therefore sample as well.
+[[nodiscard]] bool only_tests(const DepthTarget& depth);
 
 struct PlanContext {
     Device::State& device;
@@ -59,6 +61,9 @@ struct PlanContext {
 };
 
 [[nodiscard]] Result<Plan> make_plan(const PlanContext& context);
+
+/// The part of it for resolve, generate_mips and copy.
+[[nodiscard]] Result<void> plan_transfer(const PlanContext& context, PlannedPass& planned);
 
 /// Resolves names to descriptors, and blocks to bytes; equal blocks share their bytes.
 class BindingResolver {
@@ -94,7 +99,8 @@ class BindingResolver {
                                                  const Draw* draw);
     [[nodiscard]] const KnownBlock* known(const Binding& binding, const Draw* draw) const;
     size_t reserve(size_t bytes);
-    [[nodiscard]] Error missing(const Pass& pass, const Binding& binding, std::string_view what) const;
+    [[nodiscard]] Error missing(const Pass& pass, const Binding& binding, std::string_view what,
+                                const Draw* draw) const;
 
     const PlanContext& context_;
     Plan& plan_;

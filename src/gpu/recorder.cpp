@@ -56,9 +56,10 @@ class Recorder {
         VkRenderingAttachmentInfo depth = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
         if (pass.depth) {
             depth.imageView = planned.accesses[colors.size()].image->mip_views[0].get();
-            depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+            depth.imageLayout = use_scope(planned.accesses[colors.size()].use).layout;
             depth.loadOp = load_op(pass.depth->load);
-            depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+            depth.storeOp =
+                only_tests(*pass.depth) ? VK_ATTACHMENT_STORE_OP_NONE : VK_ATTACHMENT_STORE_OP_STORE;
             depth.clearValue.depthStencil.depth = pass.depth->clear;
         }
         const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
@@ -103,7 +104,7 @@ class Recorder {
         push_descriptors(pipeline, draw);
         if (!draw.geometry) return vk_.vkCmdDraw(commands_, 3, 1, 0, 0);
         std::vector<VkBuffer> buffers;
-        for (const VertexInput& input : pipeline.inputs)
+        for (const StageVariable& input : pipeline.inputs)
             buffers.push_back(draw.geometry->streams.find(input.name)->second.buffer.handle.get());
         const std::vector<VkDeviceSize> offsets(buffers.size());
         if (!buffers.empty())

@@ -85,11 +85,39 @@ class Reflector {
         }
     }
 
+    std::string_view texel_format(spvc_type_id id) {
+        const SpvImageFormat format =
+            spvc_type_get_image_storage_format(spvc_compiler_get_type_handle(compiler_, id));
+        switch (format) {
+            case SpvImageFormatUnknown:
+                return "";
+            case SpvImageFormatR8:
+                return "r8";
+            case SpvImageFormatRgba8:
+                return "rgba8";
+            case SpvImageFormatR16f:
+                return "r16f";
+            case SpvImageFormatRg16f:
+                return "rg16f";
+            case SpvImageFormatRgba16f:
+                return "rgba16f";
+            case SpvImageFormatR32f:
+                return "r32f";
+            case SpvImageFormatRgba32f:
+                return "rgba32f";
+            default:
+                return "another format";
+        }
+    }
+
     void read_bindings() {
         for (const auto& resource : list(SPVC_RESOURCE_TYPE_SEPARATE_IMAGE))
             add_binding(resource, BindingKind::texture).shape = shape(resource.type_id);
-        for (const auto& resource : list(SPVC_RESOURCE_TYPE_STORAGE_IMAGE))
-            add_binding(resource, BindingKind::storage_image).shape = shape(resource.type_id);
+        for (const auto& resource : list(SPVC_RESOURCE_TYPE_STORAGE_IMAGE)) {
+            Binding& binding = add_binding(resource, BindingKind::storage_image);
+            binding.shape = shape(resource.type_id);
+            binding.texel_format = texel_format(resource.type_id);
+        }
         for (const auto& resource : list(SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS))
             add_binding(resource, BindingKind::sampler);
         for (const auto& resource : list(SPVC_RESOURCE_TYPE_SAMPLED_IMAGE))
@@ -200,17 +228,24 @@ class Reflector {
     }
 
     void read_interface_variables() {
-        if (result_.stage == VK_SHADER_STAGE_VERTEX_BIT)
-            for (const auto& resource : list(SPVC_RESOURCE_TYPE_STAGE_INPUT)) {
-                const spvc_type type = spvc_compiler_get_type_handle(compiler_, resource.type_id);
-                if (spvc_type_get_basetype(type) != SPVC_BASETYPE_FP32 || spvc_type_get_columns(type) != 1)
-                    fail("vertex input '" + std::string(resource.name) + "' must be float or a vector");
-                result_.inputs.push_back(
-                    {resource.name, location(resource), int(spvc_type_get_vector_size(type))});
-            }
-        if (result_.stage == VK_SHADER_STAGE_FRAGMENT_BIT)
-            for (const auto& resource : list(SPVC_RESOURCE_TYPE_STAGE_OUTPUT))
-                result_.outputs.push_back(location(resource));
+        result_.inputs = variables(SPVC_RESOURCE_TYPE_STAGE_INPUT);
+        result_.outputs = variables(SPVC_RESOURCE_TYPE_STAGE_OUTPUT);
+    }
+
+    // Vertex inputs come from float streams; what passes between stages may be anything.
+    std::vector<StageVariable> variables(spvc_resource_type kind) {
+        const bool from_streams =
+            kind == SPVC_RESOURCE_TYPE_STAGE_INPUT && result_.stage == VK_SHADER_STAGE_VERTEX_BIT;
+        std::vector<StageVariable> variables;
+        for (const auto& resource : list(kind)) {
+            const spvc_type type = spvc_compiler_get_type_handle(compiler_, resource.type_id);
+            const bool floats =
+                spvc_type_get_basetype(type) == SPVC_BASETYPE_FP32 && spvc_type_get_columns(type) == 1;
+            if (from_streams && !floats)
+                fail("vertex input '" + std::string(resource.name) + "' must be float or a vector of floats");
+            variables.push_back({resource.name, location(resource), int(spvc_type_get_vector_size(type))});
+        }
+        return variables;
     }
 
     uint32_t location(const spvc_reflected_resource& resource) {

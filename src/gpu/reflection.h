@@ -36,12 +36,14 @@ struct Binding {
     std::string name;
     BindingKind kind = BindingKind::texture;
     TextureShape shape = TextureShape::plane;
+    std::string_view texel_format;  ///< of a storage image, as GLSL has it; empty when it has none
     BlockLayout block;
     /// Where the numbers stand in the SPIR-V, in words.
     uint32_t binding_word = 0, set_word = 0;
 };
 
-struct VertexInput {
+/// An input or output of a stage.
+struct StageVariable {
     std::string name;
     uint32_t location = 0;
     int components = 0;
@@ -57,8 +59,7 @@ struct ShaderInterface {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_FRAGMENT_BIT;
     std::vector<Binding> bindings;
     BlockLayout push_constants;
-    std::vector<VertexInput> inputs;  ///< of a vertex shader
-    std::vector<uint32_t> outputs;    ///< locations, of a fragment shader
+    std::vector<StageVariable> inputs, outputs;  ///< what stands at a location; no built-ins
     std::vector<SpecializationConstant> constants;
     std::array<uint32_t, 3> local_size = {1, 1, 1};
 };

@@ -31,6 +31,11 @@ Result<void> check_data(const TextureData& data, const Context& context) {
     if (data.generate_mips && data.mips != 1)
         return texture_error(data, "bytes must hold level 0 only when mips are generated");
     if (data.srgb && data.format != ImageFormat::rgba8) return texture_error(data, "only rgba8 can be sRGB");
+    constexpr VkFormatFeatureFlags kBlit = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
+                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    if (data.generate_mips && !context.can(format_info(data.format).format, kBlit))
+        return texture_error(data, "this device cannot generate mips of " +
+                                       std::string(format_name(data.format)) + "; supply them");
     if (data.bytes.size() != expected_bytes(data, data.mips))
         return texture_error(data, "has " + std::to_string(data.bytes.size()) + " bytes instead of " +
                                        std::to_string(expected_bytes(data, data.mips)));

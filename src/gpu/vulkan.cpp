@@ -30,6 +30,12 @@ std::string_view result_text(VkResult result) {
     }
 }
 
+bool Context::can(VkFormat format, VkFormatFeatureFlags wanted) const {
+    VkFormatProperties has;
+    vkGetPhysicalDeviceFormatProperties(physical, format, &has);
+    return (has.optimalTilingFeatures & wanted) == wanted;
+}
+
 Result<void> check(VkResult result, std::string_view what) {
     if (result >= 0) return {};
     std::string reason(result_text(result));

@@ -29,6 +29,9 @@ struct Context {
     PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;  ///< null without VK_EXT_debug_utils
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
+
+    /// Whether optimally tiled images of this format have all these features.
+    [[nodiscard]] bool can(VkFormat format, VkFormatFeatureFlags features) const;
 };
 
 /// A device-level handle that destroys itself.

@@ -73,6 +73,7 @@ struct ColorTarget {
     int mip = 0;
 };
 
+/// Depth that is loaded and not written may be read by the same pass.
 struct DepthTarget {
     std::string image;
     LoadOp load = LoadOp::clear;

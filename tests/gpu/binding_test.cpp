@@ -7,6 +7,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::FloatEq;
 using ::testing::HasSubstr;
 
 class BindingTest : public GpuTest {
@@ -126,12 +127,6 @@ void main() { color = vec4(5); for (int i = 0; i < count; ++i) color.x += weight
                 ElementsAre(5, 5, 5, 5));
 }
 
-const std::string kTexture = R"(
-uniform texture2D albedo;
-uniform sampler linear_clamp;
-layout(location = 0) out vec4 color;
-void main() { color = texture(sampler2D(albedo, linear_clamp), vec2(0.5)); })";
-
 Texture one_texel(Device& device, ImageFormat format, std::vector<uint8_t> bytes, bool srgb = false) {
     const auto raw = std::as_bytes(std::span(bytes));
     Result<Texture> texture = Texture::upload(
@@ -139,6 +134,12 @@ Texture one_texel(Device& device, ImageFormat format, std::vector<uint8_t> bytes
     EXPECT_TRUE(texture) << texture.error().message;
     return std::move(*texture);
 }
+
+const std::string kTexture = R"(
+uniform texture2D albedo;
+uniform sampler linear_clamp;
+layout(location = 0) out vec4 color;
+void main() { color = texture(sampler2D(albedo, linear_clamp), vec2(0.5)); })";
 
 TEST_F(BindingTest, srgb_textures_are_decoded) {
     const Texture linear = one_texel(device(), ImageFormat::rgba8, {188, 0, 255, 188});
@@ -191,6 +192,59 @@ TEST_F(BindingTest, a_shader_that_does_not_exist_is_an_error) {
     PassList wrong = list();
     wrong.passes[0].shader = "no.frag";
     EXPECT_THAT(error_of(kTexture, wrong), AllOf(HasSubstr("pass 'only'"), HasSubstr("no.frag")));
+}
+
+TEST_F(BindingTest, an_input_the_vertex_shader_does_not_write_is_an_error) {
+    const std::string shader = R"(
+layout(location = 3) in vec2 missing_uv;
+layout(location = 0) out vec4 color;
+void main() { color = missing_uv.xyxy; })";
+    EXPECT_THAT(error_of(shader, list()),
+                HasSubstr("input 'missing_uv' at location 3 is not written by vertex shader"));
+}
+
+TEST_F(BindingTest, stages_that_disagree_about_a_block_are_an_error) {
+    const std::string vertex = kHead + R"(
+layout(scalar) uniform Frame { float other; };
+void main() { gl_Position = vec4(other); })";
+    Executor executor = make_executor(basic_shaders({{"test.frag", kHead + kFrame}, {"other.vert", vertex}}));
+    PassList wrong = list();
+    wrong.passes[0].vertex_shader = "other.vert";
+    const Result<FrameResult> result = executor.run(wrong, {.width = 1, .height = 1});
+    ASSERT_FALSE(result);
+    EXPECT_THAT(result.error().message, HasSubstr("declares 'Frame' otherwise than the other stage"));
+}
+
+TEST_F(BindingTest, stages_share_what_has_the_same_name) {
+    const std::string vertex = kHead + R"(
+layout(scalar) uniform Frame { float shift; };
+uniform texture2D only_here;
+uniform sampler linear_clamp;
+void main() {
+    vec2 uv = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
+    float z = textureLod(sampler2D(only_here, linear_clamp), vec2(0.5), 0).r;
+    gl_Position = vec4(uv * 2 - 1 + shift, z, 1);
+})";
+    const std::string fragment = kHead + R"(
+uniform texture2D albedo;
+layout(scalar) uniform Frame { float shift; };
+uniform sampler linear_clamp;
+layout(location = 0) out vec4 color;
+void main() {
+    float red = texture(sampler2D(albedo, linear_clamp), vec2(0.5)).r;
+    color = vec4(red, gl_FragCoord.z, shift, 0);
+})";
+    Executor executor = make_executor(basic_shaders({{"test.frag", fragment}, {"own.vert", vertex}}));
+    const Texture dark = one_texel(device(), ImageFormat::r8, {51});
+    const Texture bright = one_texel(device(), ImageFormat::r8, {255});
+    PassList shared = list();
+    shared.passes[0].vertex_shader = "own.vert";
+    run(executor, shared,
+        {.width = 1,
+         .height = 1,
+         .textures = {{"only_here", &dark}, {"albedo", &bright}},
+         .blocks = {{"Frame", {{"shift", 0.f}}}}});
+    EXPECT_THAT(texel(read(executor, "out"), 0, 0), ElementsAre(1, FloatEq(0.2f), 0, 0));
 }
 
 TEST_F(BindingTest, a_target_without_output_is_an_error) {

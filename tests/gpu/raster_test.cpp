@@ -110,6 +110,29 @@ void main() {
     EXPECT_EQ(image.at(2, 2, 0), 1);
 }
 
+TEST_F(RasterTest, depth_that_is_only_tested_can_be_sampled_in_the_same_pass) {
+    const std::string show_depth = kHead + R"(
+uniform texture2D depth;
+uniform sampler nearest_clamp;
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 color;
+void main() { color = texture(sampler2D(depth, nearest_clamp), uv); })";
+    Executor executor = make_executor(basic_shaders({{"show_depth.frag", show_depth}}));
+    const Geometry mesh = clip_mesh(device(), square(0.5f, 0.25f));
+    Pass lay{.name = "lay", .kind = PassKind::geometry_screen, .depth = DepthTarget{.image = "depth"}};
+    // Full-screen triangles have z = 0, which passes everywhere: what is seen is what was sampled.
+    Pass show{.name = "show",
+              .shader = "show_depth.frag",
+              .reads = {"depth"},
+              .colors = {{.image = "out"}},
+              .depth = DepthTarget{.image = "depth", .load = LoadOp::load, .write = false}};
+    for (int twice = 0; twice < 2; ++twice)
+        run(executor, out_list({lay, show}), {.width = 8, .height = 8, .draws = {draw_of(mesh, 6)}});
+    const Image image = read(executor, "out");
+    EXPECT_EQ(image.at(0, 0, 0), 1);
+    EXPECT_EQ(image.at(4, 4, 0), 0.25f);
+}
+
 TEST_F(RasterTest, depth_bias_moves_depth_away) {
     Executor executor = make_executor(basic_shaders());
     const Geometry mesh = clip_mesh(device(), square(1, 0.5f));

@@ -166,6 +166,41 @@ void main() {
     EXPECT_EQ(result.passes[0].samples_passed, 0u);
 }
 
+TEST_F(TransferTest, a_storage_image_of_another_format_is_an_error) {
+    const std::string compute = kHead + R"(
+layout(local_size_x = 1) in;
+layout(rgba16f) uniform writeonly image2D target;
+void main() { imageStore(target, ivec2(0), vec4(1)); })";
+    Executor executor = make_executor(basic_shaders({{"fill.comp", compute}}));
+    const PassList list{
+        .images = {{.name = "target", .format = ImageFormat::rgba32f}},
+        .passes = {
+            {.name = "fill", .kind = PassKind::compute, .shader = "fill.comp", .storage = {"target"}}}};
+    const Result<FrameResult> result = executor.run(list, {.width = 1, .height = 1});
+    ASSERT_FALSE(result);
+    EXPECT_THAT(result.error().message, HasSubstr("must be declared layout(rgba32f)"));
+}
+
+TEST_F(TransferTest, impossible_transfers_are_errors) {
+    Executor executor = make_executor(basic_shaders());
+    const auto error = [&](ImageDeclaration from, ImageDeclaration to, PassKind kind) {
+        from.name = "from", to.name = "to";
+        PassList list{.images = {from, to}, .passes = {clear_pass("from", {})}};
+        if (from.format == ImageFormat::depth32f)
+            list.passes[0] = {.name = "clear depth", .depth = DepthTarget{.image = "from"}};
+        list.passes.push_back(
+            {.name = "transfer", .kind = kind, .reads = {"from"}, .colors = {{.image = "to"}}});
+        const Result<FrameResult> result = executor.run(list, {.width = 4, .height = 4});
+        return result ? std::string() : result.error().message;
+    };
+    EXPECT_THAT(error({.format = ImageFormat::r8}, {.format = ImageFormat::r8}, PassKind::resolve),
+                HasSubstr("pass 'transfer': resolve needs a multisampled source"));
+    EXPECT_THAT(error({.format = ImageFormat::depth32f}, {.format = ImageFormat::r32f}, PassKind::copy),
+                HasSubstr("pass 'transfer': copy of depth"));
+    EXPECT_THAT(error({.samples = 4, .mips = 2}, {}, PassKind::resolve), HasSubstr("neither mips nor"));
+    EXPECT_THAT(error({.mips = 9}, {}, PassKind::copy), HasSubstr("9 mip levels; at most 3"));
+}
+
 TEST_F(TransferTest, every_format_reads_back_what_was_cleared) {
     Executor executor = make_executor(basic_shaders());
     PassList list;
