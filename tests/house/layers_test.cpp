@@ -103,3 +103,26 @@ TEST(House, no_source_file_is_over_500_lines) {
             EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 500) << entry.path();
         }
 }
+
+TEST(House, installed_headers_show_the_standard_library_and_nothing_else) {
+    static const std::regex foreign(R"re(#include (?:<(?!dermis/)[^>]*[./][^>]*>|"(?!dermis/)[^"]*"))re");
+    static const std::regex vulkan_or_throw(R"re(\bVk[A-Z]\w*|\bVK_\w+|\bthrow\b)re");
+    size_t headers = 0;
+    for (const char* folder : {"base", "image", "mesh", "optics", "bake", "fit"})
+        for (const auto& entry : fs::directory_iterator(DERMIS_SOURCE_DIR "/src/" + std::string(folder))) {
+            if (entry.path().extension() != ".h") continue;
+            const std::string text = read(entry.path());
+            EXPECT_FALSE(std::regex_search(text, foreign)) << entry.path();
+            EXPECT_FALSE(std::regex_search(text, vulkan_or_throw)) << entry.path();
+            // What a public header includes is installed too.
+            EXPECT_EQ(text.find("/codec/"), std::string::npos) << entry.path();
+            EXPECT_EQ(text.find("#include \"dermis/optics/preintegration/"), std::string::npos)
+                << entry.path();
+            ++headers;
+        }
+    EXPECT_GT(headers, 20u);
+    EXPECT_TRUE(std::regex_search(std::string("#include <nlohmann/json.hpp>"), foreign));
+    EXPECT_TRUE(std::regex_search(std::string("#include <png.h>"), foreign));
+    EXPECT_FALSE(
+        std::regex_search(std::string("#include <vector>\n#include \"dermis/base/result.h\""), foreign));
+}
