@@ -13,7 +13,7 @@ namespace dermis::preintegration {
     return 2 * sine * sine / (1 + std::sqrt(std::max(0.0, 1 - sine * sine)));
 }
 
-/// F(t) = mean_cosine * max(0, t) + tail(|t|). Beyond reach() the tail is below 2e-9 / sqrt(kappa).
+/// F(t) = mean_cosine * max(0, t) + tail(|t|). Beyond reach() the tail is below 2e-10 / sqrt(kappa).
 class LocalTail {
   public:
     /// concentration >= kSwitchConcentration (the error grows to 1e-9 there), finite.
@@ -26,7 +26,7 @@ class LocalTail {
     static constexpr int kOrder = 12;
 
   private:
-    static constexpr double kReach = 16;  // exponent at which the lobe is cut off
+    static constexpr double kReach = 18;  // exponent at which the lobe is cut off
 
     double concentration_, half_mean_cosine_;
     std::array<double, kOrder> source_;    // the terminator's own light, powers of x
