@@ -125,7 +125,8 @@ void place_in_studio(Scene& scene) {
          .intensity = kPi,
          .to_light_world = direction_from_yaw_pitch(-50 * kRadiansPerDegree, 35 * kRadiansPerDegree),
          .is_key = true}};
-    scene.environment = {.kind = EnvironmentKind::studio, .intensity = 0.5f};
+    scene.environment = {.kind = EnvironmentKind::studio, .intensity = 0.75f};
+    scene.exposure_ev = 0.6f;
     scene.camera = framing_camera(scene.bounds_center_mm, scene.bounds_radius_mm);
 }
 

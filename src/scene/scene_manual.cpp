@@ -99,7 +99,7 @@ std::string scene_file_manual() {
         "pitch around a target, or, unless directional, stands at a position.",
         light_keys());
     text += section_text("`[environment]`",
-                         "Light from everywhere else; without the section, the studio at half intensity.",
+                         "Light from everywhere else; without the section, the studio at three quarters.",
                          environment_keys());
     text +=
         section_text("`[camera]`", "An orbit around a target, or an eye. What is missing frames the scene.",

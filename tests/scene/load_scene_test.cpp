@@ -265,5 +265,5 @@ TEST(LoadScene, the_heads_are_as_tall_as_heads_and_face_the_camera) {
 TEST(SceneManual, is_what_the_tables_print) {
     const Result<std::string> page = read_text_file(fs::path(DERMIS_SOURCE_DIR) / "docs" / "scene_file.md");
     ASSERT_TRUE(page) << page.error().message;
-    EXPECT_EQ(*page, scene_file_manual()) << "regenerate it: build/dermis keys > docs/scene_file.md";
+    EXPECT_TRUE(*page == scene_file_manual()) << "regenerate it: build/dermis keys > docs/scene_file.md";
 }

@@ -119,6 +119,23 @@ TEST(SceneFile, a_syntax_error_names_its_line) {
     EXPECT_EQ(error_of("name = 1\nname = 2\n").rfind("s.toml:2: not TOML: ", 0), 0u);
 }
 
+TEST(SceneFile, what_trips_the_parser_itself_is_an_error_with_its_line) {
+    EXPECT_EQ(error_of("name = \"a\"\n\n[ = 3\n" + kMesh),
+              "s.toml:3: not TOML: a name in brackets or a key is malformed");
+    EXPECT_EQ(error_of("[ ="), "s.toml:1: not TOML: a name in brackets or a key is malformed");
+    EXPECT_EQ(error_of("# \u00e9 may stand here\nname = \u00e9\n"),
+              "s.toml:2: not TOML: Error while parsing value: could not determine value type");
+    EXPECT_EQ(error_of("\nname = \"\xC3(\"\n"), "s.toml:2: not TOML: bytes that are not UTF-8");
+}
+
+TEST(SceneFile, characters_beyond_ascii_stand_in_strings_and_comments) {
+    const Result<SceneDescription> scene = parse_scene(
+        "\xEF\xBB\xBFname = \"caf\u00e9 \\\" ~41 \u00e9\" # \u00e9\ncredit = '''\n\u00e9\'\n'''\n" + kMesh, "s.toml");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->head.name, "caf\u00e9 \" ~41 \u00e9");
+    EXPECT_EQ(scene->head.credit, "\u00e9\'\n");
+}
+
 TEST(SceneFile, an_unknown_key_proposes_the_one_that_was_meant) {
     EXPECT_EQ(error_of(kMesh + "[skin]\nrougness = 0.4\n"),
               "s.toml:4: unknown key in [skin]: 'rougness'; did you mean 'roughness'? Known: profile, ior, "
@@ -227,5 +244,5 @@ TEST(SceneFile, control_characters_in_names_do_not_break_the_line) {
 }
 
 TEST(SceneFile, a_huge_file_is_refused) {
-    EXPECT_EQ(error_of(std::string(kMaxSceneBytes + 1, '#')), "s.toml: larger than 1 MB, so no scene file");
+    EXPECT_EQ(error_of(std::string(kMaxSceneBytes + 1, '#')), "s.toml:1: larger than 1 MB, so no scene file");
 }
