@@ -113,7 +113,6 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
     const Entry& e = entry(surface, hit.object);
     const Material& material = *e.material;
     const bool is_skin = e.material_class == MaterialClass::skin;
-    const Skin& skin = scene_->skin;
     ShadingPoint point{.p_mm = surface.p_world_mm,
                        .p_smooth_mm = surface.p_smooth_mm,
                        .n_face = surface.n_face_world,
@@ -121,14 +120,13 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .n = normal_at(surface, hit.object),
                        .albedo_linear = material.base_color_linear,
                        .emission_linear = material.emission_linear,
-                       .roughness = is_skin ? skin.roughness : material.roughness,
-                       .f0 = float(f0_of_eta(is_skin ? skin.ior : material.ior)) *
-                             (is_skin ? skin.specular : material.specular),
+                       .roughness = material.roughness,
+                       .f0 = float(f0_of_eta(material.ior)) * material.specular,
                        .metallic = is_skin ? 0 : material.metallic,
                        .opacity = material.opacity,
                        .occlusion = occlusion_at(surface, hit),
                        .material_class = e.material_class};
-    if (is_skin) point.albedo_linear = point.albedo_linear * skin.albedo_tint_linear;
+    if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;
     if (e.maps.base_color)
         point.albedo_linear = point.albedo_linear * rgb(e.maps.base_color->sample(surface.uv));
     if (e.maps.specular) point.f0 *= factor(*e.maps.specular, surface.uv);

@@ -53,15 +53,14 @@ float dielectric_f0(float ior) {
 }
 
 // The block Material of shaders/shared/surface.glsl.
-gpu::Values material_values(const Material& material, const Skin* skin) {
+gpu::Values material_values(const Material& material, Vec3 tint) {
     const bool mapped = material.normal_map.present();
     const int32_t normal_space = !mapped ? 2 : material.normal_space == NormalSpace::object ? 1 : 0;
-    const Vec3 tint = skin ? skin->albedo_tint_linear : Vec3{1, 1, 1};
     return {{"albedo_linear", material.base_color_linear * tint},
-            {"roughness", skin ? skin->roughness : material.roughness},
+            {"roughness", material.roughness},
             {"emission_linear", material.emission_linear},
-            {"specular", skin ? skin->specular : material.specular},
-            {"f0", dielectric_f0(skin ? skin->ior : material.ior)},
+            {"specular", material.specular},
+            {"f0", dielectric_f0(material.ior)},
             {"metallic", material.metallic},
             {"opacity", material.opacity},
             {"normal_space", normal_space},
@@ -135,8 +134,8 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
                               .draw_class = draw_class(material_class)};
             for (const MaterialMap& map : material_maps())
                 draw.textures[map.texture] = &textures_.at(texture_key(map, material));
-            draw.values =
-                material_values(material, material_class == MaterialClass::skin ? &scene.skin : nullptr);
+            const bool is_skin = material_class == MaterialClass::skin;
+            draw.values = material_values(material, is_skin ? scene.skin.albedo_tint_linear : Vec3{1, 1, 1});
             draws_.push_back(std::move(draw));
         }
     }

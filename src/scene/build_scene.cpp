@@ -106,9 +106,7 @@ void apply_constants(const MaterialDescription& given, Material& material) {
 Result<void> apply_material(const SceneDescription& description, const MaterialDescription* given,
                             MaterialClass material_class, Material& material) {
     if (material_class == MaterialClass::skin) {
-        material.roughness = description.skin.roughness;
-        material.specular = description.skin.specular;
-        material.ior = description.skin.ior;
+        apply_skin(description.skin, material);
         if (const Result<void> applied = apply_maps(description, description.maps, material); !applied)
             return applied;
     }

@@ -47,6 +47,7 @@ SceneObject make_sphere_object(float radius_mm, Vec3 center_mm) {
                        .mesh = make_latitude_sphere(radius_mm, center_mm),
                        .classes = {MaterialClass::skin}};
     object.mesh.materials = {{.name = "skin", .base_color_linear = {0.8f, 0.52f, 0.42f}}};
+    apply_skin(Skin{}, object.mesh.materials[0]);
     object.mesh.submeshes = {
         {.name = object.name, .index_count = uint32_t(object.mesh.indices.size()), .material = 0}};
     return object;
@@ -100,6 +101,12 @@ Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name) {
     if (name == "spheres") return make_spheres();
     if (name == "bust") return make_bust_objects();
     return Error{unknown_name("built-in scene", name, builtin_mesh_names())};
+}
+
+void apply_skin(const Skin& skin, Material& material) {
+    material.ior = skin.ior;
+    material.roughness = skin.roughness;
+    material.specular = skin.specular;
 }
 
 void compute_bounds(Scene& scene) {

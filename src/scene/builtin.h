@@ -17,6 +17,9 @@ inline constexpr float kSphereRadiiMm[4] = {2, 4, 8, 16};
 /// The objects of "builtin:NAME". Errors: an unknown name.
 [[nodiscard]] Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name);
 
+/// Copies ior, roughness and specular into a material of skin.
+void apply_skin(const Skin& skin, Material& material);
+
 /// Lights, environment, camera: a warm key from the upper left and the built-in studio, framing the objects.
 /// Fills the bounds.
 void place_in_studio(Scene& scene);

@@ -46,6 +46,9 @@ Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) 
     scene.objects.push_back({.name = scene.name, .mesh = std::move(loaded->mesh)});
     SceneObject& object = scene.objects.back();
     object.classes = classes_of(object.mesh.materials);
+    for (size_t i = 0; i < object.classes.size(); ++i)
+        if (object.classes[i] == MaterialClass::skin && !object.mesh.materials[i].scattering)
+            apply_skin(scene.skin, object.mesh.materials[i]);
     place_in_studio(scene);
     return scene;
 }

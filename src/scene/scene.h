@@ -76,8 +76,8 @@ struct Environment {
     bool visible = false;  ///< as the background
 };
 
-/// What all skin materials share. Loading a scene file copies ior, roughness and specular into every skin
-/// material that does not state its own, so the materials of skin can be drawn like any others.
+/// What all skin materials share. ior, roughness and specular are copied into the skin materials on load
+/// (apply_skin), where they are read from, so that a material of skin can have its own.
 struct Skin {
     std::string profile = "gpu_gems_3";
     float ior = 1.4f;

@@ -20,11 +20,12 @@ Result<void> read_section(const TomlNode& section, const std::string& path, cons
     for (const Key<Target>& key : table.keys()) names.push_back(key.info.name);
     for (const TomlEntry& entry : section.entries) {
         if (nested.contains(entry.key)) continue;
-        const auto key =
-            std::ranges::find_if(table.keys(), [&](const Key<Target>& k) { return k.info.name == entry.key; });
+        const auto key = std::ranges::find_if(table.keys(),
+                                              [&](const Key<Target>& k) { return k.info.name == entry.key; });
         const TomlPlace here = place.at(entry.line);
         if (key == table.keys().end())
-            return here.error(unknown_name(path.empty() ? "key" : "key in [" + path + "]:", entry.key, names));
+            return here.error(
+                unknown_name(path.empty() ? "key" : "key in [" + path + "]:", entry.key, names));
         KeyValue value{.full_name = path.empty() ? entry.key : path + "." + entry.key, .line = entry.line};
         if (!read_toml_value(entry.value, key->info, value))
             return here.error(value.full_name + " = " + toml_text(entry.value) + ": " + entry.key + " " +
@@ -34,7 +35,8 @@ Result<void> read_section(const TomlNode& section, const std::string& path, cons
     return {};
 }
 
-Error no_table(const TomlNode& node, const std::string& path, const std::string& written, const TomlPlace& place) {
+Error no_table(const TomlNode& node, const std::string& path, const std::string& written,
+               const TomlPlace& place) {
     return place.at(node.line).error(path + " is " + toml_kind(node) + ", not a table; write " + written);
 }
 
@@ -98,9 +100,9 @@ Result<void> read_settings(const TomlNode& root, SceneDescription& scene, const 
 }
 
 Result<void> read_root(const TomlNode& root, SceneDescription& scene, const TomlPlace& place) {
-    Result<void> read = read_section(
-        root, "", head_keys(), scene.head, place,
-        {"mesh", "maps", "material", "skin", "light", "environment", "camera", "settings"});
+    Result<void> read =
+        read_section(root, "", head_keys(), scene.head, place,
+                     {"mesh", "maps", "material", "skin", "light", "environment", "camera", "settings"});
     if (read) read = read_tables(root, "mesh", mesh_keys(), scene.meshes, place);
     if (read) read = read_table(root, "maps", maps_keys(), scene.maps, place);
     if (read) read = read_materials(root, scene, place);

@@ -1,7 +1,7 @@
-// Debian 12's toml++ 3.3.0 cannot be trusted with malformed files: it asserts on some headers ("[ ="), takes the assertion as a
-// promise to the compiler when NDEBUG is set, and reaches a branch it calls unreachable when a letter like U+00E9 stands
-// outside of quotes. So this file is compiled without NDEBUG, assertions throw, and the text is parsed with every byte
-// beyond ASCII spelled in ASCII (see escape_bytes).
+// Debian 12's toml++ 3.3.0 cannot be trusted with malformed files: it asserts on some headers ("[ ="), takes
+// the assertion as a promise to the compiler when NDEBUG is set, and reaches a branch it calls unreachable
+// when a letter like U+00E9 stands outside of quotes. So this file is compiled without NDEBUG, assertions
+// throw, and the text is parsed with every byte beyond ASCII spelled in ASCII (see escape_bytes).
 
 #include "dermis/scene/toml_document.h"
 
@@ -26,8 +26,8 @@ namespace {
 
 constexpr char kEscape = '~';
 
-// "~" and two hexadecimal digits for every byte beyond ASCII and for "~" itself. TOML allows "~" in strings and comments
-// only, as it allows what it stands for.
+// "~" and two hexadecimal digits for every byte beyond ASCII and for "~" itself. TOML allows "~" in strings
+// and comments only, as it allows what it stands for.
 std::string escape_bytes(std::string_view text) {
     constexpr char kDigits[] = "0123456789abcdef";
     std::string escaped;
@@ -55,11 +55,17 @@ std::string unescape_bytes(std::string_view text) {
     return plain;
 }
 
-// Length of the UTF-8 sequence at the front (RFC 3629: shortest form, no surrogates, up to U+10FFFF); 0 when it is none.
+// Length of the UTF-8 sequence at the front (RFC 3629: shortest form, no surrogates, up to U+10FFFF); 0 when
+// it is none.
 size_t utf8_length(std::string_view text) {
     const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
     const unsigned first = byte(0);
-    const size_t length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+    const size_t length = first < 0x80   ? 1
+                          : first < 0xC2 ? 0
+                          : first < 0xE0 ? 2
+                          : first < 0xF0 ? 3
+                          : first < 0xF5 ? 4
+                                         : 0;
     for (size_t i = 1; i < length; ++i)
         if ((byte(i) & 0xC0) != 0x80) return 0;
     const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
@@ -91,13 +97,15 @@ bool asserts(std::string_view text) {
     return false;
 }
 
-// An assertion does not say where. The parser reads from the front, so exactly the prefixes that reach the line assert.
+// An assertion does not say where. The parser reads from the front, so exactly the prefixes that reach the
+// line assert.
 int asserting_line(std::string_view text) {
     std::vector<size_t> ends;
     for (size_t i = 0; i < text.size(); ++i)
         if (text[i] == '\n') ends.push_back(i);
     ends.push_back(text.size());
-    const auto found = std::ranges::partition_point(ends, [&](size_t end) { return !asserts(text.substr(0, end)); });
+    const auto found =
+        std::ranges::partition_point(ends, [&](size_t end) { return !asserts(text.substr(0, end)); });
     return int(found - ends.begin()) + 1;
 }
 
@@ -142,14 +150,16 @@ const TomlNode* TomlNode::find(std::string_view key) const {
 }
 
 Error TomlPlace::error(std::string message) const {
-    std::ranges::replace_if(message, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
+    std::ranges::replace_if(
+        message, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
     return Error{file + ":" + std::to_string(line) + ": " + std::move(message)};
 }
 
 Result<TomlNode> parse_toml(std::string_view text, const std::string& file) {
     const TomlPlace place{file};
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
-    if (const int line = invalid_utf8_line(text)) return place.at(line).error("not TOML: bytes that are not UTF-8");
+    if (const int line = invalid_utf8_line(text))
+        return place.at(line).error("not TOML: bytes that are not UTF-8");
     const std::string escaped = escape_bytes(text);
     try {
         return convert(toml::parse(escaped));

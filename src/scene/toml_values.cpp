@@ -41,13 +41,20 @@ bool read_choice(const TomlNode& node, const KeyInfo& info, KeyValue& value) {
 
 std::string toml_kind(const TomlNode& node) {
     switch (node.kind) {
-        case TomlKind::table: return "a table";
-        case TomlKind::array: return "an array";
-        case TomlKind::string: return "a string";
-        case TomlKind::integer: return "an integer";
-        case TomlKind::number: return "a number";
-        case TomlKind::boolean: return "true or false";
-        case TomlKind::date: break;
+        case TomlKind::table:
+            return "a table";
+        case TomlKind::array:
+            return "an array";
+        case TomlKind::string:
+            return "a string";
+        case TomlKind::integer:
+            return "an integer";
+        case TomlKind::number:
+            return "a number";
+        case TomlKind::boolean:
+            return "true or false";
+        case TomlKind::date:
+            break;
     }
     return "a date or time";
 }
@@ -55,41 +62,62 @@ std::string toml_kind(const TomlNode& node) {
 std::string toml_text(const TomlNode& node) {
     constexpr size_t kShort = 40;
     switch (node.kind) {
-        case TomlKind::string: return node.text.size() <= kShort ? '"' + node.text + '"' : "a string";
-        case TomlKind::integer: return std::to_string(node.integer);
-        case TomlKind::number: return to_text(node.number);
-        case TomlKind::boolean: return node.flag ? "true" : "false";
-        default: return toml_kind(node);
+        case TomlKind::string:
+            return node.text.size() <= kShort ? '"' + node.text + '"' : "a string";
+        case TomlKind::integer:
+            return std::to_string(node.integer);
+        case TomlKind::number:
+            return to_text(node.number);
+        case TomlKind::boolean:
+            return node.flag ? "true" : "false";
+        default:
+            return toml_kind(node);
     }
 }
 
 std::string wanted_text(const KeyInfo& info) {
     switch (info.kind) {
-        case KeyKind::number: return "is a number " + range_text(info);
-        case KeyKind::integer: return "is an integer " + range_text(info);
-        case KeyKind::toggle: return "is true or false";
-        case KeyKind::text: return "is a string";
-        case KeyKind::file: return "is a path in a string";
-        case KeyKind::choice: return "is one of " + quoted_choices(info);
+        case KeyKind::number:
+            return "is a number " + range_text(info);
+        case KeyKind::integer:
+            return "is an integer " + range_text(info);
+        case KeyKind::toggle:
+            return "is true or false";
+        case KeyKind::text:
+            return "is a string";
+        case KeyKind::file:
+            return "is a path in a string";
+        case KeyKind::choice:
+            return "is one of " + quoted_choices(info);
         case KeyKind::vector:
-        case KeyKind::color: break;
+        case KeyKind::color:
+            break;
     }
     return "is three numbers [x, y, z], each " + range_text(info);
 }
 
 bool read_toml_value(const TomlNode& node, const KeyInfo& info, KeyValue& value) {
     switch (info.kind) {
-        case KeyKind::number: return read_number(node, info, value.numbers[0]);
+        case KeyKind::number:
+            return read_number(node, info, value.numbers[0]);
         case KeyKind::integer:
             if (node.kind != TomlKind::integer || !read_number(node, info, value.numbers[0])) return false;
             value.integer = int(node.integer);
             return true;
-        case KeyKind::toggle: value.integer = node.flag; return node.kind == TomlKind::boolean;
-        case KeyKind::text: value.text = node.text; return node.kind == TomlKind::string;
-        case KeyKind::file: value.text = node.text; return node.kind == TomlKind::string && !node.text.empty();
-        case KeyKind::choice: return read_choice(node, info, value);
+        case KeyKind::toggle:
+            value.integer = node.flag;
+            return node.kind == TomlKind::boolean;
+        case KeyKind::text:
+            value.text = node.text;
+            return node.kind == TomlKind::string;
+        case KeyKind::file:
+            value.text = node.text;
+            return node.kind == TomlKind::string && !node.text.empty();
+        case KeyKind::choice:
+            return read_choice(node, info, value);
         case KeyKind::vector:
-        case KeyKind::color: return read_vector(node, info, value);
+        case KeyKind::color:
+            return read_vector(node, info, value);
     }
     return false;
 }

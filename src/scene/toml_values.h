@@ -21,8 +21,8 @@ namespace dermis {
 /// "is a number from 0 to 1": what would be right.
 [[nodiscard]] std::string wanted_text(const KeyInfo& info);
 
-/// Settings belong to a technique, which knows their ranges; here they only become text. Nothing when the value is of a
-/// kind that no setting has.
+/// Settings belong to a technique, which knows their ranges; here they only become text. Nothing when the
+/// value is of a kind that no setting has.
 [[nodiscard]] std::optional<std::string> setting_text(const TomlNode& node);
 
 }  // namespace dermis

@@ -113,8 +113,8 @@ TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
 TEST_F(Properties, lambert_on_a_sphere_is_the_clamped_cosine) {
     const Scene scene = key_light_only([] {
         Scene loaded = load("builtin:spheres");
-        loaded.skin.specular = 0;
-        loaded.skin.ior = 1;
+        for (SceneObject& object : loaded.objects)
+            for (Material& material : object.mesh.materials) material.specular = 0;
         return loaded;
     }());
     Renderer renderer = make_renderer(scene);

@@ -22,8 +22,9 @@ namespace {
 class FileServer {
   public:
     explicit FileServer(const fs::path& directory) {
-        const std::string command = "echo $$; exec python3 -u -m http.server 0 --bind 127.0.0.1 --directory '" +
-                                    directory.string() + "' 2>/dev/null";
+        const std::string command =
+            "echo $$; exec python3 -u -m http.server 0 --bind 127.0.0.1 --directory '" + directory.string() +
+            "' 2>/dev/null";
         pipe_ = ::popen(command.c_str(), "r");
         // "Serving HTTP on 127.0.0.1 port 40123 (...".
         if (pipe_ && ::fscanf(pipe_, "%d Serving HTTP on 127.0.0.1 port %d", &pid_, &port_) != 2) port_ = 0;
@@ -49,12 +50,14 @@ struct Outcome {
 };
 
 Outcome get_head(const std::string& address, const fs::path& directory) {
-    const std::string command = "DERMIS_HEAD_URL='" + address + "' no_proxy='*' '" DERMIS_SOURCE_DIR
-                                "/tools/get_head' '" + directory.string() + "' 2>&1";
+    const std::string command = "DERMIS_HEAD_URL='" + address +
+                                "' no_proxy='*' '" DERMIS_SOURCE_DIR "/tools/get_head' '" +
+                                directory.string() + "' 2>&1";
     Outcome outcome;
     FILE* pipe = ::popen(command.c_str(), "r");
     std::array<char, 4096> buffer;
-    for (size_t n; (n = ::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) outcome.output.append(buffer.data(), n);
+    for (size_t n; (n = ::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        outcome.output.append(buffer.data(), n);
     outcome.status = ::pclose(pipe);
     return outcome;
 }
@@ -79,9 +82,10 @@ TEST(GetHead, a_file_with_another_content_is_refused_and_nothing_of_it_stays) {
     ASSERT_TRUE(server.runs());
     const Outcome outcome = get_head(server.address(), target.path);
     EXPECT_NE(outcome.status, 0);
-    EXPECT_NE(outcome.output.find("color_2048.jpg: what " + server.address() +
-                                  "/color_2048.jpg sent is another file (its SHA-256 is wrong); nothing was kept"),
-              std::string::npos)
+    EXPECT_NE(
+        outcome.output.find("color_2048.jpg: what " + server.address() +
+                            "/color_2048.jpg sent is another file (its SHA-256 is wrong); nothing was kept"),
+        std::string::npos)
         << outcome.output;
     EXPECT_NE(outcome.output.find("head_quads.obj: cannot fetch " + server.address() + "/head_quads.obj"),
               std::string::npos)

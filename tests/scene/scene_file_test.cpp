@@ -130,7 +130,8 @@ TEST(SceneFile, what_trips_the_parser_itself_is_an_error_with_its_line) {
 
 TEST(SceneFile, characters_beyond_ascii_stand_in_strings_and_comments) {
     const Result<SceneDescription> scene = parse_scene(
-        "\xEF\xBB\xBFname = \"caf\u00e9 \\\" ~41 \u00e9\" # \u00e9\ncredit = '''\n\u00e9\'\n'''\n" + kMesh, "s.toml");
+        "\xEF\xBB\xBFname = \"caf\u00e9 \\\" ~41 \u00e9\" # \u00e9\ncredit = '''\n\u00e9\'\n'''\n" + kMesh,
+        "s.toml");
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->head.name, "caf\u00e9 \" ~41 \u00e9");
     EXPECT_EQ(scene->head.credit, "\u00e9\'\n");
