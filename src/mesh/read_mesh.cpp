@@ -14,7 +14,10 @@
 #include "dermis/mesh/gltf/gltf.h"
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/obj.h"
+#include "dermis/mesh/subdivide.h"
+#include "dermis/mesh/tangents.h"
 #include "dermis/mesh/topology.h"
+#include "dermis/mesh/uv_report.h"
 
 namespace dermis {
 namespace fs = std::filesystem;
@@ -37,10 +40,23 @@ Result<LoadedMesh> load_obj(std::span<const std::byte> bytes, const fs::path& na
     if (!file) return file.error();
     const auto scale = float(options.unit_mm.value_or(1));
     for (Vec3& p : file->polygons.positions_mm) p *= scale;
-    return LoadedMesh{triangulate(file->polygons), std::move(file->warnings)};
+    const Result<PolygonMesh> refined = subdivide(file->polygons, options.subdivision_level);
+    if (!refined) return Error{name.string() + ": " + refined.error().message};
+    return LoadedMesh{triangulate(*refined), std::move(file->warnings)};
 }
 
-// No index, finite positions: what the readers could not check before scaling.
+// glTF knows triangles only: they are the cage.
+Result<LoadedMesh> load_gltf(std::span<const std::byte> bytes, const fs::path& name,
+                             const ReadSibling& read_sibling, const MeshOptions& options) {
+    Result<LoadedMesh> loaded = gltf::parse_gltf(bytes, name, read_sibling, options);
+    if (!loaded || options.subdivision_level == 0) return loaded;
+    const Result<PolygonMesh> refined = subdivide(polygons_of(loaded->mesh), options.subdivision_level);
+    if (!refined) return Error{name.string() + ": " + refined.error().message};
+    loaded->mesh = triangulate(*refined);
+    return loaded;
+}
+
+// What the readers could not check before scaling and refining.
 Result<void> check_finite(Mesh& mesh, const fs::path& name, std::vector<std::string>& warnings) {
     for (const Vec3& p : mesh.positions_mm)
         if (!std::isfinite(p.x + p.y + p.z))
@@ -70,13 +86,6 @@ void warn_of_height(const Mesh& mesh, const fs::path& name, const MeshOptions& o
     warnings.push_back(text);
 }
 
-// Tiles are numbered 1001 + column + 10 row, from the bottom-left.
-int tile_of(Vec2 uv) {
-    const float column = std::floor(uv.x), row = std::floor(1 - uv.y);
-    if (!(column >= 0 && column < 10 && row >= 0 && row < 800)) return 0;
-    return 1001 + int(column) + 10 * int(row);
-}
-
 void warn_of_tiles(const Mesh& mesh, const fs::path& name, std::vector<std::string>& warnings) {
     if (mesh.uvs.empty()) return;
     std::map<uint32_t, std::set<int>> tiles;
@@ -85,7 +94,7 @@ void warn_of_tiles(const Mesh& mesh, const fs::path& name, std::vector<std::stri
         for (uint32_t i = submesh.first_index; i < submesh.first_index + submesh.index_count; i += 3) {
             Vec2 middle;
             for (uint32_t k = 0; k < 3; ++k) middle = middle + mesh.uvs[mesh.indices[i + k]] * (1.0f / 3);
-            const int tile = tile_of(middle);
+            const int tile = udim_tile(middle);
             tiles[submesh.material].insert(tile);
             others |= tile != 1001;
         }
@@ -126,8 +135,8 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     if (options.unit_mm && !(*options.unit_mm > 0 && std::isfinite(*options.unit_mm)))
         return Error{name.string() + ": the unit must be a positive number of millimetres"};
     const bool is_obj = format == MeshFormat::obj;
-    Result<LoadedMesh> loaded = is_obj ? load_obj(bytes, name, read_sibling, options)
-                                       : gltf::parse_gltf(bytes, name, read_sibling, options);
+    Result<LoadedMesh> loaded =
+        is_obj ? load_obj(bytes, name, read_sibling, options) : load_gltf(bytes, name, read_sibling, options);
     if (!loaded) return loaded;
     Mesh& mesh = loaded->mesh;
     std::vector<std::string>& warnings = loaded->warnings;
@@ -137,6 +146,7 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     warn_of_height(mesh, name, options, is_obj, warnings);
     warn_of_tiles(mesh, name, warnings);
     finish_normals(mesh, name, warnings);
+    if (mesh.tangents.empty() || !orthonormalize_tangents(mesh)) compute_tangents(mesh);
     return loaded;
 }
 

@@ -16,9 +16,12 @@
 namespace dermis {
 
 struct MeshOptions {
-    std::optional<double> unit_mm;  ///< millimetres a file unit; none: 1000 for glTF (metres), 1 for OBJ
-    size_t max_vertices =
-        50'000'000;  ///< more, also through instancing, is an error and not a swapping machine
+    /// Millimetres a file unit; none: 1000 for glTF (metres), 1 for OBJ.
+    std::optional<double> unit_mm;
+    /// Catmull-Clark refinements (subdivide.h); OBJ keeps its quads for them.
+    int subdivision_level = 0;
+    /// More, also through instancing, is an error and not a swapping machine.
+    size_t max_vertices = 50'000'000;
 };
 
 struct LoadedMesh {
@@ -31,10 +34,16 @@ struct LoadedMesh {
 using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::string& relative_path)>;
 
 /// By extension: .obj, .gltf, .glb. Node transforms are applied, mirrored ones keep their fronts outside.
-/// Every value of the result is finite and every index in range; normals are unit. Errors (one line, naming
-/// file and place): unreadable or truncated files, no triangles, positions that are not finite, indices out
-/// of range, missing buffers, URIs that leave the directory, required extensions unknown here. Warnings:
-/// missing MTL, UDIM tiles, UVs absent, a height that no head has, anything in the file that was skipped.
+/// Every value of the result is finite and every index in range. Normals are unit, computed where the file
+/// has none (normals.h), and so are tangents (tangents.h).
+///
+/// Errors (one line, naming file and place): unreadable or truncated files, no triangles, positions that are
+/// not finite, indices out of range, missing buffers, URIs that leave the directory, required extensions
+/// unknown here.
+///
+/// Warnings: missing MTL, UDIM tiles, UVs absent, a height that no head has, anything in the file that was
+/// skipped.
+///
 /// Cost: see bench/mesh_bench.cpp; a 17,684-triangle OBJ of 3 MB takes about 30 ms on one core.
 [[nodiscard]] Result<LoadedMesh> read_mesh(const std::filesystem::path& path,
                                            const MeshOptions& options = {});

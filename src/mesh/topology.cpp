@@ -7,20 +7,13 @@
 namespace dermis {
 namespace {
 
-// mesh's attribute arrays rearranged: entry i of the new is entry from[i] of the old.
-void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
-    const auto gather = [&](auto& attribute) {
-        if (attribute.empty()) return;
-        std::remove_reference_t<decltype(attribute)> gathered;
-        gathered.reserve(from.size());
-        for (const uint32_t i : from) gathered.push_back(attribute[i]);
-        attribute = std::move(gathered);
-    };
-    gather(mesh.positions_mm);
-    gather(mesh.normals);
-    gather(mesh.tangents);
-    gather(mesh.uvs);
-    gather(mesh.curvatures_per_mm);
+template <class Attribute>
+void gather(std::vector<Attribute>& attribute, std::span<const uint32_t> from) {
+    if (attribute.empty()) return;
+    std::vector<Attribute> gathered;
+    gathered.reserve(from.size());
+    for (const uint32_t i : from) gathered.push_back(attribute[i]);
+    attribute = std::move(gathered);
 }
 
 }  // namespace
@@ -48,6 +41,15 @@ void DisjointSets::join(uint32_t a, uint32_t b) {
     a = find(a), b = find(b);
     // The smaller number leads, so that the result does not depend on the order of joins.
     if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+}
+
+void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
+    gather(mesh.positions_mm, from);
+    gather(mesh.normals, from);
+    gather(mesh.tangents, from);
+    gather(mesh.uvs, from);
+    gather(mesh.curvatures_per_mm, from);
+    gather(mesh.occlusions, from);
 }
 
 std::vector<uint32_t> welded_indices(std::span<const uint32_t> indices, const Weld& weld) {

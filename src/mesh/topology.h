@@ -23,7 +23,7 @@ class CornerTable {
     std::vector<uint32_t> first_, corners_;
 };
 
-/// A smaller number of sets: union-find over a handful of items.
+/// Union-find; the lowest item of a set leads it.
 class DisjointSets {
   public:
     explicit DisjointSets(size_t count) { reset(count); }
@@ -44,6 +44,10 @@ class DisjointSets {
 
 /// mesh.indices through the weld: triangles of positions, whatever the seams.
 [[nodiscard]] std::vector<uint32_t> welded_indices(std::span<const uint32_t> indices, const Weld& weld);
+
+/// Rearranges all attributes: vertex i of the new mesh is vertex from[i] of the old. The indices are the
+/// caller's.
+void gather_vertices(Mesh& mesh, std::span<const uint32_t> from);
 
 /// Gives vertices whose corners disagree their own copies. `group_of_corner` has any number for each corner;
 /// corners of a vertex with equal numbers stay one vertex. All attributes present are copied.

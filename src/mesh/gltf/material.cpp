@@ -77,6 +77,7 @@ class MaterialReader {
         if (!volume.exists() && !transmission.exists() && !old_scatter.exists() && !scatter.exists()) return;
         Material::Scattering body;
         body.thickness_mm = float(volume["thicknessFactor"].number(0) * node_scale * mm_per_unit_);
+        material.thickness_scale_mm = body.thickness_mm;
         body.attenuation_color = color(volume["attenuationColor"], {1, 1, 1});
         body.attenuation_distance_mm = float(volume["attenuationDistance"].number(0) * mm_per_unit_);
         material.thickness_map = texture(volume["thicknessTexture"]);

@@ -1,0 +1,171 @@
+// dermis info MESH: what is in a mesh file, and what its UV layout is worth for maps of skin.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "dermis/mesh/read_mesh.h"
+#include "dermis/mesh/uv_report.h"
+
+namespace dermis::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoArguments {
+    std::string mesh;
+    double unit_mm = 0;
+    bool json = false;
+};
+
+struct MapRow {
+    const char* kind;
+    const ImageSource* image;
+
+    [[nodiscard]] const char* state() const {
+        if (!image->encoded.empty()) return "embedded";
+        std::error_code ec;
+        return std::filesystem::is_regular_file(image->name, ec) ? "found" : "missing";
+    }
+};
+
+std::vector<MapRow> maps_of(const Material& m) {
+    std::vector<MapRow> rows = {{"base color", &m.base_color_map},
+                                {"normal", &m.normal_map},
+                                {"metallic roughness", &m.metallic_roughness_map},
+                                {"roughness", &m.roughness_map},
+                                {"specular", &m.specular_map},
+                                {"occlusion", &m.occlusion_map},
+                                {"displacement", &m.displacement_map},
+                                {"thickness", &m.thickness_map},
+                                {"opacity", &m.opacity_map},
+                                {"transmission", &m.transmission_map}};
+    std::erase_if(rows, [](const MapRow& row) { return !row.image->present(); });
+    return rows;
+}
+
+struct Box {
+    Vec3 low, high;
+};
+
+Box bounding_box(const Mesh& mesh) {
+    Box box{mesh.positions_mm.front(), mesh.positions_mm.front()};
+    for (const Vec3& p : mesh.positions_mm) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+    return box;
+}
+
+size_t triangles_of(const Mesh& mesh, uint32_t material) {
+    size_t count = 0;
+    for (const Submesh& submesh : mesh.submeshes)
+        if (submesh.material == material) count += submesh.index_count / 3;
+    return count;
+}
+
+Json percentiles_json(const Percentiles& p) {
+    return {{"p5", p.p5}, {"p50", p.p50}, {"p95", p.p95}};
+}
+
+Json uv_json(const UvReport& uv) {
+    return {{"coverage", uv.coverage},
+            {"overlap", uv.overlap},
+            {"tiles", uv.tiles},
+            {"charts", uv.charts},
+            {"seam_length_mm", uv.seam_length_mm},
+            {"area_mirrored", uv.area_mirrored},
+            {"area_outside", uv.area_outside},
+            {"degenerate_triangles", uv.degenerate_triangles},
+            {"mm_per_texel_2048", percentiles_json(uv.mm_per_texel_2048)},
+            {"anisotropy", percentiles_json(uv.anisotropy)}};
+}
+
+void print_json(const LoadedMesh& loaded) {
+    const Mesh& mesh = loaded.mesh;
+    const auto [low, high] = bounding_box(mesh);
+    Json json = {{"vertices", mesh.positions_mm.size()}, {"triangles", mesh.triangle_count()},
+                 {"low_mm", {low.x, low.y, low.z}},      {"high_mm", {high.x, high.y, high.z}},
+                 {"materials", Json::array()},           {"warnings", loaded.warnings}};
+    for (uint32_t i = 0; i < mesh.materials.size(); ++i) {
+        Json row = {
+            {"name", mesh.materials[i].name}, {"triangles", triangles_of(mesh, i)}, {"maps", Json::array()}};
+        for (const MapRow& map : maps_of(mesh.materials[i]))
+            row["maps"].push_back({{"kind", map.kind}, {"name", map.image->name}, {"state", map.state()}});
+        if (!mesh.uvs.empty() && row["triangles"] != 0) row["uv"] = uv_json(analyze_uvs(mesh, i));
+        json["materials"].push_back(row);
+    }
+    fmt::print("{}\n", json.dump(1, ' ', false, Json::error_handler_t::replace));
+}
+
+void print_uv(const UvReport& uv) {
+    std::string tiles;
+    for (size_t i = 0; i < std::min<size_t>(uv.tiles.size(), 8); ++i)
+        tiles += fmt::format(" {}", uv.tiles[i]);
+    if (uv.tiles.size() > 8) tiles += " ...";
+    fmt::print(
+        "    UV            {:.1f} % of tile{} used, {:.2f} % of it overlapping, {} charts, {:.0f} mm of "
+        "seams\n",
+        100 * uv.coverage, tiles.empty() ? " (none)" : tiles, 100 * uv.overlap, uv.charts, uv.seam_length_mm);
+    const Percentiles &t = uv.mm_per_texel_2048, &a = uv.anisotropy;
+    fmt::print("    texel at 2048 {:.3f} / {:.3f} / {:.3f} mm (p5 / p50 / p95 of the surface)\n", t.p5, t.p50,
+               t.p95);
+    fmt::print("    stretch       {:.1f} / {:.1f} longest over shortest (p50 / p95)\n", a.p50, a.p95);
+    if (uv.area_mirrored > 0)
+        fmt::print("    mirrored      {:.1f} % of the surface\n", 100 * uv.area_mirrored);
+    if (uv.area_outside > 0) fmt::print("    in no tile    {:.1f} % of the surface\n", 100 * uv.area_outside);
+    if (uv.degenerate_triangles > 0)
+        fmt::print("    degenerate    {} triangles without UV area\n", uv.degenerate_triangles);
+}
+
+void print_text(const std::string& path, const LoadedMesh& loaded) {
+    const Mesh& mesh = loaded.mesh;
+    const auto [low, high] = bounding_box(mesh);
+    const Vec3 size = high - low;
+    fmt::print("{}\n  {} vertices, {} triangles\n", path, mesh.positions_mm.size(), mesh.triangle_count());
+    fmt::print(
+        "  box {:.1f} x {:.1f} x {:.1f} mm, from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n",
+        size.x, size.y, size.z, low.x, low.y, low.z, high.x, high.y, high.z);
+    for (uint32_t i = 0; i < mesh.materials.size(); ++i) {
+        const size_t triangles = triangles_of(mesh, i);
+        if (triangles == 0) continue;
+        fmt::print("  {}: {} triangles\n", mesh.materials[i].name, triangles);
+        if (!mesh.uvs.empty()) print_uv(analyze_uvs(mesh, i));
+        for (const MapRow& map : maps_of(mesh.materials[i]))
+            fmt::print("    {:<13} {} ({})\n", map.kind, map.image->name, map.state());
+    }
+    for (const std::string& warning : loaded.warnings) fmt::print("  warning: {}\n", warning);
+}
+
+Result<int> run_info(const InfoArguments& arguments) {
+    MeshOptions options;
+    if (arguments.unit_mm > 0) options.unit_mm = arguments.unit_mm;
+    const Result<LoadedMesh> loaded = read_mesh(arguments.mesh, options);
+    if (!loaded) return loaded.error();
+    if (arguments.json)
+        print_json(*loaded);
+    else
+        print_text(arguments.mesh, *loaded);
+    return std::fflush(stdout) == 0 ? Result<int>(0) : Error{"cannot write to standard output"};
+}
+
+}  // namespace
+
+void add_info_command(CommandLine& line) {
+    const auto arguments = std::make_shared<InfoArguments>();
+    CLI::App* command =
+        line.add("info", "What a mesh holds, and what its UV layout is worth for maps of skin",
+                 "dermis info head.obj --unit-mm 45");
+    command->add_option("MESH", arguments->mesh, ".obj, .gltf or .glb")->required();
+    command->add_option("--unit-mm", arguments->unit_mm, "millimetres a file unit (glTF: 1000, OBJ: 1)")
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--json", arguments->json, "one JSON object on standard output");
+    line.when_chosen(command, [arguments] { return run_info(*arguments); });
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,80 @@
+// Times of src/mesh on the scanned head (skipped without it).
+
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "dermis/mesh/curvature.h"
+#include "dermis/mesh/normals.h"
+#include "dermis/mesh/obj.h"
+#include "dermis/mesh/read_mesh.h"
+#include "dermis/mesh/subdivide.h"
+#include "dermis/mesh/tangents.h"
+#include "dermis/mesh/uv_report.h"
+
+namespace {
+
+using namespace dermis;
+
+std::filesystem::path head(const char* name) {
+    const char* directory = std::getenv("DERMIS_ASSETS");
+    return std::filesystem::path(directory ? directory : DERMIS_SOURCE_DIR "/../shared/assets") /
+           "lee_perry_smith" / name;
+}
+
+Result<LoadedMesh> load(const char* name, int level = 0) {
+    return read_mesh(head(name), {.unit_mm = level > 0 ? 900 : 45, .subdivision_level = level});
+}
+
+void read_head(benchmark::State& state) {
+    for (auto _ : state) {
+        const auto loaded = load("head.obj");
+        if (!loaded) return state.SkipWithError(loaded.error().message.c_str());
+    }
+}
+BENCHMARK(read_head)->Unit(benchmark::kMillisecond);
+
+void read_and_subdivide(benchmark::State& state) {
+    for (auto _ : state) {
+        const auto loaded = load("head_quads.obj", int(state.range(0)));
+        if (!loaded) return state.SkipWithError(loaded.error().message.c_str());
+    }
+}
+BENCHMARK(read_and_subdivide)->DenseRange(1, 3)->Unit(benchmark::kMillisecond);
+
+template <class Work>
+void on_head(benchmark::State& state, const Work& work) {
+    const auto loaded = load("head.obj");
+    if (!loaded) return state.SkipWithError(loaded.error().message.c_str());
+    for (auto _ : state) {
+        Mesh mesh = loaded->mesh;
+        work(mesh);
+        benchmark::DoNotOptimize(mesh.positions_mm.data());
+    }
+}
+
+void normals(benchmark::State& state) {
+    on_head(state, [](Mesh& mesh) { compute_normals(mesh); });
+}
+BENCHMARK(normals)->Unit(benchmark::kMillisecond);
+
+void tangents(benchmark::State& state) {
+    on_head(state, [](Mesh& mesh) { compute_tangents(mesh); });
+}
+BENCHMARK(tangents)->Unit(benchmark::kMillisecond);
+
+void curvature(benchmark::State& state) {
+    on_head(state,
+            [&](Mesh& mesh) { benchmark::DoNotOptimize(compute_curvature(mesh, double(state.range(0)))); });
+}
+BENCHMARK(curvature)->Arg(0)->Arg(2)->Arg(5)->Unit(benchmark::kMillisecond);
+
+void uv_report(benchmark::State& state) {
+    on_head(state, [](Mesh& mesh) { benchmark::DoNotOptimize(analyze_uvs(mesh)); });
+}
+BENCHMARK(uv_report)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,25 @@
+#pragma once
+// Tangent frames for normal maps, as MikkTSpace defines them.
+
+#include "dermis/mesh/mesh.h"
+
+namespace dermis {
+
+/// Needs normals and UVs (without UVs: any frame perpendicular to the normal). Replaces mesh.tangents and
+/// splits the vertices whose triangles demand different frames (mirrored UVs), so the vertex count may grow.
+///
+/// Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited", as its reference implementation and glTF take
+/// it: per-triangle directions of u, projected into each vertex's normal plane, unit, summed with the weight
+/// of the corner angle over the triangles that share position, normal and UV and hang together by edges,
+/// never across a change of the UVs' handedness. The sign is glTF's: bitangent = w * cross(normal, tangent)
+/// points up in the texture image, towards smaller v. Triangles without area in UV take part in their
+/// neighbours' frames; where there are none, the frame is an arbitrary perpendicular one. Never NaN. The
+/// result does not depend on the order of vertices, nor, up to rounding, of triangles. Linear time, about 8
+/// ms for 10,000 vertices.
+void compute_tangents(Mesh& mesh);
+
+/// Makes given tangents unit and perpendicular to their normals; false (and nothing changed) when one is
+/// unusable.
+[[nodiscard]] bool orthonormalize_tangents(Mesh& mesh);
+
+}  // namespace dermis

@@ -1,0 +1,39 @@
+#pragma once
+// What a UV layout is worth for maps of skin: room used, overlaps, seams, millimetres a texel, stretch.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "dermis/mesh/mesh.h"
+
+namespace dermis {
+
+struct Percentiles {
+    float p5 = 0, p50 = 0, p95 = 0;
+};
+
+struct UvReport {
+    double coverage = 0;  ///< share of the used tiles' texels under a triangle, 0..1
+    double overlap = 0;   ///< share of the covered texels under more than one
+    double area_outside =
+        0;  ///< share of the surface whose UVs lie in no tile (u outside of 0..10, v below 0)
+    std::vector<int> tiles;             ///< UDIM numbers used, ascending; an ordinary atlas is {1001}
+    uint32_t charts = 0;                ///< pieces that hang together in UV
+    double seam_length_mm = 0;          ///< edges where charts meet
+    double area_mirrored = 0;           ///< share of the surface whose UVs are mirrored
+    uint32_t degenerate_triangles = 0;  ///< no area in UV
+    Percentiles mm_per_texel_2048;      ///< by surface area, of a 2048 x 2048 map
+    Percentiles anisotropy;             ///< by surface area
+};
+
+/// Of the whole mesh, or of one material (atlases are per material: two of them may share a tile without
+/// overlap). Needs UVs. Coverage and overlap are counted at texel centres of a `resolution` grid a tile;
+/// edges that triangles share count once. Cost: about 15 ms for 18,000 triangles at 1024.
+[[nodiscard]] UvReport analyze_uvs(const Mesh& mesh, std::optional<uint32_t> material = std::nullopt,
+                                   int resolution = 1024);
+
+/// UDIM number of the tile a UV lies in (origin top-left, so v <= 1 is the first row); 0 for none.
+[[nodiscard]] int udim_tile(Vec2 uv);
+
+}  // namespace dermis

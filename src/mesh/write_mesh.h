@@ -1,0 +1,32 @@
+#pragma once
+// Meshes to files: GLB for engines, OBJ for everything else.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/mesh/mesh.h"
+
+namespace dermis {
+
+/// A PNG or JPEG to embed for every material map of that name.
+struct NamedImage {
+    std::string name;                ///< as in ImageSource::name
+    std::vector<std::byte> encoded;  ///< the file's bytes
+};
+
+/// glTF 2.0 in metres with all attributes (but curvature), one node, one primitive a submesh. Materials carry
+/// metallic-roughness, and where they have them KHR_materials_volume, _diffuse_transmission, _volume_scatter,
+/// _scatter, _specular, _ior: always optional, never required. Maps are embedded from `images` by name, or
+/// from the material's own bytes. Errors: a map without bytes or neither PNG nor JPEG, more than 4 GiB, an
+/// unwritable file. read_mesh reads it back.
+[[nodiscard]] Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
+                                     std::span<const NamedImage> images = {});
+
+/// Positions in millimetres, normals, UVs (origin bottom-left, as OBJ has it), `usemtl` by name; an MTL of
+/// the same name beside it, with map paths as they stand in the materials.
+[[nodiscard]] Result<void> write_obj(const std::filesystem::path& path, const Mesh& mesh);
+
+}  // namespace dermis

@@ -1,0 +1,17 @@
+// glTF as JSON or GLB, by its first bytes. Buffers beside it are the input itself.
+
+#include <cstdint>
+
+#include "use_mesh.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    const std::span bytes = std::as_bytes(std::span(data, size));
+    const dermis::ReadSibling read_buffer =
+        [&](const std::string&) -> dermis::Result<std::vector<std::byte>> {
+        return std::vector<std::byte>(bytes.begin(), bytes.end());
+    };
+    const auto loaded = dermis::parse_mesh(bytes, dermis::MeshFormat::gltf, "dir/fuzz.gltf", read_buffer,
+                                           {.max_vertices = 20000});
+    if (loaded) dermis::fuzz::use_mesh(*loaded);
+    return 0;
+}
