@@ -99,8 +99,7 @@ BurleyProfile read_separable(const Values& values) {
     return burley;
 }
 
-// ---- Lengths that follow from d and A
-// ----------------------------------------------------------------------
+// ---- Lengths that follow from d and A --------------------------------------------------------------------
 
 Values write_hdrp(const BurleyProfile& burley) {
     const ScaledColor d = split_scale(lengths_of(burley, d_itself, 1));

@@ -162,7 +162,10 @@ Result<BurleyProfile> source_of(const Options& options) {
             return Error{"--set changes the numbers of --from TOOL; name a tool"};
         const Result<Profile> profile = find_profile(options.name);
         if (!profile) return profile.error();
-        return burley_equivalent(*profile);
+        const BurleyProfile burley = burley_equivalent(*profile);
+        // A channel without reflectance has no length that another tool could hold.
+        if (const auto checked = check(Profile{profile->name, "", burley}); !checked) return checked.error();
+        return burley;
     }
     const Result<ToolId> tool = find_tool(options.from);
     if (!tool) return tool.error();
