@@ -79,15 +79,17 @@ vec3 diffuse_falloff(vec3 t, float curvature_per_mm) {
     return vec3(lut_sample(t.r, v).r, lut_sample(t.g, v).g, lut_sample(t.b, v).b);
 }
 
-// How far each channel's normal goes from the sharp to the smooth one. A mip level bias b averages over a box of
-// w = 2^b texels, of variance w^2 / 12; mixing the sharp and the averaged normal with weight x makes a filter of
-// variance x w^2 / 12, which is to be the profile's.
+// How far each channel's normal goes from the sharp to the smooth one. A read at mip level l averages over a box of
+// w = 2^l texels, of variance w^2 / 12. Mixing the reads at l and l + bias with weight x adds x times the difference of
+// their variances, which is to be the profile's.
 vec3 normal_blend(Surface s) {
     vec2 map_size = vec2(textureSize(sampler2D(normal_map, trilinear_repeat), 0));
-    float mm_per_uv = length(fwidth(s.p_world_mm)) / max(length(fwidth(s.uv)), 1e-8);
-    float box_mm = exp2(normal_lod_bias) * mm_per_uv / map_size.x;
+    float texel_mm = length(fwidth(s.p_world_mm)) / max(length(fwidth(s.uv) * map_size), 1e-8);
+    float lod = max(textureQueryLod(sampler2D(normal_map, trilinear_repeat), s.uv).x, 0.0);
+    float sharp_mm = exp2(lod) * texel_mm, smooth_mm = exp2(lod + normal_lod_bias) * texel_mm;
+    float added_mm2 = (smooth_mm * smooth_mm - sharp_mm * sharp_mm) / 12.0;
     vec3 variance_mm2 = texelFetch(sampler2D(skin_variance, nearest_clamp), ivec2(0), 0).rgb;
-    return clamp(12.0 * variance_mm2 / max(box_mm * box_mm, 1e-8), 0.0, 1.0);
+    return clamp(variance_mm2 / max(added_mm2, 1e-8), 0.0, 1.0);
 }
 
 vec3 cosines(Surface s, vec3 to_light_world) {

@@ -32,7 +32,7 @@ struct Params {
     Shadow shadow = Shadow::scattered;
     float shadow_width_mm = 8;
     Ambient ambient = Ambient::exact;
-    SpecularModel specular = SpecularModel::two_lobe_ggx;
+    SpecularModel specular = SpecularModel::ggx;
 };
 
 // Curvatures from 0 to this fill the tables; preintegrated.frag knows the same number.

@@ -10,7 +10,7 @@ namespace {
 struct Params {
     float wrap = 0.25f;
     float scatter_width = 0.15f;
-    Vec3 scatter_color_linear = {0.15f, 0.02f, 0.01f};
+    Vec3 scatter_color_linear = {0.07f, 0.012f, 0.006f};
     SpecularModel specular = SpecularModel::ggx;
 };
 
