@@ -7,6 +7,7 @@
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/scene/builtin.h"
+#include "dermis/scene/displacement.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_paths.h"
@@ -39,7 +40,7 @@ Result<std::vector<SceneObject>> load_objects(const SceneDescription& descriptio
     }
     const Result<fs::path> path = resolve(description, mesh.file);
     if (!path) return path.error();
-    Result<LoadedMesh> loaded = read_mesh(*path, {.unit_mm = mesh.unit_mm});
+    Result<LoadedMesh> loaded = read_mesh(*path, {.unit_mm = mesh.unit_mm, .subdivision_level = mesh.subdivision});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     warnings.insert(warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     std::vector<SceneObject> objects(1);
@@ -137,6 +138,7 @@ Result<void> add_objects(const SceneDescription& description, const MeshDescript
                 !applied)
                 return applied;
         }
+        if (const Result<void> displaced = apply_displacement(object.mesh); !displaced) return displaced;
         hide_materials(object.mesh, hidden);
         scene.objects.push_back(std::move(object));
     }
