@@ -60,8 +60,12 @@ std::vector<SceneObject> make_spheres() {
         x_mm[i] = x_mm[i - 1] + kSphereSpacing * (kSphereRadiiMm[i - 1] + kSphereRadiiMm[i]);
     const float middle_mm = (x_mm[0] - kSphereRadiiMm[0] + x_mm[3] + kSphereRadiiMm[3]) / 2;
     std::vector<SceneObject> objects;
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; ++i) {
         objects.push_back(make_sphere_object(kSphereRadiiMm[i], {x_mm[i] - middle_mm, kSphereRadiiMm[i], 0}));
+        // A quarter of one atlas each, with a gutter, so that texture-space methods can light them all at once.
+        for (Vec2& uv : objects.back().mesh.uvs)
+            uv = Vec2{0.5f * float(i % 2), 0.5f * float(i / 2)} + Vec2{0.02f, 0.02f} + uv * 0.46f;
+    }
     return objects;
 }
 
