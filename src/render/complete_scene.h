@@ -1,17 +1,18 @@
 #pragma once
-// What shading wants and files do not have: how the skin curves at each vertex, and how much of its surroundings the
-// vertex sees.
+// What shading wants and files do not have: how the skin curves at each vertex, and how much of its
+// surroundings the vertex sees.
 
 #include "dermis/base/result.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
 
-/// Curvature is taken over this distance, a few mean free paths of red light: what scattering sees of the shape.
+/// Curvature is taken over this distance, a few mean free paths of red light: what scattering sees of the
+/// shape.
 inline constexpr double kCurvatureSmoothingMm = 3;
 
-/// Fills Mesh::curvatures_per_mm and Mesh::occlusions of every object that lacks them, occluded by all opaque ones;
-/// cached by content, so that a second start costs a file read.
+/// Fills Mesh::curvatures_per_mm and Mesh::occlusions of every object that lacks them, occluded by all opaque
+/// ones; cached by content, so that a second start costs a file read.
 [[nodiscard]] Result<void> complete_scene(Scene& scene);
 
 }  // namespace dermis

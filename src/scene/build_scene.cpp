@@ -40,7 +40,8 @@ Result<std::vector<SceneObject>> load_objects(const SceneDescription& descriptio
     }
     const Result<fs::path> path = resolve(description, mesh.file);
     if (!path) return path.error();
-    Result<LoadedMesh> loaded = read_mesh(*path, {.unit_mm = mesh.unit_mm, .subdivision_level = mesh.subdivision});
+    Result<LoadedMesh> loaded =
+        read_mesh(*path, {.unit_mm = mesh.unit_mm, .subdivision_level = mesh.subdivision});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     warnings.insert(warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     std::vector<SceneObject> objects(1);

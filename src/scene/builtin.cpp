@@ -62,7 +62,8 @@ std::vector<SceneObject> make_spheres() {
     std::vector<SceneObject> objects;
     for (int i = 0; i < 4; ++i) {
         objects.push_back(make_sphere_object(kSphereRadiiMm[i], {x_mm[i] - middle_mm, kSphereRadiiMm[i], 0}));
-        // A quarter of one atlas each, with a gutter, so that texture-space methods can light them all at once.
+        // A quarter of one atlas each, with a gutter, so that texture-space methods can light them all at
+        // once.
         for (Vec2& uv : objects.back().mesh.uvs)
             uv = Vec2{0.5f * float(i % 2), 0.5f * float(i / 2)} + Vec2{0.02f, 0.02f} + uv * 0.46f;
     }

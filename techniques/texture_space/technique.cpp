@@ -1,7 +1,8 @@
-// Gosselin, Sander, Mitchell 2004, "Real-Time Texture-Space Skin Rendering" (ShaderX3): light the skin in its texture
-// atlas, blur that image with a kernel whose size is painted, and read it back through the camera. Four steps: shadow
-// map (shared), light map, dilation and blur, final mesh. The blur knows texels, not millimetres: its width on the skin
-// follows the unwrap. Not here: translucent shadows, the three culls in texture space, blur in millimetres.
+// Gosselin, Sander, Mitchell 2004, "Real-Time Texture-Space Skin Rendering" (ShaderX3): light the skin in its
+// texture atlas, blur that image with a kernel whose size is painted, and read it back through the camera.
+// Four steps: shadow map (shared), light map, dilation and blur, final mesh. The blur knows texels, not
+// millimetres: its width on the skin follows the unwrap. Not here: translucent shadows, the three culls in
+// texture space, blur in millimetres.
 
 #include "dermis/technique/forward.h"
 
@@ -29,11 +30,14 @@ ParameterTable parameters() {
         .integer(&Params::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
         .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"}, "taps of the blur")
         .integer(&Params::blur_passes, "blur_passes", "", 0, 16, "how often the light map is blurred")
-        .number(&Params::blur_scale, "blur_scale", "texels", 0, 64, "radius of the blur where the kernel map is 1")
+        .number(&Params::blur_scale, "blur_scale", "texels", 0, 64,
+                "radius of the blur where the kernel map is 1")
         .number(&Params::blur_bias, "blur_bias", "texels", 0, 64, "added to every radius")
-        .choice(&Params::dilate, "dilate", {"off", "source", "written_only"},
-                "at chart borders: nothing, the source's copy in the first pass, or average written texels only")
-        .toggle(&Params::specular_shadow, "specular_shadow", "dim the key light's specular by the blurred light")
+        .choice(
+            &Params::dilate, "dilate", {"off", "source", "written_only"},
+            "at chart borders: nothing, the source's copy in the first pass, or average written texels only")
+        .toggle(&Params::specular_shadow, "specular_shadow",
+                "dim the key light's specular by the blurred light")
         .number(&Params::specular_shadow_scale, "specular_shadow_scale", "", 0, 10, "times the light's share")
         .number(&Params::specular_shadow_bias, "specular_shadow_bias", "", -1, 1, "added to it")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
@@ -62,20 +66,22 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                            .shader = "texture_space/light_map.frag",
                            .reads = {"shadow_map"},
                            .colors = {{.image = "light_map_a", .clear = {0, 0, 0, 1}}}});
-    if (params.blur_passes > 0) list.images.push_back({.name = "light_map_b", .format = ImageFormat::rgba16f, .size = size});
+    if (params.blur_passes > 0)
+        list.images.push_back({.name = "light_map_b", .format = ImageFormat::rgba16f, .size = size});
     for (int i = 0; i < params.blur_passes; ++i) list.passes.push_back(blur_pass(params, i));
 
     const int32_t view = frame.view == "light_map" ? 3 : forward_view(frame.view);
-    list.passes.push_back({.name = "skin",
-                           .kind = PassKind::geometry_screen,
-                           .shader = "texture_space/final.frag",
-                           .reads = {{"light_map", params.blur_passes % 2 == 0 ? "light_map_a" : "light_map_b"}},
-                           .colors = {{.image = "radiance", .load = LoadOp::load}},
-                           .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
-                           .geometry = GeometryFilter::skin,
-                           .constants = {{"specular_model", int32_t(params.specular)},
-                                         {"view", view},
-                                         {"specular_shadow", int32_t(params.specular_shadow)}}});
+    list.passes.push_back(
+        {.name = "skin",
+         .kind = PassKind::geometry_screen,
+         .shader = "texture_space/final.frag",
+         .reads = {{"light_map", params.blur_passes % 2 == 0 ? "light_map_a" : "light_map_b"}},
+         .colors = {{.image = "radiance", .load = LoadOp::load}},
+         .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
+         .geometry = GeometryFilter::skin,
+         .constants = {{"specular_model", int32_t(params.specular)},
+                       {"view", view},
+                       {"specular_shadow", int32_t(params.specular_shadow)}}});
     return list;
 }
 

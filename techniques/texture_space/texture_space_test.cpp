@@ -37,7 +37,8 @@ TEST_F(TextureSpace, without_blur_it_is_lambert) {
     const Image lambert = radiance(renderer, **find_technique("lambert"), kSmall);
     const Image unblurred = draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "4096"}}));
     EXPECT_LT(mean_difference(lambert, unblurred), 2e-3);
-    const Image blurred = draw(renderer, with({{"blur_passes", "8"}, {"blur_bias", "8"}, {"light_map_size", "512"}}));
+    const Image blurred =
+        draw(renderer, with({{"blur_passes", "8"}, {"blur_bias", "8"}, {"light_map_size", "512"}}));
     EXPECT_GT(mean_difference(lambert, blurred), 1e-2) << "the blur does nothing";
 }
 
@@ -52,7 +53,8 @@ TEST_F(TextureSpace, every_filter_keeps_even_light_even_up_to_the_chart_borders)
     Renderer renderer = make_renderer(scene);
     const Image lambert = radiance(renderer, **find_technique("lambert"), kSmall);
     for (const char* filter : {"poisson", "gaussian", "box", "kawase"}) {
-        const Image image = draw(renderer, with({{"filter", filter}, {"blur_passes", "4"}, {"blur_bias", "6"}}));
+        const Image image =
+            draw(renderer, with({{"filter", filter}, {"blur_passes", "4"}, {"blur_bias", "6"}}));
         EXPECT_LT(relative_difference(lambert, image, 1), 1e-3) << filter;
     }
 }
@@ -61,7 +63,8 @@ TEST_F(TextureSpace, without_dilation_the_gutter_darkens_the_seams) {
     // Proves that the test above can fail.
     Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Image good = draw(renderer, with({{"dilate", "written_only"}, {"blur_passes", "4"}, {"blur_bias", "20"}}));
+    const Image good =
+        draw(renderer, with({{"dilate", "written_only"}, {"blur_passes", "4"}, {"blur_bias", "20"}}));
     const Image dark = draw(renderer, with({{"dilate", "off"}, {"blur_passes", "4"}, {"blur_bias", "20"}}));
     EXPECT_GT(relative_difference(good, dark, 1), 0.05);
 }

@@ -16,7 +16,8 @@ namespace {
 
 // A square of two by two quads, 200 mm wide, with UVs.
 constexpr const char* kQuads =
-    "v 0 0 0\nv 100 0 0\nv 200 0 0\nv 0 100 0\nv 100 100 0\nv 200 100 0\nv 0 200 0\nv 100 200 0\nv 200 200 0\n"
+    "v 0 0 0\nv 100 0 0\nv 200 0 0\nv 0 100 0\nv 100 100 0\nv 200 100 0\nv 0 200 0\nv 100 200 0\nv 200 200 "
+    "0\n"
     "vt 0 0\nvt .5 0\nvt 1 0\nvt 0 .5\nvt .5 .5\nvt 1 .5\nvt 0 1\nvt .5 1\nvt 1 1\n"
     "f 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/5\nf 4/4 5/5 8/8 7/7\nf 5/5 6/6 9/9 8/8\n";
 
@@ -45,8 +46,9 @@ TEST_F(RefinedMesh, a_displacement_map_moves_vertices_along_the_normal_in_mm) {
     Image heights(8, 8, 1, PixelFormat::f32);
     std::ranges::fill(heights.floats(), 0.75f);
     ASSERT_TRUE(write_image(directory_.path / "height.exr", heights));
-    const Result<Scene> loaded = scene("subdivision = 1\n[maps]\ndisplacement = \"height.exr\"\n"
-                                       "displacement_mid = 0.5\ndisplacement_amplitude_mm = 8\n");
+    const Result<Scene> loaded = scene(
+        "subdivision = 1\n[maps]\ndisplacement = \"height.exr\"\n"
+        "displacement_mid = 0.5\ndisplacement_amplitude_mm = 8\n");
     ASSERT_TRUE(loaded) << loaded.error().message;
     for (const Vec3 p : loaded->objects[0].mesh.positions_mm) EXPECT_NEAR(p.z, 2, 1e-3);
 }
