@@ -8,6 +8,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/bust/head_mesh.h"
 #include "dermis/bust/maps.h"
+#include "dermis/bust/skin.h"
 
 namespace dermis {
 
@@ -15,8 +16,9 @@ using namespace bust;
 
 namespace {
 
-// Part of the cache's key: raise it whenever the bust comes out different.
-constexpr uint32_t kGeneration = 1;
+// Part of the cache's key: raise it when meshing, flattening or painting change. Changes of the shape and of
+// the skin show in the key's probes by themselves.
+constexpr uint32_t kGeneration = 2;
 
 Vec3 to_float(Point p) {
     return {float(p.x), float(p.y), float(p.z)};
@@ -143,6 +145,16 @@ std::string cache_key(const BustParams& params) {
     Hasher hasher;
     hasher.add(kGeneration).add(kBustMapSide).add(params.seed);
     for (const BustParamInfo& row : bust_param_table()) hasher.add(row.name).add(params.*row.member);
+    const BustField field(params);
+    for (int i = 0; i < 600; ++i) {
+        // A spiral over the head, and on from the face into the features.
+        const double t = i / 600.0, a = i * 2.399963;
+        const Point p = {80 * std::sin(a) * (1 - 0.6 * t), 130 - 320 * t,
+                         110 * std::cos(a) * (0.4 + 0.6 * t)};
+        hasher.add(float(field.distance_mm(p)));
+        const SkinSample skin = skin_at(p, skin_zones(p), params);
+        hasher.add(skin.albedo_linear.x).add(skin.albedo_linear.y).add(skin.roughness).add(skin.height_mm);
+    }
     return hasher.hex();
 }
 

@@ -28,11 +28,11 @@ double add_nose(double d, Point p) {
     // Pyramid of the bone, then the ridge, then the tip.
     const double pyramid = smooth_min(swept_ball(p, {0, 34, 91}, 9.5, {0, 12, 97}, 13),
                                       swept_ball(p, {0, 12, 97}, 13, {0, -6, 102}, 15), 6);
-    const double ridge = smooth_min(swept_ball(p, {0, 33, 98.5}, 6.0, {0, 16, 109.8}, 5.4),
-                                    swept_ball(p, {0, 16, 109.8}, 5.4, {0, -3, 120.2}, 6.6), 6);
+    const double ridge = smooth_min(swept_ball(p, {0, 33, 98.3}, 6.4, {0, 16, 109.3}, 5.9),
+                                    swept_ball(p, {0, 16, 109.3}, 5.9, {0, -3, 119.8}, 7.0), 6);
     double nose = smooth_min(pyramid, ridge, 13);
     const double tip =
-        smooth_min(length(p - Point{3.2, -7.0, 121.6}) - 7.0, length(p - Point{-3.2, -7.0, 121.6}) - 7.0, 6);
+        smooth_min(length(p - Point{3.5, -7.2, 121.4}) - 7.2, length(p - Point{-3.5, -7.2, 121.4}) - 7.2, 6);
     nose = smooth_min(nose, tip, 9);
     // Columella and the base between the wings.
     nose = smooth_min(nose, swept_ball(p, {0, -12.5, 121.5}, 3.8, {0, -19.5, 112}, 4.6), 5);
@@ -41,7 +41,7 @@ double add_nose(double d, Point p) {
     const Ellipsoid wing = Ellipsoid{{11.2, -11.6, 111.4}, {5.8, 7.4, 10.4}}.turned(-0.36, 0.28);
     double all = smooth_min(body, wing.distance_mm(q), 8.5);
     // Nostrils open down and a little outward, and run up and back.
-    const Ellipsoid nostril = Ellipsoid{{6.6, -19.4, 114.4}, {2.3, 4.0, 5.0}}.turned(-0.42, 0.2);
+    const Ellipsoid nostril = Ellipsoid{{6.5, -19.9, 113.6}, {2.2, 4.0, 4.8}}.turned(-0.42, 0.15);
     return smooth_max(all, -nostril.distance_mm(q), 2.4);
 }
 

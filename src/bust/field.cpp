@@ -17,11 +17,15 @@ Point difference(const auto& f, Point p, double h) {
            (0.5 / h);
 }
 
+// Forward differences: three more values a step are enough to find the way.
 Point newton(const auto& f, Point p, int steps) {
+    constexpr double h = kGradientStep;
     for (int i = 0; i < steps; ++i) {
-        const Point g = difference(f, p, kGradientStep);
-        const double g2 = std::max(dot(g, g), 1e-3), move = std::clamp(f(p) / std::sqrt(g2), -4.0, 4.0);
-        p = p - g * (move / std::sqrt(g2));
+        const double d = f(p);
+        const Point g =
+            Point{f(p + Point{h, 0, 0}) - d, f(p + Point{0, h, 0}) - d, f(p + Point{0, 0, h}) - d} * (1 / h);
+        const double steepness = std::sqrt(std::max(dot(g, g), 1e-3));
+        p = p - g * (std::clamp(d / steepness, -4.0, 4.0) / steepness);
     }
     return p;
 }

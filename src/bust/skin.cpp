@@ -69,7 +69,8 @@ float brow(Point p, uint32_t seed) {
     const float coarse = value_noise({side * 1.3 * stretch + 0.3 * side, across * 0.8, seed_side}, seed);
     const float fine =
         value_noise({side * 2.3 * stretch + 0.4 * side, across * 0.9, seed_side + 5}, seed + 1);
-    const float hair = 0.55f * coarse + 0.65f * fine;
+    const float grain = value_noise({x * 1.4, p.y * 1.4, seed_side}, seed + 6);
+    const float hair = 0.5f * coarse + 0.6f * fine + 0.3f * grain;
     return float(body) * step(-0.55, 0.75, hair + 1.15 * body - 0.7);
 }
 
@@ -115,7 +116,7 @@ Relief relief(Point p, const SkinZones& z, float vermilion, uint32_t seed) {
         const float wobble = value_noise({p.x * 0.35, p.y * 0.22, 4}, seed + 14);
         const float folds = value_noise({p.x * 0.95 + 0.8 * wobble, p.y * 0.10, 0}, seed + 15);
         const float small = value_noise({p.x * 2.1 + wobble, p.y * 0.22, 2}, seed + 16);
-        height = mixf(height, 0.085f * folds + 0.035f * small, vermilion);
+        height = mixf(height, 0.065f * folds + 0.025f * small, vermilion);
     }
     return {height, pore * (1 - vermilion)};
 }
@@ -161,7 +162,7 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params) {
     const float shade = float(params.stubble) * z.beard * (0.75f + 0.25f * broad);
     const float scalp = float(params.stubble) * 0.9f * z.scalp * (0.8f + 0.2f * broad);
     const float cover = std::max(shade, scalp);
-    c = mixc(c, c * Vec3{0.66f, 0.70f, 0.76f}, 0.55f * cover);
+    c = mixc(c, c * Vec3{0.66f, 0.70f, 0.76f}, 0.85f * cover);
     c = darker(c, 0.50f * cover * hair);
 
     Lips lip;
@@ -182,7 +183,7 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params) {
     s.height_mm = r.height_mm + 0.05f * hairs * fine;
     s.roughness = 0.52f - 0.08f * z.t_zone - 0.04f * z.nose + 0.05f * z.cheek + 0.04f * z.neck +
                   0.05f * middle + 0.03f * fine + 0.06f * r.pore + 0.04f * cover;
-    s.roughness = mixf(s.roughness, 0.40f + 0.05f * fine, lip.vermilion);
+    s.roughness = mixf(s.roughness, 0.45f + 0.05f * fine, lip.vermilion);
     s.specular =
         std::clamp(0.92f + 0.08f * z.t_zone - 0.35f * r.pore + 0.05f * middle - 0.4f * hairs, 0.2f, 1.0f);
     s.kernel_size =

@@ -28,8 +28,7 @@ void StrokeLayer::add(std::span<const StrokePoint> curve, Mirror mirror, const S
         const double inverse = 1 / (s.radius_mm * s.radius_mm);
         const Point at = snap(s.at);
         dabs_.push_back({at, inverse, s.lift_mm * weight, s.radius_mm});
-        if (mirror == Mirror::yes)
-            dabs_.push_back({snap(mirrored(s.at)), inverse, s.lift_mm * weight, s.radius_mm});
+        if (mirror == Mirror::yes) dabs_.push_back({mirrored(at), inverse, s.lift_mm * weight, s.radius_mm});
     };
     if (curve.size() == 1) return dab(curve[0], 1);
     for (size_t i = 0; i + 1 < curve.size(); ++i) {

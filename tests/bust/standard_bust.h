@@ -1,7 +1,11 @@
 #pragma once
 // The bust of default parameters, made once for all tests of this folder.
 
+#include <unistd.h>
+
 #include <array>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 
 #include "dermis/bust/bust.h"
@@ -9,10 +13,24 @@
 
 namespace dermis {
 
-inline constexpr int kTestMapSide = 512;
+/// By way of a cache of its own, which the test of the cache looks into; the folder goes with the program.
+class TestCache {
+  public:
+    TestCache() { std::filesystem::remove_all(folder()), setenv("DERMIS_CACHE", folder().c_str(), 1); }
+    ~TestCache() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder(), ignored);
+    }
+    TestCache(const TestCache&) = delete;
+    TestCache& operator=(const TestCache&) = delete;
+    [[nodiscard]] static std::filesystem::path folder() {
+        return std::filesystem::temp_directory_path() / ("dermis_test_bust_" + std::to_string(getpid()));
+    }
+};
 
 inline const Bust& standard_bust() {
-    static const Bust bust = build_bust({}, kTestMapSide).value();
+    static const TestCache cache;
+    static const Bust bust = make_bust().value();
     return bust;
 }
 
