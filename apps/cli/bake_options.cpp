@@ -1,5 +1,6 @@
 #include "bake_options.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "dermis/bake/table_report.h"
@@ -40,7 +41,9 @@ Result<TableStorage> TableOutput::chosen_storage(TableStorage preferred) const {
 Result<Size> parse_table_size(const std::string& text) {
     const std::vector<std::string_view> sides = split(text, 'x');
     const std::optional<double> width = parse_number(sides.front()), height = parse_number(sides.back());
-    const auto is_side = [](std::optional<double> side) { return side && *side == int(*side); };
+    const auto is_side = [](std::optional<double> side) {
+        return side && std::abs(*side) < 1e9 && *side == int(*side);
+    };
     if (sides.size() > 2 || !is_side(width) || !is_side(height))
         return Error{"--size is '" + text + "', must be WIDTHxHEIGHT or one side, like 512x256"};
     return Size{int(*width), int(*height)};
@@ -56,7 +59,6 @@ Result<Range> parse_range(const std::string& option, const std::string& text) {
 
 Result<int> deliver(const Table& table, const Profile& profile, const TableOutput& output,
                     TableStorage storage) {
-    if (Result<void> written = write_table(output.path, table, storage); !written) return written.error();
     const Result<LookupError> error = lookup_error(quantised(table, storage), exact_function(table, profile));
     if (!error) return error.error();
     if (!output.plot_path.empty()) {
@@ -64,6 +66,7 @@ Result<int> deliver(const Table& table, const Profile& profile, const TableOutpu
         if (!plot) return plot.error();
         if (Result<void> drawn = write_plot(output.plot_path, *plot); !drawn) return drawn.error();
     }
+    if (Result<void> written = write_table(output.path, table, storage); !written) return written.error();
     const Convention& convention = table.convention;
     std::printf("%s: %s\n", output.path.c_str(), describe(table).c_str());
     std::printf("largest error of a lookup %.2g (%s %.3g, %s %.3g), rms %.2g\n", error->max,

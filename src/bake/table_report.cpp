@@ -200,7 +200,7 @@ Result<Plot> table_plot(const Table& table, const Profile& profile, TableStorage
                          (table.convention.how.construction != Construction::sphere ||
                           table.convention.how.variance_scale != 1);
     const ExactFunction sphere = exact_function(on_sphere, profile);
-    const std::vector<double> u = samples(table.convention.axes[0], table.width, 201);
+    const std::vector<double> u = samples(table.convention.axes[0], table.width, 129);
     std::vector<Curves> all;
     for (const Section& section : sections_of(table)) {
         Curves curves{.section = section};
