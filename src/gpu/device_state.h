@@ -37,12 +37,14 @@ struct Device::State {
 [[nodiscard]] Result<void> open_pipeline_cache(Device::State& state);
 void save_pipeline_cache(Device::State& state);
 
-/// Submits and waits. `name` is for errors.
-[[nodiscard]] Result<void> submit_and_wait(const Context& context, VkCommandBuffer commands,
-                                           std::string_view name);
+/// What a submission waits for before its transfers, and signals when done; null: nothing.
+struct Semaphores {
+    VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
+};
 
 /// Records into a fresh command buffer, submits, waits. For uploads and read-backs.
 [[nodiscard]] Result<void> run_once(Device::State& state, std::string_view name,
-                                    const std::function<void(VkCommandBuffer)>& record);
+                                    const std::function<void(VkCommandBuffer)>& record,
+                                    const Semaphores& semaphores = {});
 
 }  // namespace dermis::gpu

@@ -1,4 +1,4 @@
-#include "dermis/gpu/executor.h"
+#include "dermis/gpu/executor_state.h"
 
 #include <algorithm>
 #include <cstring>
@@ -7,20 +7,6 @@
 #include "dermis/gpu/recorder.h"
 
 namespace dermis::gpu {
-
-struct Executor::State {
-    State(Device::State& device_state, ShaderSource source)
-        : device(device_state), shaders(std::move(source)), images(device_state), pipelines(device_state) {}
-
-    Device::State& device;
-    ShaderLibrary shaders;
-    FrameImages images;
-    PipelineStore pipelines;
-    FrameQueries queries;
-    Buffer uploads;
-
-    Result<void> store(const std::vector<std::byte>& bytes);
-};
 
 // The frame is waited for, so one buffer serves all frames; it only ever grows.
 Result<void> Executor::State::store(const std::vector<std::byte>& bytes) {

@@ -87,6 +87,7 @@ class Executor {
     [[nodiscard]] Footprint footprint() const;
 
     struct State;
+    [[nodiscard]] State& state() const { return *state_; }
 
   private:
     explicit Executor(std::unique_ptr<State> state);

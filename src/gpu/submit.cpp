@@ -12,9 +12,8 @@ struct OneTimeCommands {
     }
 };
 
-}  // namespace
-
-Result<void> submit_and_wait(const Context& context, VkCommandBuffer commands, std::string_view name) {
+Result<void> submit_and_wait(const Context& context, VkCommandBuffer commands, std::string_view name,
+                             const Semaphores& semaphores) {
     const VkFenceCreateInfo fence_info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     VkFence handle = VK_NULL_HANDLE;
     VkResult result = context.vk.vkCreateFence(context.device, &fence_info, nullptr, &handle);
@@ -22,17 +21,29 @@ Result<void> submit_and_wait(const Context& context, VkCommandBuffer commands, s
     const OwnedFence fence(context, handle);
     const VkCommandBufferSubmitInfo buffer = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                               .commandBuffer = commands};
+    const VkSemaphoreSubmitInfo wait = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                        .semaphore = semaphores.wait,
+                                        .stageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT};
+    const VkSemaphoreSubmitInfo signal = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                          .semaphore = semaphores.signal,
+                                          .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
     const VkSubmitInfo2 submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                                  .waitSemaphoreInfoCount = semaphores.wait ? 1u : 0u,
+                                  .pWaitSemaphoreInfos = &wait,
                                   .commandBufferInfoCount = 1,
-                                  .pCommandBufferInfos = &buffer};
+                                  .pCommandBufferInfos = &buffer,
+                                  .signalSemaphoreInfoCount = semaphores.signal ? 1u : 0u,
+                                  .pSignalSemaphoreInfos = &signal};
     result = context.vk.vkQueueSubmit2(context.queue, 1, &submit, handle);
     if (Result<void> ok = check(result, "run " + std::string(name)); !ok) return ok.error();
     result = context.vk.vkWaitForFences(context.device, 1, &handle, VK_TRUE, UINT64_MAX);
     return check(result, "finish " + std::string(name));
 }
 
+}  // namespace
+
 Result<void> run_once(Device::State& state, std::string_view name,
-                      const std::function<void(VkCommandBuffer)>& record) {
+                      const std::function<void(VkCommandBuffer)>& record, const Semaphores& semaphores) {
     const Context& context = state.context;
     OneTimeCommands once{context, state.uploads.get()};
     const VkCommandBufferAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
@@ -47,7 +58,7 @@ Result<void> run_once(Device::State& state, std::string_view name,
     record(once.commands);
     result = context.vk.vkEndCommandBuffer(once.commands);
     if (Result<void> ok = check(result, "record " + std::string(name)); !ok) return ok.error();
-    return submit_and_wait(context, once.commands, name);
+    return submit_and_wait(context, once.commands, name, semaphores);
 }
 
 }  // namespace dermis::gpu
