@@ -166,6 +166,45 @@ void main() {
     EXPECT_EQ(result.passes[0].samples_passed, 0u);
 }
 
+// Of two writes without a barrier between them, synchronization validation reports those of copies only: it
+// is silent about storage images and about the targets of dynamic rendering.
+TEST_F(TransferTest, two_copies_to_one_image_follow_each_other) {
+    Executor executor = make_executor(basic_shaders());
+    const auto copy = [](std::string from) {
+        return Pass{
+            .name = "copy " + from, .kind = PassKind::copy, .reads = {from}, .colors = {{.image = "to"}}};
+    };
+    const PassList list{.images = {{.name = "one"}, {.name = "two"}, {.name = "to"}},
+                        .passes = {clear_pass("one", {1, 1, 1, 1}), clear_pass("two", {2, 2, 2, 2}),
+                                   copy("one"), copy("two")}};
+    run(executor, list, {.width = 16, .height = 16});
+    EXPECT_THAT(texel(read(executor, "to"), 15, 15), ElementsAre(2, 2, 2, 2));
+}
+
+TEST_F(TransferTest, passes_that_write_the_same_image_follow_each_other) {
+    const std::string compute = kHead + R"(
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(r32f) uniform image2D total;
+layout(push_constant) uniform Push { float gain, offset; };
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(p, imageSize(total)))) imageStore(total, p, imageLoad(total, p) * gain + offset);
+})";
+    Executor executor = make_executor(basic_shaders({{"add.comp", compute}}));
+    const auto add = [](std::string name, float gain, float offset) {
+        return Pass{.name = std::move(name),
+                    .kind = PassKind::compute,
+                    .shader = "add.comp",
+                    .storage = {"total"},
+                    .values = {{"gain", gain}, {"offset", offset}}};
+    };
+    const PassList list{.images = {{.name = "total", .format = ImageFormat::r32f}},
+                        .passes = {clear_pass("total", {5, 0, 0, 0}), add("add", 1, 2), add("scale", 10, 0),
+                                   add("add again", 1, 3)}};
+    run(executor, list, {.width = 33, .height = 17});
+    EXPECT_EQ(read(executor, "total").at(32, 16, 0), 73);
+}
+
 TEST_F(TransferTest, a_storage_image_of_another_format_is_an_error) {
     const std::string compute = kHead + R"(
 layout(local_size_x = 1) in;
