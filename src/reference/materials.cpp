@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "dermis/base/hash.h"
+#include "dermis/image/dilate.h"
 #include "dermis/optics/fresnel.h"
+#include "dermis/reference/uv_raster.h"
 
 namespace dermis {
 namespace {
@@ -31,14 +33,23 @@ Vec3 tangent_space_normal(Vec3 mapped, const SurfaceAttributes& surface) {
 
 }  // namespace
 
-Result<const Texture*> MaterialSet::texture_of(const ImageSource& source, ImageUse use) {
+Result<const Texture*> MaterialSet::texture_of(const ImageSource& source, ImageUse use,
+                                               const SceneObject& object, const Material& material) {
     if (!source.present()) return static_cast<const Texture*>(nullptr);
-    const std::string key = Hasher().add(source.name).add(std::span(source.encoded)).add(use).hex();
+    const int gutter = material.dilate_texels;
+    const std::string key = Hasher().add(source.name).add(std::span(source.encoded)).add(use).add(gutter).hex();
     std::unique_ptr<Texture>& texture = textures_[key];
     if (!texture) {
-        Result<Texture> loaded = Texture::load(source, use);
+        Result<LoadedImage> loaded = source.encoded.empty() ? read_image(source.name, use)
+                                                            : decode_image(source.encoded, source.name, use);
         if (!loaded) return loaded.error();
-        texture = std::make_unique<Texture>(std::move(*loaded));
+        Image& image = loaded->image;
+        const auto every = [](const SceneObject&, uint32_t) { return true; };
+        if (gutter > 0)
+            dilate(image,
+                   coverage_mask(rasterise_uv(std::span(&object, 1), image.width, image.height, every)),
+                   gutter);
+        texture = std::make_unique<Texture>(image);
     }
     return static_cast<const Texture*>(texture.get());
 }
@@ -65,7 +76,8 @@ Result<MaterialSet> MaterialSet::load(const Scene& scene) {
             Entry entry{.material = &object.mesh.materials[i]};
             if (i < object.classes.size()) entry.material_class = object.classes[i];
             for (const Slot& slot : kSlots) {
-                Result<const Texture*> texture = set.texture_of(entry.material->*slot.source, slot.use);
+                Result<const Texture*> texture =
+                    set.texture_of(entry.material->*slot.source, slot.use, object, *entry.material);
                 if (!texture) return texture.error();
                 entry.maps.*slot.map = *texture;
             }

@@ -2,9 +2,13 @@
 // The materials of a scene with their maps decoded, and what they make of a point of a surface: the same
 // meaning as shaders/shared/surface.glsl gives them.
 
+#include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/image/io.h"
 #include "dermis/reference/ray_scene.h"
 #include "dermis/reference/texture.h"
 #include "dermis/scene/scene.h"
@@ -58,7 +62,8 @@ class MaterialSet {
     };
 
     [[nodiscard]] const Entry& entry(const SurfaceAttributes& surface, uint32_t object) const;
-    Result<const Texture*> texture_of(const ImageSource& source, ImageUse use);
+    Result<const Texture*> texture_of(const ImageSource& source, ImageUse use, const SceneObject& object,
+                                      const Material& material);
 
     const Scene* scene_ = nullptr;
     std::vector<std::vector<Entry>> objects_;

@@ -12,15 +12,53 @@
 namespace dermis {
 namespace {
 
-constexpr int kPassesBeforeResting = 8;
+constexpr int kPassesBeforeResting = 16;
 constexpr float kDarkShare = 0.05f;
 
-// One pixel so far: means, and sums of squared differences from the mean, updated as Welford 1962 does, so
-// that little noise on much light does not drown in rounding.
-struct PixelState {
-    Vec3 radiance, squares, diffuse, specular;
-    float coverage = 0, luminance_squares = 0;
+// The places of samples within a pixel form blocks of kBlock that lie evenly (a net of the Owen sequence), so
+// block means scatter less than single samples would make believe.
+constexpr uint32_t kBlock = 4;
+
+// Sums of squared differences from the mean, updated as Welford 1962 does, so that little noise on much light
+// does not drown in rounding.
+struct Spread {
+    Vec3 mean, squares;
+    float luminance_squares = 0;
     uint32_t count = 0;
+
+    void add(Vec3 value) {
+        const Vec3 before = value - mean;
+        mean += before * (1.0f / float(++count));
+        squares += before * (value - mean);
+        luminance_squares += luminance(before) * luminance(value - mean);
+    }
+    // Turns a sum of squares into the variance of the mean.
+    [[nodiscard]] float per_mean() const { return count < 2 ? 0 : 1 / (float(count) * float(count - 1)); }
+};
+
+// One pixel so far.
+struct PixelState {
+    Spread samples, blocks;
+    Vec3 block_sum, diffuse, specular;
+    float coverage = 0;
+
+    [[nodiscard]] const Spread& spread() const { return blocks.count >= 2 ? blocks : samples; }
+    [[nodiscard]] Vec3 variance() const { return spread().squares * spread().per_mean(); }
+    [[nodiscard]] float luminance_variance() const {
+        return spread().luminance_squares * spread().per_mean();
+    }
+    void add(const PixelSample& sample) {
+        samples.add(sample.radiance());
+        block_sum += sample.radiance();
+        if (samples.count % kBlock == 0) {
+            blocks.add(block_sum * (1.0f / kBlock));
+            block_sum = {};
+        }
+        const float share = 1.0f / float(samples.count);
+        diffuse += (sample.diffuse - diffuse) * share;
+        specular += (sample.specular - specular) * share;
+        coverage += (sample.coverage - coverage) * share;
+    }
 };
 
 struct Canvas {
@@ -29,27 +67,12 @@ struct Canvas {
     std::vector<uint8_t> active;
 };
 
-float mean_variance(float squares, uint32_t count) {
-    return count < 2 ? 0 : squares / (float(count) * float(count - 1));
-}
-
-void add(PixelState& pixel, const PixelSample& sample) {
-    const float share = 1.0f / float(++pixel.count);
-    const Vec3 radiance = sample.radiance(), before = radiance - pixel.radiance;
-    pixel.radiance += before * share;
-    pixel.squares += before * (radiance - pixel.radiance);
-    pixel.luminance_squares += luminance(before) * luminance(radiance - pixel.radiance);
-    pixel.diffuse += (sample.diffuse - pixel.diffuse) * share;
-    pixel.specular += (sample.specular - pixel.specular) * share;
-    pixel.coverage += (sample.coverage - pixel.coverage) * share;
-}
-
 // The luminance below which an error is held against this one: a part of the brightest percentile of
 // surfaces.
 float least_luminance(const Canvas& canvas) {
     std::vector<float> values;
     for (const PixelState& pixel : canvas.pixels)
-        if (pixel.coverage > 0) values.push_back(luminance(pixel.radiance));
+        if (pixel.coverage > 0) values.push_back(luminance(pixel.samples.mean));
     if (values.empty()) return 1;
     const auto at = values.begin() + std::ptrdiff_t(double(values.size() - 1) * 0.99);
     std::nth_element(values.begin(), at, values.end());
@@ -60,8 +83,8 @@ std::vector<float> relative_errors(const Canvas& canvas) {
     const float least = least_luminance(canvas);
     std::vector<float> errors;
     for (const PixelState& pixel : canvas.pixels) {
-        const float deviation = std::sqrt(mean_variance(pixel.luminance_squares, pixel.count));
-        errors.push_back(pixel.coverage > 0 ? deviation / std::max(luminance(pixel.radiance), least) : -1.0f);
+        const float deviation = std::sqrt(pixel.luminance_variance());
+        errors.push_back(pixel.coverage > 0 ? deviation / std::max(luminance(pixel.samples.mean), least) : -1.0f);
     }
     return errors;
 }
@@ -94,7 +117,7 @@ struct WalkCounts {
     std::atomic<size_t> walks = 0, lost = 0;
 };
 
-// False when stopped: then the canvas is not to be used.
+// False when stopped: some rows have one sample more than others then.
 bool run_pass(const PixelSampler& sampler, int pass, Canvas& canvas, WalkCounts& counts,
               const std::atomic<bool>* stop) {
     std::atomic<bool> complete = true;
@@ -109,7 +132,7 @@ bool run_pass(const PixelSampler& sampler, int pass, Canvas& canvas, WalkCounts&
                 const size_t i = y * size_t(canvas.width) + x;
                 if (!canvas.active[i]) continue;
                 const PixelSample sample = sampler.sample(int(x), int(y), uint32_t(pass));
-                add(canvas.pixels[i], sample);
+                canvas.pixels[i].add(sample);
                 walks += size_t(sample.walks);
                 lost += size_t(sample.lost_walks);
             }
@@ -136,14 +159,12 @@ ReferencePicture develop(const Canvas& canvas) {
                              .samples = Image(w, h, 1)};
     for (size_t i = 0; i < canvas.pixels.size(); ++i) {
         const PixelState& pixel = canvas.pixels[i];
-        put(picture.radiance, i, pixel.radiance);
+        put(picture.radiance, i, pixel.samples.mean);
         picture.radiance.floats()[4 * i + 3] = pixel.coverage;
         put(picture.diffuse, i, pixel.diffuse);
         put(picture.specular, i, pixel.specular);
-        put(picture.variance, i,
-            {mean_variance(pixel.squares.x, pixel.count), mean_variance(pixel.squares.y, pixel.count),
-             mean_variance(pixel.squares.z, pixel.count)});
-        picture.samples.floats()[i] = float(pixel.count);
+        put(picture.variance, i, pixel.variance());
+        picture.samples.floats()[i] = float(pixel.samples.count);
     }
     return picture;
 }
@@ -201,14 +222,12 @@ Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSet
     double error = 0;
     int pass = 0;
     while (pass < settings.samples) {
-        Canvas next = canvas;
-        if (!run_pass(**sampler, pass, next, counts, stop)) break;
-        canvas = std::move(next);
+        if (!run_pass(**sampler, pass, canvas, counts, stop)) break;
         ++pass;
         if (pass >= 2) {
             const std::vector<float> errors = relative_errors(canvas);
             error = root_mean_square(errors);
-            if (settings.noise && pass >= kPassesBeforeResting) {
+            if (settings.noise && pass >= kPassesBeforeResting && pass % int(kBlock) == 0) {
                 if (error <= *settings.noise) break;
                 let_rest(canvas, errors, *settings.noise);
             }

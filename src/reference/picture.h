@@ -47,7 +47,7 @@ struct ReferenceSettings {
 struct ReferencePicture {
     Image radiance;           ///< RGBA; alpha is coverage
     Image diffuse, specular;  ///< RGB, sum to the radiance of surfaces (emission is in diffuse)
-    Image variance;           ///< RGB, of the pixel's mean, from its independent samples
+    Image variance;           ///< RGB, of the pixel's mean, from the spread of blocks of four samples
     Image samples;            ///< one channel: how many each pixel took
     double relative_error = 0;
     int passes = 0;
@@ -59,10 +59,10 @@ struct ReferencePicture {
 /// Called after every pass, between 0 and 1.
 using ReferenceProgress = std::function<void(double done)>;
 
-/// One sample a pixel a pass; after eight passes, pixels whose neighbourhood has reached the wanted error
-/// rest. Setting `stop` ends it after the row in work and returns the passes that are complete (none: an
-/// error). The result depends on the seed and the passes, not on the threads. Errors: sizes out of range,
-/// unreadable maps, walk without a medium.
+/// One sample a pixel a pass; from the sixteenth pass on, pixels whose neighbourhood has reached the wanted
+/// error rest. Setting `stop` ends it after the rows in work and returns the picture so far (an error when not
+/// even the first pass is complete). Otherwise the result depends on the settings alone, not on the threads.
+/// Errors: sizes out of range, unreadable maps, walk without a medium.
 [[nodiscard]] Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
                                                         const ReferenceProgress& progress = {},
                                                         const std::atomic<bool>* stop = nullptr);

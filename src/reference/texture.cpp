@@ -44,13 +44,6 @@ Texture::Texture(const Image& image) : width_(image.width), height_(image.height
     }
 }
 
-Result<Texture> Texture::load(const ImageSource& source, ImageUse use) {
-    Result<LoadedImage> image = source.encoded.empty() ? read_image(source.name, use)
-                                                       : decode_image(source.encoded, source.name, use);
-    if (!image) return image.error();
-    return Texture(image->image);
-}
-
 Vec4 Texture::texel(int x, int y) const {
     const size_t i = size_t(y) * size_t(width_) + size_t(x);
     if (bytes_.empty()) return floats_[i];

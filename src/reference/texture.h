@@ -5,11 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "dermis/base/result.h"
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
-#include "dermis/image/io.h"
-#include "dermis/mesh/material.h"
 
 namespace dermis {
 
@@ -19,8 +16,6 @@ class Texture {
   public:
     Texture() = default;
     explicit Texture(const Image& image);
-    /// Errors name the file.
-    [[nodiscard]] static Result<Texture> load(const ImageSource& source, ImageUse use);
 
     [[nodiscard]] bool empty() const { return width_ == 0; }
     /// How many channels the image had, 1 to 4.

@@ -25,8 +25,8 @@ bool owns(const double (&a)[2], const double (&b)[2]) {
 void draw(UvRaster& raster, uint32_t object, uint32_t triangle, const Vec2 (&uv)[3]) {
     double p[3][2];
     for (int i = 0; i < 3; ++i) {
-        p[i][0] = double(uv[i].x) * raster.size;
-        p[i][1] = double(uv[i].y) * raster.size;
+        p[i][0] = double(uv[i].x) * raster.width;
+        p[i][1] = double(uv[i].y) * raster.height;
     }
     double area = edge(p[0], p[1], p[2][0], p[2][1]);
     if (area == 0 || !std::isfinite(area)) return;
@@ -35,13 +35,12 @@ void draw(UvRaster& raster, uint32_t object, uint32_t triangle, const Vec2 (&uv)
         std::swap(p[1], p[2]);
         area = -area;
     }
-    const auto range = [&](int axis) {
+    const auto range = [&](int axis, int size) {
         const auto [low, high] = std::minmax({p[0][axis], p[1][axis], p[2][axis]});
-        return std::pair{std::max(int(std::floor(low - 0.5)), 0),
-                         std::min(int(std::ceil(high)), raster.size - 1)};
+        return std::pair{std::max(int(std::floor(low - 0.5)), 0), std::min(int(std::ceil(high)), size - 1)};
     };
-    const auto [x0, x1] = range(0);
-    const auto [y0, y1] = range(1);
+    const auto [x0, x1] = range(0, raster.width);
+    const auto [y0, y1] = range(1, raster.height);
     const bool own[3] = {owns(p[1], p[2]), owns(p[2], p[0]), owns(p[0], p[1])};
     for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x) {
@@ -50,28 +49,28 @@ void draw(UvRaster& raster, uint32_t object, uint32_t triangle, const Vec2 (&uv)
             bool inside = true;
             for (int i = 0; i < 3; ++i) inside = inside && (w[i] > 0 || (w[i] == 0 && own[i]));
             if (!inside) continue;
-            UvTexel& texel = raster.texels[size_t(y) * size_t(raster.size) + size_t(x)];
+            UvTexel& texel = raster.texels[size_t(y) * size_t(raster.width) + size_t(x)];
             texel.covered() ? ++raster.overlapping : ++raster.covered;
             const float second = float(w[1] / area), third = float(w[2] / area);
             texel = {object, triangle, flipped ? third : second, flipped ? second : third};
         }
 }
 
-bool is_wanted(const SceneObject& object, uint32_t material, const std::optional<std::string>& name) {
-    if (name) return material < object.mesh.materials.size() && object.mesh.materials[material].name == *name;
+}  // namespace
+
+bool is_skin(const SceneObject& object, uint32_t material) {
     return material >= object.classes.size() || object.classes[material] == MaterialClass::skin;
 }
 
-}  // namespace
-
-UvRaster rasterise_uv(std::span<const SceneObject> objects, int size,
-                      const std::optional<std::string>& material) {
-    UvRaster raster{.size = size, .texels = std::vector<UvTexel>(size_t(size) * size_t(size))};
+UvRaster rasterise_uv(std::span<const SceneObject> objects, int width, int height,
+                      const MaterialFilter& wanted) {
+    UvRaster raster{
+        .width = width, .height = height, .texels = std::vector<UvTexel>(size_t(width) * size_t(height))};
     for (uint32_t o = 0; o < objects.size(); ++o) {
         const Mesh& mesh = objects[o].mesh;
         if (mesh.uvs.empty()) continue;
         for (const Submesh& submesh : mesh.submeshes) {
-            if (!is_wanted(objects[o], submesh.material, material)) continue;
+            if (!wanted(objects[o], submesh.material)) continue;
             const uint32_t first = submesh.first_index / 3;
             for (uint32_t t = first; t < first + submesh.index_count / 3; ++t) {
                 const uint32_t* corner = &mesh.indices[3 * size_t(t)];
@@ -87,7 +86,7 @@ UvRaster rasterise_uv(std::span<const SceneObject> objects, int size,
 }
 
 Image coverage_mask(const UvRaster& raster) {
-    Image mask(raster.size, raster.size, 1, PixelFormat::u8);
+    Image mask(raster.width, raster.height, 1, PixelFormat::u8);
     for (size_t i = 0; i < raster.texels.size(); ++i)
         mask.bytes[i] = raster.texels[i].covered() ? std::byte{255} : std::byte{0};
     return mask;

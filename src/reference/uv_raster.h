@@ -2,9 +2,8 @@
 // Which point of which triangle lies under each texel of a map.
 
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "dermis/image/image.h"
@@ -26,18 +25,22 @@ struct UvTexel {
 };
 
 struct UvRaster {
-    int size = 0;
-    std::vector<UvTexel> texels;  ///< size * size, rows from the top (v = 0)
+    int width = 0, height = 0;
+    std::vector<UvTexel> texels;  ///< width * height, rows from the top (v = 0)
     size_t covered = 0;
     size_t overlapping = 0;  ///< texels that more than one triangle covers; the last drawn is kept
     size_t outside = 0;      ///< triangles with a corner outside 0..1: not drawn
 };
 
-/// The triangles of all skin materials, or of the material called `material`. Centres on a shared edge belong
-/// to one side only (top-left rule). Triangles without UVs or without area in UV are not drawn. 2048 x 2048
-/// of 17,684 triangles takes about 40 ms on one core.
-[[nodiscard]] UvRaster rasterise_uv(std::span<const SceneObject> objects, int size,
-                                    const std::optional<std::string>& material = std::nullopt);
+/// Which materials to draw, by their number in the object's mesh.
+using MaterialFilter = std::function<bool(const SceneObject& object, uint32_t material)>;
+[[nodiscard]] bool is_skin(const SceneObject& object, uint32_t material);
+
+/// The triangles of the materials that pass. Centres on a shared edge belong to one side only (top-left
+/// rule). Triangles without UVs or without area in UV are not drawn. 2048 x 2048 of 17,684 triangles takes
+/// about 40 ms on one core.
+[[nodiscard]] UvRaster rasterise_uv(std::span<const SceneObject> objects, int width, int height,
+                                    const MaterialFilter& wanted = is_skin);
 
 /// One channel, u8: 255 where a triangle covers the texel.
 [[nodiscard]] Image coverage_mask(const UvRaster& raster);

@@ -1,6 +1,8 @@
 // `dermis reference`: the ground truth of a scene as a layered EXR.
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -11,13 +13,14 @@
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
+#include "dermis/image/tone_map.h"
 #include "dermis/reference/picture.h"
 
 namespace dermis::cli {
 namespace {
 
 struct Options {
-    std::string scene, output, size = "512x512", camera, light, profile;
+    std::string scene, output, preview, size = "512x512", camera, light, profile;
     std::string integrator = "surface", filter = "box", shadows = "key", ambient = "traced", specular = "ggx";
     std::string normalisation = "area", medium;
     int samples = 64, probes = 32;
@@ -188,6 +191,17 @@ Result<void> write_picture(const Options& options, const Scene& scene, const Ref
     return write_layered_exr(options.output, layers, inside);
 }
 
+// For the eye: the scene's own exposure and tone map, 8 bits.
+Result<void> write_preview(const Options& options, const Scene& scene, const ReferencePicture& picture) {
+    if (options.preview.empty()) return {};
+    const Image shown = tone_mapped(picture.radiance, scene.tone_map, std::exp2(scene.exposure_ev));
+    Image opaque(shown.width, shown.height, 3);
+    for (size_t i = 0; i < opaque.pixel_count(); ++i)
+        std::copy_n(&shown.floats()[4 * i], 3, &opaque.floats()[3 * i]);
+    const ImageText text = scene.credit.empty() ? ImageText{} : ImageText{{"credit", scene.credit}};
+    return write_image(options.preview, convert(opaque, PixelFormat::u8, Encoding::srgb), text);
+}
+
 Result<int> run(const Options& options) {
     if (to_lower(std::filesystem::path(options.output).extension().string()) != ".exr")
         return Error{"-o " + options.output + ": the ground truth is linear and layered; name a .exr file"};
@@ -215,6 +229,7 @@ Result<int> run(const Options& options) {
     const nlohmann::ordered_json json = description(options, *settings, *picture, g_stop);
     if (Result<void> written = write_picture(options, *scene, *picture, json.dump()); !written)
         return written.error();
+    if (Result<void> written = write_preview(options, *scene, *picture); !written) return written.error();
     for (const std::string& warning : picture->warnings)
         std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
     if (options.json)
@@ -239,6 +254,7 @@ void add_reference_command(CommandLine& line) {
         "  Ctrl-C writes the picture so far and says how noisy it is");
     command->add_option("scene", options->scene, "scene file, mesh, scene name or builtin:NAME")->required();
     command->add_option("-o,--output", options->output, "FILE.exr")->required();
+    command->add_option("--preview", options->preview, "FILE.png, tone-mapped as the scene says");
     command->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
     command->add_option("--integrator", options->integrator, "surface, walk or lambert")
         ->capture_default_str();
