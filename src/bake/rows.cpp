@@ -57,8 +57,8 @@ std::vector<double> distinct_magnitudes(std::span<const double> n_dot_l) {
     std::vector<double> all;
     for (double t : n_dot_l) all.push_back(std::abs(t));
     std::ranges::sort(all);
-    const auto same = std::ranges::unique(all, [](double a, double b) { return b - a < 1e-12; });
-    all.erase(same.begin(), same.end());
+    const auto same = [](double a, double b) { return b - a < 1e-12; };
+    all.erase(std::unique(all.begin(), all.end(), same), all.end());
     return all;
 }
 
