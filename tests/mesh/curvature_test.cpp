@@ -35,6 +35,30 @@ TEST(Curvature, of_a_sphere_is_its_inverse_radius_everywhere) {
     }
 }
 
+TEST(Curvature, of_a_sphere_needs_no_fine_tessellation) {
+    const Mesh mesh = make_sphere(10, 24);
+    EXPECT_LT(worst_relative_error(mesh, compute_curvature(mesh)), 0.002);
+}
+
+TEST(Curvature, does_not_depend_on_where_the_normals_lean) {
+    Mesh mesh = make_sphere(10, 96);
+    for (Vec3& n : mesh.normals) n = normalize(n + Vec3{0.3f, 0.2f, -0.1f});
+    EXPECT_LT(worst_relative_error(mesh, compute_curvature(mesh)), 0.005);
+}
+
+TEST(Curvature, of_one_side_of_a_thin_fold_does_not_see_the_other) {
+    // A strip bent back onto itself, 1 mm thick; 3 mm from the bend its sides are flat.
+    Mesh mesh = make_plane(20, 10, 40);
+    for (Vec3& p : mesh.positions_mm)
+        if (p.x > 0) p = {-p.x, p.y, -1};
+    compute_normals(mesh);
+    const std::vector<float> curvatures = compute_curvature(mesh, 2.5);
+    for (size_t i = 0; i < curvatures.size(); ++i)
+        if (mesh.positions_mm[i].x < -3) {
+            EXPECT_NEAR(curvatures[i], 0, 0.002);
+        }
+}
+
 TEST(Curvature, of_a_torus_and_a_cylinder_follows_the_formula) {
     const Mesh torus = make_torus(30, 10, 192);
     EXPECT_LT(worst_relative_error(torus, compute_curvature(torus)), 0.01);

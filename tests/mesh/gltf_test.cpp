@@ -72,6 +72,18 @@ TEST(Gltf, a_mirrored_node_keeps_its_front_outside) {
     EXPECT_EQ(mesh.positions_mm[1], (Vec3{-1000, 0, 0}));
 }
 
+TEST(Gltf, normals_of_a_mirrored_node_are_mirrored_and_not_turned_round) {
+    const std::string binary =
+        Binary().add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}).add<float>({0.6f, 0, 0.8f, 0.6f, 0, 0.8f, 0.6f, 0, 0.8f}).bytes();
+    const std::string text = gltf_of(R"({"attributes":{"POSITION":0,"NORMAL":1}})",
+                                     R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                                     R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"})",
+                                     R"({"buffer":0,"byteLength":72})", binary);
+    const Mesh mesh = load(replaced(text, R"({"mesh":0})", R"({"mesh":0,"scale":[-1,1,1]})"));
+    EXPECT_NEAR(mesh.normals[0].x, -0.6, 1e-6);
+    EXPECT_NEAR(mesh.normals[0].z, 0.8, 1e-6);
+}
+
 TEST(Gltf, normals_follow_a_non_uniform_scale) {
     const std::string binary =
         Binary().add<float>({0, 0, 0, 1, 0, -1, 0, 1, 0}).add<float>({1, 0, 1, 1, 0, 1, 1, 0, 1}).bytes();
@@ -212,6 +224,34 @@ TEST(Gltf, every_prefix_of_a_glb_and_of_a_gltf_loads_or_fails_cleanly) {
             ASSERT_FALSE(loaded) << size;
             EXPECT_EQ(loaded.error().message.find('\n'), std::string::npos);
         }
+}
+
+TEST(Gltf, messages_stay_one_line_whatever_the_file_is_named_inside) {
+    const std::string name = R"(evil\n\u001b[31m)" + std::string(5000, 'x');
+    const auto refused = parse_gltf_text(square_gltf("", "", "", "../" + name));
+    ASSERT_FALSE(refused);
+    const auto warned = parse_gltf_text(square_gltf(
+        "", R"(,"materials":[{"name":")" + name + R"(","pbrMetallicRoughness":{"roughnessFactor":2}}])", R"(,"material":0)"));
+    ASSERT_TRUE(warned);
+    std::vector<std::string> lines = warned->warnings;
+    lines.push_back(refused.error().message);
+    EXPECT_GE(lines.size(), 3u);
+    for (const std::string& line : lines) {
+        EXPECT_LT(line.size(), 1100u);
+        EXPECT_EQ(line.find_first_of("\n\x1b"), std::string::npos);
+    }
+}
+
+TEST(Gltf, a_thousand_warnings_become_fifty) {
+    std::string rest;
+    for (int i = 0; i < 1000; ++i) rest += R"(,{"skin":0})";
+    std::string list = "0";
+    for (int i = 1; i <= 1000; ++i) list += "," + std::to_string(i);
+    const std::string text = replaced(replaced(square_gltf(), R"({"mesh":0})", R"({"mesh":0})" + rest), R"({"nodes":[0]})",
+                                      R"({"nodes":[)" + list + "]}");
+    const auto loaded = parse_gltf_text(text);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->warnings.size(), 51u);
 }
 
 TEST(Gltf, instancing_cannot_unfold_without_bound) {

@@ -68,16 +68,16 @@ TEST(Subdivide, limit_normals_agree_with_the_triangles) {
 }
 
 TEST(Subdivide, uv_borders_stay_where_they_were) {
-    // The six faces of the cube all use the whole square: smooth inside, straight along the border.
-    const auto refined = subdivide(cage_of(kCubeObj), 2);
+    // Two quads whose chart bends at (1, 0) and (1, 1) of the file: a smooth border would cut the bend.
+    const auto refined = subdivide(cage_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
+                                           "vt 2 0.5\nvt 0 1\nvt 1 1\nvt 2 1.5\nf 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/5\n"),
+                                   2);
     ASSERT_TRUE(refined);
-    float low = 1, high = 0;
-    for (const Vec2& uv : refined->uvs) {
-        low = std::min({low, uv.x, uv.y});
-        high = std::max({high, uv.x, uv.y});
+    for (const Vec2 corner : {Vec2{0, 1}, {1, 1}, {2, 0.5f}, {0, 0}, {1, 0}, {2, -0.5f}}) {
+        float nearest = 1;
+        for (const Vec2& uv : refined->uvs) nearest = std::min(nearest, length(uv - corner));
+        EXPECT_LT(nearest, 1e-6f) << corner.x << ' ' << corner.y;
     }
-    EXPECT_NEAR(low, 0, 1e-6);
-    EXPECT_NEAR(high, 1, 1e-6);
 }
 
 TEST(Subdivide, materials_follow_their_faces_and_open_borders_stay) {

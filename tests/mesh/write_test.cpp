@@ -6,24 +6,13 @@
 #include "dermis/mesh/primitives.h"
 #include "dermis/mesh/write_mesh.h"
 #include "mesh/mesh_files.h"
+#include "support/temporary_directory.h"
 
 using namespace dermis;
 using namespace dermis::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct TemporaryDirectory {
-    fs::path path;
-    TemporaryDirectory() {
-        std::string name = (fs::temp_directory_path() / "dermis-mesh-XXXXXX").string();
-        path = ::mkdtemp(name.data());
-    }
-    ~TemporaryDirectory() {
-        std::error_code ec;
-        fs::remove_all(path, ec);
-    }
-};
 
 std::vector<std::byte> bytes(const std::string& text) {
     const auto span = bytes_of(text);

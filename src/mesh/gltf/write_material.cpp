@@ -102,7 +102,9 @@ class MaterialWriter {
 
     void add_texture(Json& owner, const char* key, const ImageSource& source) {
         if (!source.present() || error_) return;
-        const auto [at, is_new] = textures_.try_emplace(source.name, textures_.size());
+        const std::string key_of_image =
+            source.name.empty() ? "unnamed " + std::to_string(textures_.size()) : source.name;
+        const auto [at, is_new] = textures_.try_emplace(key_of_image, textures_.size());
         if (is_new) add_image(source);
         owner[key]["index"] = at->second;
     }
