@@ -49,6 +49,7 @@ Result<void> apply_views(Scene& scene, const RenderOptions& options) {
         const Result<Camera> camera = parse_camera(options.camera, scene.camera);
         if (!camera) return camera.error();
         scene.camera = *camera;
+        fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
     }
     if (!options.light.empty()) {
         const auto key = std::ranges::find(scene.lights, true, &Light::is_key);

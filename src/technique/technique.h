@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dermis/optics/profile.h"
+#include "dermis/technique/figure.h"
 #include "dermis/technique/parameter.h"
 #include "dermis/technique/pass_list.h"
 
@@ -51,6 +52,8 @@ struct Technique {
     std::function<PassList(const ParameterValues&, const FrameContext&)> build;
     /// Tables for these settings, baked on the CPU (cached by the bakers); absent when it needs none.
     std::function<Result<std::vector<TableImage>>(const ParameterValues&, const SkinContext&)> tables;
+    /// The figures of its source, for `dermis figures`; absent when it has none.
+    std::function<std::vector<Figure>()> figures;
 };
 
 /// All folders of techniques/, by id. Built once.

@@ -10,6 +10,7 @@
 #include "dermis/bake/zonal_table.h"
 #include "dermis/fit/closed_form.h"
 #include "dermis/technique/forward.h"
+#include "preintegrated/figures.h"
 
 namespace dermis {
 namespace {
@@ -181,7 +182,8 @@ Technique make_preintegrated_technique() {
             .source = "Penner 2011, Pre-Integrated Skin Shading, GPU Pro 2; curves: Yeung 2015",
             .parameters = parameters(),
             .build = build,
-            .tables = tables};
+            .tables = tables,
+            .figures = preintegrated_figures};
 }
 
 }  // namespace dermis

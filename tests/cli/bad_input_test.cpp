@@ -57,6 +57,10 @@ TEST_F(BadInput, options_that_are_wrong_say_what_would_be_right) {
     expect_error("render builtin:spheres --camera 'yaw=x'", "yaw");
     expect_error("render builtin:spheres --light 'pitch=1000'", "pitch");
     expect_error("render builtin:spheres --frames 0", "--frames 0: 1 to 100000");
+    expect_error("figures lambart", "did you mean 'lambert'?");
+    expect_error("figures lambert", "technique 'lambert' has no figures");
+    expect_error("figures preintegrated --only nromals", "unknown figure 'nromals'; did you mean 'normals'?");
+    expect_error("figures preintegrated --size 5", "--size 5: the height of a cell in pixels, 16 to 2048");
     expect_error("render builtin:spheres -o a.tga", "a.tga: a picture is a .png or an .exr file");
     expect_error("render builtin:spheres --device none", "none");
     expect_error("passes lambart", "did you mean 'lambert'?");
