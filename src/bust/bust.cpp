@@ -18,7 +18,7 @@ namespace {
 
 // Part of the cache's key: raise it when meshing, flattening or painting change. Changes of the shape and of
 // the skin show in the key's probes by themselves.
-constexpr uint32_t kGeneration = 2;
+constexpr uint32_t kGeneration = 3;
 
 Vec3 to_float(Point p) {
     return {float(p.x), float(p.y), float(p.z)};
@@ -146,13 +146,14 @@ std::string cache_key(const BustParams& params) {
     hasher.add(kGeneration).add(kBustMapSide).add(params.seed);
     for (const BustParamInfo& row : bust_param_table()) hasher.add(row.name).add(params.*row.member);
     const BustField field(params);
+    const Hairs hairs(params.seed);
     for (int i = 0; i < 600; ++i) {
         // A spiral over the head, and on from the face into the features.
         const double t = i / 600.0, a = i * 2.399963;
         const Point p = {80 * std::sin(a) * (1 - 0.6 * t), 130 - 320 * t,
                          110 * std::cos(a) * (0.4 + 0.6 * t)};
         hasher.add(float(field.distance_mm(p)));
-        const SkinSample skin = skin_at(p, skin_zones(p), params);
+        const SkinSample skin = skin_at(p, skin_zones(p), params, hairs);
         hasher.add(skin.albedo_linear.x).add(skin.albedo_linear.y).add(skin.roughness).add(skin.height_mm);
     }
     return hasher.hex();

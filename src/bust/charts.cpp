@@ -85,11 +85,10 @@ std::vector<int> back_seam(const Surface& surface, const HalfEdges& edges, const
         if (labels[edges.twin[h] / 3] == int(ChartKind::underside)) rim[v] = 1;
         outgoing[v].push_back(int(h));
     }
-    int start = -1, goal = -1;
-    double nearest_start = 1e18, nearest_goal = 1e18;
+    int goal = -1;
+    double nearest_goal = 1e18;
     for (size_t v = 0; v < n; ++v) {
         const Point p = surface.points[v];
-        if (rim[v] && p.z < 0 && std::abs(p.x) < nearest_start) nearest_start = std::abs(p.x), start = int(v);
         const double d = length(p - Point{0, 134, -8});
         if (d < nearest_goal) nearest_goal = d, goal = int(v);
     }
@@ -97,8 +96,11 @@ std::vector<int> back_seam(const Surface& surface, const HalfEdges& edges, const
     std::vector<int> came(n, -1);
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    cost[start] = 0;
-    queue.push({0, start});
+    // From anywhere on the rim's back, rather than its middle vertex, which may have no neighbour off the
+    // rim.
+    for (size_t v = 0; v < n; ++v)
+        if (rim[v] && surface.points[v].z < 0)
+            queue.push({cost[v] = 8 * std::abs(surface.points[v].x), int(v)});
     while (!queue.empty()) {
         const auto [c, v] = queue.top();
         queue.pop();
@@ -118,7 +120,7 @@ std::vector<int> back_seam(const Surface& surface, const HalfEdges& edges, const
         }
     }
     std::vector<int> seam;
-    for (int v = goal; v != start; v = surface.triangles[seam.back() / 3][seam.back() % 3])
+    for (int v = goal; came[v] >= 0; v = surface.triangles[seam.back() / 3][seam.back() % 3])
         seam.push_back(came[v]);
     return seam;
 }

@@ -105,18 +105,19 @@ double Ear::add(double d, Point p) const {
     ear = smooth_min(ear, crus_.distance_mm(q), 3.5);
     ear = smooth_min(ear, smooth_max(kBowl.distance_mm(q), q.z + 0.5, 3), 3.5);
     double all = smooth_min(d, ear * scale_, 4.5);
-    // Cymba and cavum of the concha, with the root of the helix running in between.
-    const Ellipsoid cavum = {{5.6, -3.6, 1.2}, {8.6, 8.2, 8.4}}, cymba = {{6.4, 7.4, 0.8}, {7.4, 4.8, 6.4}};
-    const double hollow = smooth_min(cavum.distance_mm(q), cymba.distance_mm(q), 3.0);
-    all = smooth_max(all, -hollow * scale_, 2.6);
-    const double root = swept_ball(q, {-6.5, 9.5, -1.5}, 2.8, {6.5, 2.6, -5.2}, 1.8);
-    all = smooth_min(all, root * scale_, 3.4);
+    // The concha, with the root of the helix running out into it.
+    const Ellipsoid cavum = {{5.2, -3.8, 1.6}, {9.6, 9.4, 9.4}}, cymba = {{7.4, 7.6, 1.2}, {8.2, 5.2, 7.4}};
+    const double hollow = smooth_min(cavum.distance_mm(q), cymba.distance_mm(q), 5.0);
+    all = smooth_max(all, -hollow * scale_, 2.4);
+    const double root = smooth_min(swept_ball(q, {-6.8, 11, -0.6}, 2.8, {0, 6.4, -3.4}, 2.0),
+                                   swept_ball(q, {0, 6.4, -3.4}, 2.0, {8, 3.4, -7.0}, 1.0), 2.5);
+    all = smooth_min(all, root * scale_, 3.0);
     // Ear canal, then the flaps that half cover it.
-    const double canal = swept_ball(q, {0.5, -3, -4}, 2.6, {-3.5, -2, -9}, 2.2);
-    all = smooth_max(all, -canal * scale_, 2.2);
-    const Ellipsoid tragus = Ellipsoid{{-3.0, -3.2, 0.4}, {4.4, 6.4, 2.3}}.turned(0.25, 0);
+    const double canal = swept_ball(q, {0.0, -3.6, -3.5}, 3.2, {-6, -2, -9}, 2.4);
+    all = smooth_max(all, -canal * scale_, 2.0);
+    const Ellipsoid tragus = Ellipsoid{{-3.6, -4.0, 0.9}, {3.8, 5.4, 2.0}}.turned(-0.25, 0);
     all = smooth_min(all, tragus.distance_mm(q) * scale_, 3.4);
-    const double antitragus = swept_ball(q, {6.2, -12.4, 0.2}, 2.4, {9.5, -11.6, 0.4}, 2.4);
+    const double antitragus = swept_ball(q, {5.6, -12.8, 0.4}, 2.2, {9.5, -11.4, 0.6}, 2.4);
     return smooth_min(all, antitragus * scale_, 3.2);
 }
 

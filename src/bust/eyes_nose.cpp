@@ -4,45 +4,76 @@
 #include "dermis/bust/parts.h"
 
 namespace dermis::bust {
+namespace {
+
+double bump(double t) {
+    const double rest = std::max(0.0, 1 - t * t);
+    return rest * rest * rest;
+}
+
+// Height of the lids' margins over the ball: the upper lid ends in an edge that overhangs the lower one.
+double lid_margins(Point q) {
+    const double ends = smooth_step(15.5, 23, q.x) * (1 - smooth_step(41, 48.5, q.x));
+    if (ends <= 0) return 0;
+    const double above = q.y - lid_slit_y(q.x);
+    const double upper = 1.15 * smooth_step(-0.5, 0.5, above) * (1 - smooth_step(1.0, 10, above));
+    const double lower = 0.35 * bump((above + 3.0) / 2.6) - 0.5 * bump((above + 0.75) / 1.3);
+    return ends * (upper + lower);
+}
+
+}  // namespace
 
 double add_eyes(double d, Point p) {
     const Point q = {std::abs(p.x), p.y, p.z};
-    const Point center = {31, 25, 80.5};
+    const Point center = {31.5, 24, 80.5};
     const double ball = length(q - center);
     if (ball > 40) return d;
     // The lids over the ball, and the bulge of the cornea under the upper lid.
-    double lid = ball - 13.8;
-    lid = smooth_min(lid, length(q - Point{31, 22.5, 84}) - 10.6, 5);
-    return smooth_min(d, lid, 9);
+    double lid = ball - 13.0;
+    lid = smooth_min(lid, length(q - Point{32.5, 20.5, 84}) - 10.0, 5);
+    return smooth_min(d, lid, 12) - (q.z > 70 ? lid_margins(q) : 0);
 }
 
 double lid_slit_y(double x) {
-    // A downward arc, lowest outside the middle, the outer corner a little higher than the inner one.
-    const double t = (x - 31.5) / 16.5;
-    return 16.7 + 3.9 * t * t + 0.35 * t;
+    // A downward arc, lowest outside the middle.
+    const double t = (x - 32.5) / 16.5;
+    return 15.6 + 4.6 * t * t - 0.5 * t;
 }
+
+namespace {
+
+// Bridge: side planes that widen downwards, and the ridge that ends above the tip.
+double bridge(Point p) {
+    const double planes = smooth_min(swept_ball(p, {0, 36, 92}, 9.0, {0, 12, 95.5}, 14),
+                                     swept_ball(p, {0, 12, 95.5}, 14, {0, -8, 99}, 17), 6);
+    const double ridge = smooth_min(swept_ball(p, {0, 36, 98.6}, 6.2, {0, 17, 109.2}, 6.2),
+                                    swept_ball(p, {0, 17, 109.2}, 6.2, {0, -3, 119.6}, 7.0), 6);
+    return smooth_min(planes, ridge, 12);
+}
+
+// Two domes a few millimetres apart, the lobule below them, the columella back to the lip.
+double tip_of_nose(Point p) {
+    double tip =
+        smooth_min(length(p - Point{3.4, -7.0, 122.8}) - 6.0, length(p - Point{-3.4, -7.0, 122.8}) - 6.0, 9);
+    tip = smooth_min(tip, swept_ball(p, {0, -12.0, 121.4}, 5.0, {0, -15.5, 118}, 3.8), 6);
+    return smooth_min(tip, swept_ball(p, {0, -15, 118}, 3.6, {0, -20.5, 110}, 4.4), 5);
+}
+
+}  // namespace
 
 double add_nose(double d, Point p) {
     if (length(p - Point{0, 5, 108}) > 60) return d;
     const Point q = {std::abs(p.x), p.y, p.z};
-    // Pyramid of the bone, then the ridge, then the tip.
-    const double pyramid = smooth_min(swept_ball(p, {0, 34, 91}, 9.5, {0, 12, 97}, 13),
-                                      swept_ball(p, {0, 12, 97}, 13, {0, -6, 102}, 15), 6);
-    const double ridge = smooth_min(swept_ball(p, {0, 33, 98.3}, 6.4, {0, 16, 109.3}, 5.9),
-                                    swept_ball(p, {0, 16, 109.3}, 5.9, {0, -3, 119.8}, 7.0), 6);
-    double nose = smooth_min(pyramid, ridge, 13);
-    const double tip =
-        smooth_min(length(p - Point{3.5, -7.2, 121.4}) - 7.2, length(p - Point{-3.5, -7.2, 121.4}) - 7.2, 6);
-    nose = smooth_min(nose, tip, 9);
-    // Columella and the base between the wings.
-    nose = smooth_min(nose, swept_ball(p, {0, -12.5, 121.5}, 3.8, {0, -19.5, 112}, 4.6), 5);
-    const double body = smooth_min(d, nose, 10);
-    // Wings.
-    const Ellipsoid wing = Ellipsoid{{11.2, -11.6, 111.4}, {5.8, 7.4, 10.4}}.turned(-0.36, 0.28);
-    double all = smooth_min(body, wing.distance_mm(q), 8.5);
-    // Nostrils open down and a little outward, and run up and back.
-    const Ellipsoid nostril = Ellipsoid{{6.5, -19.9, 113.6}, {2.2, 4.0, 4.8}}.turned(-0.42, 0.15);
-    return smooth_max(all, -nostril.distance_mm(q), 2.4);
+    double nose = smooth_min(bridge(p), tip_of_nose(p), 10);
+    // Wings: the wall from the tip back to the cheek, fullest where it turns in.
+    double wing = swept_ball(q, {4.0, -8.5, 118.0}, 6.6, {10.8, -11.4, 112.0}, 6.6);
+    wing = smooth_min(wing, swept_ball(q, {10.8, -11.4, 112.0}, 6.6, {13.4, -13.2, 105.0}, 4.8), 6);
+    nose = smooth_min(nose, wing, 9);
+    const double body = smooth_min(d, nose, 8);
+    // Nostrils open down and a little outward; they run up and forward under the tip.
+    const double nostril = swept_ball(q, {5.0, -17.6, 117.6}, 2.0, {8.6, -19.4, 109.5}, 3.2);
+    const double depth = swept_ball(q, {5.6, -15.0, 115}, 1.6, {8.0, -12.5, 109}, 2.0);
+    return smooth_max(body, -smooth_min(nostril, depth, 3), 2.6);
 }
 
 }  // namespace dermis::bust

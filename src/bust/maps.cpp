@@ -135,6 +135,7 @@ SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams
     const auto roughness = maps.roughness.values<uint8_t>(), specular = maps.specular.values<uint8_t>();
     const auto kernel = maps.kernel_size.values<uint8_t>();
     std::vector<float> height(owner.size(), 0);
+    const Hairs hairs(params.seed);
     const Vec3 plain = tone_albedo_linear(params.tone);
     parallel_for(size_t(side), 8, [&](size_t begin, size_t end) {
         for (size_t i = begin * side; i < end * side; ++i) {
@@ -144,7 +145,7 @@ SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams
                 const Barycentric w =
                     locate(atlas, owner[i], (double(i % side) + 0.5) / side, (double(i / side) + 0.5) / side);
                 const Point p = standard[t[0]] * w.a + standard[t[1]] * w.b + standard[t[2]] * w.c;
-                s = skin_at(p, blend(zones[t[0]], zones[t[1]], zones[t[2]], w), params);
+                s = skin_at(p, blend(zones[t[0]], zones[t[1]], zones[t[2]], w), params, hairs);
             }
             const Vec3 c = srgb_encode(s.albedo_linear);
             albedo[3 * i] = code(c.x), albedo[3 * i + 1] = code(c.y), albedo[3 * i + 2] = code(c.z);

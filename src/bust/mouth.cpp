@@ -13,20 +13,29 @@ struct Column {
     double x, line, top, bottom, upper, lower;
 };
 constexpr Column kColumns[] = {
-    {0, -39.4, -31.8, -49.4, 4.6, 5.6},    {5.5, -38.7, -30.2, -49.3, 4.5, 5.7},
-    {11, -38.3, -31.2, -48.0, 4.0, 5.0},   {16, -38.5, -33.2, -45.6, 3.1, 3.7},
-    {20.5, -39.0, -35.9, -43.0, 1.9, 2.1}, {25.5, -39.8, -39.2, -40.7, 0.2, 0.2},
-    {31, -40.2, -40.0, -40.4, 0, 0},
+    {0, -39.4, -31.8, -48.6, 2.8, 3.2},    {5.5, -38.3, -30.4, -48.5, 2.7, 3.3},
+    {11, -38.0, -31.8, -47.0, 2.2, 2.6},   {16, -38.5, -33.9, -44.9, 1.6, 1.5},
+    {20.5, -39.3, -36.4, -42.8, 0.9, 0.7}, {25.0, -40.2, -39.6, -41.0, 0.2, 0.1},
+    {31, -41.2, -41.0, -41.4, 0, 0},
 };
 
-// Height across a lip, t = 0 at the meeting line, 1 at the vermilion border, 2.2 and more on plain skin.
-double lip_profile(double t, double at_border) {
-    if (t <= 0) return 0;
-    constexpr double kRound = 0.34;
-    const double rest = 1 - std::min(t / kRound, 1.0);
-    const double rise = std::sqrt(1 - rest * rest);
-    const double fall = mix(1, at_border, smooth_step(0.25, 1.15, t));
-    return rise * fall * (1 - smooth_step(0.8, 2.5, t));
+// Height across the upper lip, t = 0 at the meeting line, 1 at the vermilion border, more on plain skin: a
+// plane that faces down, fullest just under the border.
+double upper_profile(double t) {
+    return std::sin(1.5708 * std::min(t / 0.72, 1.0)) * mix(1, 0.8, smooth_step(0.7, 1.3, t)) *
+           (1 - smooth_step(0.9, 3.4, t));
+}
+
+// The lower lip is a roll, fullest at a third of its height.
+double lower_profile(double t) {
+    const double rest = 1 - std::min(t / 0.5, 1.0);
+    return std::sqrt(1 - rest * rest * rest) * mix(1, 0.4, smooth_step(0.35, 1.4, t)) *
+           (1 - smooth_step(0.9, 2.4, t));
+}
+
+double bump(double t) {
+    const double rest = std::max(0.0, 1 - t * t);
+    return rest * rest * rest;
 }
 
 }  // namespace
@@ -55,15 +64,14 @@ LipShape lip_shape(double x) {
 double add_lips(double d, Point p, double fullness) {
     if (std::abs(p.x) > 32 || p.y > -10 || p.y < -72 || p.z < 60 || std::abs(d) > 25) return d;
     const LipShape s = lip_shape(p.x);
-    double swell = 0;
-    // A floor under the meeting line keeps the crease between the lips about 3 mm deep.
-    if (p.y > s.line_y)
-        swell = s.upper_swell_mm * lip_profile((p.y - s.line_y) / std::max(s.top_y - s.line_y, 0.4), 0.5);
-    else
-        swell = s.lower_swell_mm * lip_profile((s.line_y - p.y) / std::max(s.line_y - s.bottom_y, 0.4), 0.3);
-    const double floor_mm = 0.72 * std::min(s.upper_swell_mm, s.lower_swell_mm);
-    const double near_line = 1 - smooth_step(0.0, 4.0, std::abs(p.y - s.line_y));
-    swell = std::hypot(swell, floor_mm * near_line);
+    const double above = p.y - s.line_y;
+    double swell = above > 0
+                       ? s.upper_swell_mm * upper_profile(above / std::max(s.top_y - s.line_y, 0.4))
+                       : s.lower_swell_mm * lower_profile(-above / std::max(s.line_y - s.bottom_y, 0.4));
+    // The crease between the lips: its floor rounded, deeper than the lips are full.
+    const double open = 1 - smooth_step(18, 27, std::abs(p.x));
+    swell = std::hypot(swell, 0.3 * std::min(s.upper_swell_mm, s.lower_swell_mm) * bump(above / 4)) -
+            open * 0.9 * bump(above / 1.3);
     return d - fullness * swell;
 }
 

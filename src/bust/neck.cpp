@@ -50,13 +50,15 @@ double column(std::span<const Ring> rings, Point p) {
 double add_neck(double d, Point p) {
     if (p.y > 30) return d;
     d = smooth_min(d, column(kNeck, p), 16);
-    d = smooth_min(d, column(kTrapezius, p), 22);
+    d = smooth_min(d, column(kTrapezius, p), 34);
     const Point q = {std::abs(p.x), p.y, p.z};
     // Sternomastoid: mastoid process behind the ear to the sternum, and a flatter head to the collar bone.
-    const double sternal = smooth_min(swept_ball(q, {52, -30, -16}, 8, {45, -88, 8}, 10),
-                                      swept_ball(q, {45, -88, 8}, 10, {11, -166, 31}, 6.5), 6);
-    d = smooth_min(d, sternal, 17);
-    d = smooth_min(d, swept_ball(q, {47, -100, -2}, 8, {38, -168, 18}, 7), 16);
+    const double sternal = smooth_min(swept_ball(q, {54, -22, -12}, 9, {46, -84, 0}, 12),
+                                      swept_ball(q, {46, -84, 0}, 12, {11, -166, 29}, 6.0), 8);
+    d = smooth_min(d, sternal, 24);
+    d = smooth_min(d, swept_ball(q, {47, -96, -6}, 10, {40, -168, 14}, 7), 24);
+    // Scalenes fill the triangle between it and the trapezius.
+    d = smooth_min(d, swept_ball(q, {44, -84, -24}, 14, {62, -158, -10}, 12), 24);
     // Chest and collar bones.
     const Ellipsoid chest = {{0, -252, -20}, {195, 98, 80}};
     d = smooth_min(d, chest.distance_mm(p), 26);

@@ -51,44 +51,6 @@ Lips lips(Point p) {
     return l;
 }
 
-// Brow: a tapering band over the orbit's rim; hairs fan from upright at the nose to level at the tail.
-float brow(Point p, uint32_t seed) {
-    const double x = std::abs(p.x);
-    if (x < 6 || x > 56 || p.y < 30 || p.y > 60) return 0;
-    const double middle = 40.5 + 6.5 * std::sin(std::clamp((x - 8) / 40, 0.0, 1.3) * 2.0) -
-                          0.004 * std::max(0.0, x - 34) * (x - 34);
-    const double half = mix(4.8, 1.6, smooth_step(14, 54, x));
-    const double across = (p.y - middle) / half;
-    const double ends = smooth_step(7, 14, x) * (1 - smooth_step(46, 55, x));
-    const double body = ends * (1 - smooth_step(0.35, 1.35, std::abs(across)));
-    if (body <= 0) return 0;
-    // Hairs run along lines side = const: steep beside the nose, nearly level at the tail.
-    const double slope = mix(0.35, 2.6, smooth_step(8, 40, x));
-    const double side = x - (p.y - middle) * slope, stretch = 1 / std::sqrt(1 + slope * slope);
-    const double seed_side = p.x > 0 ? 3 : 9;
-    const float coarse = value_noise({side * 1.3 * stretch + 0.3 * side, across * 0.8, seed_side}, seed);
-    const float fine =
-        value_noise({side * 2.3 * stretch + 0.4 * side, across * 0.9, seed_side + 5}, seed + 1);
-    const float grain = value_noise({x * 1.4, p.y * 1.4, seed_side}, seed + 6);
-    const float hair = 0.5f * coarse + 0.6f * fine + 0.3f * grain;
-    return float(body) * step(-0.55, 0.75, hair + 1.15 * body - 0.7);
-}
-
-// Lashes of the closed eye: a dark line under the upper lid's edge and a short fringe below it.
-float lashes(Point p, uint32_t seed) {
-    const double x = std::abs(p.x), below = lid_slit_y(x) - p.y;
-    if (x < 15 || x > 50 || below < -2 || below > 7) return 0;
-    const double ends = smooth_step(15, 19, x) * (1 - smooth_step(46, 50, x));
-    const double line = 1 - smooth_step(0.25, 1.0, std::abs(below - 0.1));
-    const double length = 4.2 * smooth_step(17, 34, x);
-    const float strand =
-        value_noise({(x + 0.25 * below * (x - 26) / 12) * 1.9, 0.5, p.x > 0 ? 2.0 : 7.0}, seed + 2);
-    const double fringe = length > 0.1 && below > 0
-                              ? (1 - smooth_step(0.2, 1.0, below / length)) * smooth_step(0.05, 0.6, strand)
-                              : 0;
-    return float(ends * std::max(0.85 * line, 0.55 * fringe));
-}
-
 struct Relief {
     float height_mm, pore;
 };
@@ -129,7 +91,7 @@ Vec3 tone_albedo_linear(double tone) {
     return kLinearFromAcesCg * mixc(kTones[size_t(i)], kTones[size_t(i) + 1], float(at - i));
 }
 
-SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params) {
+SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const Hairs& hairs_drawn) {
     const uint32_t seed = params.seed * 7919u;
     const float broad = value_noise(p * (1 / 14.0), seed + 1), middle = value_noise(p * (1 / 5.0), seed + 2),
                 fine = value_noise(p * (1 / 1.8), seed + 3);
@@ -156,14 +118,14 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params) {
                           (1 - step(radius * 0.5f, radius, spots.nearest)) * (1 - 0.7f * depth));
     }
 
-    // Stubble: a cool shade with the roots as dots.
-    const float roots = cell_noise(p * (1 / 0.62), seed + 5).nearest;
-    const float hair = 1 - step(0.16, 0.42, roots);
-    const float shade = float(params.stubble) * z.beard * (0.75f + 0.25f * broad);
-    const float scalp = float(params.stubble) * 0.9f * z.scalp * (0.8f + 0.2f * broad);
-    const float cover = std::max(shade, scalp);
-    c = mixc(c, c * Vec3{0.66f, 0.70f, 0.76f}, 0.85f * cover);
-    c = darker(c, 0.50f * cover * hair);
+    // Stubble: a cool shade with the roots as dots, on the shaved head as on the chin.
+    const float roots = cell_noise(p * (1 / 0.75), seed + 5).nearest;
+    const float hair = 1 - step(0.14, 0.44, roots);
+    const float patchy = 0.82f + 0.18f * broad + 0.10f * middle;
+    const float beard = float(params.stubble) * z.beard * patchy;
+    const float cover = std::min(1.0f, std::max(beard, 1.5f * float(params.stubble) * z.scalp * patchy));
+    c = mixc(c, c * mixc(Vec3{0.56f, 0.60f, 0.65f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
+    c = darker(c, 0.42f * cover * hair);
 
     Lips lip;
     if (z.mouth > 0 && p.z > 60) lip = lips(p);
@@ -175,12 +137,12 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params) {
     }
     const Relief r = relief(p, z, lip.vermilion, seed);
     c = darker(c, 0.10f * r.pore);
-    const float hairs = std::max(p.z > 40 ? brow(p, seed) : 0.0f, p.z > 60 ? lashes(p, seed) : 0.0f);
-    c = mixc(c, Vec3{0.045f, 0.030f, 0.021f}, 0.82f * hairs);
+    const float hairs = hairs_drawn.cover(p);
+    c = mixc(c, Vec3{0.040f, 0.026f, 0.018f} * mixf(1.0f, 0.35f, depth), 0.9f * hairs);
 
     SkinSample s;
     s.albedo_linear = c;
-    s.height_mm = r.height_mm + 0.05f * hairs * fine;
+    s.height_mm = r.height_mm + 0.06f * hairs;
     s.roughness = 0.52f - 0.08f * z.t_zone - 0.04f * z.nose + 0.05f * z.cheek + 0.04f * z.neck +
                   0.05f * middle + 0.03f * fine + 0.06f * r.pore + 0.04f * cover;
     s.roughness = mixf(s.roughness, 0.45f + 0.05f * fine, lip.vermilion);

@@ -2,6 +2,7 @@
 // What the skin is like at a point of the standard head.
 
 #include "dermis/base/vec.h"
+#include "dermis/bust/hairs.h"
 #include "dermis/bust/params.h"
 #include "dermis/bust/point.h"
 
@@ -29,6 +30,7 @@ struct SkinSample {
 [[nodiscard]] Vec3 tone_albedo_linear(double tone);
 
 /// About 0.5 microseconds.
-[[nodiscard]] SkinSample skin_at(Point p_standard, const SkinZones& zones, const BustParams& params);
+[[nodiscard]] SkinSample skin_at(Point p_standard, const SkinZones& zones, const BustParams& params,
+                                 const Hairs& hairs);
 
 }  // namespace dermis::bust

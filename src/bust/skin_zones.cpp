@@ -1,5 +1,9 @@
 // Where the face reddens, shines, grows a beard: soft regions of the standard head.
 
+#include <array>
+#include <span>
+
+#include "dermis/bust/noise.h"
 #include "dermis/bust/skin.h"
 
 namespace dermis::bust {
@@ -14,6 +18,26 @@ float blob(Point p, Point center, Point radii) {
 
 float ramp(double low, double high, double v) {
     return float(smooth_step(low, high, v));
+}
+
+// Straight lines through (x, y) knots of rising x.
+double polyline(std::span<const std::array<double, 2>> knots, double x) {
+    size_t i = 0;
+    while (i + 2 < knots.size() && x > knots[i + 1][0]) ++i;
+    const double t = std::clamp((x - knots[i][0]) / (knots[i + 1][0] - knots[i][0]), 0.0, 1.0);
+    return mix(knots[i][1], knots[i + 1][1], t);
+}
+
+// How far inside the hairline a point of the left half lies, roughly: over the forehead (receding a little
+// above the temples), down the temple to the sideburn, round the ear, down to the nape.
+double into_hair_mm(Point q) {
+    constexpr std::array<double, 2> kTop[] = {{0, 83}, {16, 84}, {32, 90}, {46, 88}, {58, 74}, {66, 55}};
+    constexpr std::array<double, 2> kFront[] = {{-20, 31}, {0, 31},  {20, 33}, {38, 40},
+                                                {50, 55},  {62, 58}, {80, 48}};
+    constexpr std::array<double, 2> kFoot[] = {{-80, -58}, {-60, -56}, {-44, -46}, {-26, -24}, {-16, 20},
+                                               {-12, 36},  {10, 40},   {15, 24},   {18, -6},   {60, -8}};
+    const double above = q.y - polyline(kTop, q.x), behind = polyline(kFront, q.y) - q.z;
+    return std::min(std::max(above, behind), q.y - polyline(kFoot, q.z));
 }
 
 }  // namespace
@@ -33,12 +57,10 @@ SkinZones skin_zones(Point p) {
     const float lip = blob(p, {0, -25, 110}, {36, 15, 26});
     z.beard = std::max(low, lip) * ramp(2, 26, q.z) * ramp(-122, -92, q.y) *
               (1 - 0.35f * blob(p, {0, -56, 108}, {9, 7, 20}));
-    // Scalp behind the hairline, round the ears and down to the nape.
-    const double hairline = 78 - 0.004 * q.x * q.x;
-    const float top = ramp(hairline - 6, hairline + 8, p.y);
-    const float behind = (1 - ramp(12, 30, p.z)) * ramp(-52, -34, p.y) * (1 - z.ear);
-    const float side = ramp(30, 44, p.y) * (1 - ramp(38, 56, p.z));
-    z.scalp = std::max({top, p.z < 30 ? behind * (p.z < -14 ? 1.0f : ramp(14, 34, p.y)) : 0.0f, side});
+    z.scalp =
+        ramp(-5, 6,
+             into_hair_mm(q) + 2.2 * value_noise(p * (1 / 9.0), 31) + 1.5 * value_noise(p * (1 / 3.0), 32)) *
+        (1 - 0.9f * z.ear);
     z.forehead = blob(p, {0, 62, 92}, {70, 36, 50});
     z.neck = 1 - ramp(-112, -86, p.y);
     z.mouth = blob(p, {0, -39, 108}, {48, 30, 40}) > 0 ? 1.0f : 0.0f;

@@ -1,4 +1,4 @@
-// bust_preview [clay|crop|skin|obj FILE MM_PER_UNIT] SIZE VIEW... [--tone T] [--sheet FILE]
+// bust_preview [clay|sketch|crop|skin|obj FILE MM_PER_UNIT] SIZE VIEW... [--tone T] [--sheet FILE]
 // Renders views of the built-in bust (or of an OBJ to hold beside it) to VIEW.png, or three a row into one
 // sheet. docs/images/bust_sheet.png: bust_preview skin 420 front quarter profile back earlight eye --sheet
 // docs/images/bust_sheet.png
@@ -29,7 +29,7 @@ Result<Arguments> parse(int count, char** values) {
     for (size_t i = 0; i < words.size(); ++i) {
         const std::string& w = words[i];
         const auto next = [&] { return i + 1 < words.size() ? words[++i] : std::string(); };
-        if (w == "clay" || w == "crop" || w == "skin") {
+        if (w == "clay" || w == "sketch" || w == "crop" || w == "skin") {
             a.kind = w;
         } else if (w == "obj") {
             a.kind = w;
@@ -56,6 +56,7 @@ Result<Arguments> parse(int count, char** values) {
 Result<Subject> subject_of(const Arguments& a) {
     if (a.kind == "skin") return skin_subject(a.params);
     if (a.kind == "obj") return obj_subject(a.obj, a.mm_per_unit);
+    if (a.kind == "sketch") return sketch_subject(a.params);
     if (a.kind == "crop") return crop_subject(a.params, *a.views[0]);
     return clay_subject(a.params);
 }
@@ -63,12 +64,14 @@ Result<Subject> subject_of(const Arguments& a) {
 Result<void> run(const Arguments& a) {
     const Result<Subject> subject = subject_of(a);
     if (!subject) return subject.error();
-    constexpr int kColumns = 3;
+    const int kColumns = a.views.size() == 4 ? 2 : 3;
     const int columns = std::min(kColumns, int(a.views.size())),
               rows = (int(a.views.size()) + columns - 1) / columns;
     Image sheet(columns * a.side, rows * a.side, 3, PixelFormat::u8, Encoding::srgb);
     for (size_t i = 0; i < a.views.size(); ++i) {
-        const Image image = render(*subject, *a.views[i], a.side);
+        const bool crop = a.kind == "crop" && i > 0;
+        const Image image = crop ? render(crop_subject(a.params, *a.views[i]), *a.views[i], a.side)
+                                 : render(*subject, *a.views[i], a.side);
         if (a.sheet.empty()) {
             if (auto written = write_image(a.views[i]->name + ".png", image); !written) return written;
             continue;

@@ -73,6 +73,7 @@ struct Surfel {
     Point at, geometric, normal;
     double albedo[3] = {0.62, 0.47, 0.40};
     double roughness = 0.5;
+    double lift_mm = 0.2;  ///< clears the mesh for rays that start here
 };
 
 double sample(const Image& image, double u, double v, int channel) {
@@ -90,6 +91,11 @@ Surfel surfel(const Subject& s, const Rays::Hit& hit, Point at) {
                value(size_t(t[2])) * hit.v;
     };
     Surfel out = {.at = at, .geometric = unit(blend([&](size_t k) { return s.normals[k]; })), .normal = {}};
+    if (s.field) {
+        out.at = s.field->project(at, 1);
+        out.geometric = s.field->normal(out.at);
+        out.lift_mm = 1.0;
+    }
     out.normal = out.geometric;
     if (!s.skin) return out;
     const Mesh& mesh = s.skin->mesh;
@@ -123,7 +129,7 @@ Frame frame_of(const View& view) {
 }
 
 double sky_light(const Rays& rays, const Surfel& s, uint32_t& state) {
-    const Point n = s.geometric, o = s.at + n * 0.2;
+    const Point n = s.geometric, o = s.at + n * s.lift_mm;
     const Point tangent = unit(cross(std::abs(n.y) < 0.9 ? Point{0, 1, 0} : Point{1, 0, 0}, n)),
                 other = cross(n, tangent);
     double sum = 0;
@@ -137,7 +143,7 @@ double sky_light(const Rays& rays, const Surfel& s, uint32_t& state) {
 }
 
 void shade(const Rays& rays, const Frame& f, const Surfel& s, uint32_t& state, double (&c)[3]) {
-    const Point o = s.at + s.geometric * 0.2;
+    const Point o = s.at + s.geometric * s.lift_mm;
     double key = 0;
     for (int k = 0; k < kKeyRays; ++k) {
         const Point spread = {random01(state) - 0.5, random01(state) - 0.5, random01(state) - 0.5};

@@ -1,5 +1,6 @@
 #include "subject.h"
 
+#include <cstdio>
 #include <sstream>
 
 #include "dermis/base/file.h"
@@ -84,8 +85,22 @@ Result<Subject> skin_subject(const BustParams& params) {
 
 Subject clay_subject(const BustParams& params) {
     const BustField field(params);
-    Subject s = {.mesh = make_head_surface(field), .normals = {}, .skin = {}};
+    Subject s = {.mesh = make_head_surface(field), .normals = {}, .skin = {}, .field = {}};
     s.normals = field_normals(field, s.mesh);
+    // Two for a sphere: less means a tunnel, which cannot be flattened.
+    std::printf("%zu triangles, Euler characteristic %ld\n", s.mesh.triangles.size(),
+                long(s.mesh.points.size()) - long(s.mesh.triangles.size() / 2));
+    return s;
+}
+
+Subject sketch_subject(const BustParams& params) {
+    Subject s = {.mesh = {}, .normals = {}, .skin = {}, .field = BustField(params)};
+    const auto distance = [&](Point p) { return s.field->distance_mm(p); };
+    s.mesh = extract_surface(distance, kBustBox, 2.5);
+    parallel_for(s.mesh.points.size(), 256, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) s.mesh.points[i] = s.field->project(s.mesh.points[i], 1);
+    });
+    s.normals = face_normals(s.mesh);
     return s;
 }
 
@@ -94,7 +109,8 @@ Subject crop_subject(const BustParams& params, const View& view) {
     const double r = view.width_mm * 0.6;
     const Box box = {view.target - Point{r, r, r}, view.target + Point{r, r, r}};
     const auto distance = [&](Point p) { return field.distance_mm(p); };
-    Subject s = {.mesh = extract_surface(distance, box, view.width_mm / 130), .normals = {}, .skin = {}};
+    Subject s = {
+        .mesh = extract_surface(distance, box, view.width_mm / 110), .normals = {}, .skin = {}, .field = {}};
     parallel_for(s.mesh.points.size(), 256, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) s.mesh.points[i] = field.project(s.mesh.points[i], 2);
     });

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dermis/bust/bust.h"
+#include "dermis/bust/field.h"
 #include "dermis/bust/surface.h"
 
 namespace dermis::preview {
@@ -26,10 +27,13 @@ struct Subject {
     bust::Surface mesh;
     std::vector<bust::Point> normals;  ///< one a vertex
     std::optional<Bust> skin;          ///< with the albedo made linear; the same vertices as `mesh`
+    std::optional<BustField> field;    ///< if there, every pixel's point and normal are moved onto it
 };
 
 [[nodiscard]] Result<Subject> skin_subject(const BustParams& params);
 [[nodiscard]] Subject clay_subject(const BustParams& params);
+/// A coarse mesh whose pixels are moved onto the field: the quickest look at the whole head, some 2 s.
+[[nodiscard]] Subject sketch_subject(const BustParams& params);
 /// Only what a close-up sees, meshed at its own scale: a fraction of the time.
 [[nodiscard]] Subject crop_subject(const BustParams& params, const View& view);
 /// Moved so that its crown and its foremost point are the bust's.
