@@ -26,6 +26,8 @@ layout(set = 0, binding = 0, scalar) uniform Frame {
     float shadow_texel_mm;       // of the shadow map, at the middle of the scene
     float penumbra_mm;           // full width of the key light's penumbra
     float exposure;              // a factor, 2^exposure_ev
+    int second_light;            // the first light that is not the key, -1: none
+    mat4 second_light_view_projection;
 };
 
 // Directional: intensity_linear is irradiance at normal incidence; point and spot: irradiance at 1 m.

@@ -21,6 +21,7 @@ layout(set = 0, binding = 2, scalar) uniform Material {
     float opacity;
     int normal_space;  // 0 tangent, 1 object, 2 no map
     float normal_scale;
+    int opacity_from_map;
     float curvature_scale_per_mm;  // of a value of 1 in the curvature map
 };
 

@@ -24,9 +24,15 @@ glm::vec3 up_for(glm::vec3 d) {
     return std::abs(d.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
 }
 
-int key_light_index(const Scene& scene) {
-    const auto key = std::ranges::find(scene.lights, true, &Light::is_key);
-    return key == scene.lights.end() ? -1 : int(key - scene.lights.begin());
+// The first light that is the key, or is not; -1: none.
+int light_index(const Scene& scene, bool is_key) {
+    const auto found = std::ranges::find(scene.lights, is_key, &Light::is_key);
+    return found == scene.lights.end() ? -1 : int(found - scene.lights.begin());
+}
+
+Mat4 light_matrix_of(const Scene& scene, int light) {
+    if (light < 0) return {};
+    return light_matrix(scene.lights[size_t(light)], scene.bounds_center_mm, scene.bounds_radius_mm);
 }
 
 }  // namespace
@@ -73,14 +79,11 @@ std::vector<gpu::Values> light_values(const Scene& scene) {
 gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings) {
     const CameraMatrices camera =
         camera_matrices(scene.camera, float(settings.width) / float(settings.height));
-    const int key = key_light_index(scene);
-    const Mat4 light =
-        key < 0 ? Mat4{}
-                : light_matrix(scene.lights[size_t(key)], scene.bounds_center_mm, scene.bounds_radius_mm);
+    const int key = light_index(scene, true), second = light_index(scene, false);
     const float pixel_angle_rad = 2 * std::tan(0.5f * scene.camera.vertical_fov_rad) / float(settings.height);
     return {{"view_projection", camera.view_projection},
             {"inverse_view_projection", camera.inverse_view_projection},
-            {"light_view_projection", light},
+            {"light_view_projection", light_matrix_of(scene, key)},
             {"eye_world_mm", scene.camera.eye_mm},
             {"pixel_angle_rad", pixel_angle_rad},
             {"bounds_center_mm", scene.bounds_center_mm},
@@ -97,7 +100,9 @@ gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings)
             {"key_light", int32_t(key)},
             {"shadow_texel_mm", 2 * scene.bounds_radius_mm / float(settings.shadow_map_size)},
             {"penumbra_mm", settings.penumbra_mm},
-            {"exposure", std::exp2(scene.exposure_ev)}};
+            {"exposure", std::exp2(scene.exposure_ev)},
+            {"second_light", int32_t(second)},
+            {"second_light_view_projection", light_matrix_of(scene, second)}};
 }
 
 }  // namespace dermis

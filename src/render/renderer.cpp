@@ -82,6 +82,7 @@ Result<void> Renderer::prepare_tables(const Technique& technique, const Paramete
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
     gpu::FrameInputs inputs = {.width = settings.width, .height = settings.height};
     inputs.textures["environment_cube"] = &uploaded_.environment_cube();
+    inputs.textures["no_image"] = &uploaded_.no_image();
     for (const auto& [name, texture] : tables_) inputs.textures[name] = &texture;
     inputs.blocks["Frame"] =
         frame_values(*scene_, {.width = settings.width,
@@ -109,7 +110,10 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
         .samples = settings.samples,
         .view = settings.view,
         .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
-        .frame_index = settings.frame_index};
+        .frame_index = settings.frame_index,
+        .shadow_map_size = settings.shadow_map_size,
+        .has_translucent = uploaded_.has(gpu::DrawClass::translucent),
+        .has_second_light = scene_->lights.size() > 1};
     const SharedPassSettings shared = {.samples = settings.samples,
                                        .shadow_map_size = settings.shadow_map_size,
                                        .deep = settings.deep,

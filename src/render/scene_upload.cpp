@@ -65,6 +65,7 @@ gpu::Values material_values(const Material& material, Vec3 tint) {
             {"opacity", material.opacity},
             {"normal_space", normal_space},
             {"normal_scale", material.normal_scale},
+            {"opacity_from_map", int32_t(material.opacity_map.present())},
             {"thickness_scale_mm", material.thickness_scale_mm},
             {"curvature_scale_per_mm", material.curvature_scale_per_mm},
             {"curvature_from_map", int32_t(material.curvature_map.present())}};
@@ -117,6 +118,10 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
         if (!texture) return texture.error();
         textures_.emplace(job.key, std::move(*texture));
     }
+    Result<gpu::Texture> blank = gpu::Texture::upload(
+        device, {.name = "no image", .format = ImageFormat::rgba8, .bytes = std::vector(4, std::byte{255})});
+    if (!blank) return blank.error();
+    no_image_ = std::make_unique<gpu::Texture>(std::move(*blank));
     return {};
 }
 

@@ -21,14 +21,29 @@ Pass background_pass() {
             .depth = DepthTarget{.image = "depth", .write = false, .compare = Compare::always}};
 }
 
-Pass other_pass(std::string name, GeometryFilter geometry, Blend blend) {
-    return {.name = std::move(name),
+Pass other_pass() {
+    return {.name = "other",
             .kind = PassKind::geometry_screen,
             .shader = "shared/standard.frag",
             .reads = {"shadow_map"},
-            .colors = {{.image = "radiance", .load = LoadOp::load, .blend = blend}},
-            .depth = DepthTarget{.image = "depth", .load = LoadOp::load, .write = blend == Blend::none},
-            .geometry = geometry};
+            .colors = {{.image = "radiance", .load = LoadOp::load}},
+            .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
+            .geometry = GeometryFilter::other};
+}
+
+// Glass: what lies behind is multiplied, then what the glass reflects is added. Neither minds the order.
+std::vector<Pass> translucent_passes() {
+    constexpr uint32_t kColor = 7;
+    const DepthTarget tested = {.image = "depth", .load = LoadOp::load, .write = false};
+    Pass tint = other_pass(), gloss = other_pass();
+    tint.name = "translucent tint", gloss.name = "translucent";
+    tint.shader = "shared/translucent_tint.frag";
+    tint.reads.clear();
+    tint.geometry = gloss.geometry = GeometryFilter::translucent;
+    tint.depth = gloss.depth = tested;
+    tint.colors[0].blend = Blend::multiply, gloss.colors[0].blend = Blend::additive;
+    tint.colors[0].write_mask = gloss.colors[0].write_mask = kColor;
+    return {tint, gloss};
 }
 
 Pass gbuffer_pass() {
@@ -89,7 +104,7 @@ std::string radiance_image(const SharedPassSettings& settings) {
 }
 
 std::vector<std::string> shared_inputs() {
-    return {"environment_cube"};
+    return {"environment_cube", "no_image"};
 }
 
 PassList frame_passes(const PassList& technique, const SharedPassSettings& settings) {
@@ -119,9 +134,9 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     list.passes.push_back(background_pass());
     list.images.insert(list.images.end(), technique.images.begin(), technique.images.end());
     list.passes.insert(list.passes.end(), technique.passes.begin(), technique.passes.end());
-    if (settings.has_other) list.passes.push_back(other_pass("other", GeometryFilter::other, Blend::none));
+    if (settings.has_other) list.passes.push_back(other_pass());
     if (settings.has_translucent)
-        list.passes.push_back(other_pass("translucent", GeometryFilter::translucent, Blend::alpha));
+        for (Pass& pass : translucent_passes()) list.passes.push_back(std::move(pass));
     if (settings.samples > 1) {
         list.images.push_back({.name = "radiance_resolved", .format = radiance_format});
         list.passes.push_back({.name = "resolve",

@@ -35,6 +35,7 @@ struct SharedPassSettings {
 [[nodiscard]] std::string radiance_image(const SharedPassSettings& settings);
 
 /// What a frame supplies to a list beside its own images: shared_inputs() plus the technique's tables.
+/// "no_image" is one white texel, for textures that a shader has but, by its constants, never reads.
 [[nodiscard]] std::vector<std::string> shared_inputs();
 
 }  // namespace dermis

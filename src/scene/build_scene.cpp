@@ -125,13 +125,18 @@ Result<void> add_objects(const SceneDescription& description, const MeshDescript
         place_mesh(object.mesh, {.scale = mesh.scale,
                                  .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
                                  .translation_mm = mesh.translate_mm});
+        const std::vector<MaterialClass> own = std::move(object.classes);
         object.classes.clear();
         std::vector<bool> hidden;
         for (Material& material : object.mesh.materials) {
             const auto found = description.materials.find(material.name);
             const MaterialDescription* given =
                 found == description.materials.end() ? nullptr : &found->second;
+            // What is made by code knows which of its parts are not skin.
+            const size_t index = object.classes.size();
+            const bool knows = index < own.size() && own[index] != MaterialClass::skin;
             object.classes.push_back(given && given->material_class ? *given->material_class
+                                     : knows                        ? own[index]
                                                                     : mesh.default_class);
             hidden.push_back(given && !given->visible.value_or(true));
             if (const Result<void> applied =

@@ -6,6 +6,7 @@
 
 #include "dermis/base/text.h"
 #include "dermis/bust/bust.h"
+#include "dermis/scene/glasses.h"
 
 namespace dermis {
 namespace {
@@ -99,12 +100,13 @@ Result<std::vector<SceneObject>> make_bust_objects() {
 }  // namespace
 
 std::vector<std::string> builtin_mesh_names() {
-    return {"bust", "spheres"};
+    return {"bust", "glasses", "spheres"};
 }
 
 Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name) {
     if (name == "spheres") return make_spheres();
     if (name == "bust") return make_bust_objects();
+    if (name == "glasses") return std::vector<SceneObject>{make_glasses()};
     return Error{unknown_name("built-in scene", name, builtin_mesh_names())};
 }
 

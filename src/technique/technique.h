@@ -27,6 +27,9 @@ struct FrameContext {
     std::vector<std::string> maps;  ///< frame inputs and material maps that exist
     float camera_distance_mm = 600;
     int frame_index = 0;
+    int shadow_map_size = 2048;    ///< of the frame's "shadow_map", which a pass may test against
+    bool has_translucent = false;  ///< the scene has sheets that tint the key light
+    bool has_second_light = false;
 };
 
 /// The skin and the scene that tables are baked for.

@@ -1,10 +1,11 @@
 // Gosselin, Sander, Mitchell 2004, "Real-Time Texture-Space Skin Rendering" (ShaderX3): light the skin in its
 // texture atlas, blur that image with a kernel whose size is painted, and read it back through the camera.
 // Four steps: shadow map (shared), light map, dilation and blur, final mesh. The blur knows texels, not
-// millimetres: its width on the skin follows the unwrap. Not here: translucent shadows, the three culls in
-// texture space, blur in millimetres.
+// millimetres: its width on the skin follows the unwrap. Not here: the three culls in texture space, blur in
+// millimetres.
 
 #include "dermis/technique/forward.h"
+#include "dermis/technique/shadow_channels.h"
 
 namespace dermis {
 namespace {
@@ -19,6 +20,12 @@ struct Params {
     float blur_scale = 2;
     float blur_bias = 1;
     Dilate dilate = Dilate::written_only;
+    bool translucent_shadows = true;
+    float occluded = 0;
+    float trans_shadow_alpha = 1;
+    bool single_channel_opacity = false;
+    bool second_light_shadow = false;
+    ShadowLookup shadow_lookup = ShadowLookup::disk;
     bool specular_shadow = true;
     float specular_shadow_scale = 1.5f;
     float specular_shadow_bias = 0;
@@ -36,6 +43,16 @@ ParameterTable parameters() {
         .choice(
             &Params::dilate, "dilate", {"off", "source", "written_only"},
             "at chart borders: nothing, the source's copy in the first pass, or average written texels only")
+        .toggle(&Params::translucent_shadows, "translucent_shadows", "translucent objects tint the key light")
+        .number(&Params::occluded, "occluded", "", 0, 1, "share of the light that full shadow leaves")
+        .number(&Params::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
+                "exponent of a translucent shadow; larger is darker")
+        .toggle(&Params::single_channel_opacity, "single_channel_opacity",
+                "translucent shadows without colour, from the red channel")
+        .toggle(&Params::second_light_shadow, "second_light_shadow",
+                "the second light casts a shadow too, from the channels that one light leaves free")
+        .choice(&Params::shadow_lookup, "shadow_lookup", {"disk", "single"},
+                "filtered over the penumbra, or the source's one texel with a bias of 0.01")
         .toggle(&Params::specular_shadow, "specular_shadow",
                 "dim the key light's specular by the blurred light")
         .number(&Params::specular_shadow_scale, "specular_shadow_scale", "", 0, 10, "times the light's share")
@@ -61,11 +78,17 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
     const ImageSize size = {params.light_map_size, params.light_map_size};
     PassList list = {.images = {{.name = "light_map_a", .format = ImageFormat::rgba16f, .size = size}}};
-    list.passes.push_back({.name = "light map",
-                           .kind = PassKind::geometry_uv_atlas,
-                           .shader = "texture_space/light_map.frag",
-                           .reads = {"shadow_map"},
-                           .colors = {{.image = "light_map_a", .clear = {0, 0, 0, 1}}}});
+    const ShadowChannelSettings shadow = {.translucent = params.translucent_shadows,
+                                          .second_light = params.second_light_shadow,
+                                          .single_channel = params.single_channel_opacity,
+                                          .lookup = params.shadow_lookup};
+    add_shadow_channels(list, shadow, frame);
+    Pass light = {.name = "light map",
+                  .kind = PassKind::geometry_uv_atlas,
+                  .shader = "shared/atlas_light.frag",
+                  .colors = {{.image = "light_map_a", .clear = {0, 0, 0, 1}}}};
+    read_shadow_channels(light, shadow, frame);
+    list.passes.push_back(std::move(light));
     if (params.blur_passes > 0)
         list.images.push_back({.name = "light_map_b", .format = ImageFormat::rgba16f, .size = size});
     for (int i = 0; i < params.blur_passes; ++i) list.passes.push_back(blur_pass(params, i));

@@ -35,7 +35,7 @@ TEST_F(TextureSpace, without_blur_it_is_lambert) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
     const Image lambert = radiance(renderer, **find_technique("lambert"), kSmall);
-    const Image unblurred = draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "4096"}}));
+    const Image unblurred = draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "2048"}}));
     EXPECT_LT(mean_difference(lambert, unblurred), 2e-3);
     const Image blurred =
         draw(renderer, with({{"blur_passes", "8"}, {"blur_bias", "8"}, {"light_map_size", "512"}}));

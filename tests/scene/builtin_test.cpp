@@ -80,7 +80,46 @@ TEST(BuiltinSpheres, the_default_scene_has_one_key_light_and_frames_its_bounds) 
             EXPECT_LE(length(p - scene->bounds_center_mm), scene->bounds_radius_mm);
 }
 
+TEST(BuiltinGlasses, have_an_opaque_frame_that_is_closed_and_lenses_that_face_forward) {
+    const Result<std::vector<SceneObject>> objects = make_builtin_objects("glasses");
+    ASSERT_TRUE(objects);
+    const SceneObject& glasses = objects->front();
+    ASSERT_EQ(glasses.classes, (std::vector{MaterialClass::other, MaterialClass::translucent}));
+    const Mesh& mesh = glasses.mesh;
+    for (const Submesh& part : mesh.submeshes) {
+        double volume_mm3 = 0, area_forward = 0, area = 0;
+        for (uint32_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
+            const Vec3 a = mesh.positions_mm[mesh.indices[i]], b = mesh.positions_mm[mesh.indices[i + 1]],
+                       c = mesh.positions_mm[mesh.indices[i + 2]];
+            const Vec3 face = cross(b - a, c - a);
+            volume_mm3 += dot(a, cross(b, c)) / 6.0;
+            area_forward += face.z / 2.0;
+            area += length(face) / 2.0;
+        }
+        // Tubes of 1.7 to 1.9 mm, about 700 mm of them; two lenses of 52 x 42 mm.
+        if (part.name == "frame") EXPECT_NEAR(volume_mm3, 7000, 1500);
+        if (part.name == "lens") {
+            EXPECT_NEAR(area, 2 * 0.85 * 52 * 42, 250);
+            EXPECT_GT(area_forward, 0.9 * area);
+        }
+    }
+}
+
+TEST(BuiltinGlasses, sit_on_the_bust_without_cutting_into_the_eyes) {
+    const Result<Scene> scene = load_scene("glasses");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->objects.size(), 2u);
+    const SceneObject &bust = scene->objects[0], &glasses = scene->objects[1];
+    EXPECT_EQ(glasses.classes[1], MaterialClass::translucent) << "built-in things know their classes";
+    const Submesh& lens = glasses.mesh.submeshes[1];
+    for (uint32_t i = lens.first_index; i < lens.first_index + lens.index_count; i += 40) {
+        const Vec3 p = glasses.mesh.positions_mm[glasses.mesh.indices[i]];
+        for (const Vec3 q : bust.mesh.positions_mm)
+            if (std::abs(q.x - p.x) < 1 && std::abs(q.y - p.y) < 1) ASSERT_LT(q.z, p.z);
+    }
+}
+
 TEST(LoadScene, an_unknown_built_in_name_says_which_exist) {
     EXPECT_EQ(load_scene("builtin:sphere").error().message,
-              "unknown built-in scene 'sphere'; did you mean 'spheres'? Known: bust, spheres");
+              "unknown built-in scene 'sphere'; did you mean 'spheres'? Known: bust, glasses, spheres");
 }

@@ -1,0 +1,37 @@
+#pragma once
+// The colour shadow map of Gosselin, Sander, Mitchell 2004, as passes: opaque depth in alpha, then translucent
+// sheets added into RGB with the depth test on, depth writes off and alpha untouched.
+
+#include "dermis/technique/technique.h"
+
+namespace dermis {
+
+/// The order is that of shaders/shared/shadow_channels.glsl.
+enum class ShadowChannels : int32_t {
+    none,
+    color,      ///< RGB the key light's optical depth, A its depth
+    two_lights  ///< R and A the key light's, G and B the second light's opacity and depth
+};
+/// disk: filtered over the penumbra's width; single: the source's one texel with a constant bias.
+enum class ShadowLookup : int32_t { disk, single };
+
+struct ShadowChannelSettings {
+    bool translucent = true;  ///< draw the translucent sheets, if the scene has any
+    bool second_light = false;
+    bool single_channel = false;  ///< of opacity; always so with a second light
+    ShadowLookup lookup = ShadowLookup::disk;
+};
+
+/// What the settings need in this frame: none where the scene has nothing translucent, no second light is
+/// asked for and the lookup is filtered (then the frame's own shadow map will do).
+[[nodiscard]] ShadowChannels shadow_channels_of(const ShadowChannelSettings& settings,
+                                                const FrameContext& frame);
+
+/// Declares "shadow_channels" (half float) and appends its passes; nothing for `none`. Reads of the light
+/// pass: shadow_channel_reads().
+void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, const FrameContext& frame);
+
+/// For a pass whose shader includes shared/shadow_channels.glsl: its reads and constants.
+void read_shadow_channels(Pass& pass, const ShadowChannelSettings& settings, const FrameContext& frame);
+
+}  // namespace dermis

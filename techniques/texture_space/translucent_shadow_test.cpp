@@ -1,0 +1,177 @@
+// A plane under tinted sheets, lit from above: what arrives in the light map is known exactly.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dermis/mesh/primitives.h"
+#include "dermis/scene/builtin.h"
+#include "render/render_test.h"
+
+using namespace dermis;
+
+namespace {
+
+constexpr float kIrradiance = 2;
+constexpr Vec3 kTint = {0.2f, 0.5f, 0.9f};
+
+SceneObject sheet(Vec3 color_linear, float height_mm, MaterialClass material_class) {
+    // Over the half of the plane where x > 0.
+    SceneObject object{.name = "sheet", .mesh = make_plane(60, 120), .classes = {material_class}};
+    for (Vec3& p : object.mesh.positions_mm) p = p + Vec3{35, 0, height_mm};
+    object.mesh.materials[0].base_color_linear = color_linear;
+    object.mesh.materials[0].opacity = 0;
+    object.mesh.materials[0].specular = 0;
+    return object;
+}
+
+Scene plane_under(std::vector<SceneObject> sheets) {
+    Scene scene;
+    scene.objects.push_back({.name = "skin", .mesh = make_plane(100, 100, 8), .classes = {MaterialClass::skin}});
+    for (SceneObject& object : sheets) scene.objects.push_back(std::move(object));
+    place_in_studio(scene);
+    scene.environment.kind = EnvironmentKind::none;
+    scene.lights = {{.name = "key", .intensity = kIrradiance, .to_light_world = {0, 0, 1}, .is_key = true}};
+    EXPECT_TRUE(complete_scene(scene));
+    return scene;
+}
+
+class TranslucentShadow : public RenderTest {
+  protected:
+    using Settings = std::vector<std::pair<const char*, const char*>>;
+
+    /// The light map of one frame, unblurred.
+    static Image light_map(Renderer& renderer, const Settings& settings) {
+        ParameterValues values((*find_technique("texture_space"))->parameters);
+        EXPECT_TRUE(values.set("blur_passes", "0") && values.set("light_map_size", "64"));
+        for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
+        const auto drawn = renderer.draw(**find_technique("texture_space"), values,
+                                         {.width = 64, .height = 64, .shadow_map_size = 512});
+        EXPECT_TRUE(drawn) << drawn.error().message;
+        return to_linear_float(*renderer.read("light_map_a"));
+    }
+    static Vec3 at(const Image& image, int x, int y) {
+        return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
+    }
+    static void expect_near(Vec3 value, Vec3 expected) {
+        EXPECT_NEAR(value.x, expected.x, 4e-3f);
+        EXPECT_NEAR(value.y, expected.y, 4e-3f);
+        EXPECT_NEAR(value.z, expected.z, 4e-3f);
+    }
+};
+
+}  // namespace
+
+TEST_F(TranslucentShadow, is_the_tint_to_the_given_power_between_occluded_and_white) {
+    const Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    Renderer renderer = make_renderer(scene);
+    for (const char* lookup : {"disk", "single"}) {
+        const Image plain = light_map(renderer, {{"shadow_lookup", lookup}});
+        expect_near(at(plain, 12, 32), Vec3{1, 1, 1} * kIrradiance);
+        expect_near(at(plain, 48, 32), kTint * kIrradiance);
+        const Image dark = light_map(
+            renderer, {{"shadow_lookup", lookup}, {"trans_shadow_alpha", "2"}, {"occluded", "0.25"}});
+        expect_near(at(dark, 48, 32), (kTint * kTint * 0.75f + Vec3{1, 1, 1} * 0.25f) * kIrradiance);
+        const Image off = light_map(renderer, {{"shadow_lookup", lookup}, {"translucent_shadows", "off"}});
+        expect_near(at(off, 48, 32), Vec3{1, 1, 1} * kIrradiance);
+    }
+}
+
+TEST_F(TranslucentShadow, of_two_sheets_is_the_product_of_their_tints) {
+    const Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent),
+                                     sheet({0.5f, 0.5f, 0.5f}, 30, MaterialClass::translucent)});
+    Renderer renderer = make_renderer(scene);
+    expect_near(at(light_map(renderer, {}), 48, 32), kTint * 0.5f * kIrradiance);
+}
+
+TEST_F(TranslucentShadow, takes_one_channel_when_asked) {
+    const Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    Renderer renderer = make_renderer(scene);
+    expect_near(at(light_map(renderer, {{"single_channel_opacity", "on"}}), 48, 32),
+                Vec3{1, 1, 1} * (kTint.x * kIrradiance));
+}
+
+TEST_F(TranslucentShadow, reads_the_colours_of_an_opacity_map) {
+    SceneObject lens = sheet({0, 0, 0}, 20, MaterialClass::translucent);
+    const std::byte code[] = {std::byte{255}, std::byte{188}, std::byte{0}};
+    lens.mesh.materials[0].opacity_map = {.name = "opacity of the test", .width = 1, .height = 1, .channels = 3};
+    lens.mesh.materials[0].opacity_map.pixels.assign(code, code + 3);
+    const Scene scene = plane_under({lens});
+    Renderer renderer = make_renderer(scene);
+    expect_near(at(light_map(renderer, {}), 48, 32), Vec3{1, 0.503f, 0} * kIrradiance);
+}
+
+TEST_F(TranslucentShadow, leaves_the_depth_in_alpha_and_ignores_sheets_behind_opaque_things) {
+    const Scene bare = plane_under({sheet(kTint, 20, MaterialClass::other), sheet(kTint, 40, MaterialClass::other)});
+    const Scene tinted =
+        plane_under({sheet(kTint, 20, MaterialClass::translucent), sheet(kTint, 40, MaterialClass::other)});
+    Renderer without = make_renderer(bare), with = make_renderer(tinted);
+    // The upper sheet is opaque: where it is, the lower one is hidden from the light.
+    const Image dark = light_map(with, {});
+    expect_near(at(dark, 48, 32), {});
+    const Image channels = to_linear_float(*with.read("shadow_channels"));
+    (void)light_map(without, {{"shadow_lookup", "single"}});
+    const Image depth_only = to_linear_float(*without.read("shadow_channels"));
+    for (int y = 0; y < channels.height; ++y)
+        for (int x = 0; x < channels.width; ++x) {
+            ASSERT_EQ(channels.at(x, y, 0), 0) << "tint behind an opaque sheet, or beside it";
+            ASSERT_EQ(channels.at(x, y, 3), depth_only.at(x, y, 3)) << x << " " << y;
+        }
+}
+
+TEST_F(TranslucentShadow, does_not_write_depth) {
+    const Scene tinted = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    Renderer renderer = make_renderer(tinted);
+    (void)light_map(renderer, {});
+    const Image channels = to_linear_float(*renderer.read("shadow_channels"));
+    float nearest = 1, thickest = 0;
+    for (int y = 0; y < channels.height; ++y)
+        for (int x = 0; x < channels.width; ++x) {
+            nearest = std::min(nearest, channels.at(x, y, 3));
+            thickest = std::max(thickest, channels.at(x, y, 0));
+        }
+    EXPECT_NEAR(thickest, -std::log(kTint.x), 2e-3f);
+    // The plane, in the light's range of two bounding radii around the middle of the scene.
+    const float plane = 0.5f + tinted.bounds_center_mm.z / (2 * tinted.bounds_radius_mm);
+    EXPECT_NEAR(nearest, plane, 2e-3f);
+}
+
+TEST_F(TranslucentShadow, of_a_second_light_lies_in_the_channels_that_one_light_leaves_free) {
+    Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    SceneObject blocker = sheet({}, 20, MaterialClass::other);
+    for (Vec3& p : blocker.mesh.positions_mm) p = p + Vec3{-60, 0, 0};
+    scene.objects.push_back(blocker);
+    // 45 degrees from the right: shadows lie 20 mm to the left of what casts them.
+    scene.lights.push_back({.name = "fill", .intensity = kIrradiance, .to_light_world = normalize({1, 0, 1})});
+    EXPECT_TRUE(complete_scene(scene));
+    Renderer renderer = make_renderer(scene);
+    const float fill = kIrradiance * std::sqrt(0.5f);
+    const Image off = light_map(renderer, {});
+    const Image on = light_map(renderer, {{"second_light_shadow", "on"}});
+    const auto texel = [](float x_mm) { return int((x_mm + 50) / 100 * 64); };
+    // At x = 30 the key light and the fill both come through the sheet; one channel of opacity each.
+    EXPECT_NEAR(off.at(texel(30), 32, 1), kIrradiance * kTint.y + fill, 5e-3f);
+    EXPECT_NEAR(on.at(texel(30), 32, 1), (kIrradiance + fill) * kTint.x, 5e-3f);
+    // At x = -7 the fill comes through the sheet, at -35 it meets the blocker.
+    EXPECT_NEAR(on.at(texel(-7), 32, 0), fill * kTint.x, 5e-3f);
+    EXPECT_NEAR(on.at(texel(-35), 32, 0), 0, 5e-3f);
+    EXPECT_NEAR(off.at(texel(-35), 32, 0), fill, 5e-3f);
+}
+
+TEST_F(TranslucentShadow, glass_is_drawn_over_the_picture_as_a_product) {
+    const Scene bare = plane_under({}), glazed = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    Scene same_view = bare;
+    same_view.camera = glazed.camera;
+    Renderer without = make_renderer(same_view), with = make_renderer(glazed);
+    const Technique& lambert = **find_technique("lambert");
+    const DrawSettings settings = {.width = 64, .height = 64, .view = "diffuse", .shadow_map_size = 256};
+    const Image a = radiance(without, lambert, settings), b = radiance(with, lambert, settings);
+    size_t tinted = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            if (a.at(x, y, 3) < 1) continue;
+            const float red = b.at(x, y, 0) / a.at(x, y, 0), blue = b.at(x, y, 2) / a.at(x, y, 2);
+            tinted += std::abs(red - kTint.x) < 0.06f && std::abs(blue - kTint.z) < 0.06f;
+        }
+    EXPECT_GT(tinted, 200u);
+}
