@@ -1,5 +1,5 @@
-// Rims, bridge and temples are tubes swept along curves, the lenses sheets stretched over the rims' curve. All
-// of it lies on one gently curved front, which wraps back towards the temples and leans in below.
+// Rims, bridge and temples are tubes swept along curves, the lenses sheets stretched over the rims' curve.
+// All of it lies on one gently curved front, which wraps back towards the temples and leans in below.
 
 #include "dermis/scene/glasses.h"
 
@@ -60,7 +60,8 @@ void add_tube(Mesh& mesh, const std::vector<Vec3>& path, float radius_mm, bool c
     if (closed) return;
     for (uint32_t k = 1; k + 1 < kTubeSides; ++k) {
         const uint32_t last = first + (count - 1) * kTubeSides;
-        mesh.indices.insert(mesh.indices.end(), {first, first + k + 1, first + k, last, last + k, last + k + 1});
+        mesh.indices.insert(mesh.indices.end(),
+                            {first, first + k + 1, first + k, last, last + k, last + k + 1});
     }
 }
 
@@ -83,7 +84,8 @@ void add_half_frame(Mesh& mesh, float side) {
                             {side * 79.5f, 10, -15}};
     std::vector<Vec3> temple;
     for (size_t i = 0; i + 1 < std::size(corners); ++i)
-        for (int k = 0; k < 6; ++k) temple.push_back(corners[i] + (corners[i + 1] - corners[i]) * (float(k) / 6));
+        for (int k = 0; k < 6; ++k)
+            temple.push_back(corners[i] + (corners[i + 1] - corners[i]) * (float(k) / 6));
     temple.push_back(corners[std::size(corners) - 1]);
     add_tube(mesh, temple, kTempleRadiusMm, false);
 }

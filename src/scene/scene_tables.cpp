@@ -60,7 +60,9 @@ const KeyTable<MeshDescription>& mesh_keys() {
     using D = MeshDescription;
     static const KeyTable<D> table =
         KeyTable<D>()
-            .file(&D::file, {.name = "file", .doc = "`.obj`, `.gltf`, `.glb`, or `builtin:bust`, `builtin:glasses`, `builtin:spheres`"})
+            .file(&D::file,
+                  {.name = "file",
+                   .doc = "`.obj`, `.gltf`, `.glb`, or `builtin:bust`, `builtin:glasses`, `builtin:spheres`"})
             .text(&D::name, {.name = "name", .doc = "of the object; the file's name when absent"})
             .number(&D::unit_mm,
                     {.name = "unit_mm",

@@ -13,7 +13,8 @@ struct LightChannels {
 };
 
 Pass depth_pass(const LightChannels& light, LoadOp load, bool draws_depth) {
-    // The key light's depth image is the frame's shadow map: what is equal in it is what the light sees first.
+    // The key light's depth image is the frame's shadow map: what is equal in it is what the light sees
+    // first.
     return {.name = "shadow channels" + light.suffix,
             .kind = PassKind::geometry_light,
             .shader = "shared/shadow_channels_depth.frag",
@@ -55,13 +56,15 @@ void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, 
     list.images.push_back({.name = kMap, .format = ImageFormat::rgba16f, .size = size});
     const bool two = channels == ShadowChannels::two_lights;
     const bool tinted = settings.translucent && frame.has_translucent;
-    const LightChannels key = {"", "shadow_map", "", two ? kRedBit : kRedBit | kGreenBit | kBlueBit, kAlphaBit};
+    const LightChannels key = {"", "shadow_map", "", two ? kRedBit : kRedBit | kGreenBit | kBlueBit,
+                               kAlphaBit};
     list.passes.push_back(depth_pass(key, LoadOp::clear, false));
     if (tinted) list.passes.push_back(tint_pass(key, two || settings.single_channel));
     if (!two) return;
     list.passes[list.passes.size() - (tinted ? 2 : 1)].colors[0].clear = {0, 0, 1, 1};
     list.images.push_back({.name = "second_shadow_depth", .format = ImageFormat::depth32f, .size = size});
-    const LightChannels second = {" 2", "second_shadow_depth", "shared/mesh_second_light.vert", kGreenBit, kBlueBit};
+    const LightChannels second = {" 2", "second_shadow_depth", "shared/mesh_second_light.vert", kGreenBit,
+                                  kBlueBit};
     list.passes.push_back(depth_pass(second, LoadOp::load, true));
     if (tinted) list.passes.push_back(tint_pass(second, true));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The colour shadow map of Gosselin, Sander, Mitchell 2004, as passes: opaque depth in alpha, then translucent
-// sheets added into RGB with the depth test on, depth writes off and alpha untouched.
+// The colour shadow map of Gosselin, Sander, Mitchell 2004, as passes: opaque depth in alpha, then
+// translucent sheets added into RGB with the depth test on, depth writes off and alpha untouched.
 
 #include "dermis/technique/technique.h"
 

@@ -27,7 +27,8 @@ SceneObject sheet(Vec3 color_linear, float height_mm, MaterialClass material_cla
 
 Scene plane_under(std::vector<SceneObject> sheets) {
     Scene scene;
-    scene.objects.push_back({.name = "skin", .mesh = make_plane(100, 100, 8), .classes = {MaterialClass::skin}});
+    scene.objects.push_back(
+        {.name = "skin", .mesh = make_plane(100, 100, 8), .classes = {MaterialClass::skin}});
     for (SceneObject& object : sheets) scene.objects.push_back(std::move(object));
     place_in_studio(scene);
     scene.environment.kind = EnvironmentKind::none;
@@ -94,7 +95,8 @@ TEST_F(TranslucentShadow, takes_one_channel_when_asked) {
 TEST_F(TranslucentShadow, reads_the_colours_of_an_opacity_map) {
     SceneObject lens = sheet({0, 0, 0}, 20, MaterialClass::translucent);
     const std::byte code[] = {std::byte{255}, std::byte{188}, std::byte{0}};
-    lens.mesh.materials[0].opacity_map = {.name = "opacity of the test", .width = 1, .height = 1, .channels = 3};
+    lens.mesh.materials[0].opacity_map = {
+        .name = "opacity of the test", .width = 1, .height = 1, .channels = 3};
     lens.mesh.materials[0].opacity_map.pixels.assign(code, code + 3);
     const Scene scene = plane_under({lens});
     Renderer renderer = make_renderer(scene);
@@ -102,7 +104,8 @@ TEST_F(TranslucentShadow, reads_the_colours_of_an_opacity_map) {
 }
 
 TEST_F(TranslucentShadow, leaves_the_depth_in_alpha_and_ignores_sheets_behind_opaque_things) {
-    const Scene bare = plane_under({sheet(kTint, 20, MaterialClass::other), sheet(kTint, 40, MaterialClass::other)});
+    const Scene bare =
+        plane_under({sheet(kTint, 20, MaterialClass::other), sheet(kTint, 40, MaterialClass::other)});
     const Scene tinted =
         plane_under({sheet(kTint, 20, MaterialClass::translucent), sheet(kTint, 40, MaterialClass::other)});
     Renderer without = make_renderer(bare), with = make_renderer(tinted);
@@ -142,7 +145,8 @@ TEST_F(TranslucentShadow, of_a_second_light_lies_in_the_channels_that_one_light_
     for (Vec3& p : blocker.mesh.positions_mm) p = p + Vec3{-60, 0, 0};
     scene.objects.push_back(blocker);
     // 45 degrees from the right: shadows lie 20 mm to the left of what casts them.
-    scene.lights.push_back({.name = "fill", .intensity = kIrradiance, .to_light_world = normalize({1, 0, 1})});
+    scene.lights.push_back(
+        {.name = "fill", .intensity = kIrradiance, .to_light_world = normalize({1, 0, 1})});
     EXPECT_TRUE(complete_scene(scene));
     Renderer renderer = make_renderer(scene);
     const float fill = kIrradiance * std::sqrt(0.5f);
