@@ -5,6 +5,8 @@
 #include "shared/frame.glsl"
 
 layout(set = 0, binding = 11) uniform textureCube environment_cube;
+// F0 scale and bias of the split sum: n.v from left to right, roughness from top to bottom (scene/brdf_table.h).
+layout(set = 0, binding = 17) uniform texture2D environment_brdf;
 
 // Nine radiance coefficients, order (l, m): 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22, real orthonormal basis.
 struct ShTerm {
@@ -35,13 +37,6 @@ vec3 environment_irradiance(vec3 n_world) {
     return environment_convolved(n_world, vec3(kPi), vec3(2.0 * kPi / 3.0), vec3(kPi / 4.0));
 }
 
-// Split-sum scale and bias of F0 for GGX, analytic: Karis 2014, "Physically Based Shading on Mobile".
-vec2 ggx_environment_brdf(float roughness, float n_dot_v) {
-    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a = min(r.x * r.x, exp2(-9.28 * n_dot_v)) * r.x + r.y;
-    return vec2(-1.04, 1.04) * a + r.zw;
-}
-
 // How much of a reflection cone the occlusion leaves: Lagarde, de Rousiers 2014.
 float specular_occlusion(float n_dot_v, float occlusion, float roughness) {
     return clamp(pow(n_dot_v + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion, 0.0, 1.0);
@@ -52,7 +47,7 @@ vec3 environment_specular(vec3 n_world, vec3 to_eye_world, float roughness, floa
     vec3 r_world = reflect(-to_eye_world, n_world);
     vec3 radiance = textureLod(samplerCube(environment_cube, trilinear_clamp), to_environment(r_world),
                                roughness * (environment_mip_count - 1.0)).rgb;
-    vec2 brdf = ggx_environment_brdf(roughness, n_dot_v);
+    vec2 brdf = textureLod(sampler2D(environment_brdf, linear_clamp), vec2(n_dot_v, roughness), 0.0).rg;
     return radiance * environment_intensity * (f0 * brdf.x + brdf.y) *
            specular_occlusion(n_dot_v, occlusion, roughness);
 }

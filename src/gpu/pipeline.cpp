@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dermis/base/hash.h"
+#include "dermis/base/text.h"
 #include "dermis/gpu/graphics_state.h"
 
 namespace dermis::gpu {
@@ -25,6 +26,18 @@ int32_t constant_value(const Pass& pass, const SpecializationConstant& constant)
     for (const auto& [name, value] : pass.constants)
         if (name == constant.name) return value;
     return int32_t(constant.default_value);
+}
+
+// A misspelt constant would leave the shader's default in place without a word.
+Result<void> check_constants(const Pass& pass, std::span<const Shader* const> shaders) {
+    std::vector<std::string> declared;
+    for (const Shader* shader : shaders)
+        for (const SpecializationConstant& constant : shader->interface.constants)
+            declared.push_back(constant.name);
+    for (const auto& [name, value] : pass.constants)
+        if (std::ranges::find(declared, name) == declared.end())
+            return Error{unknown_name("specialisation constant", name, declared)};
+    return {};
 }
 
 Result<void> make_stage(const Context& context, const Pass& pass, const Shader& shader,
@@ -80,6 +93,7 @@ std::string compute_key(const Pass& pass, const Shader& shader) {
 // Layout first: the modules carry its binding numbers.
 Result<std::vector<Stage>> make_stages(Device::State& device, const Pass& pass,
                                        std::span<const Shader* const> shaders, Pipeline& pipeline) {
+    if (Result<void> ok = check_constants(pass, shaders); !ok) return ok.error();
     if (Result<void> ok = merge_interface(shaders, pipeline); !ok) return ok.error();
     if (Result<void> ok = make_layout(device, pipeline); !ok) return ok.error();
     std::vector<Stage> stages(shaders.size());

@@ -145,7 +145,11 @@ class ObjParser {
         if (!stays_inside(library))
             return warn("material library '" + library + "' lies outside the mesh's directory; not read");
         const auto bytes = read_sibling_(library);
-        if (!bytes) return warn("material library not read: " + bytes.error().message);
+        if (!bytes) {
+            if (!options_.ignore_missing_materials)
+                warn("material library not read: " + bytes.error().message);
+            return;
+        }
         const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
         const std::filesystem::path path = name_.parent_path() / library;
         for (Material& material : parse_mtl(text, path.string(), path.parent_path(), file_.warnings))

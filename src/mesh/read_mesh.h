@@ -20,6 +20,8 @@ struct MeshOptions {
     std::optional<double> unit_mm;
     /// Catmull-Clark refinements (subdivide.h); OBJ keeps its quads for them.
     int subdivision_level = 0;
+    /// The caller brings maps and materials of its own: an MTL that is not there is no news.
+    bool ignore_missing_materials = false;
     /// More, also through instancing, is an error and not a swapping machine.
     size_t max_vertices = 50'000'000;
 };

@@ -1,4 +1,5 @@
 #include "dermis/render/scene_upload.h"
+#include "dermis/scene/brdf_table.h"
 #include "dermis/scene/environment.h"
 
 namespace dermis {
@@ -19,6 +20,16 @@ Result<void> SceneOnDevice::upload_environment(gpu::Device& device, const Scene&
                                                               .bytes = std::move(environment->cube)});
     if (!cube) return cube.error();
     environment_cube_ = std::make_unique<gpu::Texture>(std::move(*cube));
+
+    Result<std::vector<std::byte>> table = stored_brdf_table();
+    if (!table) return table.error();
+    Result<gpu::Texture> brdf = gpu::Texture::upload(device, {.name = "environment_brdf",
+                                                              .format = ImageFormat::rg16f,
+                                                              .width = kBrdfTableSize,
+                                                              .height = kBrdfTableSize,
+                                                              .bytes = std::move(*table)});
+    if (!brdf) return brdf.error();
+    environment_brdf_ = std::make_unique<gpu::Texture>(std::move(*brdf));
     return {};
 }
 

@@ -82,6 +82,7 @@ Result<void> Renderer::prepare_tables(const Technique& technique, const Paramete
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
     gpu::FrameInputs inputs = {.width = settings.width, .height = settings.height};
     inputs.textures["environment_cube"] = &uploaded_.environment_cube();
+    inputs.textures["environment_brdf"] = &uploaded_.environment_brdf();
     inputs.textures["no_image"] = &uploaded_.no_image();
     for (const auto& [name, texture] : tables_) inputs.textures[name] = &texture;
     inputs.blocks["Frame"] =

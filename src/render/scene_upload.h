@@ -18,6 +18,7 @@ class SceneOnDevice {
     [[nodiscard]] const std::vector<gpu::Draw>& draws() const { return draws_; }
     [[nodiscard]] bool has(gpu::DrawClass draw_class) const;
     [[nodiscard]] const gpu::Texture& environment_cube() const { return *environment_cube_; }
+    [[nodiscard]] const gpu::Texture& environment_brdf() const { return *environment_brdf_; }
     [[nodiscard]] const gpu::Texture& no_image() const { return *no_image_; }
     [[nodiscard]] int environment_mip_count() const { return environment_mip_count_; }
     [[nodiscard]] const std::vector<gpu::Values>& environment_sh() const { return environment_sh_; }
@@ -30,7 +31,7 @@ class SceneOnDevice {
     // Pointers stay valid when the whole moves: textures and geometries live in node-based containers.
     std::map<std::string, gpu::Texture> textures_;
     std::vector<std::unique_ptr<gpu::Geometry>> geometries_;
-    std::unique_ptr<gpu::Texture> environment_cube_, no_image_;
+    std::unique_ptr<gpu::Texture> environment_cube_, environment_brdf_, no_image_;
     int environment_mip_count_ = 1;
     std::vector<gpu::Values> environment_sh_;
     std::vector<gpu::Draw> draws_;

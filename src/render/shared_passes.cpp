@@ -104,7 +104,7 @@ std::string radiance_image(const SharedPassSettings& settings) {
 }
 
 std::vector<std::string> shared_inputs() {
-    return {"environment_cube", "no_image"};
+    return {"environment_cube", "environment_brdf", "no_image"};
 }
 
 PassList frame_passes(const PassList& technique, const SharedPassSettings& settings) {

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
 #include "dermis/image/half.h"
 #include "dermis/scene/hammersley.h"
@@ -67,6 +69,13 @@ std::vector<std::byte> make_brdf_table(int size) {
             }
     });
     return table;
+}
+
+Result<std::vector<std::byte>> stored_brdf_table() {
+    // Raise with every change to what the table holds.
+    constexpr int kVersion = 1;
+    return cached("brdf", Hasher().add(kVersion).add(kBrdfTableSize).hex(),
+                  []() -> Result<std::vector<std::byte>> { return make_brdf_table(kBrdfTableSize); });
 }
 
 }  // namespace dermis

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "dermis/base/result.h"
 #include "dermis/base/vec.h"
 
 namespace dermis {
@@ -21,5 +22,9 @@ namespace dermis {
 /// centres (i + 0.5) / size. 64 x 64 takes 40 ms on one core; bilinear lookups between its texels are within
 /// 0.004 for roughness above 0.1 and n.v above 0.05.
 [[nodiscard]] std::vector<std::byte> make_brdf_table(int size);
+
+/// The one that shaders read, from the disk cache when it holds it.
+inline constexpr int kBrdfTableSize = 64;
+[[nodiscard]] Result<std::vector<std::byte>> stored_brdf_table();
 
 }  // namespace dermis

@@ -41,7 +41,9 @@ Result<std::vector<SceneObject>> load_objects(const SceneDescription& descriptio
     const Result<fs::path> path = resolve(description, mesh.file);
     if (!path) return path.error();
     Result<LoadedMesh> loaded =
-        read_mesh(*path, {.unit_mm = mesh.unit_mm, .subdivision_level = mesh.subdivision});
+        read_mesh(*path, {.unit_mm = mesh.unit_mm,
+                          .subdivision_level = mesh.subdivision,
+                          .ignore_missing_materials = description.maps.albedo.given()});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     warnings.insert(warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     std::vector<SceneObject> objects(1);

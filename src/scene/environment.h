@@ -34,8 +34,8 @@ inline constexpr int kEnvironmentMips = 6;  ///< 128 to 4 texels
 /// read, or is not twice as wide as high.
 [[nodiscard]] Result<Image> load_panorama(const Environment& environment);
 
-/// load_panorama() and bake_environment(), cached on disk by the content of the file. Cold 0.95 s of one
-/// core's time (two share it) for 1024 x 512 and its decoding; warm a read of 1 MB. Errors as
+/// load_panorama() and bake_environment(), cached on disk by the content of the file. Cold about a
+/// second of one core's time (all cores share it) for 1024 x 512 texels; warm a read of 1 MB. Errors as
 /// load_panorama().
 [[nodiscard]] Result<EnvironmentLight> prepare_environment(const Environment& environment);
 

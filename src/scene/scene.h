@@ -81,10 +81,9 @@ struct Environment {
 struct Skin {
     std::string profile = "gpu_gems_3";
     float ior = 1.4f;
-    float roughness = 0.45f;                            ///< perceptual; of the first lobe
-    float specular = 1;                                 ///< scales F0
-    float second_roughness = 0.25f, second_weight = 0;  ///< a second lobe's share of the specular, 0..1
-    Vec3 albedo_tint_linear = {1, 1, 1};                ///< multiplies the materials' base colour
+    float roughness = 0.45f;              ///< perceptual
+    float specular = 1;                   ///< scales F0
+    Vec3 albedo_tint_linear = {1, 1, 1};  ///< multiplies the materials' base colour
 };
 
 /// One mesh with its transform applied. A material is skin, other, or translucent (shadow-casting glass).

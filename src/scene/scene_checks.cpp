@@ -30,6 +30,18 @@ Result<void> check_light(const SceneDescription& scene, const LightDescription& 
     return {};
 }
 
+// What a built-in mesh is made with already.
+Result<void> check_mesh(const SceneDescription& scene, const MeshDescription& mesh) {
+    if (!mesh.file.text.starts_with("builtin:")) return {};
+    if (mesh.subdivision > 0)
+        return error_at(scene, mesh.line,
+                        "mesh.subdivision: " + mesh.file.text + " is made as fine as it needs; leave it out");
+    if (mesh.unit_mm)
+        return error_at(scene, mesh.line,
+                        "mesh.unit_mm: " + mesh.file.text + " is in millimetres; use scale to resize it");
+    return {};
+}
+
 Result<void> check_key_light(SceneDescription& scene) {
     if (scene.lights.size() == 1 && !scene.lights[0].key) scene.lights[0].key = true;
     const LightDescription* key = nullptr;
@@ -76,6 +88,8 @@ Result<void> check_scene(SceneDescription& scene) {
         if (!mesh.file.given())
             return error_at(scene, mesh.line,
                             "mesh.file is missing; give file = \"HEAD.obj\" or \"builtin:spheres\"");
+    for (const MeshDescription& mesh : scene.meshes)
+        if (const Result<void> checked = check_mesh(scene, mesh); !checked) return checked;
     for (const LightDescription& light : scene.lights)
         if (const Result<void> checked = check_light(scene, light); !checked) return checked;
     Result<void> checked = check_key_light(scene);

@@ -178,10 +178,6 @@ const KeyTable<Skin>& skin_keys() {
             .number(&Skin::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
             .number(&Skin::specular,
                     {.name = "specular", .doc = "scales the reflectance at normal incidence", .max = 10})
-            .number(&Skin::second_roughness,
-                    {.name = "second_roughness", .doc = "perceptual roughness of a second lobe"})
-            .number(&Skin::second_weight,
-                    {.name = "second_weight", .doc = "share of the second lobe in the specular"})
             .color(&Skin::albedo_tint_linear, {.name = "albedo_tint",
                                                .unit = "linear",
                                                .doc = "multiplies the colour of every skin material",

@@ -24,8 +24,8 @@ using RadianceSh = std::array<Vec3, 9>;
 [[nodiscard]] RadianceSh project_radiance(const Image& panorama);
 
 /// Irradiance on a surface with normal n: band weights pi, 2 pi / 3, pi / 4 (same source, equation 9). For
-/// distant lighting within 9 % of the true irradiance whatever the environment (their appendix), 1 to 3 % in
-/// practice; may be slightly negative opposite a single small light.
+/// distant lighting within 9 % of the true irradiance whatever the environment (their appendix); may
+/// be slightly negative opposite a single small light.
 [[nodiscard]] Vec3 sh_irradiance(const RadianceSh& sh, Vec3 n);
 
 }  // namespace dermis

@@ -64,6 +64,15 @@ void main() { color = vec4(kTaps, kFlip ? 1 : 0, 0, 0); })";
     EXPECT_THAT(result_of(shader, list({}, {{"kTaps", 9}, {"kFlip", 1}})), ElementsAre(9, 1, 0, 0));
 }
 
+TEST_F(BindingTest, a_specialisation_constant_that_no_shader_has_is_an_error) {
+    const std::string shader = R"(
+layout(constant_id = 7) const int kTaps = 5;
+layout(location = 0) out vec4 color;
+void main() { color = vec4(kTaps); })";
+    EXPECT_THAT(error_of(shader, list({}, {{"kTap", 9}})),
+                HasSubstr("unknown specialisation constant 'kTap'; did you mean 'kTaps'?"));
+}
+
 const std::string kFrame = R"(
 layout(scalar) uniform Frame { vec3 eye; float gain; mat4 turn; int count; vec2 taps[3]; };
 layout(location = 0) out vec4 color;

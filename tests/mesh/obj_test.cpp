@@ -132,6 +132,15 @@ TEST(Obj, degenerate_faces_are_skipped_or_harmless) {
     EXPECT_TRUE(any_contains(loaded->warnings, "2 faces with fewer than three corners"));
 }
 
+TEST(Obj, a_missing_mtl_is_told_unless_the_caller_brings_materials) {
+    const std::string text = "mtllib none.mtl\nv 0 0 0\nv 200 0 0\nv 0 200 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+    const auto told = parse_obj_text(text),
+               quiet = parse_obj_text(text, {}, {.ignore_missing_materials = true});
+    ASSERT_TRUE(told && quiet);
+    EXPECT_EQ(told->warnings.size(), quiet->warnings.size() + 1);
+    EXPECT_NE(told->warnings[0].find("material library not read"), std::string::npos) << told->warnings[0];
+}
+
 TEST(Obj, every_prefix_loads_or_fails_cleanly) {
     const std::string text = "mtllib a.mtl\nusemtl b\n" + kCubeObj;
     const std::string mtl = "newmtl b\nKd 1 0.5 0\nmap_Kd -o 1 2 3 -bm 0.5 x.png\nbump n.png\nd 0.5\n";

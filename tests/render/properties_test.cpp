@@ -7,7 +7,9 @@
 #include <filesystem>
 
 #include "dermis/image/io.h"
+#include "dermis/scene/brdf_table.h"
 #include "render/render_test.h"
+#include "support/temporary_directory.h"
 
 using namespace dermis;
 
@@ -108,6 +110,41 @@ TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
         EXPECT_LT(relative_difference(image, ones, 1), 0.02) << technique.id;
     }
     std::filesystem::remove(panorama);
+}
+
+TEST_F(Properties, reflections_of_a_white_furnace_are_the_split_sum) {
+    Scene scene = load("builtin:spheres");
+    scene.lights.clear();
+    scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 3);
+    SceneObject& sphere = scene.objects[0];
+    sphere.mesh.materials[0].ior = 1.5f;
+    sphere.mesh.materials[0].roughness = 0.3f;
+    sphere.mesh.occlusions.assign(sphere.mesh.positions_mm.size(), 1.0f);
+    const TemporaryDirectory directory;
+    Image white(64, 32, 3);
+    std::ranges::fill(white.floats(), 1.0f);
+    ASSERT_TRUE(write_image(directory.path / "white.exr", white));
+    scene.environment = {.kind = EnvironmentKind::file, .file = directory.path / "white.exr", .intensity = 1};
+    scene.background_linear = {};
+    Renderer renderer = make_renderer(scene);
+    DrawSettings settings = kSmall;
+    settings.view = "specular";
+    settings.deep = settings.gbuffer = true;
+    const Image image = radiance(renderer, **find_technique("lambert"), settings);
+    const Image normal = *renderer.read("gbuffer_geometry"), position = *renderer.read("gbuffer_position");
+    size_t compared = 0;
+    for (int y = 0; y < image.height; y += 5)
+        for (int x = 0; x < image.width; x += 5) {
+            if (image.at(x, y, 3) == 0) continue;
+            const Vec3 n = {normal.at(x, y, 0), normal.at(x, y, 1), normal.at(x, y, 2)};
+            const Vec3 p_mm = {position.at(x, y, 0), position.at(x, y, 1), position.at(x, y, 2)};
+            const float n_dot_v = dot(n, normalize(scene.camera.eye_mm - p_mm));
+            if (n_dot_v < 0.1f) continue;
+            const Vec2 exact = ggx_scale_and_bias(0.3f, n_dot_v);
+            EXPECT_NEAR(image.at(x, y, 1), 0.04f * exact.x + exact.y, 0.003f) << "n.v " << n_dot_v;
+            ++compared;
+        }
+    EXPECT_GT(compared, 50u);
 }
 
 TEST_F(Properties, lambert_on_a_sphere_is_the_clamped_cosine) {

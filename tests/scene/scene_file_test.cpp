@@ -37,7 +37,6 @@ normal_scale = 0.5
 [skin]
 profile = "gpu_gems_3"
 ior = 1.38
-second_weight = 0.15
 
 [[light]]
 name = "sun"
@@ -141,7 +140,7 @@ TEST(SceneFile, an_unknown_key_proposes_the_one_that_was_meant) {
     EXPECT_EQ(error_of(kMesh + "[skin]\nrougness = 0.4\n"),
               "s.toml:4: unknown key in [skin]: 'rougness'; did you mean 'roughness'? Known: profile, ior, "
               "roughness, "
-              "specular, second_roughness, second_weight, albedo_tint");
+              "specular, albedo_tint");
     EXPECT_EQ(error_of("exposure = 1\n" + kMesh),
               "s.toml:1: unknown key 'exposure'; did you mean 'exposure_ev'? Known: camera, environment, "
               "light, maps, "
@@ -200,6 +199,14 @@ TEST(SceneFile, a_scene_needs_a_mesh_and_a_mesh_needs_a_file) {
               "s.toml:1: no [[mesh]]; a scene has at least one, with file = \"HEAD.obj\"");
     EXPECT_EQ(error_of("\n[[mesh]]\nscale = 2\n"),
               "s.toml:2: mesh.file is missing; give file = \"HEAD.obj\" or \"builtin:spheres\"");
+}
+
+TEST(SceneFile, a_built_in_mesh_takes_no_unit_and_no_refinement) {
+    EXPECT_EQ(error_of(kMesh + "subdivision = 1\n"),
+              "s.toml:1: mesh.subdivision: builtin:spheres is made as fine as it needs; leave it out");
+    EXPECT_EQ(error_of(kMesh + "unit_mm = 10\n"),
+              "s.toml:1: mesh.unit_mm: builtin:spheres is in millimetres; use scale to resize it");
+    EXPECT_EQ(error_of(kMesh + "scale = 2\n"), "");
 }
 
 TEST(SceneFile, exactly_one_light_is_the_key_light) {

@@ -11,6 +11,7 @@
 #include "command.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/uv_report.h"
+#include "dermis/scene/builtin.h"
 
 namespace dermis::cli {
 namespace {
@@ -86,7 +87,7 @@ Json uv_json(const UvReport& uv) {
             {"anisotropy", percentiles_json(uv.anisotropy)}};
 }
 
-void print_json(const LoadedMesh& loaded) {
+Json to_json(const LoadedMesh& loaded) {
     const Mesh& mesh = loaded.mesh;
     const auto [low, high] = bounding_box(mesh);
     Json json = {{"vertices", mesh.positions_mm.size()}, {"triangles", mesh.triangle_count()},
@@ -100,7 +101,7 @@ void print_json(const LoadedMesh& loaded) {
         if (!mesh.uvs.empty() && row["triangles"] != 0) row["uv"] = uv_json(analyze_uvs(mesh, i));
         json["materials"].push_back(row);
     }
-    fmt::print("{}\n", json.dump(1, ' ', false, Json::error_handler_t::replace));
+    return json;
 }
 
 void print_uv(const UvReport& uv) {
@@ -142,15 +143,42 @@ void print_text(const std::string& path, const LoadedMesh& loaded) {
     for (const std::string& warning : loaded.warnings) fmt::print("  warning: {}\n", warning);
 }
 
+struct NamedMesh {
+    std::string name;
+    LoadedMesh loaded;
+};
+
+Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
+    constexpr std::string_view kBuiltin = "builtin:";
+    std::vector<NamedMesh> meshes;
+    if (!arguments.mesh.starts_with(kBuiltin)) {
+        MeshOptions options;
+        if (arguments.unit_mm > 0) options.unit_mm = arguments.unit_mm;
+        Result<LoadedMesh> loaded = read_mesh(arguments.mesh, options);
+        if (!loaded) return loaded.error();
+        meshes.push_back({arguments.mesh, std::move(*loaded)});
+        return meshes;
+    }
+    Result<std::vector<SceneObject>> objects =
+        make_builtin_objects(std::string_view(arguments.mesh).substr(kBuiltin.size()));
+    if (!objects) return objects.error();
+    for (SceneObject& object : *objects) meshes.push_back({object.name, {std::move(object.mesh), {}}});
+    return meshes;
+}
+
 Result<int> run_info(const InfoArguments& arguments) {
-    MeshOptions options;
-    if (arguments.unit_mm > 0) options.unit_mm = arguments.unit_mm;
-    const Result<LoadedMesh> loaded = read_mesh(arguments.mesh, options);
-    if (!loaded) return loaded.error();
+    const Result<std::vector<NamedMesh>> meshes = load_meshes(arguments);
+    if (!meshes) return meshes.error();
+    Json list = Json::array();
+    for (const NamedMesh& mesh : *meshes)
+        if (arguments.json)
+            list.push_back(to_json(mesh.loaded));
+        else
+            print_text(mesh.name, mesh.loaded);
+    // One mesh is one object; the four spheres are a list of four.
     if (arguments.json)
-        print_json(*loaded);
-    else
-        print_text(arguments.mesh, *loaded);
+        fmt::print("{}\n",
+                   (list.size() == 1 ? list[0] : list).dump(1, ' ', false, Json::error_handler_t::replace));
     return std::fflush(stdout) == 0 ? Result<int>(0) : Error{"cannot write to standard output"};
 }
 
@@ -161,7 +189,7 @@ void add_info_command(CommandLine& line) {
     CLI::App* command =
         line.add("info", "What a mesh holds, and what its UV layout is worth for maps of skin",
                  "dermis info head.obj --unit-mm 45");
-    command->add_option("MESH", arguments->mesh, ".obj, .gltf or .glb")->required();
+    command->add_option("MESH", arguments->mesh, ".obj, .gltf, .glb, or builtin:NAME")->required();
     command->add_option("--unit-mm", arguments->unit_mm, "millimetres a file unit (glTF: 1000, OBJ: 1)")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "one JSON object on standard output");
