@@ -47,16 +47,16 @@ double bridge(Point p) {
     const double planes = smooth_min(swept_ball(p, {0, 36, 92}, 9.0, {0, 12, 95.5}, 14),
                                      swept_ball(p, {0, 12, 95.5}, 14, {0, -8, 99}, 17), 6);
     const double ridge = smooth_min(swept_ball(p, {0, 36, 98.6}, 6.2, {0, 17, 109.2}, 6.2),
-                                    swept_ball(p, {0, 17, 109.2}, 6.2, {0, -3, 119.6}, 7.0), 6);
+                                    swept_ball(p, {0, 17, 109.2}, 6.2, {0, -3, 119.0}, 7.8), 6);
     return smooth_min(planes, ridge, 12);
 }
 
 // Two domes a few millimetres apart, the lobule below them, the columella back to the lip.
 double tip_of_nose(Point p) {
     double tip =
-        smooth_min(length(p - Point{3.4, -7.0, 122.8}) - 6.0, length(p - Point{-3.4, -7.0, 122.8}) - 6.0, 9);
-    tip = smooth_min(tip, swept_ball(p, {0, -12.0, 121.4}, 5.0, {0, -15.5, 118}, 3.8), 6);
-    return smooth_min(tip, swept_ball(p, {0, -15, 118}, 3.6, {0, -20.5, 110}, 4.4), 5);
+        smooth_min(length(p - Point{3.7, -6.2, 123.0}) - 5.0, length(p - Point{-3.7, -6.2, 123.0}) - 5.0, 9);
+    tip = smooth_min(tip, swept_ball(p, {0, -11.0, 122.0}, 4.2, {0, -15.5, 118.4}, 3.6), 7);
+    return smooth_min(tip, swept_ball(p, {0, -15, 118.4}, 3.4, {0, -20.5, 110}, 4.2), 5);
 }
 
 }  // namespace
@@ -65,15 +65,21 @@ double add_nose(double d, Point p) {
     if (length(p - Point{0, 5, 108}) > 60) return d;
     const Point q = {std::abs(p.x), p.y, p.z};
     double nose = smooth_min(bridge(p), tip_of_nose(p), 10);
-    // Wings: the wall from the tip back to the cheek, fullest where it turns in.
-    double wing = swept_ball(q, {4.0, -8.5, 118.0}, 6.6, {10.8, -11.4, 112.0}, 6.6);
-    wing = smooth_min(wing, swept_ball(q, {10.8, -11.4, 112.0}, 6.6, {13.4, -13.2, 105.0}, 4.8), 6);
-    nose = smooth_min(nose, wing, 9);
+    // Wings: the wall from the tip back to the cheek, highest near the tip and fullest where it turns in.
+    double wing = swept_ball(q, {4.0, -7.5, 116.5}, 6.8, {10.6, -10.6, 111.0}, 6.6);
+    wing = smooth_min(wing, swept_ball(q, {10.6, -10.4, 111.6}, 6.6, {13.2, -12.6, 104.5}, 5.2), 7);
+    wing = smooth_min(wing, swept_ball(q, {9.5, -12.5, 113.0}, 4.4, {13.2, -14.5, 107}, 3.4), 6);
+    nose = smooth_min(nose, wing, 10);
     const double body = smooth_min(d, nose, 8);
-    // Nostrils open down and a little outward; they run up and forward under the tip.
-    const double nostril = swept_ball(q, {5.0, -17.6, 117.6}, 2.0, {8.6, -19.4, 109.5}, 3.2);
-    const double depth = swept_ball(q, {5.6, -15.0, 115}, 1.6, {8.0, -12.5, 109}, 2.0);
-    return smooth_max(body, -smooth_min(nostril, depth, 3), 2.6);
+    return smooth_max(body, -nostril_distance_mm(q), 2.6);
+}
+
+double nostril_distance_mm(Point p) {
+    // Opens down and a little outward; runs up and forward under the tip.
+    const Point q = {std::abs(p.x), p.y, p.z};
+    const double opening = swept_ball(q, {4.9, -19.4, 118.0}, 2.2, {8.8, -20.4, 109.6}, 3.4);
+    const double depth = swept_ball(q, {6.2, -16.5, 114}, 2.0, {8.0, -12.5, 108}, 2.0);
+    return smooth_min(opening, depth, 3);
 }
 
 }  // namespace dermis::bust

@@ -50,7 +50,7 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
                 {{55, 5, 73}, 20, 2.4},
                 {{64, 8, 54}, 18, 1.8},
                 {{72, 9, 30}, 15, 0.8}});
-    brush.both({{{66, -18, 38}, 20, -1.4}, {{57, -26, 62}, 24, -2.4}, {{47, -36, 76}, 20, -1.0}});
+    brush.both({{{67, -18, 38}, 20, -1.2}, {{59, -24, 60}, 24, -2.0}, {{48, -34, 76}, 20, -0.8}});
     // Muzzle beside the nose and mouth, the fold between it and the cheek.
     brush.both({{{18, -10, 105}, 10, -1.0},
                 {{24, -18, 102}, 10, -1.2},
@@ -62,8 +62,14 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
                 {{54, -60, 34}, 16, 2.0},
                 {{44, -74, 58}, 15, 1.4},
                 {{30, -83, 80}, 14, 0.8}});
-    brush.middle({{{-16, -77, 105}, 15, 1.6}, {{0, -77, 108}, 16, 2.2}, {{16, -77, 105}, 15, 1.6}});
+    brush.middle({{{-19, -78, 103}, 15, 1.8}, {{0, -77, 108}, 16, 2.2}, {{19, -78, 103}, 15, 1.8}});
     brush.middle({{{-22, -56, 99}, 11, -0.7}, {{0, -59, 106}, 11, -2.2}, {{22, -56, 99}, 11, -0.7}});
+    // Back: occipital bulge, the furrow of the nape between the two cords of muscle, the vertebra that stands
+    // out.
+    brush.middle({{{-14, 8, -86}, 24, 0.8}, {{0, 4, -87}, 22, 1.6}, {{14, 8, -86}, 24, 0.8}});
+    brush.middle({{{0, -40, -68}, 18, -1.2}, {{0, -66, -62}, 17, -1.0}, {{0, -100, -66}, 17, -0.4}});
+    brush.both({{{19, -36, -66}, 20, 0.8}, {{19, -70, -62}, 20, 0.8}, {{22, -104, -66}, 20, 0.4}});
+    brush.middle({{{0, -136, -74}, 30, 1.8}});
 }
 
 void add_detail_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
@@ -78,12 +84,12 @@ void add_detail_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
                 {{18.4, -13, 104}, 3.2, -1.2},
                 {{17.0, -18, 105}, 3.0, -0.9},
                 {{13.5, -20.5, 107}, 2.8, -0.3}});
-    brush.both({{{20.5, -15, 105}, 7, -0.9}, {{26, -23, 101}, 8, -0.9}, {{31, -33, 96}, 8, -0.4}});
+    brush.both({{{20.0, -14, 105}, 7, -0.9}, {{26, -23, 101}, 9, -1.0}, {{32, -35, 95}, 10, -0.5}});
     // Philtrum: groove with a column on either side.
     brush.middle({{{0, -21.5, 114}, 4.0, -0.7}, {{0, -26, 115}, 4.6, -1.1}, {{0, -29.5, 116}, 4.8, -0.7}});
     brush.both({{{4.4, -21, 114}, 3.6, 0.3}, {{5.4, -25.5, 115}, 3.6, 0.55}, {{6.2, -28.6, 116}, 3.4, 0.35}});
     // Corners of the mouth.
-    brush.both({{{24.5, -39.6, 101}, 4.0, -1.0}, {{27, -40.4, 99}, 5, -0.7}});
+    brush.both({{{24, -39.4, 102}, 5.0, -0.8}, {{27, -40.0, 99}, 7, -0.8}});
     // Notch over the breastbone.
     brush.middle({{{0, -166, 34}, 14, -2.0}});
 }

@@ -69,11 +69,11 @@ Point BustField::to_standard(Point p) const {
     q.x /= 1 + (params_.head_width_mm / standard.head_width_mm - 1) * head;
     q.x /= 1 + (params_.jaw_width_mm / standard.jaw_width_mm - 1) * jaw;
     q.x /= 1 + (params_.nose_width_mm / standard.nose_width_mm - 1) * nose_box;
-    // Low waves that differ from left to right, under a millimetre each.
+    // Low waves that differ from left to right, about a millimetre each.
     const double a = params_.asymmetry;
-    q.x += a * (0.7 * std::sin(p.y / 48 + phase_[0]) * std::exp(-p.x * p.x / 3600) +
+    q.x += a * (1.1 * std::sin(p.y / 40 + phase_[0]) * std::exp(-p.x * p.x / 3600) +
                 0.3 * std::sin(p.z / 40 + phase_[1]));
-    q.y += a * (0.8 * std::sin(p.x / 42 + phase_[2]) + 0.35 * std::sin(p.x / 17 + phase_[3]));
+    q.y += a * (1.0 * std::sin(p.x / 42 + phase_[2]) + 0.4 * std::sin(p.x / 17 + phase_[3]));
     q.z += a * (0.7 * std::sin(p.x / 45 + phase_[4]) + 0.3 * std::sin(p.x / 23 + p.y / 30 + phase_[5]));
     return q;
 }

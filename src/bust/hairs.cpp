@@ -28,9 +28,9 @@ class Random {
 struct BrowLine {
     double x, y, half, lean_rad;  ///< lean of the hairs from straight outward
 };
-constexpr BrowLine kBrow[] = {{9.0, 39.6, 2.6, 1.35},  {14.0, 41.0, 4.2, 1.15}, {22.0, 43.4, 4.3, 0.75},
-                              {31.0, 45.8, 4.0, 0.42}, {40.0, 46.8, 3.3, 0.10}, {48.0, 44.2, 2.3, -0.30},
-                              {55.5, 38.6, 0.9, -0.55}};
+constexpr BrowLine kBrow[] = {{10.0, 38.8, 2.6, 1.20}, {15.0, 39.6, 4.0, 0.95}, {22.0, 40.8, 4.6, 0.60},
+                              {31.0, 42.2, 4.4, 0.32}, {40.0, 42.4, 3.8, 0.04}, {48.0, 40.4, 2.9, -0.30},
+                              {55.0, 36.6, 1.4, -0.55}};
 
 BrowLine brow_at(double t) {
     constexpr int kLast = int(std::size(kBrow)) - 1;
@@ -72,7 +72,7 @@ void Hairs::grow(Side& side, const std::array<Point, 3>& curve, double half_widt
 
 void Hairs::grow_brow(Side& side, uint32_t seed) {
     Random random(seed);
-    constexpr int kHairs = 480;
+    constexpr int kHairs = 720;
     for (int i = 0; i < kHairs; ++i) {
         const double t = (i + random.between(0, 1)) / kHairs;
         // Two draws added: denser along the middle line than at the borders.
@@ -82,12 +82,12 @@ void Hairs::grow_brow(Side& side, uint32_t seed) {
         // Upper hairs lie down towards the middle line and lower ones rise to it.
         const double lean =
             b.lean_rad - across * mix(0.15, 0.55, smooth_step(0.1, 0.5, t)) + random.between(-0.16, 0.16);
-        const double length = mix(5.5, 8.0, smooth_step(0, 0.35, t)) * random.between(0.65, 1.1) *
+        const double length = mix(4.2, 7.5, smooth_step(0, 0.35, t)) * random.between(0.65, 1.1) *
                               mix(1, 0.65, smooth_step(0.75, 1, t));
         const double bend = lean - mix(0.5, 0.25, t);
         const Point middle = root + Point{std::cos(lean), std::sin(lean), 0} * (0.5 * length);
         grow(side, {root, middle, middle + Point{std::cos(bend), std::sin(bend), 0} * (0.5 * length)},
-             random.between(0.09, 0.15), random.between(0.45, 0.85));
+             random.between(0.10, 0.17), random.between(0.45, 0.85));
     }
 }
 

@@ -9,7 +9,7 @@
 
 namespace dermis::bust {
 
-/// About 450 hairs a brow and 90 a lid, different left and right. Immutable; safe to share between threads.
+/// 720 hairs a brow and 90 a lid, different left and right. Immutable; safe to share between threads.
 class Hairs {
   public:
     explicit Hairs(uint32_t seed);

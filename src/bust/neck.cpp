@@ -12,12 +12,12 @@ struct Ring {
     double y, center_z, half_width, half_depth;
 };
 // Column of the neck, from inside the skull to inside the chest.
-constexpr Ring kNeck[] = {{30, -20, 40, 42},   {-20, -13, 47, 48},  {-60, -10, 52, 51},
-                          {-90, -10, 54, 54},  {-115, -12, 56, 56}, {-140, -17, 58, 57},
-                          {-165, -22, 62, 58}, {-200, -26, 72, 60}, {-250, -26, 80, 64}};
+constexpr Ring kNeck[] = {{30, -20, 40, 42},   {-20, -14, 46, 47},  {-60, -10, 50, 50},
+                          {-90, -9, 51, 53},   {-115, -11, 53, 55}, {-140, -18, 55, 55},
+                          {-165, -25, 60, 54}, {-200, -28, 72, 58}, {-250, -28, 80, 64}};
 // Trapezius: from the nape out to the shoulders.
-constexpr Ring kTrapezius[] = {{-20, -36, 20, 18},   {-70, -40, 40, 26},   {-105, -42, 56, 30},
-                               {-130, -43, 76, 32},  {-150, -42, 102, 35}, {-168, -39, 136, 40},
+constexpr Ring kTrapezius[] = {{-20, -34, 20, 16},   {-70, -36, 40, 23},   {-105, -38, 54, 27},
+                               {-130, -40, 76, 30},  {-150, -40, 102, 34}, {-168, -38, 136, 40},
                                {-185, -36, 168, 46}, {-215, -33, 186, 56}, {-260, -33, 190, 60}};
 
 double column(std::span<const Ring> rings, Point p) {
@@ -57,17 +57,18 @@ double add_neck(double d, Point p) {
                                       swept_ball(q, {46, -84, 0}, 12, {11, -166, 29}, 6.0), 8);
     d = smooth_min(d, sternal, 24);
     d = smooth_min(d, swept_ball(q, {47, -96, -6}, 10, {40, -168, 14}, 7), 24);
-    // Scalenes fill the triangle between it and the trapezius.
-    d = smooth_min(d, swept_ball(q, {44, -84, -24}, 14, {62, -158, -10}, 12), 24);
+    // Splenius behind it; scalenes fill the triangle between it and the trapezius.
+    d = smooth_min(d, swept_ball(q, {38, -84, -24}, 14, {54, -158, -14}, 12), 24);
+    d = smooth_min(d, swept_ball(q, {40, -10, -36}, 16, {34, -90, -34}, 18), 26);
     // Chest and collar bones.
     const Ellipsoid chest = {{0, -252, -20}, {195, 98, 80}};
     d = smooth_min(d, chest.distance_mm(p), 26);
-    const double bone = smooth_min(swept_ball(q, {12, -171, 30}, 6.5, {62, -168, 26}, 5),
-                                   swept_ball(q, {62, -168, 26}, 5, {150, -172, -22}, 7), 10);
-    d = smooth_min(d, bone, 18);
+    const double bone = smooth_min(swept_ball(q, {12, -172, 27}, 6.5, {62, -170, 22}, 5),
+                                   swept_ball(q, {62, -170, 22}, 5, {150, -172, -26}, 7), 12);
+    d = smooth_min(d, bone, 20);
     // Thyroid cartilage and windpipe.
-    d = smooth_min(d, swept_ball(p, {0, -116, 36}, 9, {0, -127, 36.5}, 9), 12);
-    d = smooth_min(d, swept_ball(p, {0, -128, 33}, 9, {0, -172, 22}, 9), 12);
+    d = smooth_min(d, swept_ball(p, {0, -113, 36}, 7, {0, -125, 35}, 7), 18);
+    d = smooth_min(d, swept_ball(p, {0, -128, 31}, 9, {0, -172, 19}, 9), 18);
     return d;
 }
 
@@ -88,7 +89,7 @@ double cut_bust(double d, Point p) {
 }
 
 bool on_cut(Point p) {
-    return p.y < -130 && cut_distance(p) > -2.0;
+    return p.y < -192 && cut_distance(p) > -2.0;
 }
 
 }  // namespace dermis::bust

@@ -20,7 +20,7 @@ struct BustParams {
     double ear_protrusion_deg = 25;  ///< angle between the ear and the side of the head
     double tone = 2;                 ///< 1 to 6: OpenPBR's skin examples I to VI, and between
     double freckles = 0.35;          ///< 0 none, 1 dense
-    double stubble = 0.45;           ///< shade of a shaved beard
+    double stubble = 0.6;            ///< shade of a shaved beard
     double asymmetry = 1;            ///< 0 symmetric, 1 natural (within 2 mm)
     uint32_t seed = 1;               ///< pores, freckles, brow hairs, which way the asymmetry goes
 

@@ -40,14 +40,17 @@ Vec3 darker(Vec3 c, float amount) {
 
 struct Lips {
     float vermilion = 0;  // 1 on the red of the lips
-    float along = 0;      // -1 at the meeting line .. 1 at the border
+    float along = 0;      // 0 at the meeting line, 1 from 5 mm away
+    float line = 0;       // 1 where the lips meet
 };
 Lips lips(Point p) {
     const LipShape s = lip_shape(p.x);
     const double edge = std::min(s.top_y - p.y, p.y - s.bottom_y);
     Lips l;
-    l.vermilion = step(-1.1, 1.3, edge) * (1 - step(24.0, 26.2, std::abs(p.x)));
+    const float ragged = 0.5f * value_noise({p.x * 0.55, p.y * 0.3, 9}, 40);
+    l.vermilion = step(-1.5, 1.7, edge + ragged) * (1 - step(24.0, 26.2, std::abs(p.x)));
     l.along = float(std::min(std::abs(p.y - s.line_y) / 5.0, 1.0));
+    l.line = 1 - step(0.1, 1.1, std::abs(p.y - s.line_y));
     return l;
 }
 
@@ -99,13 +102,13 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     const float blood = mixf(1.0f, 0.45f, depth);
     Vec3 c = tone_albedo_linear(params.tone);
 
-    float red = 0.30f * z.cheek + 0.38f * z.nose + 0.34f * z.ear + 0.12f * z.knob + 0.16f * z.eye_ring +
-                0.35f * z.nostril;
-    red += 0.07f * broad + 0.06f * middle * (0.6f + z.cheek + z.nose) + 0.03f * fine;
-    c = redder(c, blood * std::clamp(red, -0.15f, 0.8f));
-    c = darker(c, std::max(0.0f, 0.10f * z.lid + 0.07f * z.eye_ring + 0.03f * middle + 0.02f * fine +
+    float red = 0.16f + 0.26f * z.cheek + 0.32f * z.nose + 0.36f * z.ear + 0.14f * z.knob +
+                0.24f * z.eye_ring + 0.35f * z.nostril;
+    red += 0.12f * broad + 0.10f * middle * (0.6f + z.cheek + z.nose) + 0.05f * fine;
+    c = redder(c, blood * std::clamp(red, -0.15f, 0.9f));
+    c = darker(c, std::max(0.0f, 0.12f * z.lid + 0.13f * z.eye_ring + 0.04f * middle + 0.03f * fine +
                                      0.04f * z.neck));
-    c = mixc(c, c * Vec3{1.04f, 1.03f, 0.94f}, 0.7f * z.forehead);
+    c = mixc(c, c * Vec3{1.03f, 1.02f, 0.95f}, 0.5f * z.forehead);
 
     // Freckles: nose and cheeks first, each with a size and a strength of its own.
     const float freckled =
@@ -124,17 +127,20 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     const float patchy = 0.82f + 0.18f * broad + 0.10f * middle;
     const float beard = float(params.stubble) * z.beard * patchy;
     const float cover = std::min(1.0f, std::max(beard, 1.5f * float(params.stubble) * z.scalp * patchy));
-    c = mixc(c, c * mixc(Vec3{0.56f, 0.60f, 0.65f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
+    c = mixc(c, c * mixc(Vec3{0.46f, 0.51f, 0.56f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
     c = darker(c, 0.42f * cover * hair);
 
     Lips lip;
     if (z.mouth > 0 && p.z > 60) lip = lips(p);
     if (lip.vermilion > 0) {
         Vec3 red_lip =
-            redder(tone_albedo_linear(params.tone), mixf(0.78f, 0.35f, depth)) * Vec3{0.90f, 0.84f, 0.86f};
-        red_lip = darker(red_lip, 0.10f * depth + 0.10f * (1 - lip.along) + 0.04f * middle + 0.03f * fine);
-        c = mixc(c, red_lip, 0.78f * lip.vermilion);
+            redder(tone_albedo_linear(params.tone), mixf(0.95f, 0.45f, depth)) * Vec3{0.86f, 0.78f, 0.80f};
+        red_lip = darker(red_lip, 0.10f * depth + 0.16f * (1 - lip.along) + 0.08f * middle + 0.06f * fine);
+        c = mixc(c, red_lip, (0.76f + 0.10f * middle) * lip.vermilion);
+        c = darker(c, 0.75f * lip.line * lip.vermilion);
     }
+    const float hollow = z.nostril > 0 ? 1 - step(0.2, 1.8, nostril_distance_mm(p)) : 0;
+    c = c * mixc({1, 1, 1}, {0.16f, 0.09f, 0.08f}, hollow);
     const Relief r = relief(p, z, lip.vermilion, seed);
     c = darker(c, 0.10f * r.pore);
     const float hairs = hairs_drawn.cover(p);
@@ -143,11 +149,13 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     SkinSample s;
     s.albedo_linear = c;
     s.height_mm = r.height_mm + 0.06f * hairs;
-    s.roughness = 0.52f - 0.08f * z.t_zone - 0.04f * z.nose + 0.05f * z.cheek + 0.04f * z.neck +
-                  0.05f * middle + 0.03f * fine + 0.06f * r.pore + 0.04f * cover;
-    s.roughness = mixf(s.roughness, 0.45f + 0.05f * fine, lip.vermilion);
+    s.roughness = 0.47f - 0.09f * z.t_zone - 0.05f * z.nose + 0.03f * z.cheek + 0.06f * z.neck +
+                  0.05f * middle + 0.03f * fine + 0.06f * r.pore + 0.06f * cover;
+    s.roughness = mixf(s.roughness, 0.38f + 0.05f * fine, lip.vermilion);
     s.specular =
         std::clamp(0.92f + 0.08f * z.t_zone - 0.35f * r.pore + 0.05f * middle - 0.4f * hairs, 0.2f, 1.0f);
+    // Nothing of the sky is seen from the nostrils and from between the lips.
+    s.specular *= 1 - 0.95f * std::max(hollow, lip.line * lip.vermilion);
     s.kernel_size =
         1 - 0.45f * z.ear - 0.35f * z.nostril - 0.25f * z.lid - 0.15f * lip.vermilion - 0.5f * hairs;
     s.kernel_size = std::clamp(s.kernel_size, 0.25f, 1.0f);

@@ -34,8 +34,9 @@ double into_hair_mm(Point q) {
     constexpr std::array<double, 2> kTop[] = {{0, 83}, {16, 84}, {32, 90}, {46, 88}, {58, 74}, {66, 55}};
     constexpr std::array<double, 2> kFront[] = {{-20, 31}, {0, 31},  {20, 33}, {38, 40},
                                                 {50, 55},  {62, 58}, {80, 48}};
-    constexpr std::array<double, 2> kFoot[] = {{-80, -58}, {-60, -56}, {-44, -46}, {-26, -24}, {-16, 20},
-                                               {-12, 36},  {10, 40},   {15, 24},   {18, -6},   {60, -8}};
+    constexpr std::array<double, 2> kFoot[] = {{-80, -58}, {-60, -56}, {-44, -47}, {-34, -38},
+                                               {-27, -22}, {-22, 8},   {-15, 30},  {-6, 39},
+                                               {6, 38},    {13, 22},   {18, -4},   {60, -8}};
     const double above = q.y - polyline(kTop, q.x), behind = polyline(kFront, q.y) - q.z;
     return std::min(std::max(above, behind), q.y - polyline(kFoot, q.z));
 }
@@ -59,7 +60,7 @@ SkinZones skin_zones(Point p) {
               (1 - 0.35f * blob(p, {0, -56, 108}, {9, 7, 20}));
     z.scalp =
         ramp(-5, 6,
-             into_hair_mm(q) + 2.2 * value_noise(p * (1 / 9.0), 31) + 1.5 * value_noise(p * (1 / 3.0), 32)) *
+             into_hair_mm(q) + 3.0 * value_noise(p * (1 / 9.0), 31) + 1.5 * value_noise(p * (1 / 3.0), 32)) *
         (1 - 0.9f * z.ear);
     z.forehead = blob(p, {0, 62, 92}, {70, 36, 50});
     z.neck = 1 - ramp(-112, -86, p.y);

@@ -34,7 +34,7 @@ float redness(Vec3 c) {
 
 TEST(BustMaps, LipsAreRedderThanTheForehead) {
     const Bust& b = standard_bust();
-    const float lips = redness(mean_near(b, b.albedo, {0, -45, 117}, 4)),
+    const float lips = redness(mean_near(b, b.albedo, {0, -43.5f, 117}, 3)),
                 forehead = redness(mean_near(b, b.albedo, {0, 75, 95}, 10));
     EXPECT_GT(lips, 1.3f * forehead);
 }
@@ -42,7 +42,7 @@ TEST(BustMaps, LipsAreRedderThanTheForehead) {
 TEST(BustMaps, NoseAndCheeksAreRedderThanTheForeheadButLessThanTheLips) {
     const Bust& b = standard_bust();
     const float forehead = redness(mean_near(b, b.albedo, {0, 75, 95}, 10));
-    const float lips = redness(mean_near(b, b.albedo, {0, -45, 117}, 4));
+    const float lips = redness(mean_near(b, b.albedo, {0, -43.5f, 117}, 3));
     for (const Vec3 p : {Vec3{0, -8, 129}, Vec3{45, -6, 84}}) {
         const float here = redness(mean_near(b, b.albedo, p, 7));
         EXPECT_GT(here, 1.05f * forehead);
