@@ -19,6 +19,12 @@ layout(location = 0) out vec4 radiance_out;
 const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2;
 layout(constant_id = 1) const int view = kViewFinal;
 
+// With DERMIS_PREPARE_SURFACE defined: called once before anything else, to change the surface and to compute what does
+// not depend on the light.
+#ifdef DERMIS_PREPARE_SURFACE
+void prepare_surface(inout Surface s);
+#endif
+
 // Radiant exitance over irradiance at normal incidence for light from one direction: n_dot_l for Lambert. Includes
 // the visibility of the light, which a technique may want to scatter too.
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility);
@@ -28,6 +34,9 @@ vec3 ambient_response(Surface s);
 
 void main() {
     Surface s = load_surface();
+#ifdef DERMIS_PREPARE_SURFACE
+    prepare_surface(s);
+#endif
     vec3 exitance = ambient_response(s) * s.occlusion;
     vec3 specular_radiance =
         environment_specular(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);

@@ -37,11 +37,18 @@ float two_lobe_ggx(float n_dot_h, float n_dot_l, float n_dot_v, float roughness)
 }
 
 // Kelemen, Szirmay-Kalos 2001: Beckmann's distribution over |l + v|^2, which stands for 4 (h.v)^2 and most of the
-// shadowing. d'Eon, Luebke 2007 leave out the distribution's 1 / pi; here it is normalised.
-float kelemen_szirmay_kalos(float n_dot_h, float n_dot_l, float h_dot_v, float alpha) {
+// shadowing. d'Eon, Luebke 2007 leave out the distribution's 1 / pi; here it is normalised. With DERMIS_BECKMANN_TABLE
+// the includer defines beckmann(), which reads the distribution from its table.
+#ifdef DERMIS_BECKMANN_TABLE
+float beckmann(float n_dot_h, float alpha);
+#else
+float beckmann(float n_dot_h, float alpha) {
     float c2 = max(n_dot_h * n_dot_h, 1e-4), a2 = alpha * alpha;
-    float beckmann = exp((c2 - 1.0) / (a2 * c2)) / (kPi * a2 * c2 * c2);
-    return beckmann * n_dot_l / max(4.0 * h_dot_v * h_dot_v, 1e-3);
+    return exp((c2 - 1.0) / (a2 * c2)) / (kPi * a2 * c2 * c2);
+}
+#endif
+float kelemen_szirmay_kalos(float n_dot_h, float n_dot_l, float h_dot_v, float alpha) {
+    return beckmann(n_dot_h, alpha) * n_dot_l / max(4.0 * h_dot_v * h_dot_v, 1e-3);
 }
 
 float specular_reflection(vec3 n_world, vec3 to_eye_world, vec3 to_light_world, float roughness, float f0) {

@@ -3,14 +3,9 @@
 // light; a point then needs only N.L and curvature. Tables come from the bakers (exact on the sphere, or the
 // published ring), the closed form from src/fit, the hand-made curves from Yeung 2015.
 
-#include <cstring>
-
-#include "dermis/bake/lut.h"
-#include "dermis/bake/shadow_table.h"
-#include "dermis/bake/zonal_table.h"
-#include "dermis/fit/closed_form.h"
 #include "dermis/technique/forward.h"
 #include "preintegrated/figures.h"
+#include "preintegrated/tables.h"
 
 namespace dermis {
 namespace {
@@ -20,7 +15,7 @@ enum class TableConstruction : int32_t { sphere, ring };
 enum class Curvature : int32_t { vertex, derivative, image };
 enum class Normals : int32_t { sharp, smooth, blended };
 enum class Shadow : int32_t { plain, scattered };
-enum class Ambient : int32_t { exact, curve_2015 };
+enum class Ambient : int32_t { exact, lut, curve_2015 };
 
 struct Params {
     Diffuse diffuse = Diffuse::lut;
@@ -32,14 +27,11 @@ struct Params {
     float normal_lod_bias = 3;
     Shadow shadow = Shadow::scattered;
     float shadow_width_mm = 8;
-    Ambient ambient = Ambient::exact;
+    Ambient ambient = Ambient::lut;
     SpecularModel specular = SpecularModel::ggx;
+    float oiliness = 1;
+    float roughness_scale = 1;
 };
-
-// Curvatures from 0 to this fill the tables; preintegrated.frag knows the same number.
-constexpr double kMaxCurvaturePerMm = 0.5;
-constexpr int kLutWidth = 512, kLutHeight = 128, kRows = 129;
-constexpr double kShadowSharpening = 3;
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
@@ -56,12 +48,17 @@ ParameterTable parameters() {
         .choice(&Params::normals, "normals", {"sharp", "smooth", "blended"},
                 "diffuse normal: as mapped, from a smaller mip, or one a channel by the profile's width")
         .number(&Params::normal_lod_bias, "normal_lod_bias", "mip levels", 0, 8,
-                "how much smaller the mip is")
+                "how much smaller the mip is, at most")
         .choice(&Params::shadow, "shadow", {"plain", "scattered"}, "whether light scatters into the penumbra")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
-        .choice(&Params::ambient, "ambient", {"exact", "curve_2015"},
-                "zonal harmonics for light from all around: of the integral, or hand-made curves")
-        .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .choice(
+            &Params::ambient, "ambient", {"exact", "lut", "curve_2015"},
+            "zonal harmonics for light from all around: the sphere's closed form, a table, hand-made curves")
+        .choice(&Params::specular, "specular", specular_model_names(),
+                "specular model; ksk reads its Beckmann distribution from a table")
+        .number(&Params::oiliness, "oiliness", "", 0, 4, "times the specular reflection of material and map")
+        .number(&Params::roughness_scale, "roughness_scale", "", 0.1, 3,
+                "times the roughness of material and map")
         .build();
 }
 
@@ -73,105 +70,20 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                                  {"curvature", int32_t(params.curvature)},
                                                  {"normals", int32_t(params.normals)},
                                                  {"ambient", int32_t(params.ambient)}});
-    for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_closed_form", "skin_variance"})
+    for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_closed_form", "skin_gaussians",
+                              "skin_normal_blend", "skin_beckmann"})
         pass.reads.push_back(table);
     return {.passes = {pass}};
 }
 
-TableImage to_image(std::string name, int width, int height, const std::vector<float>& rgba) {
-    TableImage image{
-        .name = std::move(name), .format = ImageFormat::rgba32f, .width = width, .height = height};
-    image.bytes.resize(rgba.size() * sizeof(float));
-    std::memcpy(image.bytes.data(), rgba.data(), image.bytes.size());
-    return image;
-}
-
-TableImage to_image(std::string name, const Table& table) {
-    std::vector<float> rgba;
-    rgba.reserve(size_t(table.width) * size_t(table.height) * 4);
-    for (int y = 0; y < table.height; ++y)
-        for (int x = 0; x < table.width; ++x) {
-            for (int c = 0; c < 3; ++c) rgba.push_back(table.at(x, y, c));
-            rgba.push_back(1);
-        }
-    return to_image(std::move(name), table.width, table.height, rgba);
-}
-
-Preintegration construction_of(const Params& params) {
-    return {.construction =
-                params.construction == TableConstruction::ring ? Construction::ring : Construction::sphere};
-}
-
-Result<TableImage> diffuse_table(const Params& params, const SkinContext& skin) {
-    Result<LutOptions> options =
-        lut_options(params.construction == TableConstruction::ring ? "penner" : "dermis");
-    if (!options) return options.error();
-    options->profile = {.name = skin.profile.name, .source = skin.profile.source, .model = skin.gaussians};
-    options->width = kLutWidth;
-    options->height = kLutHeight;
-    const Result<Table> table = bake_lut(*options);
-    if (!table) return table.error();
-    return to_image("skin_lut", *table);
-}
-
-// Rows at even steps of curvature, both ends included.
-TableImage zonal_table(const Params& params, const SkinContext& skin) {
-    std::vector<float> rgba(size_t(kRows) * 3 * 4, 1.0f);
-    for (int i = 0; i < kRows; ++i) {
-        const double curvature = std::max(kMaxCurvaturePerMm * i / (kRows - 1), 1e-6);
-        const auto zh = preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature, construction_of(params));
-        for (size_t l = 0; l < 3; ++l)
-            for (size_t c = 0; c < 3; ++c) rgba[(l * kRows + size_t(i)) * 4 + c] = float(zh[l][c]);
-    }
-    return to_image("skin_zonal", kRows, 3, rgba);
-}
-
-Result<TableImage> closed_form_table(const Params& params, const SkinContext& skin) {
-    const Result<ClosedForm> form =
-        fit_closed_form(skin.gaussians, kMaxCurvaturePerMm, kRows, construction_of(params));
-    if (!form) return form.error();
-    std::vector<float> rgba(size_t(kRows) * 5 * 4, 1.0f);
-    for (size_t i = 0; i < form->rows.size(); ++i) {
-        const ClosedFormCoefficients& row = form->rows[i];
-        const Rgb* colors[5] = {&row.a, &row.q, &row.s, &row.k0, &row.k1};
-        for (size_t k = 0; k < 5; ++k)
-            for (size_t c = 0; c < 3; ++c) rgba[(k * kRows + i) * 4 + c] = float((*colors[k])[c]);
-    }
-    return to_image("skin_closed_form", kRows, 5, rgba);
-}
-
-Result<TableImage> shadow_table(const Params& params, const SkinContext& skin) {
-    const Result<Table> table = bake_shadow({.profile = skin.profile,
-                                             .width = 256,
-                                             .height = 1,
-                                             .min_width_mm = params.shadow_width_mm,
-                                             .max_width_mm = params.shadow_width_mm * 1.0001,
-                                             .sharpening = kShadowSharpening});
-    if (!table) return table.error();
-    return to_image("skin_shadow", *table);
-}
-
-// Variance along one axis: a sum of Gaussians has the weighted mean of theirs.
-TableImage variance_image(const GaussianSum& gaussians) {
-    std::vector<float> rgba = {0, 0, 0, 1};
-    for (size_t c = 0; c < 3; ++c) {
-        double sum = 0, weight = 0;
-        for (const GaussianTerm& term : gaussians.terms)
-            sum += term.weight[c] * term.variance_mm2, weight += term.weight[c];
-        rgba[c] = float(weight > 0 ? sum / weight : 0);
-    }
-    return to_image("skin_variance", 1, 1, rgba);
-}
-
 Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
     const Params params = values.as<Params>();
-    std::vector<TableImage> images = {zonal_table(params, skin), variance_image(skin.gaussians)};
-    for (const auto make : {diffuse_table, closed_form_table, shadow_table}) {
-        Result<TableImage> image = make(params, skin);
-        if (!image) return image.error();
-        images.push_back(std::move(*image));
-    }
-    return images;
+    const bool ring = params.construction == TableConstruction::ring;
+    return preintegrated::bake_tables({.construction = ring ? Construction::ring : Construction::sphere,
+                                       .normal_lod_bias = params.normal_lod_bias,
+                                       .shadow_width_mm = params.shadow_width_mm,
+                                       .needs_beckmann = params.specular == SpecularModel::ksk},
+                                      skin);
 }
 
 }  // namespace

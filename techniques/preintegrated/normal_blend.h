@@ -1,0 +1,29 @@
+#pragma once
+// How far each channel's diffuse normal goes from the sharp to a smoother read of the normal map (Penner
+// 2011, "one normal a channel"; d'Eon, Luebke 2007 and Hable 2010 before him by eye), from the profile and
+// the map's scale.
+//
+// A read at a mip level averages a box of b mm, of variance b^2 / 12 along one axis. Light scattered by a sum
+// of Gaussians sees the bumps through the kernel T = sum w_i G(v_i); the blend sees them through (1 - x)
+// G(s0) + x G(s1), s0 and s1 the variances of the two reads. x makes the two nearest in the mean square for
+// creases and wrinkles, features along a line whose spectrum is white:
+//
+//     x = <G(s0) - T(s0), G(s0) - G(s1)> / |G(s0) - G(s1)|^2,   <G(a), G(b)> = (2 pi (a + b))^(-1/2)
+//
+// The smoother read is never wider than the widest channel scatters: beyond that it would average what the
+// table of curvature holds already, and the map's seams.
+
+#include "dermis/optics/preintegration.h"
+
+namespace dermis {
+
+/// Weights of the smoother normal, 0..1 a channel, and how many mip levels it lies above the sharp one.
+struct NormalBlend {
+    Rgb weight = {};
+    double lod_bias = 0;
+};
+
+/// `sharp_mm` is what one texel of the sharp read covers on the skin, above 0; `max_lod_bias` at least 0.
+[[nodiscard]] NormalBlend normal_blend(const GaussianSum& profile, double sharp_mm, double max_lod_bias);
+
+}  // namespace dermis

@@ -1,0 +1,146 @@
+#include "preintegrated/tables.h"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "dermis/bake/beckmann_table.h"
+#include "dermis/bake/lut.h"
+#include "dermis/bake/shadow_table.h"
+#include "dermis/bake/zonal_table.h"
+#include "preintegrated/normal_blend.h"
+
+namespace dermis::preintegrated {
+namespace {
+
+constexpr int kLutWidth = 512, kLutHeight = 256, kRows = 257;
+constexpr int kBeckmannWidth = 256, kBeckmannHeight = 256;
+constexpr double kShadowSharpening = 3;
+// Of the sharp read of the normal map, as powers of two: 4 microns to 16 mm. The shader knows both.
+constexpr double kLeastLogMm = -8, kMostLogMm = 4;
+constexpr int kBlendTexels = 97;
+
+TableImage to_image(std::string name, int width, int height, const std::vector<float>& values,
+                    ImageFormat format = ImageFormat::rgba32f) {
+    TableImage image{.name = std::move(name), .format = format, .width = width, .height = height};
+    image.bytes.resize(values.size() * sizeof(float));
+    std::memcpy(image.bytes.data(), values.data(), image.bytes.size());
+    return image;
+}
+
+TableImage to_image(std::string name, const Table& table) {
+    std::vector<float> rgba;
+    rgba.reserve(size_t(table.width) * size_t(table.height) * 4);
+    for (int y = 0; y < table.height; ++y)
+        for (int x = 0; x < table.width; ++x) {
+            for (int c = 0; c < 3; ++c) rgba.push_back(table.at(x, y, c));
+            rgba.push_back(1);
+        }
+    return to_image(std::move(name), table.width, table.height, rgba);
+}
+
+Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContext& skin) {
+    Result<LutOptions> options =
+        lut_options(settings.construction == Construction::ring ? "penner" : "dermis");
+    if (!options) return options.error();
+    options->profile = {.name = skin.profile.name, .source = skin.profile.source, .model = skin.gaussians};
+    options->convention.axes[1] = curvature_axis(0, kMaxCurvaturePerMm);
+    options->width = kLutWidth;
+    options->height = kLutHeight;
+    const Result<Table> table = bake_lut(*options);
+    if (!table) return table.error();
+    return to_image("skin_lut", *table);
+}
+
+// Rows at even steps of curvature, both ends included.
+Result<TableImage> zonal_table(const TableSettings& settings, const SkinContext& skin) {
+    std::vector<float> rgba(size_t(kRows) * 3 * 4, 1.0f);
+    for (int i = 0; i < kRows; ++i) {
+        const double curvature = std::max(kMaxCurvaturePerMm * i / (kRows - 1), 1e-6);
+        const auto zh = preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature,
+                                                      {.construction = settings.construction});
+        for (size_t l = 0; l < 3; ++l)
+            for (size_t c = 0; c < 3; ++c) rgba[(l * kRows + size_t(i)) * 4 + c] = float(zh[l][c]);
+    }
+    return to_image("skin_zonal", kRows, 3, rgba);
+}
+
+// Half of a, s, k0 and k1, which is what the shader multiplies with; q travels in the fourth channels.
+Result<TableImage> closed_form_table(const TableSettings& settings, const SkinContext& skin) {
+    const Result<ClosedForm> form =
+        fit_closed_form(skin.gaussians, kMaxCurvaturePerMm, kRows, {.construction = settings.construction});
+    if (!form) return form.error();
+    std::vector<float> rgba(size_t(kRows) * 4 * 4);
+    for (size_t i = 0; i < form->rows.size(); ++i) {
+        const ClosedFormCoefficients& row = form->rows[i];
+        const Rgb* colors[4] = {&row.a, &row.s, &row.k0, &row.k1};
+        for (size_t k = 0; k < 4; ++k) {
+            float* texel = &rgba[(k * kRows + i) * 4];
+            for (size_t c = 0; c < 3; ++c) texel[c] = float((*colors[k])[c] / 2);
+            if (k < 3) texel[3] = float(row.q[k]);
+        }
+    }
+    return to_image("skin_closed_form", kRows, 4, rgba);
+}
+
+Result<TableImage> shadow_table(const TableSettings& settings, const SkinContext& skin) {
+    const Result<Table> table = bake_shadow({.profile = skin.profile,
+                                             .width = 256,
+                                             .height = 1,
+                                             .min_width_mm = settings.shadow_width_mm,
+                                             .max_width_mm = settings.shadow_width_mm * 1.0001,
+                                             .sharpening = kShadowSharpening});
+    if (!table) return table.error();
+    return to_image("skin_shadow", *table);
+}
+
+// The profile itself: weights in red, green, blue, variance in alpha; one texel a term.
+Result<TableImage> gaussian_table(const TableSettings&, const SkinContext& skin) {
+    std::vector<float> rgba;
+    for (const GaussianTerm& term : skin.gaussians.terms)
+        rgba.insert(rgba.end(), {float(term.weight[0]), float(term.weight[1]), float(term.weight[2]),
+                                 float(term.variance_mm2)});
+    return to_image("skin_gaussians", int(skin.gaussians.terms.size()), 1, rgba);
+}
+
+// Weights of the smoother normal, and in alpha the levels it lies above, over the logarithm of the texel in
+// mm.
+Result<TableImage> normal_blend_table(const TableSettings& settings, const SkinContext& skin) {
+    std::vector<float> rgba;
+    for (int i = 0; i < kBlendTexels; ++i) {
+        const double log_mm = kLeastLogMm + (kMostLogMm - kLeastLogMm) * i / (kBlendTexels - 1);
+        const NormalBlend blend = normal_blend(skin.gaussians, std::exp2(log_mm), settings.normal_lod_bias);
+        for (const double weight : blend.weight) rgba.push_back(float(weight));
+        rgba.push_back(float(blend.lod_bias));
+    }
+    return to_image("skin_normal_blend", kBlendTexels, 1, rgba);
+}
+
+// Beckmann's distribution over u = sqrt(1 - N.H) and v = sqrt(alpha). Along these axes its tenth root, which
+// is what is kept, bends gently enough to be interpolated; the published table's axes, N.H and alpha, lose 11
+// % of an oily highlight.
+Result<TableImage> beckmann_table(const TableSettings& settings, const SkinContext&) {
+    if (!settings.needs_beckmann) return to_image("skin_beckmann", 1, 1, {0}, ImageFormat::r32f);
+    std::vector<float> roots;
+    for (int y = 0; y < kBeckmannHeight; ++y)
+        for (int x = 0; x < kBeckmannWidth; ++x) {
+            const double u = (x + 0.5) / kBeckmannWidth, v = (y + 0.5) / kBeckmannHeight;
+            roots.push_back(float(std::pow(beckmann(1 - u * u, v * v) / std::numbers::pi, 0.1)));
+        }
+    return to_image("skin_beckmann", kBeckmannWidth, kBeckmannHeight, roots, ImageFormat::r32f);
+}
+
+}  // namespace
+
+Result<std::vector<TableImage>> bake_tables(const TableSettings& settings, const SkinContext& skin) {
+    std::vector<TableImage> images;
+    for (const auto make : {diffuse_table, zonal_table, closed_form_table, shadow_table, gaussian_table,
+                            normal_blend_table, beckmann_table}) {
+        Result<TableImage> image = make(settings, skin);
+        if (!image) return image.error();
+        images.push_back(std::move(*image));
+    }
+    return images;
+}
+
+}  // namespace dermis::preintegrated

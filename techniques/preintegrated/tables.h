@@ -1,0 +1,25 @@
+#pragma once
+// The tables that preintegrated.frag reads, baked for a profile.
+
+#include "dermis/fit/closed_form.h"
+#include "dermis/optics/preintegration.h"
+#include "dermis/technique/technique.h"
+
+namespace dermis::preintegrated {
+
+/// Curvatures from 0 to this fill the tables; preintegrated.frag knows the same number.
+inline constexpr double kMaxCurvaturePerMm = 1;
+
+struct TableSettings {
+    Construction construction = Construction::sphere;
+    double normal_lod_bias = 3;
+    double shadow_width_mm = 8;
+    bool needs_beckmann = false;  ///< otherwise one texel stands in for the table
+};
+
+/// skin_lut, skin_zonal, skin_shadow, skin_closed_form, skin_gaussians, skin_normal_blend, skin_beckmann; all
+/// 32-bit float with four channels but the last, which has one.
+[[nodiscard]] Result<std::vector<TableImage>> bake_tables(const TableSettings& settings,
+                                                          const SkinContext& skin);
+
+}  // namespace dermis::preintegrated

@@ -1,0 +1,80 @@
+#pragma once
+// For the tests: a wall of tiles whose shading normals and curvatures are chosen, so that a picture of it is
+// a table of the shader's diffuse term.
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dermis/scene/environment.h"
+#include "render/render_test.h"
+
+namespace dermis {
+
+constexpr int kGrid = 64;
+constexpr double kGridMaxCurvaturePerMm = 1;
+
+inline double grid_cosine(int x) {
+    return -1 + 2 * (x + 0.5) / kGrid;
+}
+inline double grid_curvature_per_mm(int y) {
+    return kGridMaxCurvaturePerMm * (y + 0.5) / kGrid;
+}
+/// With the light from +X its N.L is grid_cosine(x).
+inline Vec3 grid_normal(int x) {
+    const auto t = float(grid_cosine(x));
+    return {t, std::sqrt(1 - t * t), 0};
+}
+
+/// Tiles of 1 mm that face the camera, one a pixel of a kGrid x kGrid picture. White, and lit with irradiance
+/// pi, so that radiance is the diffuse term itself. No environment.
+inline Scene make_grid_scene() {
+    Scene scene{.name = "grid"};
+    SceneObject object{.name = "grid", .classes = {MaterialClass::skin}};
+    Mesh& mesh = object.mesh;
+    for (int y = 0; y < kGrid; ++y)
+        for (int x = 0; x < kGrid; ++x) {
+            const auto first = uint32_t(mesh.positions_mm.size());
+            for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+                mesh.positions_mm.push_back({float(x + dx - kGrid / 2), float(kGrid / 2 - y - dy), 0});
+                mesh.normals.push_back(grid_normal(x));
+                mesh.uvs.push_back({float(x + dx) / kGrid, float(y + dy) / kGrid});
+                mesh.tangents.push_back({0, 0, 1, 1});
+                mesh.curvatures_per_mm.push_back(float(grid_curvature_per_mm(y)));
+                mesh.occlusions.push_back(1);
+            }
+            mesh.indices.insert(mesh.indices.end(),
+                                {first, first + 2, first + 1, first, first + 3, first + 2});
+        }
+    mesh.materials = {{.name = "white", .base_color_linear = {1, 1, 1}}};
+    mesh.submeshes = {{.name = "grid", .index_count = uint32_t(mesh.indices.size())}};
+    scene.objects.push_back(std::move(object));
+    scene.lights = {{.name = "side", .intensity = 3.14159265f, .to_light_world = {1, 0, 0}}};
+    scene.environment.kind = EnvironmentKind::none;
+    scene.background_linear = {};
+    scene.camera = {.eye_mm = {0, 0, 1000}, .vertical_fov_rad = 2 * std::atan(kGrid / 2 / 1000.0f)};
+    scene.bounds_radius_mm = 50;
+    return scene;
+}
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+class PreintegratedTest : public RenderTest {
+  protected:
+    static const Technique& technique() { return **find_technique("preintegrated"); }
+    static ParameterValues values_of(const Settings& settings) {
+        ParameterValues values(technique().parameters);
+        for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
+        return values;
+    }
+    /// The grid drawn, one tile a pixel.
+    static Image draw_grid(const Scene& scene, const Settings& settings,
+                           const std::string& view = "diffuse") {
+        Renderer renderer = make_renderer(scene);
+        return radiance(renderer, technique(), values_of(settings),
+                        {.width = kGrid, .height = kGrid, .view = view, .deep = true});
+    }
+};
+
+}  // namespace dermis
