@@ -4,6 +4,7 @@
 
 #include "dermis/base/text.h"
 #include "dermis/gpu/block_writer.h"
+#include "dermis/gpu/executor_state.h"
 #include "dermis/gpu/plan.h"
 
 namespace dermis::gpu {
@@ -77,6 +78,9 @@ Result<BindingResolver::Found> BindingResolver::find_texture(const Pass& pass, c
             return Found{image->image.view.get(), shape_of(image->image.info), image};
     if (const auto* texture = find_in(context_.inputs.textures, source); texture && *texture)
         return of_texture(**texture);
+    if (const ForeignImage* foreign = find_in(context_.inputs.images, source))
+        if (FrameImage* image = foreign->executor->state().images.find(foreign->name))
+            return Found{image->image.view.get(), shape_of(image->image.info), image};
     return missing(pass, binding, "texture", draw);
 }
 

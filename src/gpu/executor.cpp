@@ -27,6 +27,7 @@ namespace {
 std::vector<std::string> supplied_names(const FrameInputs& inputs) {
     std::vector<std::string> names;
     for (const auto& [name, texture] : inputs.textures) names.push_back(name);
+    for (const auto& [name, image] : inputs.images) names.push_back(name);
     for (const Draw& draw : inputs.draws)
         for (const auto& [name, texture] : draw.textures) names.push_back(name);
     return names;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ using Values = std::map<std::string, ShaderValue, std::less<>>;
 
 enum class DrawClass { skin, other, translucent };
 
+/// Pixels of the targets, from the top left.
+struct PixelRect {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
 /// One indexed draw. `textures` are the material's maps, `values` fill the shader's block "Material".
 struct Draw {
     const Geometry* geometry = nullptr;
@@ -24,6 +30,15 @@ struct Draw {
     DrawClass draw_class = DrawClass::skin;
     std::map<std::string, const Texture*, std::less<>> textures;
     Values values;
+    std::optional<PixelRect> scissor = {};  ///< absent: the whole target
+};
+
+class Executor;
+
+/// An image of another executor as its last run left it; that executor outlives this one's run.
+struct ForeignImage {
+    const Executor* executor = nullptr;
+    std::string name;
 };
 
 /// What the frame supplies beside the list's own images. Where a name stands twice the draw's texture wins,
@@ -31,6 +46,7 @@ struct Draw {
 struct FrameInputs {
     int width = 0, height = 0;
     std::map<std::string, const Texture*, std::less<>> textures;
+    std::map<std::string, ForeignImage, std::less<>> images;
     std::map<std::string, Values, std::less<>> blocks;  ///< uniform blocks: "Frame", "Params", ...
     std::map<std::string, std::vector<Values>, std::less<>> arrays;  ///< storage buffers: "Lights", ...
     std::vector<Draw> draws;

@@ -30,6 +30,7 @@ struct PlannedDraw {
     const Geometry::State* geometry = nullptr;
     uint32_t first_index = 0, index_count = 0;
     std::vector<Descriptor> descriptors;
+    std::optional<PixelRect> scissor = {};
 };
 
 struct PlannedPass {

@@ -76,19 +76,34 @@ class Recorder {
         if (planned.pipeline) {
             const VkViewport viewport = {0, 0, float(planned.extent.width), float(planned.extent.height),
                                          0, 1};
-            const VkRect2D scissor = {{}, planned.extent};
             const Pass& pass = *planned.pass;
             vk_.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, planned.pipeline->handle.get());
             vk_.vkCmdSetViewport(commands_, 0, 1, &viewport);
-            vk_.vkCmdSetScissor(commands_, 0, 1, &scissor);
+            set_scissor(planned.extent, {});
             if (pass.depth_bias_constant != 0 || pass.depth_bias_slope != 0)
                 vk_.vkCmdSetDepthBias(commands_, pass.depth_bias_constant, 0, pass.depth_bias_slope);
             push_constants(planned);
             queries_.begin_samples(context_, commands_, index);
-            for (const PlannedDraw& draw : planned.draws) this->draw(*planned.pipeline, draw);
+            for (const PlannedDraw& draw : planned.draws) {
+                if (draw.scissor) set_scissor(planned.extent, draw.scissor);
+                this->draw(*planned.pipeline, draw);
+                if (draw.scissor) set_scissor(planned.extent, {});
+            }
             queries_.end_samples(context_, commands_, index);
         }
         vk_.vkCmdEndRendering(commands_);
+    }
+
+    // The part of the rectangle that lies on the targets.
+    void set_scissor(VkExtent2D extent, const std::optional<PixelRect>& rect) {
+        VkRect2D scissor = {{}, extent};
+        if (rect) {
+            const int right = std::clamp(rect->x + rect->width, 0, int(extent.width));
+            const int bottom = std::clamp(rect->y + rect->height, 0, int(extent.height));
+            scissor.offset = {std::clamp(rect->x, 0, right), std::clamp(rect->y, 0, bottom)};
+            scissor.extent = {uint32_t(right - scissor.offset.x), uint32_t(bottom - scissor.offset.y)};
+        }
+        vk_.vkCmdSetScissor(commands_, 0, 1, &scissor);
     }
 
     void dispatch(const PlannedPass& planned) {

@@ -41,15 +41,26 @@ std::string settings_key(const Technique& technique, const ParameterValues& valu
 
 }  // namespace
 
-Renderer::Renderer(gpu::Device& device, gpu::Executor executor, SceneOnDevice uploaded, const Scene& scene)
-    : device_(&device), executor_(std::move(executor)), uploaded_(std::move(uploaded)), scene_(&scene) {}
+Renderer::Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene)
+    : device_(&device), executor_(std::move(executor)), scene_(&scene) {}
 
 Result<Renderer> Renderer::create(gpu::Device& device, gpu::ShaderSource shaders, const Scene& scene) {
     Result<SceneOnDevice> uploaded = SceneOnDevice::upload(device, scene);
     if (!uploaded) return uploaded.error();
     Result<gpu::Executor> executor = gpu::Executor::create(device, std::move(shaders));
     if (!executor) return executor.error();
-    return Renderer(device, std::move(*executor), std::move(*uploaded), scene);
+    Renderer renderer(device, std::move(*executor), scene);
+    renderer.owned_ = std::make_unique<SceneOnDevice>(std::move(*uploaded));
+    renderer.uploaded_ = renderer.owned_.get();
+    return renderer;
+}
+
+Result<Renderer> Renderer::sibling(gpu::ShaderSource shaders) {
+    Result<gpu::Executor> executor = gpu::Executor::create(*device_, std::move(shaders));
+    if (!executor) return executor.error();
+    Renderer renderer(*device_, std::move(*executor), *scene_);
+    renderer.uploaded_ = uploaded_;
+    return renderer;
 }
 
 Result<void> Renderer::prepare_tables(const Technique& technique, const ParameterValues& values) {
@@ -81,20 +92,20 @@ Result<void> Renderer::prepare_tables(const Technique& technique, const Paramete
 
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
     gpu::FrameInputs inputs = {.width = settings.width, .height = settings.height};
-    inputs.textures["environment_cube"] = &uploaded_.environment_cube();
-    inputs.textures["environment_brdf"] = &uploaded_.environment_brdf();
-    inputs.textures["no_image"] = &uploaded_.no_image();
+    inputs.textures["environment_cube"] = &uploaded_->environment_cube();
+    inputs.textures["environment_brdf"] = &uploaded_->environment_brdf();
+    inputs.textures["no_image"] = &uploaded_->no_image();
     for (const auto& [name, texture] : tables_) inputs.textures[name] = &texture;
     inputs.blocks["Frame"] =
         frame_values(*scene_, {.width = settings.width,
                                .height = settings.height,
                                .shadow_map_size = settings.shadow_map_size,
                                .penumbra_mm = settings.penumbra_mm,
-                               .environment_mip_count = uploaded_.environment_mip_count()});
+                               .environment_mip_count = uploaded_->environment_mip_count()});
     inputs.blocks["Params"] = parameter_block(values);
     inputs.arrays["Lights"] = light_values(*scene_);
-    inputs.arrays["EnvironmentSh"] = uploaded_.environment_sh();
-    inputs.draws = uploaded_.draws();
+    inputs.arrays["EnvironmentSh"] = uploaded_->environment_sh();
+    inputs.draws = uploaded_->draws();
     return inputs;
 }
 
@@ -113,15 +124,15 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
         .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
         .frame_index = settings.frame_index,
         .shadow_map_size = settings.shadow_map_size,
-        .has_translucent = uploaded_.has(gpu::DrawClass::translucent),
+        .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
         .has_second_light = scene_->lights.size() > 1};
     const SharedPassSettings shared = {.samples = settings.samples,
                                        .shadow_map_size = settings.shadow_map_size,
                                        .deep = settings.deep,
                                        .tone_map = scene_->tone_map,
                                        .view = settings.view,
-                                       .has_other = uploaded_.has(gpu::DrawClass::other),
-                                       .has_translucent = uploaded_.has(gpu::DrawClass::translucent),
+                                       .has_other = uploaded_->has(gpu::DrawClass::other),
+                                       .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
                                        .gbuffer = settings.gbuffer};
     list_ = frame_passes(technique.build(values, frame), shared);
     radiance_name_ = radiance_image(shared);

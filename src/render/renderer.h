@@ -30,6 +30,10 @@ class Renderer {
     [[nodiscard]] static Result<Renderer> create(gpu::Device& device, gpu::ShaderSource shaders,
                                                  const Scene& scene);
 
+    /// Another renderer of the same scene, so that two pictures exist at once: its own images and tables,
+    /// the same geometry and maps. The first must outlive it.
+    [[nodiscard]] Result<Renderer> sibling(gpu::ShaderSource shaders);
+
     /// One frame. Errors name the pass, or what the technique lacks.
     [[nodiscard]] Result<gpu::FrameResult> draw(const Technique& technique, const ParameterValues& values,
                                                 const DrawSettings& settings);
@@ -45,13 +49,14 @@ class Renderer {
     gpu::Executor& executor() { return executor_; }
 
   private:
-    Renderer(gpu::Device& device, gpu::Executor executor, SceneOnDevice uploaded, const Scene& scene);
+    Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene);
     Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
     [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;
 
     gpu::Device* device_;
     gpu::Executor executor_;
-    SceneOnDevice uploaded_;
+    std::unique_ptr<SceneOnDevice> owned_;  ///< empty in a sibling
+    SceneOnDevice* uploaded_ = nullptr;
     const Scene* scene_;
     PassList list_;
     std::string radiance_name_;

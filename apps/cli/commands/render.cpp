@@ -99,6 +99,8 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     for (int frame = 0; frame < frames; ++frame) {
         const double turn_rad = options.turn_deg * 3.14159265358979 / 180 * frame / frames;
         prepared.scene.camera = turned(start, turn_rad);
+        fit_depth_range(prepared.scene.camera, prepared.scene.bounds_center_mm,
+                        prepared.scene.bounds_radius_mm);
         prepared.draw.frame_index = frame;
         Result<gpu::FrameResult> drawn = renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
         if (!drawn) return drawn.error();

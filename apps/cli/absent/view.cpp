@@ -1,0 +1,17 @@
+// dermis view, where it was built without a window library: says what is missing.
+
+#include "command.h"
+
+namespace dermis::cli {
+
+void add_view_command(CommandLine& line) {
+    CLI::App* command =
+        line.add("view", "look at a scene in a window (not in this build)", "dermis view bust");
+    command->allow_extras();
+    line.when_chosen(command, []() -> Result<int> {
+        return Error{"built without windows: install " DERMIS_VIEW_MISSING
+                     " (Debian: apt-get install), configure and build again"};
+    });
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,72 @@
+// dermis view: the techniques in a window.
+
+#include <cstdio>
+#include <memory>
+
+#include "command.h"
+#include "dermis/base/file.h"
+#include "dermis/view/viewer.h"
+#include "render_options.h"
+
+namespace dermis::cli {
+namespace {
+
+struct Options {
+    RenderOptions render;
+    std::string script;
+    int frames = 0;
+    float interface_scale = 0;
+};
+
+Result<int> view_scene(const Options& options) {
+    const Result<std::pair<int, int>> size = parse_size(options.render.size);
+    if (!size) return size.error();
+    view::ViewerOptions viewer = {.scene_path = options.render.scene,
+                                  .load = [&options]() -> Result<view::Start> {
+                                      Result<Prepared> prepared = prepare(options.render);
+                                      if (!prepared) return prepared.error();
+                                      return view::Start{.scene = std::move(prepared->scene),
+                                                         .technique = prepared->technique,
+                                                         .values = std::move(prepared->values),
+                                                         .view = prepared->draw.view};
+                                  },
+                                  .size = {size->first, size->second},
+                                  .device = options.render.device,
+                                  .validation = options.render.validation,
+                                  .samples = options.render.samples,
+                                  .interface_scale = options.interface_scale,
+                                  .frames = options.frames,
+                                  .script_name = options.script,
+                                  .print = [](const std::string& text) { std::printf("%s", text.c_str()); }};
+    if (!options.script.empty()) {
+        const Result<std::string> text = read_text_file(options.script);
+        if (!text) return text.error();
+        Result<std::vector<view::ScriptCommand>> script = view::parse_script(*text, options.script);
+        if (!script) return script.error();
+        viewer.script = std::move(*script);
+    }
+    const Result<view::ViewerReport> report = view::run_viewer(viewer);
+    if (!report) return report.error();
+    if (options.frames > 0 || !options.script.empty())
+        std::printf("%d frames, first picture after %.2f s on %s\n", report->frames, report->first_picture_s,
+                    report->device.c_str());
+    return 0;
+}
+
+}  // namespace
+
+void add_view_command(CommandLine& line) {
+    const auto options = std::make_shared<Options>();
+    options->render.size = "1280x800";
+    options->render.samples = 4;
+    CLI::App* command = line.add("view", "look at a scene in a window, in real time (F1 there: help)",
+                                 "dermis view head_scan --technique preintegrated");
+    options->render.add_to(*command);
+    command->add_option("--interface-scale", options->interface_scale,
+                        "size of letters and widgets (default: from the display)");
+    command->add_option("--frames", options->frames, "close after so many");
+    command->add_option("--script", options->script, "a file of input instead of a person; see docs/view.md");
+    line.when_chosen(command, [options] { return view_scene(*options); });
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,54 @@
+#include "dermis/view/actions.h"
+
+#include <algorithm>
+
+namespace dermis::view {
+namespace {
+
+constexpr Modifiers kCtrl{.ctrl = true};
+constexpr Modifiers kShift{.shift = true};
+
+constexpr Shortcut kShortcuts[] = {
+    {{kKeyF1, {}}, Action::help, "this page"},
+    {{kKeyTab, {}}, Action::panels, "panels away and back"},
+    {{{'F'}, {}}, Action::fit, "fit the head into the picture"},
+    {{{'T'}, {}}, Action::next_technique, "next technique"},
+    {{{'T'}, kShift}, Action::last_technique, "technique before"},
+    {{{'V'}, {}}, Action::next_view, "next debug view"},
+    {{{'V'}, kShift}, Action::last_view, "debug view before"},
+    {{{'0'}, {}}, Action::final_view, "back to the final picture"},
+    {{{'R'}, {}}, Action::reset_parameters, "the technique's defaults"},
+    {{{']'}, {}}, Action::brighter, "exposure a third of a stop up"},
+    {{{'['}, {}}, Action::darker, "exposure a third of a stop down"},
+    {{kKeyF12, {}}, Action::screenshot, "the picture as a PNG"},
+    {{{'Y'}, {}}, Action::vsync, "wait for the display, or not"},
+    {{{'='}, kCtrl}, Action::larger_interface, "larger interface"},
+    {{{'-'}, kCtrl}, Action::smaller_interface, "smaller interface"},
+    {{{'Q'}, kCtrl}, Action::quit, "quit"},
+};
+
+constexpr Gesture kGestures[] = {
+    {"drag", "turn the head"},
+    {"shift+drag, or middle button", "move it"},
+    {"wheel", "closer, farther"},
+    {"ctrl+drag, or right button", "turn the key light"},
+    {"drop a file", "open a scene, a mesh or a panorama"},
+    {"right click on a value", "back to its default"},
+    {"ctrl+click on a slider", "type the number"},
+};
+
+}  // namespace
+
+std::span<const Shortcut> shortcuts() {
+    return kShortcuts;
+}
+std::span<const Gesture> gestures() {
+    return kGestures;
+}
+
+Action action_of(const KeyChord& chord) {
+    const auto found = std::ranges::find(kShortcuts, chord, &Shortcut::chord);
+    return found == std::end(kShortcuts) ? Action::none : found->action;
+}
+
+}  // namespace dermis::view

@@ -1,0 +1,47 @@
+#pragma once
+// What keys do, in one table: the keyboard, the help page and scripts read it.
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "dermis/view/event.h"
+
+namespace dermis::view {
+
+enum class Action {
+    none,
+    help,
+    panels,
+    fit,
+    next_technique,
+    last_technique,
+    next_view,
+    last_view,
+    final_view,
+    reset_parameters,
+    brighter,
+    darker,
+    screenshot,
+    vsync,
+    larger_interface,
+    smaller_interface,
+    quit
+};
+
+struct Shortcut {
+    KeyChord chord;
+    Action action;
+    std::string_view meaning;
+};
+[[nodiscard]] std::span<const Shortcut> shortcuts();
+
+[[nodiscard]] Action action_of(const KeyChord& chord);
+
+/// What the mouse does over the picture, for the help page: gesture and meaning.
+struct Gesture {
+    std::string_view gesture, meaning;
+};
+[[nodiscard]] std::span<const Gesture> gestures();
+
+}  // namespace dermis::view

@@ -1,0 +1,71 @@
+#pragma once
+// What a person has chosen: the scene, the techniques and their settings, what is shown. Plain data; panels,
+// keys and scripts change it, the stage draws it.
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dermis/scene/scene.h"
+#include "dermis/technique/technique.h"
+
+namespace dermis::view {
+
+/// One side of a comparison. Every technique keeps its settings while others are looked at.
+class TechniqueChoice {
+  public:
+    explicit TechniqueChoice(const Technique& technique) : technique_(&technique) {}
+
+    [[nodiscard]] const Technique& technique() const { return *technique_; }
+    void choose(const Technique& technique) { technique_ = &technique; }
+    [[nodiscard]] ParameterValues& values();
+
+  private:
+    const Technique* technique_;
+    std::map<std::string, ParameterValues> values_;
+};
+
+enum class Compare { off, wipe, side_by_side };
+
+/// A line over the picture. One a topic: a later one replaces it.
+struct Notice {
+    std::string topic, text;
+    bool is_error = false;
+    double until_s = 0;  ///< errors stay until their topic is cleared
+};
+
+class Notices {
+  public:
+    void inform(std::string topic, std::string text, double now_s);
+    void complain(std::string topic, std::string text);
+    void clear(const std::string& topic);
+    void expire(double now_s);
+    [[nodiscard]] const std::vector<Notice>& all() const { return all_; }
+
+  private:
+    std::vector<Notice> all_;
+};
+
+struct Model {
+    std::string scene_path;  ///< as opened: a file, a name, builtin:NAME
+    Scene* scene = nullptr;  ///< lives in the stage; null until the first one is loaded
+    std::array<TechniqueChoice, 2> choices;
+    std::string view = "final";
+    Compare compare = Compare::off;
+    float split = 0.5f;  ///< of the picture's width
+    bool show_panels = true, show_help = false, vsync = true;
+    float user_scale = 1;  ///< of the interface, on top of the display's
+    Notices notices;
+
+    [[nodiscard]] bool compares() const { return compare != Compare::off; }
+};
+
+/// Everything a picture depends on, as text: two equal keys are one picture. `choice` is 0 or 1.
+[[nodiscard]] std::string picture_key(Model& model, size_t choice);
+
+/// The next (or, with -1, the last) of a list of names, round and round.
+[[nodiscard]] std::string neighbour(const std::vector<std::string>& names, const std::string& name, int step);
+
+}  // namespace dermis::view

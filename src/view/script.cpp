@@ -1,0 +1,188 @@
+#include "dermis/view/script.h"
+
+#include <algorithm>
+#include <span>
+
+#include "dermis/base/text.h"
+
+namespace dermis::view {
+namespace {
+
+// What follows a command: 'w' a word, 'n' a number in its range, 'b' a mouse button, 'k' a key, 'm' any
+// modifiers.
+struct Grammar {
+    std::string_view name;
+    CommandKind kind;
+    std::string_view wants;
+    std::string_view example;
+};
+constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"},
+                                {"technique", CommandKind::technique, "w", "technique wrap"},
+                                {"set", CommandKind::set, "w", "set wrap=0.4"},
+                                {"view", CommandKind::view, "w", "view curvature"},
+                                {"drag", CommandKind::drag, "bnnnnm", "drag left 300 300 420 280 ctrl"},
+                                {"scroll", CommandKind::scroll, "nnn", "scroll 300 300 -2"},
+                                {"key", CommandKind::key, "k", "key ctrl+C"},
+                                {"slide", CommandKind::slide, "wn", "slide wrap 0.7"},
+                                {"drop", CommandKind::drop, "w", "drop head.glb"},
+                                {"resize", CommandKind::resize, "nn", "resize 640 480"},
+                                {"minimise", CommandKind::minimise, "", "minimise"},
+                                {"restore", CommandKind::restore, "", "restore"},
+                                {"wait", CommandKind::wait, "n", "wait 5"},
+                                {"settle", CommandKind::settle, "", "settle"},
+                                {"screenshot", CommandKind::screenshot, "w", "screenshot picture.png"},
+                                {"capture", CommandKind::capture, "w", "capture window.png"},
+                                {"print", CommandKind::print, "", "print"},
+                                {"quit", CommandKind::quit, "", "quit"}};
+
+// Nothing that a script says in pixels, frames or notches is larger.
+constexpr double kMaxNumber = 1e5;
+constexpr int kDragFrames = 4;
+
+// Words of a line; '#' outside of quotes ends it. False when a quote is left open.
+bool split_words(std::string_view line, std::vector<std::string>& words) {
+    std::string word;
+    bool quoted = false, in_word = false;
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+            in_word = true;
+        } else if (!quoted && c == '#') {
+            break;
+        } else if (!quoted && (c == ' ' || c == '\t' || c == '\r')) {
+            if (in_word) words.push_back(std::exchange(word, ""));
+            in_word = false;
+        } else {
+            word += c;
+            in_word = true;
+        }
+    }
+    if (in_word) words.push_back(word);
+    return !quoted;
+}
+
+Result<MouseButton> parse_button(std::string_view text) {
+    static const std::vector<std::string> kNames = {"left", "right", "middle"};
+    const auto found = std::ranges::find(kNames, text);
+    if (found == kNames.end()) return Error{unknown_name("mouse button", text, kNames)};
+    return MouseButton(found - kNames.begin());
+}
+
+Result<void> take_word(ScriptCommand& command, char want, const std::string& word) {
+    if (want == 'w') {
+        command.words.push_back(word);
+    } else if (want == 'n') {
+        const auto number = parse_number(word);
+        if (!number || !(std::abs(*number) <= kMaxNumber)) return Error{"'" + word + "' is no number here"};
+        command.numbers.push_back(*number);
+    } else if (want == 'b') {
+        const Result<MouseButton> button = parse_button(word);
+        if (!button) return button.error();
+        command.button = *button;
+    } else if (want == 'k') {
+        const Result<KeyChord> chord = parse_key_chord(word);
+        if (!chord) return chord.error();
+        command.chord = *chord;
+    } else {
+        const Result<KeyChord> chord = parse_key_chord(word + "+A");
+        if (!chord) return chord.error();
+        command.modifiers = chord->modifiers;
+    }
+    return {};
+}
+
+Result<ScriptCommand> parse_command(std::span<const std::string> words) {
+    std::vector<std::string> names;
+    for (const Grammar& grammar : kGrammar) names.emplace_back(grammar.name);
+    const auto grammar = std::ranges::find(kGrammar, words[0], &Grammar::name);
+    if (grammar == std::end(kGrammar)) return Error{unknown_name("command", words[0], names)};
+    const Error wrong{words[0] + ": write it like this: " + std::string(grammar->example)};
+    const bool optional_last = grammar->wants.ends_with('m');
+    const size_t most = grammar->wants.size(), least = most - (optional_last ? 1 : 0);
+    if (words.size() - 1 < least || words.size() - 1 > most) return wrong;
+    ScriptCommand command{.kind = grammar->kind};
+    for (size_t i = 1; i < words.size(); ++i)
+        if (const Result<void> taken = take_word(command, grammar->wants[i - 1], words[i]); !taken)
+            return Error{words[0] + ": " + taken.error().message};
+    if (command.kind == CommandKind::resize && (command.numbers[0] < 1 || command.numbers[1] < 1))
+        return wrong;
+    return command;
+}
+
+Event moved(Vec2 at_px) {
+    return {.kind = EventKind::mouse_move, .position_px = at_px};
+}
+
+Event button(const ScriptCommand& command, Vec2 at_px, bool pressed) {
+    return {.kind = EventKind::mouse_button,
+            .position_px = at_px,
+            .button = command.button,
+            .pressed = pressed,
+            .modifiers = command.modifiers};
+}
+
+std::deque<std::vector<Event>> drag_frames(const ScriptCommand& command, Vec2 from_px, Vec2 to_px) {
+    std::deque<std::vector<Event>> frames = {{moved(from_px)}, {button(command, from_px, true)}};
+    for (int i = 1; i <= kDragFrames; ++i)
+        frames.push_back({moved(from_px + (to_px - from_px) * (float(i) / kDragFrames))});
+    frames.push_back({button(command, to_px, false)});
+    return frames;
+}
+
+}  // namespace
+
+Result<std::vector<ScriptCommand>> parse_script(std::string_view text, const std::string& file) {
+    if (text.size() > kMaxScriptBytes) return Error{file + ": a script of more than 1 MiB"};
+    std::vector<ScriptCommand> commands;
+    int line_number = 0;
+    for (const std::string_view line : split(text, '\n')) {
+        ++line_number;
+        const std::string place = file + ":" + std::to_string(line_number) + ": ";
+        std::vector<std::string> words;
+        if (!split_words(line, words)) return Error{place + "a quote is left open"};
+        if (words.empty()) continue;
+        Result<ScriptCommand> command = parse_command(words);
+        if (!command) return Error{place + command.error().message};
+        command->line = line_number;
+        commands.push_back(std::move(*command));
+    }
+    return commands;
+}
+
+std::deque<std::vector<Event>> input_frames(const ScriptCommand& command) {
+    const auto point = [&](size_t first) {
+        return Vec2{float(command.numbers[first]), float(command.numbers[first + 1])};
+    };
+    switch (command.kind) {
+        case CommandKind::drag:
+            return drag_frames(command, point(0), point(2));
+        case CommandKind::scroll:
+            return {
+                {moved(point(0))},
+                {{.kind = EventKind::scroll, .position_px = point(0), .scroll = float(command.numbers[2])}}};
+        case CommandKind::key: {
+            Event press = {.kind = EventKind::key,
+                           .pressed = true,
+                           .key = command.chord.key,
+                           .modifiers = command.chord.modifiers};
+            Event release = press;
+            release.pressed = false;
+            release.modifiers = {};
+            return {{press}, {release}};
+        }
+        case CommandKind::drop:
+            return {{{.kind = EventKind::drop, .paths = {command.words[0]}}}};
+        case CommandKind::wait:
+            return std::deque<std::vector<Event>>(size_t(std::max(command.numbers[0], 0.0)));
+        default:
+            return {};
+    }
+}
+
+std::deque<std::vector<Event>> slide_frames(const Region& widget, double share) {
+    const ScriptCommand left;
+    const float y = widget.y + widget.height / 2;
+    return drag_frames(left, {widget.x + widget.width / 2, y}, {widget.x + widget.width * float(share), y});
+}
+
+}  // namespace dermis::view

@@ -1,0 +1,74 @@
+#pragma once
+// A person's hands as text: what tests and demonstrations feed the window with. One command a line, '#'
+// starts a comment; words with spaces stand in double quotes.
+//
+//     open spheres                    # a scene, a mesh, a name
+//     technique preintegrated
+//     set shadow_width=4              # a parameter
+//     view curvature
+//     drag left 300 300 420 280       # button, from, to in pixels; then ctrl, shift or alt
+//     scroll 300 300 -3
+//     key ctrl+C
+//     slide picture.exposure_ev 0.7   # drags a widget to a share of its range
+//     drop head.glb
+//     resize 640 480
+//     wait 5                          # frames
+//     settle                          # until the picture is as good as it gets
+//     screenshot picture.png          # the picture alone; .exr is linear
+//     capture window.png              # the window as it stands
+//     print                           # the state, on standard output
+//     quit
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/view/event.h"
+#include "dermis/view/panels.h"
+
+namespace dermis::view {
+
+enum class CommandKind {
+    open,
+    technique,
+    set,
+    view,
+    drag,
+    scroll,
+    key,
+    slide,
+    drop,
+    resize,
+    minimise,
+    restore,
+    wait,
+    settle,
+    screenshot,
+    capture,
+    print,
+    quit
+};
+
+struct ScriptCommand {
+    CommandKind kind = CommandKind::wait;
+    int line = 1;
+    std::vector<std::string> words;  ///< after the command
+    std::vector<double> numbers;     ///< those of the words that must be numbers, in order
+    MouseButton button = MouseButton::left;
+    Modifiers modifiers;
+    KeyChord chord;
+};
+
+/// Largest script, in bytes.
+inline constexpr size_t kMaxScriptBytes = size_t{1} << 20;
+
+/// Errors: "FILE:LINE: ...", naming the command and what it wants.
+[[nodiscard]] Result<std::vector<ScriptCommand>> parse_script(std::string_view text, const std::string& file);
+
+/// The events of a command that is input, one batch a frame; empty for the others.
+[[nodiscard]] std::deque<std::vector<Event>> input_frames(const ScriptCommand& command);
+/// A drag of a widget's handle to `share` of its width, from its middle.
+[[nodiscard]] std::deque<std::vector<Event>> slide_frames(const Region& widget, double share);
+
+}  // namespace dermis::view

@@ -1,0 +1,270 @@
+#include "dermis/view/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "dermis/base/text.h"
+#include "dermis/render/complete_scene.h"
+
+namespace dermis::view {
+namespace {
+
+constexpr double kScriptFrameS = 1.0 / 30;
+constexpr size_t kHistoryFrames = 90;
+constexpr float kDesignHeightPx = 900;  // the window's height at which the interface has scale 1
+
+Result<Start> load_start(const std::string& path) {
+    Result<Scene> scene = load_scene(path);
+    if (!scene) return scene.error();
+    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    return Start{.scene = std::move(*scene)};
+}
+
+// In steps of a quarter: a font is made for each.
+float automatic_scale(float content_scale, int height) {
+    const float by_height = std::floor(float(height) / kDesignHeightPx * 4) / 4;
+    return std::clamp(std::max(content_scale, by_height), 1.0f, 4.0f);
+}
+
+}  // namespace
+
+Session::Session(const ViewerOptions& options, Window window, gpu::Device device)
+    : options_(&options),
+      window_(std::move(window)),
+      device_(std::move(device)),
+      model_{.choices = {TechniqueChoice(all_techniques().front()),
+                         TechniqueChoice(all_techniques().front())}} {}
+
+Result<std::unique_ptr<Session>> Session::open(const ViewerOptions& options) {
+    std::future<Result<Start>> loading = std::async(std::launch::async, options.load);
+    Result<Window> window = Window::open("Dermis", options.size);
+    if (!window) return window.error();
+    Result<gpu::Device> device = gpu::Device::create({.validation = options.validation,
+                                                      .name_contains = options.device,
+                                                      .instance_extensions = window->instance_extensions()});
+    if (!device) return device.error();
+    std::unique_ptr<Session> session(new Session(options, std::move(*window), std::move(*device)));
+    session->loading_ = std::move(loading);
+    session->loading_path_ = options.scene_path;
+    session->report_.device = session->device_.info().name;
+    if (Result<void> made = session->make_window_side(); !made) return made.error();
+    return session;
+}
+
+Result<void> Session::make_swapchain() {
+    Result<gpu::Swapchain> swapchain =
+        gpu::Swapchain::create(device_, window_.surface_maker(),
+                               {.width = size_.width,
+                                .height = size_.height,
+                                .pacing = model_.vsync ? gpu::Pacing::vsync : gpu::Pacing::immediate});
+    if (!swapchain) return swapchain.error();
+    swapchain_.emplace(std::move(*swapchain));
+    return {};
+}
+
+Result<void> Session::make_window_side() {
+    size_ = window_.framebuffer();
+    if (Result<void> made = make_swapchain(); !made) return made;
+    Result<gpu::Executor> executor = gpu::Executor::create(device_, gpu::embedded_shaders());
+    if (!executor) return executor.error();
+    executor_.emplace(std::move(*executor));
+    Result<Interface> interface =
+        Interface::create(device_, {.get = [this] { return window_.clipboard(); },
+                                    .set = [this](const std::string& text) { window_.set_clipboard(text); }});
+    if (!interface) return interface.error();
+    interface_.emplace(std::move(*interface));
+    return {};
+}
+
+double Session::now_s() const {
+    // A script's time goes by frames, so that it does the same on every machine.
+    if (!options_->script.empty()) return report_.frames * kScriptFrameS;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+Region Session::picture_area() const {
+    return picture_region(model_, size_.width, size_.height, interface_->scale());
+}
+
+PictureSize Session::picture_size() const {
+    const Region area = picture_area();
+    const float share = model_.compare == Compare::side_by_side ? 0.5f : 1;
+    return {std::max(1, int(area.width * share)), std::max(1, int(area.height))};
+}
+
+void Session::load(const std::string& path) {
+    if (loading_.valid()) return model_.notices.inform("open", "still loading " + loading_path_, now_s());
+    loading_path_ = path;
+    loading_ = std::async(std::launch::async, load_start, path);
+}
+
+Result<void> Session::take_loaded() {
+    if (!loading_.valid()) return {};
+    if (loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+    const bool first = !stage_;
+    Result<Start> start = loading_.get();
+    if (start) {
+        const Result<void> begun = begin_scene(std::move(*start), first);
+        if (begun || first) return begun;
+        model_.notices.complain("open", begun.error().message);
+        return {};
+    }
+    if (first) return start.error();
+    model_.notices.complain("open", start.error().message);
+    return {};
+}
+
+Result<void> Session::begin_scene(Start start, bool first) {
+    auto scene = std::make_unique<Scene>(std::move(start.scene));
+    Result<Stage> stage =
+        Stage::create(device_, gpu::embedded_shaders(), std::move(scene), options_->samples);
+    if (!stage) return stage.error();
+    model_.scene = nullptr;
+    stage_.emplace(std::move(*stage));
+    model_.scene = &stage_->scene();
+    model_.scene_path = loading_path_;
+    if (first) {
+        if (start.technique) {
+            for (TechniqueChoice& choice : model_.choices) choice.choose(*start.technique);
+            if (start.values) model_.choices[0].values() = *start.values;
+        }
+        model_.view = start.view;
+    }
+    model_.notices.clear("open");
+    for (const std::string& warning : model_.scene->warnings)
+        model_.notices.inform("warning", warning, now_s());
+    window_.set_title(model_.scene->name + " - Dermis");
+    return {};
+}
+
+Result<void> Session::rescale() {
+    const float scale = options_->interface_scale > 0
+                            ? options_->interface_scale
+                            : automatic_scale(window_.content_scale(), size_.height);
+    return interface_->set_scale(std::clamp(scale * model_.user_scale, 0.5f, 6.0f));
+}
+
+PanelFacts Session::facts() const {
+    PanelFacts facts = {.scale = interface_->scale(),
+                        .width = size_.width,
+                        .height = size_.height,
+                        .device = report_.device,
+                        .frame_history_ms = history_ms_,
+                        .loading = loading_.valid()};
+    facts.picture_state = facts.device;
+    if (!stage_ || stage_->picture(0).width == 0) return facts;
+    const Picture& picture = stage_->picture(0);
+    facts.picture_state = std::to_string(picture.width) + " x " + std::to_string(picture.height) + "   " +
+                          std::to_string(picture.quality.samples) +
+                          (picture.quality.samples > 1 ? " samples   " : " sample   ") + facts.device;
+    facts.frame_ms = picture.timings.frame_ms;
+    for (const gpu::PassTiming& pass : picture.timings.passes)
+        facts.passes.push_back({pass.name, pass.time_ms});
+    return facts;
+}
+
+Result<void> Session::refresh_pictures() {
+    drew_ = false;
+    if (!stage_) return {};
+    const size_t sides = model_.compares() ? 2 : 1;
+    for (size_t side = 0; side < sides; ++side) {
+        const Result<bool> drew = stage_->refresh(model_, side, picture_size(), now_s());
+        const std::string topic = "picture " + std::to_string(side);
+        if (!drew) {
+            model_.notices.complain(topic, drew.error().message);
+            continue;
+        }
+        if (!*drew) continue;
+        model_.notices.clear(topic);
+        drew_ = true;
+        if (side > 0) continue;
+        history_ms_.push_back(float(stage_->picture(0).timings.frame_ms));
+        if (history_ms_.size() > kHistoryFrames) history_ms_.erase(history_ms_.begin());
+    }
+    return {};
+}
+
+Result<void> Session::show(const InterfaceDraws& draws) {
+    if (!swapchain_)  // its pacing was changed
+        if (Result<void> made = make_swapchain(); !made) return made;
+    const auto a = stage_ ? stage_->image(0) : std::nullopt;
+    const auto b = stage_ && model_.compares() ? stage_->image(1) : std::nullopt;
+    gpu::FrameInputs inputs = {.width = size_.width, .height = size_.height, .draws = draws.draws};
+    Arrangement arrangement = Arrangement::none;
+    if (a) {
+        arrangement = Arrangement::one;
+        if (b && model_.compare == Compare::wipe) arrangement = Arrangement::wipe;
+        if (b && model_.compare == Compare::side_by_side) arrangement = Arrangement::side_by_side;
+        inputs.images["picture_a"] = *a;
+        inputs.images["picture_b"] = b ? *b : *a;
+    }
+    const PassList list = window_passes({.width = size_.width,
+                                         .height = size_.height,
+                                         .region = picture_area(),
+                                         .arrangement = arrangement,
+                                         .split = model_.split,
+                                         .line_px = std::max(1.0f, std::round(interface_->scale())),
+                                         .has_interface = !draws.draws.empty()});
+    if (const auto run = executor_->run(list, inputs); !run) return run.error();
+    const Result<gpu::Presented> presented = swapchain_->present(*executor_, "window");
+    if (!presented) return presented.error();
+    if (*presented == gpu::Presented::resize) return swapchain_->resize(size_.width, size_.height);
+    if (a && report_.first_picture_s == 0)
+        report_.first_picture_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    return {};
+}
+
+bool Session::is_settled() const {
+    if (loading_.valid() || !stage_ || drew_) return false;
+    return stage_->is_final(0) && (!model_.compares() || stage_->is_final(1));
+}
+
+Result<void> Session::frame() {
+    const std::vector<Event> events = gather_events();
+    if (Result<void> taken = take_loaded(); !taken) return taken;
+    const WindowSize size = window_.framebuffer();
+    if (size.width == 0 || size.height == 0) {  // minimised
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        return step_script();
+    }
+    if (size != size_) {
+        size_ = size;
+        if (Result<void> resized = swapchain_->resize(size.width, size.height); !resized) return resized;
+    }
+    if (Result<void> scaled = rescale(); !scaled) return scaled;
+    model_.notices.expire(now_s());
+    interface_->begin(events, size.width, size.height, std::max(now_s() - last_frame_s_, 1e-3));
+    last_frame_s_ = now_s();
+    take_input(events);
+    PanelRequests requests;
+    widgets_.clear();
+    show_panels(model_, facts(), requests, widgets_);
+    Result<InterfaceDraws> draws = interface_->end();
+    if (!draws) return draws.error();
+    for (const Action action : requests.actions) act(action);
+    if (Result<void> refreshed = refresh_pictures(); !refreshed) return refreshed;
+    if (Result<void> shown = show(*draws); !shown) return shown;
+    return step_script();
+}
+
+Result<ViewerReport> Session::run() {
+    while (!quit_ && !window_.should_close()) {
+        if (Result<void> ran = frame(); !ran) return ran.error();
+        ++report_.frames;
+        if (options_->frames > 0 && report_.frames >= options_->frames) break;
+    }
+    if (loading_.valid()) loading_.wait();
+    if (const std::vector<std::string> said = device_.messages(); !said.empty())
+        return Error{"the validation layers complained: " + join(said, "; ")};
+    return report_;
+}
+
+Result<ViewerReport> run_viewer(const ViewerOptions& options) {
+    Result<std::unique_ptr<Session>> session = Session::open(options);
+    if (!session) return session.error();
+    return (*session)->run();
+}
+
+}  // namespace dermis::view

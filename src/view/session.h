@@ -1,0 +1,90 @@
+#pragma once
+// What lives while the window is open. Its work is spread over session.cpp (the frame), session_input.cpp
+// (mouse and keys) and session_script.cpp.
+
+#include <chrono>
+#include <deque>
+#include <future>
+
+#include "dermis/gpu/swapchain.h"
+#include "dermis/view/interface.h"
+#include "dermis/view/stage.h"
+#include "dermis/view/viewer.h"
+#include "dermis/view/window.h"
+#include "dermis/view/window_frame.h"
+
+namespace dermis::view {
+
+class Session {
+  public:
+    [[nodiscard]] static Result<std::unique_ptr<Session>> open(const ViewerOptions& options);
+    [[nodiscard]] Result<ViewerReport> run();
+
+  private:
+    enum class Drag { none, orbit, pan, light };
+
+    Session(const ViewerOptions& options, Window window, gpu::Device device);
+    [[nodiscard]] Result<void> make_window_side();
+    [[nodiscard]] Result<void> make_swapchain();
+
+    // session.cpp
+    [[nodiscard]] Result<void> frame();
+    [[nodiscard]] Result<void> take_loaded();
+    [[nodiscard]] Result<void> begin_scene(Start start, bool first);
+    void load(const std::string& path);
+    [[nodiscard]] Result<void> refresh_pictures();
+    [[nodiscard]] Result<void> show(const InterfaceDraws& draws);
+    [[nodiscard]] Result<void> rescale();
+    [[nodiscard]] PanelFacts facts() const;
+    [[nodiscard]] PictureSize picture_size() const;
+    [[nodiscard]] Region picture_area() const;
+    [[nodiscard]] double now_s() const;
+    [[nodiscard]] bool is_settled() const;
+
+    // session_input.cpp
+    [[nodiscard]] std::vector<Event> gather_events();
+    void take_input(const std::vector<Event>& events);
+    void take_mouse(const Event& event);
+    void drag_to(Vec2 position_px);
+    void act(Action action);
+    void choose_technique(int step);
+    void choose_view(int step);
+    void save_picture();
+
+    // session_script.cpp
+    [[nodiscard]] Result<void> step_script();
+    [[nodiscard]] Result<void> run_command(const ScriptCommand& command);
+    [[nodiscard]] Result<void> capture(const std::string& path);
+    [[nodiscard]] std::string state_text();
+
+    const ViewerOptions* options_;
+    std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+    // In this order: what is below dies before what is above.
+    Window window_;
+    gpu::Device device_;
+    std::optional<gpu::Swapchain> swapchain_;
+    std::optional<gpu::Executor> executor_;
+    std::optional<Interface> interface_;
+    std::optional<Stage> stage_;
+    Model model_;
+
+    std::future<Result<Start>> loading_;
+    std::string loading_path_;
+    WindowSize size_;
+    std::deque<Event> waiting_;  ///< not yet given to the interface
+    WidgetMap widgets_;
+    Drag drag_ = Drag::none;
+    Vec2 mouse_px_;
+    int awake_frames_ = 3;  ///< to draw before sleeping
+    bool drew_ = false;     ///< a picture, in this frame
+    bool quit_ = false;
+    std::vector<float> history_ms_;
+    double last_frame_s_ = 0;
+
+    size_t next_command_ = 0;
+    std::deque<std::vector<Event>> scripted_;
+    bool settling_ = false;
+    ViewerReport report_;
+};
+
+}  // namespace dermis::view

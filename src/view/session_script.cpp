@@ -1,0 +1,108 @@
+// Scripted input.
+
+#include <algorithm>
+
+#include "dermis/base/text.h"
+#include "dermis/image/io.h"
+#include "dermis/render/shared_passes.h"
+#include "dermis/view/session.h"
+
+namespace dermis::view {
+
+Result<void> Session::step_script() {
+    if (options_->script.empty() || next_command_ >= options_->script.size()) return {};
+    if (!scripted_.empty() || loading_.valid() || !stage_) return {};
+    if (settling_ && !is_settled()) return {};
+    settling_ = false;
+    const ScriptCommand& command = options_->script[next_command_++];
+    const Result<void> done = run_command(command);
+    if (!done)
+        return Error{options_->script_name + ":" + std::to_string(command.line) + ": " +
+                     done.error().message};
+    return {};
+}
+
+Result<void> Session::run_command(const ScriptCommand& command) {
+    switch (command.kind) {
+        case CommandKind::open:
+            load(command.words[0]);
+            return {};
+        case CommandKind::technique: {
+            const Result<const Technique*> technique = find_technique(command.words[0]);
+            if (!technique) return technique.error();
+            model_.choices[0].choose(**technique);
+            return {};
+        }
+        case CommandKind::set: {
+            const std::string& word = command.words[0];
+            const size_t equals = std::min(word.find('='), word.size());
+            return model_.choices[0].values().set(word.substr(0, equals),
+                                                  word.substr(std::min(equals + 1, word.size())));
+        }
+        case CommandKind::view: {
+            const std::vector<std::string> views = view_names(model_.choices[0].technique());
+            if (!std::ranges::count(views, command.words[0]))
+                return Error{unknown_name("view", command.words[0], views)};
+            model_.view = command.words[0];
+            return {};
+        }
+        case CommandKind::slide: {
+            const auto widget = widgets_.find(command.words[0]);
+            std::vector<std::string> names;
+            for (const auto& [name, region] : widgets_) names.push_back(name);
+            if (widget == widgets_.end()) return Error{unknown_name("widget", command.words[0], names)};
+            scripted_ = slide_frames(widget->second, command.numbers[0]);
+            return {};
+        }
+        case CommandKind::resize:
+            window_.resize({int(command.numbers[0]), int(command.numbers[1])});
+            scripted_.resize(3);  // the display answers in its own time
+            return {};
+        case CommandKind::minimise:
+            window_.minimise();
+            return {};
+        case CommandKind::restore:
+            window_.restore();
+            return {};
+        case CommandKind::settle:
+            settling_ = true;
+            drew_ = true;  // at least one more frame
+            return {};
+        case CommandKind::screenshot:
+            return stage_->write(model_, 0, picture_size(), command.words[0]);
+        case CommandKind::capture:
+            return capture(command.words[0]);
+        case CommandKind::print:
+            if (options_->print) options_->print(state_text());
+            return {};
+        case CommandKind::quit:
+            quit_ = true;
+            return {};
+        default:
+            scripted_ = input_frames(command);
+            return {};
+    }
+}
+
+Result<void> Session::capture(const std::string& path) {
+    Result<Image> shown = executor_->read("window");
+    if (!shown) return shown.error();
+    shown->encoding = Encoding::srgb;
+    return write_image(path, *shown);
+}
+
+std::string Session::state_text() {
+    TechniqueChoice& choice = model_.choices[0];
+    std::string text = "scene " + model_.scene_path + "\ntechnique " + choice.technique().id + "\n";
+    for (const Parameter& parameter : choice.technique().parameters.parameters)
+        text += "set " + parameter.name + "=" + choice.values().text(parameter) + "\n";
+    text += "view " + model_.view + "\ncamera " + camera_text(model_.scene->camera) + "\n";
+    const auto key = std::ranges::find(model_.scene->lights, true, &Light::is_key);
+    if (key != model_.scene->lights.end()) text += "light " + light_text(*key) + "\n";
+    text += "exposure_ev " + to_text(model_.scene->exposure_ev) + "\n";
+    text += "window " + std::to_string(size_.width) + "x" + std::to_string(size_.height) + "\n";
+    for (const Notice& notice : model_.notices.all()) text += "notice " + notice.text + "\n";
+    return text;
+}
+
+}  // namespace dermis::view

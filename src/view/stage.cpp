@@ -1,0 +1,114 @@
+#include "dermis/view/stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dermis::view {
+namespace {
+
+// A guess for the first frame: what the skin costs on a processor and on a graphics card.
+constexpr double kProcessorMsPerMegapixel = 600, kCardMsPerMegapixel = 3;
+
+double megapixels(PictureSize size) {
+    return double(size.width) * size.height * 1e-6;
+}
+
+}  // namespace
+
+Result<Stage> Stage::create(gpu::Device& device, const gpu::ShaderSource& shaders,
+                            std::unique_ptr<Scene> scene, int samples) {
+    Stage stage;
+    stage.device_ = &device;
+    stage.shaders_ = shaders;
+    stage.scene_ = std::move(scene);
+    stage.limits_.samples = std::ranges::count(device.info().sample_counts, samples) ? samples : 1;
+    Result<Renderer> first = Renderer::create(device, shaders, *stage.scene_);
+    if (!first) return first.error();
+    stage.sides_[0].renderer.emplace(std::move(*first));
+    for (Side& side : stage.sides_)
+        side.ladder.emplace(device.info().is_cpu ? kProcessorMsPerMegapixel : kCardMsPerMegapixel);
+    return stage;
+}
+
+Result<Renderer*> Stage::renderer(size_t choice) {
+    Side& side = sides_[choice];
+    if (!side.renderer) {
+        Result<Renderer> second = sides_[0].renderer->sibling(shaders_);
+        if (!second) return second.error();
+        side.renderer.emplace(std::move(*second));
+    }
+    return &*side.renderer;
+}
+
+DrawSettings Stage::settings(const Model& model, PictureSize size, Quality quality) const {
+    const auto scaled = [&](int side) { return std::max(1, int(std::lround(float(side) * quality.scale))); };
+    return {.width = scaled(size.width),
+            .height = scaled(size.height),
+            .samples = quality.samples,
+            .view = model.view,
+            .shadow_map_size = quality.scale < 1 ? 1024 : 2048};
+}
+
+Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, double now_s) {
+    Side& side = sides_[choice];
+    const std::string key =
+        picture_key(model, choice) + std::to_string(size.width) + 'x' + std::to_string(size.height);
+    const bool changed = key != side.key;
+    if (changed) {
+        side.key = key;
+        side.changed_s = now_s;
+        side.failed = false;
+    }
+    if (side.failed) return false;
+    const std::optional<Quality> quality =
+        side.ladder->due(changed, now_s - side.changed_s, megapixels(size), limits_);
+    if (!quality) return false;
+    const Result<Renderer*> drawer = renderer(choice);
+    if (!drawer) return drawer.error();
+    const DrawSettings draw = settings(model, size, *quality);
+    fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
+    TechniqueChoice& chosen = model.choices[choice];
+    Result<gpu::FrameResult> drawn = (*drawer)->draw(chosen.technique(), chosen.values(), draw);
+    side.failed = !drawn;
+    if (!drawn) return drawn.error();
+    side.ladder->drawn(*quality, megapixels(size), drawn->frame_ms);
+    side.picture = {
+        .timings = std::move(*drawn), .quality = *quality, .width = draw.width, .height = draw.height};
+    return true;
+}
+
+std::optional<gpu::ForeignImage> Stage::image(size_t choice) const {
+    const Side& side = sides_[choice];
+    if (side.picture.width == 0) return {};
+    return gpu::ForeignImage{&const_cast<Renderer&>(*side.renderer).executor(), "display"};
+}
+
+bool Stage::is_final(size_t choice) const {
+    return sides_[choice].failed || sides_[choice].ladder->is_final(limits_);
+}
+
+Result<void> Stage::write(Model& model, size_t choice, PictureSize size, const std::filesystem::path& path) {
+    const OutputSettings output = {.credit = scene_->credit,
+                                   .description = scene_->name + ", " + model.choices[choice].technique().id};
+    if (Result<void> good = check_output(path, output); !good) return good.error();
+    const Result<Renderer*> drawer = renderer(choice);
+    if (!drawer) return drawer.error();
+    const DrawSettings draw = settings(model, size, {.samples = limits_.samples});
+    TechniqueChoice& chosen = model.choices[choice];
+    fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
+    if (const auto drawn = (*drawer)->draw(chosen.technique(), chosen.values(), draw); !drawn)
+        return drawn.error();
+    return write_output(**drawer, chosen.technique(), chosen.values(), draw, path, output);
+}
+
+void Stage::invalidate() {
+    for (Side& side : sides_) side.key.clear();
+}
+
+void Stage::forget_shaders() {
+    for (Side& side : sides_)
+        if (side.renderer) side.renderer->executor().forget_shaders();
+    invalidate();
+}
+
+}  // namespace dermis::view

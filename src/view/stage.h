@@ -1,0 +1,74 @@
+#pragma once
+// The loaded scene on the device, and its pictures: one a side of the comparison, each drawn again only when
+// something it depends on has changed, or when a better one is due.
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "dermis/render/output.h"
+#include "dermis/render/renderer.h"
+#include "dermis/view/model.h"
+#include "dermis/view/quality.h"
+
+namespace dermis::view {
+
+struct PictureSize {
+    int width = 1, height = 1;
+};
+
+/// What stands in the window of one side.
+struct Picture {
+    gpu::FrameResult timings;
+    Quality quality;
+    int width = 0, height = 0;  ///< as drawn
+};
+
+class Stage {
+  public:
+    /// `samples`: of the finished picture, 1 or 4; fewer where the device has fewer.
+    [[nodiscard]] static Result<Stage> create(gpu::Device& device, const gpu::ShaderSource& shaders,
+                                              std::unique_ptr<Scene> scene, int samples);
+
+    [[nodiscard]] Scene& scene() { return *scene_; }
+
+    /// Draws the side `choice` if it is due. True when it drew. An error leaves the last picture standing,
+    /// and comes once: the next attempt waits for a change.
+    [[nodiscard]] Result<bool> refresh(Model& model, size_t choice, PictureSize size, double now_s);
+
+    /// The side's picture for the window; absent before the first drawing.
+    [[nodiscard]] std::optional<gpu::ForeignImage> image(size_t choice) const;
+    [[nodiscard]] const Picture& picture(size_t choice) const { return sides_[choice].picture; }
+    [[nodiscard]] bool is_final(size_t choice) const;
+
+    /// Draws once more, whole and with all samples, and writes it (.png or .exr).
+    [[nodiscard]] Result<void> write(Model& model, size_t choice, PictureSize size,
+                                     const std::filesystem::path& path);
+
+    /// Forgets what stands, so that the next refresh draws.
+    void invalidate();
+    /// Reads all shaders again.
+    void forget_shaders();
+
+  private:
+    struct Side {
+        std::optional<Renderer> renderer;
+        std::optional<QualityLadder> ladder;
+        std::string key;
+        double changed_s = 0;
+        Picture picture;
+        bool failed = false;  ///< with this key
+    };
+
+    Stage() = default;
+    [[nodiscard]] Result<Renderer*> renderer(size_t choice);
+    [[nodiscard]] DrawSettings settings(const Model& model, PictureSize size, Quality quality) const;
+
+    gpu::Device* device_ = nullptr;
+    gpu::ShaderSource shaders_;
+    std::unique_ptr<Scene> scene_;
+    std::array<Side, 2> sides_;
+    QualityLimits limits_;
+};
+
+}  // namespace dermis::view

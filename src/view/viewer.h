@@ -1,0 +1,50 @@
+#pragma once
+// dermis view: a window in which the techniques are looked at while they move.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dermis/scene/scene.h"
+#include "dermis/technique/technique.h"
+#include "dermis/view/script.h"
+#include "dermis/view/window.h"
+
+namespace dermis::view {
+
+/// What the window opens with.
+struct Start {
+    Scene scene;
+    const Technique* technique = nullptr;
+    std::optional<ParameterValues> values;
+    std::string view = "final";
+};
+
+struct ViewerOptions {
+    std::string scene_path;
+    /// Loads the first scene; runs beside the opening of window and device.
+    std::function<Result<Start>()> load;
+    WindowSize size = {1280, 800};
+    std::string device;         ///< part of a Vulkan device's name
+    bool validation = false;    ///< any message of the layers is an error at the end
+    int samples = 4;            ///< a pixel of the finished picture: 1 or 4
+    float interface_scale = 0;  ///< 0: from the display and the window's height
+    int frames = 0;             ///< end after so many; 0: when the person does
+    std::vector<ScriptCommand> script;
+    std::string script_name;                             ///< for messages
+    std::function<void(const std::string& line)> print;  ///< what the script's print says
+};
+
+/// What a run came to, for one line at its end.
+struct ViewerReport {
+    int frames = 0;
+    double first_picture_s = 0;  ///< from the call to the first presented picture
+    std::string device;
+};
+
+/// Returns when the window was closed. Errors: no display, no device, a first scene that does not load, a
+/// script's command that fails. A scene dropped later that does not load is a notice in the window.
+[[nodiscard]] Result<ViewerReport> run_viewer(const ViewerOptions& options);
+
+}  // namespace dermis::view
