@@ -6,7 +6,7 @@
 
 layout(set = 0, binding = 11) uniform textureCube environment_cube;
 // F0 scale and bias of the split sum: n.v from left to right, roughness from top to bottom (scene/brdf_table.h).
-layout(set = 0, binding = 17) uniform texture2D environment_brdf;
+layout(set = 0, binding = 40) uniform texture2D environment_brdf;
 
 // Nine radiance coefficients, order (l, m): 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22, real orthonormal basis.
 struct ShTerm {

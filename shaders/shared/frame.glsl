@@ -1,5 +1,5 @@
-// What every shader may know of the frame. Bindings 0 to 20 are shared by all shaders; a technique's own textures
-// start at 21. Everything is filled by name, so nothing here is written a second time in C++.
+// What every shader may know of the frame. Bindings 0 to 20, and from 40 on, are shared by all shaders; a technique's own
+// textures start at 21. Everything is filled by name, so nothing here is written a second time in C++.
 #ifndef DERMIS_FRAME_GLSL
 #define DERMIS_FRAME_GLSL
 
