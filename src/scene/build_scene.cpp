@@ -215,6 +215,15 @@ Result<Environment> build_environment(const SceneDescription& description,
 
 }  // namespace
 
+bool lacks_asset(const SceneDescription& description) {
+    const auto lacks = [&](const NamedFile& file) {
+        return is_asset(file.text) && !resolve_path(file.text, description.file);
+    };
+    return std::ranges::any_of(description.meshes, lacks, &MeshDescription::file) ||
+           std::ranges::any_of(kMapRows,
+                               [&](const MapRow& row) { return lacks(description.maps.*row.from); });
+}
+
 Result<Scene> build_scene(const SceneDescription& description) {
     const HeadDescription& head = description.head;
     Scene scene{.name = head.name.empty() ? description.file.stem().string() : head.name};

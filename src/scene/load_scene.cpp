@@ -21,12 +21,25 @@ Result<Scene> load_builtin(std::string_view name) {
     return scene;
 }
 
-Result<Scene> load_scene_file(const fs::path& path) {
+Result<SceneDescription> read_description(const fs::path& path) {
     const Result<std::string> text = read_text_file(path);
     if (!text) return text.error();
-    const Result<SceneDescription> description = parse_scene(*text, path);
+    return parse_scene(*text, path);
+}
+
+Result<Scene> load_scene_file(const fs::path& path) {
+    const Result<SceneDescription> description = read_description(path);
     if (!description) return description.error();
-    return build_scene(*description);
+    Result<Scene> scene = build_scene(*description);
+    if (scene || description->head.without_assets.empty() || !lacks_asset(*description)) return scene;
+
+    const Result<SceneDescription> other =
+        read_description(path.parent_path() / (description->head.without_assets + ".toml"));
+    Result<Scene> instead = other ? build_scene(*other) : other.error();
+    if (!instead) return scene;
+    instead->warnings.insert(instead->warnings.begin(), scene.error().message + "; drawing scene '" +
+                                                            description->head.without_assets + "' instead");
+    return instead;
 }
 
 // In a mesh that says which of its materials scatter, those are the skin; otherwise everything is.

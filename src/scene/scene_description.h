@@ -81,6 +81,7 @@ struct EnvironmentDescription {
 /// Keys that stand outside any section.
 struct HeadDescription {
     std::string name, credit, technique;
+    std::string without_assets;  ///< the scene to draw where files of this one are missing
     Vec3 background_linear = {0.02f, 0.02f, 0.022f};
     ToneMap tone_map = ToneMap::hable;
     float exposure_ev = 0;
@@ -109,6 +110,9 @@ inline constexpr size_t kMaxSceneBytes = size_t{1} << 20;
 
 /// Loads everything the description names. Errors name the line that named the file.
 [[nodiscard]] Result<Scene> build_scene(const SceneDescription& description);
+
+/// Whether a mesh or a map of [maps] is an asset that is nowhere.
+[[nodiscard]] bool lacks_asset(const SceneDescription& description);
 
 /// The manual page of the scene file, in Markdown, out of the tables that parse it.
 [[nodiscard]] std::string scene_file_manual();

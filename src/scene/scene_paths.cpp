@@ -37,6 +37,10 @@ Result<fs::path> resolve_asset(std::string_view name) {
 
 }  // namespace
 
+bool is_asset(std::string_view text) {
+    return text.starts_with(kAssets);
+}
+
 std::vector<fs::path> asset_directories() {
     std::vector<fs::path> directories;
     if (const fs::path own = from_environment("DERMIS_ASSETS"); !own.empty()) directories.push_back(own);
@@ -46,7 +50,7 @@ std::vector<fs::path> asset_directories() {
 }
 
 Result<fs::path> resolve_path(std::string_view text, const fs::path& scene_file) {
-    if (text.starts_with(kAssets)) return resolve_asset(text.substr(kAssets.size()));
+    if (is_asset(text)) return resolve_asset(text.substr(kAssets.size()));
     const fs::path path = (scene_file.parent_path() / text).lexically_normal();
     std::error_code ec;
     if (fs::is_directory(path, ec)) return Error{"'" + path.string() + "' is a directory, not a file"};

@@ -14,6 +14,9 @@ namespace dermis {
 /// source tree; dermis below $XDG_DATA_HOME (~/.local/share), where tools/get_head puts its files.
 [[nodiscard]] std::vector<std::filesystem::path> asset_directories();
 
+/// "assets:NAME".
+[[nodiscard]] bool is_asset(std::string_view text);
+
 /// A path as a scene file has it: "assets:NAME", absolute, or relative to the scene file. Errors, without a
 /// place: it does not exist, it is a directory; for assets, where it was looked for and how to get it.
 [[nodiscard]] Result<std::filesystem::path> resolve_path(std::string_view text,

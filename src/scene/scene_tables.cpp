@@ -40,6 +40,11 @@ const KeyTable<HeadDescription>& head_keys() {
             .text(&D::name, {.name = "name",
                              .doc = "what lists and windows call the scene; the file's name when absent"})
             .text(&D::credit, {.name = "credit", .doc = "stands wherever a picture of the scene stands"})
+            .text(
+                &D::without_assets,
+                {.name = "without_assets",
+                 .doc = "scene beside this one that is drawn, with a warning, where an `assets:` mesh or map "
+                        "of this one is missing"})
             .color(&D::background_linear,
                    {.name = "background", .unit = "linear", .doc = "radiance behind everything", .max = 1e3})
             .choice<ToneMap>(&D::tone_map, {.name = "tone_map",

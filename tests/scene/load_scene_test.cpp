@@ -182,6 +182,27 @@ TEST(LoadScene, a_missing_asset_says_where_it_was_looked_for_and_how_to_get_it) 
                   "; run tools/get_head, or set DERMIS_ASSETS to the directory that holds it");
 }
 
+TEST(LoadScene, a_scene_that_lacks_an_asset_draws_the_one_it_names_and_says_so) {
+    const SceneDirectory dir;
+    const Variable assets("DERMIS_ASSETS", dir.file("mine")), data("XDG_DATA_HOME", dir.file("data"));
+    dir.put("plain.toml", "name = \"Plain\"\n" + kMesh);
+    const std::string maps = "[maps]\nnormal = \"assets:nobody/normal.jpg\"\n";
+    const std::string head = "name = \"Full\"\nwithout_assets = \"plain\"\n";
+    const Result<Scene> scene = dir.load(head + kMesh + maps);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->name, "Plain");
+    ASSERT_FALSE(scene->warnings.empty());
+    EXPECT_NE(scene->warnings[0].find("s.toml:7: maps.normal: asset 'nobody/normal.jpg' is in none of"),
+              std::string::npos)
+        << scene->warnings[0];
+    EXPECT_NE(scene->warnings[0].find("drawing scene 'plain' instead"), std::string::npos);
+
+    // Any other mistake is its own error, and so is a stand-in that fails as well.
+    EXPECT_NE(dir.error(head + kMesh + "[skin]\nior = 9\n").find("ior"), std::string::npos);
+    EXPECT_NE(dir.error("without_assets = \"nothing\"\n" + kMesh + maps).find("nobody/normal.jpg"),
+              std::string::npos);
+}
+
 TEST(LoadScene, point_and_spot_lights_stand_where_the_file_says) {
     const SceneDirectory dir;
     const Result<Scene> scene = dir.load(
