@@ -144,7 +144,8 @@ TEST(SceneFile, an_unknown_key_proposes_the_one_that_was_meant) {
     EXPECT_EQ(error_of("exposure = 1\n" + kMesh),
               "s.toml:1: unknown key 'exposure'; did you mean 'exposure_ev'? Known: camera, environment, "
               "light, maps, "
-              "material, mesh, settings, skin, name, credit, background, tone_map, exposure_ev, technique");
+              "material, mesh, settings, skin, name, credit, without_assets, background, tone_map, "
+              "exposure_ev, technique");
     EXPECT_EQ(error_of(kMesh + "[material.lips.maps]\nnormals = \"a.png\"\n").substr(0, 88),
               "s.toml:4: unknown key in [material.lips.maps]: 'normals'; did you mean 'normal'? Known: ");
 }
