@@ -56,6 +56,7 @@ struct PassTiming {
     std::string name;
     double time_ms = 0;
     uint64_t samples_passed = 0;  ///< samples that passed the depth test; 0 for compute and transfers
+    uint64_t target_texels = 0;   ///< of the image it draws into
 };
 
 struct FrameResult {

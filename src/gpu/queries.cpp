@@ -81,6 +81,7 @@ Result<FrameResult> FrameQueries::collect(const Context& context, const Plan& pl
     for (size_t i = 0; i < count; ++i) {
         PassTiming& timing = result.passes.emplace_back();
         timing.name = plan.passes[i].pass->name;
+        timing.target_texels = uint64_t(plan.passes[i].extent.width) * plan.passes[i].extent.height;
         timing.time_ms = elapsed_ms(context, times[i], times[i + 1]);
         if (!counts_samples(plan.passes[i])) continue;
         const Result<std::vector<uint64_t>> samples = read_pool(context, samples_.get(), i, 1);

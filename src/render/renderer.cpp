@@ -39,6 +39,19 @@ std::string settings_key(const Technique& technique, const ParameterValues& valu
     return hasher.hex();
 }
 
+// What the light on the surface depends on, beside the scene's objects.
+std::string light_key(const Technique& technique, const ParameterValues& values, const DrawSettings& settings,
+                      const Scene& scene) {
+    Hasher hasher;
+    hasher.add(technique.id).add(settings.view).add(settings.shadow_map_size).add(settings.penumbra_mm);
+    for (const Parameter& parameter : values.table().parameters) hasher.add(values.text(parameter));
+    for (const gpu::Values& light : light_values(scene))
+        for (const auto& [name, value] : light)
+            std::visit([&](const auto& v) { hasher.add(std::as_bytes(std::span(&v, 1))); }, value);
+    hasher.add(scene.environment.intensity).add(scene.environment.yaw_rad).add(scene.skin.profile);
+    return hasher.hex();
+}
+
 }  // namespace
 
 Renderer::Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene)
@@ -116,12 +129,14 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
         return Error{unknown_name("view", settings.view, views)};
     if (Result<void> ready = prepare_tables(technique, values); !ready) return ready.error();
 
+    const std::string key = light_key(technique, values, settings, *scene_);
     const FrameContext frame = {
         .width = settings.width,
         .height = settings.height,
         .samples = settings.samples,
         .view = settings.view,
         .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
+        .previous_camera_distance_mm = key == history_key_ ? history_distance_mm_ : 0,
         .frame_index = settings.frame_index,
         .shadow_map_size = settings.shadow_map_size,
         .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
@@ -136,7 +151,10 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
                                        .gbuffer = settings.gbuffer};
     list_ = frame_passes(technique.build(values, frame), shared);
     radiance_name_ = radiance_image(shared);
-    return executor_.run(list_, inputs(values, settings));
+    Result<gpu::FrameResult> drawn = executor_.run(list_, inputs(values, settings));
+    history_key_ = drawn ? key : "";
+    history_distance_mm_ = frame.camera_distance_mm;
+    return drawn;
 }
 
 Result<Image> Renderer::radiance() {

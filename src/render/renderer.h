@@ -60,7 +60,8 @@ class Renderer {
     const Scene* scene_;
     PassList list_;
     std::string radiance_name_;
-    std::string tables_key_;
+    std::string tables_key_, history_key_;
+    float history_distance_mm_ = 0;
     std::map<std::string, gpu::Texture> tables_;
 };
 

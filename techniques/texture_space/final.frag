@@ -2,14 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 // Step 4 of the source: the mesh through the camera, diffuse from the blurred light map. The specular of the light that
 // casts the shadow is dimmed by the blurred light's luminance, which has the shadow in it.
-#include "shared/environment.glsl"
-#include "shared/lights.glsl"
+#include "shared/atlas_light.glsl"
 #include "shared/specular.glsl"
-#include "shared/surface.glsl"
 
 layout(set = 0, binding = 1, scalar) uniform Params {
     float specular_shadow_scale;
     float specular_shadow_bias;
+    float occluded;
+    float trans_shadow_alpha;
+    float cull_bias;
 };
 layout(set = 0, binding = 21) uniform texture2D light_map;
 layout(constant_id = 1) const int view = 0;
@@ -23,7 +24,11 @@ float luminance(vec3 c_linear) { return dot(c_linear, vec3(0.2125, 0.7154, 0.072
 
 void main() {
     Surface s = load_surface();
-    vec3 exitance = textureLod(sampler2D(light_map, linear_clamp), s.uv, 0.0).rgb;
+    // What lies on no texel of the atlas gets its light unblurred, and so does skin seen from inside, through the holes
+    // of an open mesh: it counts as facing away, so its texels may have been culled.
+    bool from_inside = dot(s.n_geometry_world, s.to_eye_world) + cull_bias <= 0.0;
+    vec3 exitance = outside_atlas(s.uv) || from_inside ? unblurred_exitance(s, occluded, trans_shadow_alpha)
+                                        : textureLod(sampler2D(light_map, linear_clamp), s.uv, 0.0).rgb;
     vec3 specular_radiance = environment_specular(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);

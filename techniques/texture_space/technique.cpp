@@ -1,9 +1,11 @@
 // Gosselin, Sander, Mitchell 2004, "Real-Time Texture-Space Skin Rendering" (ShaderX3): light the skin in its
 // texture atlas, blur that image with a kernel whose size is painted, and read it back through the camera.
 // Four steps: shadow map (shared), light map, dilation and blur, final mesh. The blur knows texels, not
-// millimetres: its width on the skin follows the unwrap. Not here: the three culls in texture space, blur in
-// millimetres.
+// millimetres: its width on the skin follows the unwrap. Not here: blur in millimetres.
 
+#include <cmath>
+
+#include "dermis/technique/atlas_cull.h"
 #include "dermis/technique/forward.h"
 #include "dermis/technique/shadow_channels.h"
 
@@ -26,6 +28,13 @@ struct Params {
     bool single_channel_opacity = false;
     bool second_light_shadow = false;
     ShadowLookup shadow_lookup = ShadowLookup::disk;
+    bool cull_frustum = true;
+    bool cull_back_face = true;
+    float cull_bias = 0.3f;
+    float exempt_1_u = 0, exempt_1_v = 0, exempt_1_radius = 0;
+    float exempt_2_u = 0, exempt_2_v = 0, exempt_2_radius = 0;
+    bool cull_distance = false;
+    float cull_beyond_mm = 3000;
     bool specular_shadow = true;
     float specular_shadow_scale = 1.5f;
     float specular_shadow_bias = 0;
@@ -53,12 +62,56 @@ ParameterTable parameters() {
                 "the second light casts a shadow too, from the channels that one light leaves free")
         .choice(&Params::shadow_lookup, "shadow_lookup", {"disk", "single"},
                 "filtered over the penumbra, or the source's one texel with a bias of 0.01")
+        .toggle(&Params::cull_frustum, "cull_frustum", "leave out texels outside the view")
+        .toggle(&Params::cull_back_face, "cull_back_face", "leave out texels that face away")
+        .number(&Params::cull_bias, "cull_bias", "", 0, 2, "added to the cosine between view and normal")
+        .number(&Params::exempt_1_u, "exempt_1_u", "uv", 0, 1, "an ear that is never culled: middle")
+        .number(&Params::exempt_1_v, "exempt_1_v", "uv", 0, 1, "the same")
+        .number(&Params::exempt_1_radius, "exempt_1_radius", "uv", 0, 1, "its radius; 0: none")
+        .number(&Params::exempt_2_u, "exempt_2_u", "uv", 0, 1, "the other ear: middle")
+        .number(&Params::exempt_2_v, "exempt_2_v", "uv", 0, 1, "the same")
+        .number(&Params::exempt_2_radius, "exempt_2_radius", "uv", 0, 1, "its radius; 0: none")
+        .toggle(&Params::cull_distance, "cull_distance", "keep the last light map while the camera is far")
+        .number(&Params::cull_beyond_mm, "cull_beyond_mm", "mm", 0, 1e6, "how far that is")
         .toggle(&Params::specular_shadow, "specular_shadow",
                 "dim the key light's specular by the blurred light")
         .number(&Params::specular_shadow_scale, "specular_shadow_scale", "", 0, 10, "times the light's share")
         .number(&Params::specular_shadow_bias, "specular_shadow_bias", "", -1, 1, "added to it")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
+}
+
+// How far the passes after the light map carry it: the widest tap of every blur and its bilinear neighbour,
+// and the bilinear lookup of the final mesh.
+int reach_texels(const Params& params) {
+    float reach = 1;
+    for (int i = 0; i < params.blur_passes; ++i) {
+        // Kawase's taps move out from pass to pass (blur.frag).
+        const float widest = params.filter == Filter::kawase ? 0.5f + 0.5f * float(i) : 1.0f;
+        reach += std::ceil(widest * (params.blur_scale + params.blur_bias)) + 1;
+    }
+    return int(reach);
+}
+
+AtlasCullSettings cull_settings(const Params& params, bool whole) {
+    return {.frustum = params.cull_frustum && !whole,
+            .back_face = params.cull_back_face && !whole,
+            .bias = params.cull_bias,
+            .exempt = {{params.exempt_1_u, params.exempt_1_v, params.exempt_1_radius},
+                       {params.exempt_2_u, params.exempt_2_v, params.exempt_2_radius}},
+            .reach_texels = reach_texels(params),
+            .size = params.light_map_size};
+}
+
+constexpr std::array<float, 4> kNothingWritten = {0, 0, 0, 1};
+
+Pass light_pass(const ShadowChannelSettings& shadow, const FrameContext& frame) {
+    Pass pass = {.name = "light map",
+                 .kind = PassKind::geometry_uv_atlas,
+                 .shader = "shared/atlas_light.frag",
+                 .colors = {{.image = "light_map_a", .clear = kNothingWritten}}};
+    read_shadow_channels(pass, shadow, frame);
+    return pass;
 }
 
 Pass blur_pass(const Params& params, int index) {
@@ -69,42 +122,67 @@ Pass blur_pass(const Params& params, int index) {
             .kind = PassKind::fullscreen,
             .shader = "texture_space/blur.frag",
             .reads = {{"source", to_b ? "light_map_a" : "light_map_b"}},
-            .colors = {{.image = to_b ? "light_map_b" : "light_map_a", .load = LoadOp::discard}},
+            .colors = {{.image = to_b ? "light_map_b" : "light_map_a",
+                        .load = LoadOp::discard,
+                        .clear = kNothingWritten}},
             .constants = {{"blur_filter", int32_t(params.filter)}, {"dilate", int32_t(dilate)}},
             .values = {{"pass_index", float(index)}}};
 }
 
+ShadowChannelSettings shadow_settings(const Params& params) {
+    return {.translucent = params.translucent_shadows,
+            .second_light = params.second_light_shadow,
+            .single_channel = params.single_channel_opacity,
+            .lookup = params.shadow_lookup};
+}
+
+// Culls, light map and blur.
+void add_light_map(PassList& list, const Params& params, const FrameContext& frame, bool whole) {
+    const AtlasCullSettings cull = cull_settings(params, whole);
+    add_atlas_cull(list, cull);
+    list.passes.push_back(light_pass(shadow_settings(params), frame));
+    keep_unculled(list.passes.back(), cull);
+    for (int i = 0; i < params.blur_passes; ++i) {
+        list.passes.push_back(blur_pass(params, i));
+        keep_unculled(list.passes.back(), cull);
+    }
+}
+
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
+    // Far away the map of the frame before is taken again: if that one was far too, it is whole, for the
+    // first far frame draws all of it.
+    const auto is_far = [&](float distance_mm) {
+        return params.cull_distance && distance_mm > params.cull_beyond_mm;
+    };
+    const bool far = is_far(frame.camera_distance_mm);
+    const bool kept = far && is_far(frame.previous_camera_distance_mm);
+
     const ImageSize size = {params.light_map_size, params.light_map_size};
-    PassList list = {.images = {{.name = "light_map_a", .format = ImageFormat::rgba16f, .size = size}}};
-    const ShadowChannelSettings shadow = {.translucent = params.translucent_shadows,
-                                          .second_light = params.second_light_shadow,
-                                          .single_channel = params.single_channel_opacity,
-                                          .lookup = params.shadow_lookup};
-    add_shadow_channels(list, shadow, frame);
-    Pass light = {.name = "light map",
-                  .kind = PassKind::geometry_uv_atlas,
-                  .shader = "shared/atlas_light.frag",
-                  .colors = {{.image = "light_map_a", .clear = {0, 0, 0, 1}}}};
-    read_shadow_channels(light, shadow, frame);
-    list.passes.push_back(std::move(light));
-    if (params.blur_passes > 0)
-        list.images.push_back({.name = "light_map_b", .format = ImageFormat::rgba16f, .size = size});
-    for (int i = 0; i < params.blur_passes; ++i) list.passes.push_back(blur_pass(params, i));
+    const std::string result = params.blur_passes % 2 == 0 ? "light_map_a" : "light_map_b";
+    PassList list;
+    for (const char* name : {"light_map_a", "light_map_b"})
+        if (name == result || (params.blur_passes > 0 && !kept))
+            list.images.push_back({.name = name,
+                                   .format = ImageFormat::rgba16f,
+                                   .size = size,
+                                   .persistent = params.cull_distance && name == result});
+    add_shadow_channels(list, shadow_settings(params), frame);
+    if (!kept) add_light_map(list, params, frame, far);
 
     const int32_t view = frame.view == "light_map" ? 3 : forward_view(frame.view);
-    list.passes.push_back(
-        {.name = "skin",
-         .kind = PassKind::geometry_screen,
-         .shader = "texture_space/final.frag",
-         .reads = {{"light_map", params.blur_passes % 2 == 0 ? "light_map_a" : "light_map_b"}},
-         .colors = {{.image = "radiance", .load = LoadOp::load}},
-         .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
-         .geometry = GeometryFilter::skin,
-         .constants = {{"specular_model", int32_t(params.specular)},
-                       {"view", view},
-                       {"specular_shadow", int32_t(params.specular_shadow)}}});
+    Pass skin = {.name = "skin",
+                 .kind = PassKind::geometry_screen,
+                 .shader = "texture_space/final.frag",
+                 .reads = {{"light_map", result}},
+                 .colors = {{.image = "radiance", .load = LoadOp::load}},
+                 .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
+                 .geometry = GeometryFilter::skin,
+                 .constants = {{"specular_model", int32_t(params.specular)},
+                               {"view", view},
+                               {"specular_shadow", int32_t(params.specular_shadow)}}};
+    read_shadow_channels(skin, shadow_settings(params), frame);
+    list.passes.push_back(std::move(skin));
     return list;
 }
 

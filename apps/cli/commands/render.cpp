@@ -33,9 +33,12 @@ gpu::FrameResult median_timings(const std::vector<gpu::FrameResult>& frames) {
     };
     gpu::FrameResult result = frames.back();
     result.frame_ms = median([](const gpu::FrameResult& f) { return f.frame_ms; });
-    for (size_t pass = 0; pass < result.passes.size(); ++pass)
-        result.passes[pass].time_ms = median(
-            [&](const gpu::FrameResult& f) { return pass < f.passes.size() ? f.passes[pass].time_ms : 0.0; });
+    // Frames may differ in their passes: the median is over those that have this one.
+    for (gpu::PassTiming& pass : result.passes)
+        pass.time_ms = median([&](const gpu::FrameResult& f) {
+            const auto same = std::ranges::find(f.passes, pass.name, &gpu::PassTiming::name);
+            return same == f.passes.end() ? pass.time_ms : same->time_ms;
+        });
     return result;
 }
 
@@ -45,8 +48,10 @@ nlohmann::json to_json(const Prepared& prepared, const Options& options, const g
     for (const Parameter& parameter : prepared.technique->parameters.parameters)
         settings[parameter.name] = prepared.values->text(parameter);
     for (const gpu::PassTiming& pass : timings.passes)
-        passes.push_back(
-            {{"name", pass.name}, {"time_ms", pass.time_ms}, {"samples_passed", pass.samples_passed}});
+        passes.push_back({{"name", pass.name},
+                          {"time_ms", pass.time_ms},
+                          {"samples_passed", pass.samples_passed},
+                          {"target_texels", pass.target_texels}});
     return {{"scene", prepared.scene.name},
             {"technique", prepared.technique->id},
             {"settings", settings},
@@ -63,8 +68,13 @@ nlohmann::json to_json(const Prepared& prepared, const Options& options, const g
 }
 
 void print_timings(const gpu::FrameResult& timings, const gpu::Device& device) {
-    for (const gpu::PassTiming& pass : timings.passes)
-        std::printf("  %-24s %9.3f ms\n", pass.name.c_str(), pass.time_ms);
+    for (const gpu::PassTiming& pass : timings.passes) {
+        std::printf("  %-24s %9.3f ms", pass.name.c_str(), pass.time_ms);
+        if (pass.samples_passed)
+            std::printf("  %5.1f %% of its texels",
+                        100.0 * double(pass.samples_passed) / double(pass.target_texels));
+        std::printf("\n");
+    }
     std::printf("  %-24s %9.3f ms  on %s\n", "frame", timings.frame_ms, device.info().name.c_str());
 }
 

@@ -1,0 +1,39 @@
+#pragma once
+// Which texels of a light map a frame needs, as passes (Gosselin, Sander, Mitchell 2004, "Acceleration
+// Techniques"): a depth image over the atlas that is 0 where later passes must work and 1 elsewhere; those
+// draw at depth 0 and test for EQUAL.
+//
+// The source marks texels that are in view and face the camera by v.n + 0.3 > 0, and hopes that the 0.3 keeps
+// what the blur carries into view (it exempts the ears, where it did not). Here the marks grow by the blur's
+// whole reach, in tiles of 8 texels, so that every texel that can touch a visible one is kept, whatever the
+// curvature.
+
+#include "dermis/technique/technique.h"
+
+namespace dermis {
+
+/// Texels a side of the tiles that are kept or dropped whole.
+inline constexpr int kCullTile = 8;
+
+/// Texels within `radius` of (u, v) are never culled; radius 0: none.
+struct UvCircle {
+    float u = 0, v = 0, radius = 0;
+};
+
+struct AtlasCullSettings {
+    bool frustum = false, back_face = false;
+    float bias = 0.3f;  ///< added to v.n, for normals that are smoother than the triangles
+    UvCircle exempt[2];
+    int reach_texels = 0;  ///< how far the passes that follow carry light, all together
+    int size = 1024;       ///< of the light map
+
+    [[nodiscard]] bool any() const { return frustum || back_face; }
+};
+
+/// Appends images and passes that fill "atlas_depth"; nothing when nothing is to be culled.
+void add_atlas_cull(PassList& list, const AtlasCullSettings& settings);
+
+/// Makes a pass over the atlas work on kept texels only; targets it would overwrite whole are cleared first.
+void keep_unculled(Pass& pass, const AtlasCullSettings& settings);
+
+}  // namespace dermis

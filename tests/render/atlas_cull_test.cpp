@@ -1,0 +1,141 @@
+// Culling texels of the light map changes no pixel, and does leave texels out.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "render/render_test.h"
+
+using namespace dermis;
+
+namespace {
+
+class AtlasCull : public RenderTest {
+  protected:
+    using Settings = std::vector<std::pair<const char*, const char*>>;
+
+    static ParameterValues with(const Settings& settings) {
+        ParameterValues values((*find_technique("texture_space"))->parameters);
+        for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
+        return values;
+    }
+    static uint64_t samples(const gpu::FrameResult& frame, std::string_view pass) {
+        const auto found = std::ranges::find(frame.passes, pass, &gpu::PassTiming::name);
+        return found == frame.passes.end() ? 0 : found->samples_passed;
+    }
+    /// Radiance and the texels of the light map that were lit.
+    static std::pair<Image, uint64_t> draw(Renderer& renderer, const ParameterValues& values) {
+        const auto frame = renderer.draw(**find_technique("texture_space"), values,
+                                         {.width = 96, .height = 96, .shadow_map_size = 256});
+        EXPECT_TRUE(frame) << frame.error().message;
+        return {*renderer.radiance(), samples(*frame, "light map")};
+    }
+
+    /// 12 views all around, every third from nearby; the share of lit texels that the culls keep, summed.
+    static void expect_same_in_12_views(const std::string& name, const Settings& more) {
+        Scene scene = load(name);
+        Renderer renderer = make_renderer(scene);
+        Settings on = {{"light_map_size", "256"}}, off = on;
+        for (const auto& setting : more) on.push_back(setting), off.push_back(setting);
+        for (const char* cull : {"cull_frustum", "cull_back_face"})
+            on.push_back({cull, "on"}), off.push_back({cull, "off"});
+        const Camera start = scene.camera;
+        const float distance_mm = length(start.eye_mm - start.target_mm);
+        uint64_t kept = 0, all = 0;
+        for (int view = 0; view < 12; ++view) {
+            const float yaw_rad = float(view) * std::numbers::pi_v<float> / 6;
+            const float pitch_rad = 0.3f * float(view % 3 - 1), near = view % 3 == 0 ? 0.25f : 1.0f;
+            scene.camera.eye_mm =
+                start.target_mm + direction_from_yaw_pitch(yaw_rad, pitch_rad) * (distance_mm * near);
+            fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
+            const auto [culled, lit] = draw(renderer, with(on));
+            const auto [whole, lit_whole] = draw(renderer, with(off));
+            EXPECT_EQ(culled.bytes, whole.bytes) << name << " view " << view;
+            EXPECT_GT(lit, lit_whole / 20) << name << " view " << view << ": an empty mask also looks fast";
+            EXPECT_LT(lit, lit_whole) << name << " view " << view;
+            kept += lit, all += lit_whole;
+        }
+        EXPECT_LT(double(kept), 0.85 * double(all)) << name;
+        RecordProperty("kept", std::to_string(double(kept) / double(all)));
+    }
+};
+
+}  // namespace
+
+TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_bust) {
+    expect_same_in_12_views("bust", {});
+}
+
+TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_head_scan) {
+    if (!load_scene("head_scan")) GTEST_SKIP() << "the head scan is not on this machine: tools/get_head";
+    expect_same_in_12_views("head_scan", {});
+}
+
+TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_face) {
+    if (!load_scene("face")) GTEST_SKIP() << "the face is not on this machine";
+    expect_same_in_12_views("face", {});
+}
+
+TEST_F(AtlasCull, changes_no_pixel_under_a_wide_blur_with_any_filter) {
+    Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    const std::pair<const char*, const char*> kinds[] = {
+        {"poisson", "off"}, {"gaussian", "source"}, {"box", "written_only"}, {"kawase", "written_only"}};
+    for (const auto& [filter, dilate] : kinds) {
+        Settings on = {{"light_map_size", "512"},
+                       {"filter", filter},
+                       {"dilate", dilate},
+                       {"blur_passes", "2"},
+                       {"blur_scale", "9"}};
+        Settings off = on;
+        off.push_back({"cull_frustum", "off"}), off.push_back({"cull_back_face", "off"});
+        const auto [culled, lit] = draw(renderer, with(on));
+        const auto [whole, lit_whole] = draw(renderer, with(off));
+        EXPECT_EQ(culled.bytes, whole.bytes) << filter << " " << dilate;
+        EXPECT_LT(lit, lit_whole);
+        EXPECT_GT(lit, lit_whole / 3);
+    }
+}
+
+TEST_F(AtlasCull, an_exempt_region_is_kept) {
+    Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    const uint64_t without = draw(renderer, with({{"light_map_size", "256"}})).second;
+    // Around the back of the first sphere, at the left edge of its quarter of the atlas.
+    const uint64_t with_ear = draw(renderer, with({{"light_map_size", "256"},
+                                                   {"exempt_1_u", "0.05"},
+                                                   {"exempt_1_v", "0.25"},
+                                                   {"exempt_1_radius", "0.04"}}))
+                                  .second;
+    EXPECT_GT(with_ear, without);
+}
+
+TEST_F(AtlasCull, far_away_the_last_light_map_is_used_and_looks_the_same) {
+    Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    const Settings size = {{"light_map_size", "256"}};
+    Settings keep = size;
+    keep.push_back({"cull_distance", "on"}), keep.push_back({"cull_beyond_mm", "400"});
+    const auto look_from = [&](float yaw_rad, float distance_mm) {
+        scene.camera.eye_mm = scene.camera.target_mm + direction_from_yaw_pitch(yaw_rad, 0) * distance_mm;
+        fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
+    };
+    struct Step {
+        float yaw_rad, distance_mm;
+        bool lights;
+    };
+    // Near; far, where the whole map is lit once; around; nearer again; far again.
+    const Step steps[] = {{0, 300, true}, {0.5f, 450, true}, {2, 450, false},   {4, 500, false},
+                          {4, 300, true}, {5, 450, true},    {5.5f, 450, false}};
+    for (const Step& step : steps) {
+        look_from(step.yaw_rad, step.distance_mm);
+        Renderer fresh = make_renderer(scene);
+        const auto [expected, lit] = draw(fresh, with(size));
+        const auto [image, lit_now] = draw(renderer, with(keep));
+        EXPECT_EQ(image.bytes, expected.bytes) << step.yaw_rad;
+        EXPECT_EQ(lit_now > 0, step.lights) << step.yaw_rad;
+    }
+    scene.lights[0].intensity *= 0.5f;
+    EXPECT_GT(draw(renderer, with(keep)).second, 0u) << "another light wants another map";
+}
