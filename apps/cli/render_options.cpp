@@ -42,26 +42,22 @@ Result<void> apply_setting(ParameterValues& values, const std::string& setting) 
     return values.set(setting.substr(0, equals), setting.substr(equals + 1));
 }
 
-namespace {
-
-Result<void> apply_views(Scene& scene, const RenderOptions& options) {
-    if (!options.camera.empty()) {
-        const Result<Camera> camera = parse_camera(options.camera, scene.camera);
-        if (!camera) return camera.error();
-        scene.camera = *camera;
+Result<void> apply_views(Scene& scene, const std::string& camera, const std::string& light) {
+    if (!camera.empty()) {
+        const Result<Camera> changed = parse_camera(camera, scene.camera);
+        if (!changed) return changed.error();
+        scene.camera = *changed;
         fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
     }
-    if (!options.light.empty()) {
+    if (!light.empty()) {
         const auto key = std::ranges::find(scene.lights, true, &Light::is_key);
         if (key == scene.lights.end()) return Error{"--light: the scene has no key light to move"};
-        const Result<Light> light = parse_light(options.light, *key);
-        if (!light) return light.error();
-        *key = *light;
+        const Result<Light> changed = parse_light(light, *key, scene.bounds_center_mm);
+        if (!changed) return changed.error();
+        *key = *changed;
     }
     return {};
 }
-
-}  // namespace
 
 Result<Prepared> prepare(const RenderOptions& options) {
     const Result<std::pair<int, int>> size = parse_size(options.size);
@@ -74,7 +70,8 @@ Result<Prepared> prepare(const RenderOptions& options) {
     Result<Scene> scene = load_scene(options.scene);
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
-    if (Result<void> applied = apply_views(*scene, options); !applied) return applied.error();
+    if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
+        return applied.error();
 
     const bool scenes_own = options.technique.empty() || options.technique == scene->technique;
     const std::string id = !options.technique.empty()  ? options.technique

@@ -32,6 +32,10 @@ struct Prepared {
 /// Everything that can be wrong with the options is found here, before a device is opened.
 [[nodiscard]] Result<Prepared> prepare(const RenderOptions& options);
 
+/// --camera and --light, as parse_camera and parse_light have them; empty ones change nothing. Call it before
+/// anything is derived from the scene's views.
+[[nodiscard]] Result<void> apply_views(Scene& scene, const std::string& camera, const std::string& light);
+
 /// "1024x768", each side 1 to 8192.
 [[nodiscard]] Result<std::pair<int, int>> parse_size(std::string_view text);
 

@@ -32,12 +32,14 @@ MaterialFilter filter_of(const BakeMapSettings& settings) {
 
 float interpolated(const std::vector<float>& values, const Mesh& mesh, const UvTexel& texel) {
     const uint32_t* corner = &mesh.indices[3 * size_t(texel.triangle)];
-    return values[corner[0]] * (1 - texel.u - texel.v) + values[corner[1]] * texel.u + values[corner[2]] * texel.v;
+    return values[corner[0]] * (1 - texel.u - texel.v) + values[corner[1]] * texel.u +
+           values[corner[2]] * texel.v;
 }
 
 Image curvature_values(std::span<const SceneObject> objects, const UvRaster& raster, double smoothing_mm) {
     std::vector<std::vector<float>> curvatures;
-    for (const SceneObject& object : objects) curvatures.push_back(compute_curvature(object.mesh, smoothing_mm));
+    for (const SceneObject& object : objects)
+        curvatures.push_back(compute_curvature(object.mesh, smoothing_mm));
     Image image(raster.width, raster.width, 1);
     const std::span<float> values = image.floats();
     for (size_t i = 0; i < raster.texels.size(); ++i)
@@ -140,15 +142,18 @@ Result<Image> traced_values(std::span<const SceneObject> objects, const UvRaster
     Result<RayScene> rays = RayScene::build(objects);
     if (!rays) return rays.error();
     const bool occlusion = settings.kind == MapKind::occlusion;
-    const UvRaster own = settings.size > settings.ray_size
-                             ? rasterise_uv(objects, settings.ray_size, settings.ray_size, filter_of(settings))
-                             : UvRaster{};
+    const UvRaster own =
+        settings.size > settings.ray_size
+            ? rasterise_uv(objects, settings.ray_size, settings.ray_size, filter_of(settings))
+            : UvRaster{};
     const UvRaster& coarse = own.width > 0 ? own : raster;
     Image image(coarse.width, coarse.width, 1);
     std::atomic<size_t> found = 0, empty = 0;
-    const OcclusionSettings sky{.rays = settings.rays, .max_mm = settings.max_mm > 0 ? settings.max_mm : 1e30f};
+    const OcclusionSettings sky{.rays = settings.rays,
+                                .max_mm = settings.max_mm > 0 ? settings.max_mm : 1e30f};
     trace_texels(coarse, *rays, image, progress, [&](const SurfaceAttributes& surface, uint32_t seed) {
-        if (occlusion) return point_occlusion(*rays, surface.p_smooth_mm, surface.n_geometry_world, seed, sky);
+        if (occlusion)
+            return point_occlusion(*rays, surface.p_smooth_mm, surface.n_geometry_world, seed, sky);
         const Depth depth = inward_depth(*rays, surface, seed, settings);
         depth.found > 0 ? ++found : ++empty;
         return depth.found > 0 ? depth.sum_mm / float(depth.found) : settings.max_mm;
@@ -165,10 +170,12 @@ Result<void> check_settings(const BakeMapSettings& s) {
         return Error{std::string(what) + " is " + to_text(value) + ", not within " + std::string(range)};
     };
     if (s.size < 16 || s.size > kMaxImageSide) return wrong("map size", s.size, "16..16384");
-    if (s.gutter_texels < 0 || s.gutter_texels > 256) return wrong("gutter", s.gutter_texels, "0..256 texels");
+    if (s.gutter_texels < 0 || s.gutter_texels > 256)
+        return wrong("gutter", s.gutter_texels, "0..256 texels");
     if (s.rays < 1 || s.rays > 4096) return wrong("rays", s.rays, "1..4096");
     if (s.ray_size < 16) return wrong("ray size", s.ray_size, "16..16384");
-    if (!(s.smoothing_mm >= 0 && s.smoothing_mm <= 100)) return wrong("smoothing_mm", s.smoothing_mm, "0..100");
+    if (!(s.smoothing_mm >= 0 && s.smoothing_mm <= 100))
+        return wrong("smoothing_mm", s.smoothing_mm, "0..100");
     if (!(s.cone_rad >= 0 && s.cone_rad <= 1.5f)) return wrong("cone_rad", s.cone_rad, "0..1.5");
     if (!(s.max_mm >= 0 && s.max_mm <= 1e6f)) return wrong("max_mm", s.max_mm, "0..1000000");
     if (s.kind == MapKind::kernel_size && !s.profile) return Error{"kernel-size needs a diffusion profile"};
@@ -188,10 +195,12 @@ Result<void> check_raster(std::span<const SceneObject> objects, const UvRaster& 
         return Error{"there is nothing to bake: no skin triangle has UVs within 0..1 that cover a texel"};
     }
     if (double(raster.overlapping) > kOverlapWorthSaying * double(raster.covered))
-        map.warnings.push_back(to_text(std::round(1000.0 * double(raster.overlapping) / double(raster.covered)) / 10) +
-                               " % of the map lies under more than one triangle; the last one counts (choose a material)");
+        map.warnings.push_back(
+            to_text(std::round(1000.0 * double(raster.overlapping) / double(raster.covered)) / 10) +
+            " % of the map lies under more than one triangle; the last one counts (choose a material)");
     if (raster.outside > 0)
-        map.warnings.push_back(std::to_string(raster.outside) + " triangles have UVs outside 0..1 and are left out");
+        map.warnings.push_back(std::to_string(raster.outside) +
+                               " triangles have UVs outside 0..1 and are left out");
     return {};
 }
 

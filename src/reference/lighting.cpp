@@ -167,6 +167,8 @@ Vec3 Lighting::specular_radiance(const ShadingPoint& given, Vec3 to_eye, const L
     if (settings_.specular == SpecularReflection::ggx && settings_.ambient == AmbientModel::traced &&
         !environment_.dark())
         sum += environment_reflection(point, to_eye, random.environment);
+    if (reflection_ && settings_.ambient == AmbientModel::renderer)
+        sum += reflection_->radiance(point.n, to_eye, point.roughness, point.f0, point.occlusion);
     return sum * mix({1, 1, 1}, given.albedo_linear, given.metallic);
 }
 

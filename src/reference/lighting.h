@@ -7,6 +7,7 @@
 #include "dermis/reference/environment_sampler.h"
 #include "dermis/reference/materials.h"
 #include "dermis/reference/ray_scene.h"
+#include "dermis/reference/split_sum.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
@@ -15,7 +16,7 @@ namespace dermis {
 enum class ShadowCasters { key, all };
 
 /// Environment light: traced through the scene, or as the renderer approximates it (order-2 harmonics times
-/// the vertices' ambient visibility; no traced reflections of the environment either).
+/// the vertices' ambient visibility, and the split sum for its reflections when a Lighting is given one).
 enum class AmbientModel { traced, renderer };
 
 enum class SpecularReflection { none, blinn_phong, ggx };
@@ -51,8 +52,14 @@ struct Receiver {
 class Lighting {
   public:
     Lighting(const Scene& scene, const RayScene& rays, const MaterialSet& materials,
-             const EnvironmentSampler& environment, const LightingSettings& settings)
-        : scene_(scene), rays_(rays), materials_(materials), environment_(environment), settings_(settings) {}
+             const EnvironmentSampler& environment, const LightingSettings& settings,
+             const SplitSumReflection* reflection = nullptr)
+        : scene_(scene),
+          rays_(rays),
+          materials_(materials),
+          environment_(environment),
+          settings_(settings),
+          reflection_(reflection) {}
 
     /// An unbiased estimate of the irradiance, linear; exact (no noise) without penumbra and traced
     /// environment.
@@ -60,7 +67,7 @@ class Lighting {
 
     /// An unbiased estimate of the radiance reflected by the surface itself towards the eye. Directional,
     /// point and spot lights as shaders/shared/specular.glsl has them; the environment by the same GGX with
-    /// rays (only when traced, and only with the ggx model).
+    /// rays when traced (only with the ggx model), else by the split sum.
     [[nodiscard]] Vec3 specular_radiance(const ShadingPoint& point, Vec3 to_eye,
                                          const LightingRandom& random) const;
 
@@ -81,6 +88,7 @@ class Lighting {
     const MaterialSet& materials_;
     const EnvironmentSampler& environment_;
     LightingSettings settings_;
+    const SplitSumReflection* reflection_;
 };
 
 /// What reaches `p_mm` of a light that nothing blocks.

@@ -54,7 +54,8 @@ float full_scale(const BakedMap& map) {
     std::vector<float> values;
     const auto channels = size_t(map.values.channels);
     for (size_t i = 0; i < map.values.pixel_count(); ++i)
-        if (map.coverage.bytes[i] != std::byte{0}) values.push_back(std::abs(map.values.floats()[i * channels]));
+        if (map.coverage.bytes[i] != std::byte{0})
+            values.push_back(std::abs(map.values.floats()[i * channels]));
     if (values.empty()) return 1;
     const auto at = values.begin() + std::ptrdiff_t(double(values.size() - 1) * 0.98);
     std::nth_element(values.begin(), at, values.end());
@@ -87,7 +88,8 @@ Image map_preview(const BakedMap& map) {
         Vec3 color = kBackground;
         if (map.coverage.bytes[i] != std::byte{0}) {
             const float t = value[0] / scale;
-            color = map.kind == MapKind::curvature ? diverging(t) : Vec3{t, channels == 3 ? value[1] / scale : t, t};
+            color = map.kind == MapKind::curvature ? diverging(t)
+                                                   : Vec3{t, channels == 3 ? value[1] / scale : t, t};
         }
         float* to = &picture.floats()[3 * i];
         to[0] = color.x;

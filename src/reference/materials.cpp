@@ -6,6 +6,7 @@
 #include "dermis/image/dilate.h"
 #include "dermis/optics/fresnel.h"
 #include "dermis/reference/uv_raster.h"
+#include "dermis/scene/image_source.h"
 
 namespace dermis {
 namespace {
@@ -18,8 +19,8 @@ Vec3 rgb(Vec4 v) {
 }
 
 // A factor that glTF keeps in alpha and others in red.
-float factor(const Texture& map, Vec2 uv) {
-    const Vec4 value = map.sample(uv);
+float factor(const Texture& map, const SurfaceAttributes& surface) {
+    const Vec4 value = map.sample(surface.uv, surface.footprint);
     return map.channels() == 4 ? value.w : value.x;
 }
 
@@ -37,13 +38,13 @@ Result<const Texture*> MaterialSet::texture_of(const ImageSource& source, ImageU
                                                const SceneObject& object, const Material& material) {
     if (!source.present()) return static_cast<const Texture*>(nullptr);
     const int gutter = material.dilate_texels;
-    const std::string key = Hasher().add(source.name).add(std::span(source.encoded)).add(use).add(gutter).hex();
+    const std::string key =
+        Hasher().add(source.name).add(std::span(source.encoded)).add(use).add(gutter).hex();
     std::unique_ptr<Texture>& texture = textures_[key];
     if (!texture) {
-        Result<LoadedImage> loaded = source.encoded.empty() ? read_image(source.name, use)
-                                                            : decode_image(source.encoded, source.name, use);
+        Result<Image> loaded = load_image_source(source, use);
         if (!loaded) return loaded.error();
-        Image& image = loaded->image;
+        Image& image = *loaded;
         const auto every = [](const SceneObject&, uint32_t) { return true; };
         if (gutter > 0)
             dilate(image,
@@ -95,7 +96,7 @@ Vec3 MaterialSet::normal_at(const SurfaceAttributes& surface, uint32_t object) c
     const Entry& e = entry(surface, object);
     const Vec3 n = surface.n_geometry_world;
     if (!e.maps.normal) return n;
-    Vec3 mapped = rgb(e.maps.normal->sample(surface.uv)) * 2.0f - Vec3{1, 1, 1};
+    Vec3 mapped = rgb(e.maps.normal->sample(surface.uv, surface.footprint)) * 2.0f - Vec3{1, 1, 1};
     const float scale = e.material->normal_scale;
     if (e.material->normal_space == NormalSpace::object) return normalize(n + (mapped - n) * scale);
     mapped.x *= scale;
@@ -105,7 +106,7 @@ Vec3 MaterialSet::normal_at(const SurfaceAttributes& surface, uint32_t object) c
 
 Vec3 MaterialSet::transmittance_at(const SurfaceAttributes& surface, uint32_t object) const {
     const Entry& e = entry(surface, object);
-    if (e.maps.opacity) return rgb(e.maps.opacity->sample(surface.uv));
+    if (e.maps.opacity) return rgb(e.maps.opacity->sample(surface.uv, surface.footprint));
     return e.material->base_color_linear * (1 - e.material->opacity);
 }
 
@@ -118,7 +119,8 @@ float MaterialSet::occlusion_at(const SurfaceAttributes& surface, const RayHit& 
         occlusion = mesh.occlusions[corner[0]] * (1 - hit.u - hit.v) + mesh.occlusions[corner[1]] * hit.u +
                     mesh.occlusions[corner[2]] * hit.v;
     }
-    return e.maps.occlusion ? occlusion * e.maps.occlusion->sample(surface.uv).x : occlusion;
+    return e.maps.occlusion ? occlusion * e.maps.occlusion->sample(surface.uv, surface.footprint).x
+                            : occlusion;
 }
 
 ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& hit) const {
@@ -140,11 +142,12 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .material_class = e.material_class};
     if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;
     if (e.maps.base_color)
-        point.albedo_linear = point.albedo_linear * rgb(e.maps.base_color->sample(surface.uv));
-    if (e.maps.specular) point.f0 *= factor(*e.maps.specular, surface.uv);
-    if (e.maps.roughness) point.roughness *= e.maps.roughness->sample(surface.uv).x;
+        point.albedo_linear =
+            point.albedo_linear * rgb(e.maps.base_color->sample(surface.uv, surface.footprint));
+    if (e.maps.specular) point.f0 *= factor(*e.maps.specular, surface);
+    if (e.maps.roughness) point.roughness *= e.maps.roughness->sample(surface.uv, surface.footprint).x;
     if (e.maps.metallic_roughness) {
-        const Vec4 packed = e.maps.metallic_roughness->sample(surface.uv);
+        const Vec4 packed = e.maps.metallic_roughness->sample(surface.uv, surface.footprint);
         if (!e.maps.roughness) point.roughness *= packed.y;
         point.metallic *= packed.z;
     }

@@ -40,7 +40,7 @@ struct Spread {
 struct PixelState {
     Spread samples, blocks;
     Vec3 block_sum, diffuse, specular;
-    float coverage = 0;
+    float coverage = 0, skin = 0;
 
     [[nodiscard]] const Spread& spread() const { return blocks.count >= 2 ? blocks : samples; }
     [[nodiscard]] Vec3 variance() const { return spread().squares * spread().per_mean(); }
@@ -58,6 +58,7 @@ struct PixelState {
         diffuse += (sample.diffuse - diffuse) * share;
         specular += (sample.specular - specular) * share;
         coverage += (sample.coverage - coverage) * share;
+        skin += (sample.skin - skin) * share;
     }
 };
 
@@ -84,7 +85,8 @@ std::vector<float> relative_errors(const Canvas& canvas) {
     std::vector<float> errors;
     for (const PixelState& pixel : canvas.pixels) {
         const float deviation = std::sqrt(pixel.luminance_variance());
-        errors.push_back(pixel.coverage > 0 ? deviation / std::max(luminance(pixel.samples.mean), least) : -1.0f);
+        errors.push_back(pixel.coverage > 0 ? deviation / std::max(luminance(pixel.samples.mean), least)
+                                            : -1.0f);
     }
     return errors;
 }
@@ -156,7 +158,8 @@ ReferencePicture develop(const Canvas& canvas) {
                              .diffuse = Image(w, h, 3),
                              .specular = Image(w, h, 3),
                              .variance = Image(w, h, 3),
-                             .samples = Image(w, h, 1)};
+                             .samples = Image(w, h, 1),
+                             .skin = Image(w, h, 1)};
     for (size_t i = 0; i < canvas.pixels.size(); ++i) {
         const PixelState& pixel = canvas.pixels[i];
         put(picture.radiance, i, pixel.samples.mean);
@@ -165,6 +168,7 @@ ReferencePicture develop(const Canvas& canvas) {
         put(picture.specular, i, pixel.specular);
         put(picture.variance, i, pixel.variance());
         picture.samples.floats()[i] = float(pixel.samples.count);
+        picture.skin.floats()[i] = pixel.skin;
     }
     return picture;
 }

@@ -49,6 +49,7 @@ struct ReferencePicture {
     Image diffuse, specular;  ///< RGB, sum to the radiance of surfaces (emission is in diffuse)
     Image variance;           ///< RGB, of the pixel's mean, from the spread of blocks of four samples
     Image samples;            ///< one channel: how many each pixel took
+    Image skin;               ///< one channel: the share of the pixel that is skin, seen through nothing
     double relative_error = 0;
     int passes = 0;
     double time_ms = 0;
@@ -60,9 +61,9 @@ struct ReferencePicture {
 using ReferenceProgress = std::function<void(double done)>;
 
 /// One sample a pixel a pass; from the sixteenth pass on, pixels whose neighbourhood has reached the wanted
-/// error rest. Setting `stop` ends it after the rows in work and returns the picture so far (an error when not
-/// even the first pass is complete). Otherwise the result depends on the settings alone, not on the threads.
-/// Errors: sizes out of range, unreadable maps, walk without a medium.
+/// error rest. Setting `stop` ends it after the rows in work and returns the picture so far (an error when
+/// not even the first pass is complete). Otherwise the result depends on the settings alone, not on the
+/// threads. Errors: sizes out of range, unreadable maps, walk without a medium.
 [[nodiscard]] Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
                                                         const ReferenceProgress& progress = {},
                                                         const std::atomic<bool>* stop = nullptr);

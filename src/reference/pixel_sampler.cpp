@@ -1,6 +1,7 @@
 #include "dermis/reference/pixel_sampler.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "dermis/optics/presets.h"
@@ -31,13 +32,14 @@ void face_the_eye(ShadingPoint& point, Vec3 to_eye) {
 
 PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays,
                            MaterialSet materials, EnvironmentSampler environment,
-                           const LightingSettings& lighting)
+                           SplitSumReflection reflection, const LightingSettings& lighting)
     : scene_(scene),
       settings_(settings),
       rays_(std::move(rays)),
       materials_(std::move(materials)),
       environment_(std::move(environment)),
-      lighting_(scene_, rays_, materials_, environment_, lighting) {
+      reflection_(std::move(reflection)),
+      lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_) {
     const float aspect = float(settings.width) / float(settings.height);
     inverse_view_projection_ = camera_matrices(scene.camera, aspect).inverse_view_projection;
 }
@@ -67,6 +69,11 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
     Result<EnvironmentSampler> environment = EnvironmentSampler::load(scene.environment);
     if (!environment) return environment.error();
     LightingSettings lighting = settings.lighting;
+    const bool approximate =
+        lighting.ambient == AmbientModel::renderer && lighting.specular != SpecularReflection::none;
+    Result<SplitSumReflection> reflection = SplitSumReflection::load(
+        approximate ? scene.environment : Environment{.kind = EnvironmentKind::none});
+    if (!reflection) return reflection.error();
     const bool walks = settings.integrator == Integrator::walk;
     ScatteringMedium medium;
     if (walks) {
@@ -76,8 +83,9 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
         medium = *found;
         lighting.entry_eta = medium.eta;
     }
-    std::unique_ptr<PixelSampler> sampler(new PixelSampler(
-        scene, settings, std::move(*rays), std::move(*materials), std::move(*environment), lighting));
+    std::unique_ptr<PixelSampler> sampler(new PixelSampler(scene, settings, std::move(*rays),
+                                                           std::move(*materials), std::move(*environment),
+                                                           std::move(*reflection), lighting));
     if (walks) sampler->use_medium(medium);
     if (settings.integrator == Integrator::surface && settings.width_scale > 0) {
         Result<Profile> profile = find_profile(scene.skin.profile);
@@ -96,9 +104,23 @@ Ray PixelSampler::camera_ray(int x, int y, Vec2 within) const {
         .origin_mm = near_mm, .direction = normalize(far_mm - near_mm), .max_mm = length(far_mm - near_mm)};
 }
 
-Vec3 PixelSampler::exitance(const ShadingPoint& point, const LightingRandom& random, uint32_t seed,
-                            PixelSample& sample) const {
-    const DiffusePoint diffuse{point.p_mm, point.n_geometry};
+// Igehy 1999, "Tracing Ray Differentials": where the rays of the neighbouring pixels meet the plane of the
+// triangle.
+UvFootprint PixelSampler::footprint(int x, int y, const RayHit& hit, Vec3 p_mm) const {
+    if (settings_.filter != PixelFilter::center) return {};
+    const auto step = [&](int dx, int dy) -> Vec2 {
+        const Ray ray = camera_ray(x + dx, y + dy, {0.5f, 0.5f});
+        const float along = dot(ray.direction, hit.n_face);
+        if (std::abs(along) < 1e-6f) return {};
+        const float distance_mm = dot(p_mm - ray.origin_mm, hit.n_face) / along;
+        return rays_.uv_step(hit, ray.origin_mm + ray.direction * distance_mm - p_mm);
+    };
+    return {step(1, 0), step(0, 1)};
+}
+
+Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footprint,
+                            const LightingRandom& random, uint32_t seed, PixelSample& sample) const {
+    const DiffusePoint diffuse{point.p_mm, point.n_geometry, footprint};
     const bool skin = point.material_class == MaterialClass::skin;
     if (skin && surface_) return surface_->exitance(diffuse, seed);
     if (skin && walk_) {
@@ -110,17 +132,20 @@ Vec3 PixelSampler::exitance(const ShadingPoint& point, const LightingRandom& ran
     return lighting_.irradiance({point.p_smooth_mm, point.n_geometry, point.n, point.occlusion}, random);
 }
 
-void PixelSampler::add_surface(const RayHit& hit, const Ray& ray, Vec3 weight, uint32_t seed,
-                               PixelSample& sample) const {
-    const Vec3 to_eye = -ray.direction;
-    ShadingPoint point = materials_.shade(rays_.surface_at(hit), hit);
+MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t seed,
+                                        PixelSample& sample) const {
+    const Vec3 to_eye = -seen.ray.direction;
+    SurfaceAttributes surface = rays_.surface_at(seen.hit);
+    surface.footprint = footprint(seen.x, seen.y, seen.hit, surface.p_world_mm);
+    ShadingPoint point = materials_.shade(surface, seen.hit);
     face_the_eye(point, to_eye);
     OwenSequence uniform(seed, 0);
     const LightingRandom random{uniform.next_2d(), uniform.next_2d(), uniform.next_1d()};
-    const Vec3 m = exitance(point, random, seed, sample);
+    const Vec3 m = exitance(point, surface.footprint, random, seed, sample);
     const Vec3 albedo = point.albedo_linear * (1 - point.metallic);
     sample.diffuse += weight * (albedo * m * (point.opacity / kPi) + point.emission_linear);
     sample.specular += weight * lighting_.specular_radiance(point, to_eye, random);
+    return point.material_class;
 }
 
 PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
@@ -139,14 +164,16 @@ PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
         if (!glass) break;
         const SurfaceAttributes surface = rays_.surface_at(*glass);
         const float opacity = scene_.objects[glass->object].mesh.materials[surface.material].opacity;
-        add_surface(*glass, ray, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
+        add_surface({*glass, ray, x, y}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
         result.coverage += through * opacity;
         through *= 1 - opacity;
         ray.min_mm = glass->distance_mm + 4 * rays_.epsilon_mm();
     }
     if (solid) {
-        add_surface(*solid, ray, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
+        const MaterialClass seen =
+            add_surface({*solid, ray, x, y}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
         result.coverage += through;
+        if (seen == MaterialClass::skin) result.skin = through;
         return result;
     }
     const bool shown = scene_.environment.visible && !environment_.dark();

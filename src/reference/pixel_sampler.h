@@ -11,6 +11,7 @@ namespace dermis {
 struct PixelSample {
     Vec3 diffuse, specular, background;
     float coverage = 0;
+    float skin = 0;  ///< share of what is seen that is skin
     int walks = 0, lost_walks = 0;
     [[nodiscard]] Vec3 radiance() const { return diffuse + specular + background; }
 };
@@ -26,21 +27,29 @@ class PixelSampler {
 
   private:
     PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays, MaterialSet materials,
-                 EnvironmentSampler environment, const LightingSettings& lighting);
+                 EnvironmentSampler environment, SplitSumReflection reflection,
+                 const LightingSettings& lighting);
     void use_profile(const Profile& profile);
     void use_medium(const ScatteringMedium& medium);
 
     [[nodiscard]] Ray camera_ray(int x, int y, Vec2 within) const;
-    void add_surface(const RayHit& hit, const Ray& ray, Vec3 weight, uint32_t seed,
-                     PixelSample& sample) const;
-    [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const LightingRandom& random, uint32_t seed,
-                                PixelSample& sample) const;
+    [[nodiscard]] UvFootprint footprint(int x, int y, const RayHit& hit, Vec3 p_mm) const;
+    /// A surface with the ray that sees it and the pixel it is seen in.
+    struct Seen {
+        RayHit hit;
+        Ray ray;
+        int x, y;
+    };
+    MaterialClass add_surface(const Seen& seen, Vec3 weight, uint32_t seed, PixelSample& sample) const;
+    [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const UvFootprint& footprint,
+                                const LightingRandom& random, uint32_t seed, PixelSample& sample) const;
 
     const Scene& scene_;
     ReferenceSettings settings_;
     RayScene rays_;
     MaterialSet materials_;
     EnvironmentSampler environment_;
+    SplitSumReflection reflection_;
     Lighting lighting_;
     Mat4 inverse_view_projection_;
     std::optional<SurfaceIntegrator> surface_;

@@ -273,6 +273,22 @@ SurfaceAttributes RayScene::surface_at(const RayHit& hit) const {
     return surface;
 }
 
+Vec2 RayScene::uv_step(const RayHit& hit, Vec3 step_mm) const {
+    const Mesh& mesh = *impl_->meshes[hit.object];
+    if (mesh.uvs.empty()) return {};
+    const uint32_t* corner = &mesh.indices[3 * size_t(hit.triangle)];
+    const Vec3 p = mesh.positions_mm[corner[0]];
+    const Vec3 e1 = mesh.positions_mm[corner[1]] - p, e2 = mesh.positions_mm[corner[2]] - p;
+    // step = a e1 + b e2, from the normal equations.
+    const float e11 = dot(e1, e1), e12 = dot(e1, e2), e22 = dot(e2, e2), s1 = dot(step_mm, e1),
+                s2 = dot(step_mm, e2);
+    const float determinant = e11 * e22 - e12 * e12;
+    if (!(determinant > 0)) return {};
+    const float a = (s1 * e22 - s2 * e12) / determinant, b = (s2 * e11 - s1 * e12) / determinant;
+    const Vec2 uv = mesh.uvs[corner[0]], uv1 = mesh.uvs[corner[1]], uv2 = mesh.uvs[corner[2]];
+    return {(uv1.x - uv.x) * a + (uv2.x - uv.x) * b, (uv1.y - uv.y) * a + (uv2.y - uv.y) * b};
+}
+
 uint32_t material_of_triangle(const Mesh& mesh, uint32_t triangle) {
     const auto after =
         std::upper_bound(mesh.submeshes.begin(), mesh.submeshes.end(), 3 * triangle,

@@ -13,6 +13,7 @@
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
 #include "dermis/mesh/mesh.h"
+#include "dermis/reference/texture.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
@@ -47,6 +48,7 @@ struct SurfaceAttributes {
     /// not meet the facets beside it: Hanika 2021, Hacking the Shadow Terminator, Ray Tracing Gems II,
     /// chapter 4.
     Vec3 p_smooth_mm;
+    UvFootprint footprint = {};  ///< what maps are averaged over; surface_at leaves it zero
 };
 
 /// Immutable once built; every query is const and safe from any thread. Keeps pointers to the meshes: they
@@ -68,6 +70,8 @@ class RayScene {
 
     [[nodiscard]] bool has(RaySet set) const;
     [[nodiscard]] SurfaceAttributes surface_at(const RayHit& hit) const;
+    /// How far uv moves for a step within the plane of the triangle that was hit; zero without uvs.
+    [[nodiscard]] Vec2 uv_step(const RayHit& hit, Vec3 step_mm) const;
     [[nodiscard]] const Mesh& mesh(uint32_t object) const;
     [[nodiscard]] size_t object_count() const;
 

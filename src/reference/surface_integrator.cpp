@@ -70,7 +70,8 @@ void SurfaceIntegrator::probe(const DiffusePoint& point, const LocalFrame& frame
         hits);
     Pcg32 chance(seed, index);
     for (const RayHit& hit : std::span(hits, count)) {
-        const SurfaceAttributes surface = rays_.surface_at(hit);
+        SurfaceAttributes surface = rays_.surface_at(hit);
+        surface.footprint = point.footprint;
         const Vec3 offset_mm = surface.p_world_mm - point.p_mm;
         const float density = probe_density(frame, offset_mm, hit.n_face);
         if (density <= 0) continue;

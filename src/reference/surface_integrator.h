@@ -31,6 +31,7 @@ struct SurfaceIntegratorSettings {
 struct DiffusePoint {
     Vec3 p_mm;
     Vec3 n_geometry;
+    UvFootprint footprint = {};  ///< of the pixel that sees it: the maps around it are read as smoothly
 };
 
 /// Everything given must outlive it. Safe from any thread.

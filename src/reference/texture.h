@@ -1,6 +1,7 @@
 #pragma once
-// Maps as the ground truth reads them: level 0, bilinear, repeating. No mips: a pixel's footprint is averaged
-// by its samples.
+// Maps as the ground truth reads them: bilinear, repeating. Where a pixel's footprint is averaged by its
+// samples that is level 0; where every sample goes through the pixel's middle, a footprint picks from the
+// same chain of smaller levels that a renderer without anisotropic filtering reads.
 
 #include <array>
 #include <vector>
@@ -10,6 +11,11 @@
 
 namespace dermis {
 
+/// How far uv moves from a pixel to its right and lower neighbour; zero: as sharp as the map is.
+struct UvFootprint {
+    Vec2 across, down;
+};
+
 /// Four channels at 8 bits where the file has 8, else in float; sRGB is decoded on every read. Missing
 /// channels: one is grey, alpha is 1.
 class Texture {
@@ -17,18 +23,26 @@ class Texture {
     Texture() = default;
     explicit Texture(const Image& image);
 
-    [[nodiscard]] bool empty() const { return width_ == 0; }
+    [[nodiscard]] bool empty() const { return levels_.empty(); }
     /// How many channels the image had, 1 to 4.
     [[nodiscard]] int channels() const { return channels_; }
-    /// Linear; v runs down. Colours and alpha are interpolated after decoding.
-    [[nodiscard]] Vec4 sample(Vec2 uv) const;
+    /// Linear; v runs down. Colours and alpha are interpolated after decoding. The level is the logarithm of
+    /// the longer of the footprint's sides in texels (Vulkan specification, "Scale Factor Operation").
+    [[nodiscard]] Vec4 sample(Vec2 uv, const UvFootprint& footprint = {}) const;
 
   private:
-    [[nodiscard]] Vec4 texel(int x, int y) const;
+    struct Level {
+        int width = 0, height = 0;
+        std::vector<std::array<uint8_t, 4>> bytes;
+        std::vector<Vec4> floats;
+    };
+    [[nodiscard]] Vec4 texel(const Level& level, int x, int y) const;
+    [[nodiscard]] Vec4 sample_level(const Level& level, Vec2 uv) const;
+    [[nodiscard]] Level half_size(const Level& level) const;
 
-    int width_ = 0, height_ = 0, channels_ = 0;
-    std::vector<std::array<uint8_t, 4>> bytes_;
-    std::vector<Vec4> floats_;
+    int channels_ = 0;
+    bool encoded_ = false;       // 8-bit colours are sRGB
+    std::vector<Level> levels_;  // full to 1 x 1, each half the one before, as GPUs make them
     std::array<float, 256> decoded_{};
 };
 

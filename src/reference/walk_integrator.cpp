@@ -46,7 +46,8 @@ WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, Vec3 
         const WalkEnd end = random_walk(medium_, boundary, point.p_mm, direction, random);
         result.lost += end.lost;
         if (end.lost || end.throughput == Vec3{}) continue;
-        const SurfaceAttributes surface = rays_.surface_at(boundary.last());
+        SurfaceAttributes surface = rays_.surface_at(boundary.last());
+        surface.footprint = point.footprint;
         const uint32_t object = boundary.last().object;
         const Receiver receiver{.p_smooth_mm = surface.p_smooth_mm,
                                 .n_geometry = surface.n_geometry_world,

@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "dermis/image/dilate.h"
-#include "dermis/image/io.h"
 #include "dermis/render/atlas_mask.h"
+#include "dermis/scene/image_source.h"
 
 namespace dermis {
 namespace {
@@ -45,21 +45,6 @@ Image single_channel(const Image& image, int preferred) {
         std::memcpy(single.bytes.data() + i * size, image.bytes.data() + i * stride + size_t(channel) * size,
                     size);
     return single;
-}
-
-Result<Image> decode(const ImageSource& source, ImageUse use) {
-    if (!source.pixels.empty()) {
-        Image image;
-        image.width = source.width, image.height = source.height, image.channels = source.channels;
-        image.format = PixelFormat::u8;
-        image.encoding = use == ImageUse::color ? Encoding::srgb : Encoding::linear;
-        image.bytes = source.pixels;
-        return image;
-    }
-    Result<LoadedImage> loaded = source.encoded.empty() ? read_image(source.name, use)
-                                                        : decode_image(source.encoded, source.name, use);
-    if (!loaded) return loaded.error();
-    return std::move(loaded->image);
 }
 
 }  // namespace
@@ -110,7 +95,7 @@ Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Materia
                                            const Mesh& mesh) {
     const ImageSource& source = *map_source(map, material);
     const int channel = &source == &(material.*map.source) ? map.preferred_channel : map.packed_channel;
-    Result<Image> decoded = decode(source, map.is_color ? ImageUse::color : ImageUse::data);
+    Result<Image> decoded = load_image_source(source, map.is_color ? ImageUse::color : ImageUse::data);
     if (!decoded) return decoded.error();
     Image& image = *decoded;
     if (material.dilate_texels > 0)

@@ -67,6 +67,34 @@ TEST_F(BadInput, options_that_are_wrong_say_what_would_be_right) {
     expect_error("techniques lambart", "did you mean 'lambert'?");
 }
 
+TEST_F(BadInput, comparisons_that_cannot_be_made_leave_nothing) {
+    const std::string to = " -o " + path("report");
+    expect_error("compare builtin:spheres --techniques lambart" + to, "did you mean 'lambert'?");
+    expect_error("compare builtin:spheres --techniques 'wrap[wrap=0.4'" + to, "brackets do not match");
+    expect_error("compare builtin:spheres --techniques 'wrap[wrap=9]'" + to,
+                 "'9' is not in its range, 0 to 1");
+    expect_error("compare builtin:spheres --size 9x" + to, "--size '9x'");
+    expect_error("compare builtin:spheres --frames 0" + to, "--frames 0: 1 to 1000");
+    expect_error("compare builtin:spheres --integrator walkk" + to, "did you mean 'walk'?");
+    expect_error("compare builtin:spheres --size 16x16 --samples 1" + to, "samples a pixel is 1");
+    expect_error("compare builtin:spheres --size 16x16 --integrator walk" + to, "says nothing of a volume");
+    expect_error("compare no/such.toml" + to, "no/such.toml");
+    EXPECT_FALSE(fs::exists(path("report")));
+    expect_error("compare builtin:spheres -o " + file("plain", "x"), "is a file; name a directory");
+}
+
+TEST_F(BadInput, ground_truths_that_cannot_be_made_leave_nothing) {
+    const std::string to = " -o " + path("truth.exr");
+    expect_error("reference builtin:spheres -o truth.png", "name a .exr file");
+    expect_error("reference builtin:spheres --integrator wolk" + to, "did you mean 'walk'?");
+    expect_error("reference builtin:spheres --medium 'sigma=1'" + to, "--medium: 'sigma=1'");
+    expect_error("reference builtin:spheres --probes 3" + to, "probes is 3");
+    expect_error("reference builtin:spheres --noise 2" + to, "noise is 2");
+    expect_error("reference builtin:spheres --size 0x8" + to, "0");
+    expect_error("reference builtin:spheres --profile jensen" + to, "jensen");
+    EXPECT_FALSE(fs::exists(path("truth.exr")));
+}
+
 TEST_F(BadInput, scenes_and_meshes_that_cannot_be_read_are_named) {
     expect_error("render builtin:sphere", "did you mean 'spheres'?");
     expect_error("render no/such.toml", "no/such.toml");
@@ -104,7 +132,7 @@ TEST_F(BadInput, places_that_cannot_be_written_keep_what_is_there) {
 TEST_F(BadInput, help_of_every_command_has_an_example) {
     const ProgramResult all = dermis("--help");
     EXPECT_EQ(all.exit_code, 0);
-    for (const char* command : {"render", "techniques", "passes"}) {
+    for (const char* command : {"render", "techniques", "passes", "reference", "compare"}) {
         const ProgramResult help = dermis(std::string(command) + " --help");
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_THAT(help.out, HasSubstr("Example:\n  dermis ")) << command;

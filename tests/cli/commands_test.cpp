@@ -64,6 +64,39 @@ TEST_F(Commands, sixteen_bit_png_and_layered_exr_come_out) {
     EXPECT_EQ(read_image(path("l.exr"), ImageUse::color)->image.width, 16);
 }
 
+TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_truth_once) {
+    const std::string command =
+        "compare builtin:spheres --techniques 'lambert,preintegrated[diffuse=closed_form]' "
+        "--size 32x32 --samples 2 --frames 1 --json -o " +
+        path("report");
+    const std::string own_cache = "DERMIS_CACHE=" + path("cache") + " " + DERMIS_PROGRAM + " ";
+    const ProgramResult first = shell(own_cache + command);
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    const ProgramResult second = shell(own_cache + command);
+    const auto json = nlohmann::json::parse(second.out, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << second.out;
+    EXPECT_EQ(nlohmann::json::parse(first.out)["reference_from_cache"], false);
+    EXPECT_EQ(json["reference_from_cache"], true);
+    EXPECT_EQ(json["rows"].size(), 2u);
+    EXPECT_THAT(slurp(path("report/report.html")), HasSubstr("Content-Security-Policy"));
+    EXPECT_THAT(slurp(path("report/scores.csv")),
+                HasSubstr("\nbuiltin:spheres,preintegrated,diffuse=closed_form,"));
+}
+
+TEST_F(Commands, ctrl_c_leaves_the_picture_so_far_and_says_how_noisy_it_is) {
+    const std::string file = path("truth.exr");
+    // The signal arrives when the command is at work: its whole time limit would be minutes.
+    const ProgramResult stopped =
+        shell("timeout --preserve-status -s INT 3 " + std::string(DERMIS_PROGRAM) +
+              " reference builtin:spheres --size 128x128 --samples 60000 -o " + file);
+    EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+    EXPECT_THAT(stopped.out,
+                testing::ContainsRegex("stopped after [0-9]+ passes, relative error 0\\.[0-9]+"));
+    const auto layers = read_layered_exr(file);
+    ASSERT_TRUE(layers) << layers.error().message;
+    EXPECT_GT(layers->layers.size(), 4u);
+}
+
 TEST_F(Commands, passes_and_techniques_need_no_device) {
     // No driver can be found: anything that opened a device would fail.
     const std::string no_driver = "VK_DRIVER_FILES=/nowhere VK_ICD_FILENAMES=/nowhere ";

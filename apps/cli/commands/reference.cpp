@@ -15,6 +15,8 @@
 #include "dermis/image/io.h"
 #include "dermis/image/tone_map.h"
 #include "dermis/reference/picture.h"
+#include "dermis/render/complete_scene.h"
+#include "render_options.h"
 
 namespace dermis::cli {
 namespace {
@@ -140,19 +142,11 @@ Result<ReferenceSettings> settings_of(const Options& options) {
 Result<Scene> scene_of(const Options& options) {
     Result<Scene> scene = load_scene(options.scene);
     if (!scene) return scene;
-    if (!options.camera.empty()) {
-        const Result<Camera> camera = parse_camera(options.camera, scene->camera);
-        if (!camera) return camera.error();
-        scene->camera = *camera;
-        fit_depth_range(scene->camera, scene->bounds_center_mm, scene->bounds_radius_mm);
-    }
-    if (!options.light.empty())
-        for (Light& light : scene->lights) {
-            if (!light.is_key) continue;
-            const Result<Light> changed = parse_light(options.light, light, scene->bounds_center_mm);
-            if (!changed) return changed.error();
-            light = *changed;
-        }
+    if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
+        return applied.error();
+    // The renderer's approximation wants the vertices' occlusion.
+    if (options.ambient == "renderer")
+        if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     if (!options.profile.empty()) scene->skin.profile = options.profile;
     return scene;
 }
@@ -181,11 +175,9 @@ nlohmann::ordered_json description(const Options& options, const ReferenceSettin
 
 Result<void> write_picture(const Options& options, const Scene& scene, const ReferencePicture& picture,
                            const std::string& text) {
-    const ImageLayer layers[] = {{"", picture.radiance},
-                                 {"diffuse", picture.diffuse},
-                                 {"specular", picture.specular},
-                                 {"variance", picture.variance},
-                                 {"samples", picture.samples}};
+    const ImageLayer layers[] = {{"", picture.radiance},         {"diffuse", picture.diffuse},
+                                 {"specular", picture.specular}, {"variance", picture.variance},
+                                 {"samples", picture.samples},   {"skin", picture.skin}};
     ImageText inside = {{"dermis", text}};
     if (!scene.credit.empty()) inside["credit"] = scene.credit;
     return write_layered_exr(options.output, layers, inside);
@@ -250,7 +242,7 @@ void add_reference_command(CommandLine& line) {
         "The ground truth of a scene: surface integral of the diffusion profile, or random walks",
         "dermis reference head_scan -o truth.exr --noise 0.01\n"
         "  dermis reference head_scan --integrator walk --profile jensen_skin1 --samples 256 -o walk.exr\n"
-        "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples\n"
+        "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin\n"
         "  Ctrl-C writes the picture so far and says how noisy it is");
     command->add_option("scene", options->scene, "scene file, mesh, scene name or builtin:NAME")->required();
     command->add_option("-o,--output", options->output, "FILE.exr")->required();

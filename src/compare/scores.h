@@ -1,0 +1,64 @@
+#pragma once
+// The error of one picture of skin against the ground truth, in numbers: over all skin, and where scattering
+// shows.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/image/image.h"
+#include "dermis/image/tone_map.h"
+
+namespace dermis {
+
+/// The band along the terminator, and how wide the band around a cast shadow's edge is.
+inline constexpr float kTerminatorCosine = 0.3f;
+inline constexpr float kPenumbraBandMm = 6;
+
+/// One channel each, 1 inside. Terminator and penumbra are disjoint parts of the skin.
+struct SkinMasks {
+    Image skin;        ///< seen by both renderers through nothing else
+    Image terminator;  ///< |n.l| of the key light below kTerminatorCosine, shading normal
+    Image penumbra;    ///< n.l above that, within kPenumbraBandMm / 2 of the edge of a shadow
+};
+
+/// What the masks are cut from. `light`: uv, n.l and visibility through a filter kPenumbraBandMm wide (the
+/// G-buffer's gbuffer_light); `position`: world position and distance (gbuffer_position; 0 where nothing was
+/// drawn); `skin`: the ground truth's share of skin.
+[[nodiscard]] SkinMasks make_masks(const Image& light, const Image& position, const Image& skin);
+
+/// rmse and rel_mse on linear radiance; the rest on the tone-mapped picture. The parts are missing where a
+/// scene has no such pixel. Units as metrics.h has them.
+struct Scores {
+    double rmse = 0, rel_mse = 0, psnr_db = 0, ssim = 0, delta_e_2000 = 0, flip = 0;
+    std::optional<double> terminator_rmse, penumbra_rmse;
+};
+
+/// How radiance becomes the picture that people see.
+struct Display {
+    ToneMap tone_map = ToneMap::hable;
+    float exposure = 1;
+};
+
+/// `radiance` with the reference's pixels wherever the mask is 0, so that filters see no difference there.
+[[nodiscard]] Image masked_radiance(const Image& radiance, const Image& reference, const Image& mask);
+
+/// Errors: as metrics.h (sizes, NaN, an empty skin mask).
+[[nodiscard]] Result<Scores> score(const Image& radiance, const Image& reference, const SkinMasks& masks,
+                                   const Display& display);
+
+/// One row of scores.csv.
+struct ScoreRow {
+    std::string scene, technique, settings;
+    Scores scores;
+    double time_ms = 0;
+    size_t bytes = 0;
+};
+
+/// Columns
+/// scene,technique,settings,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,time_ms,bytes;
+/// fields with commas are quoted; a missing part is empty.
+[[nodiscard]] std::string scores_csv(const std::vector<ScoreRow>& rows);
+
+}  // namespace dermis

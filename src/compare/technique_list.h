@@ -1,0 +1,31 @@
+#pragma once
+// Which techniques to hold against each other, and how each is set: "lambert,wrap[wrap=0.4],preintegrated".
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/technique/technique.h"
+
+namespace dermis {
+
+struct Contestant {
+    const Technique* technique = nullptr;
+    ParameterValues values;
+    std::string settings;  ///< as written, "diffuse=closed_form,shadow=plain"; empty: all defaults
+
+    /// "preintegrated[diffuse=closed_form,shadow=plain]", or the id alone.
+    [[nodiscard]] std::string name() const;
+};
+
+/// Names separated by commas; each may carry settings in brackets, separated by commas. A comma between
+/// numbers belongs to a colour, as in wrap[scatter_color_linear=.07,.01,.006]. Errors name the entry: an
+/// unknown technique or parameter, a value out of range, a missing bracket, an entry that stands twice, an
+/// empty list.
+[[nodiscard]] Result<std::vector<Contestant>> parse_technique_list(std::string_view text);
+
+/// Every technique with its defaults, lambert first.
+[[nodiscard]] std::vector<Contestant> default_contestants();
+
+}  // namespace dermis

@@ -1,0 +1,13 @@
+#pragma once
+// The picture behind an ImageSource, wherever it is: a file, embedded bytes, or pixels made by code.
+
+#include "dermis/base/result.h"
+#include "dermis/image/io.h"
+#include "dermis/mesh/material.h"
+
+namespace dermis {
+
+/// Pixels made by code are sRGB-encoded when used as a colour. Errors as read_image and decode_image.
+[[nodiscard]] Result<Image> load_image_source(const ImageSource& source, ImageUse use);
+
+}  // namespace dermis
