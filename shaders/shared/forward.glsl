@@ -16,13 +16,18 @@
 
 layout(location = 0) out vec4 radiance_out;
 
-const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2;
+const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
 layout(constant_id = 1) const int view = kViewFinal;
 
 // With DERMIS_PREPARE_SURFACE defined: called once before anything else, to change the surface and to compute what does
 // not depend on the light.
 #ifdef DERMIS_PREPARE_SURFACE
 void prepare_surface(inout Surface s);
+#endif
+
+// With DERMIS_OWN_VIEW defined: what the technique's own debug view shows, as radiance.
+#ifdef DERMIS_OWN_VIEW
+vec3 own_view(Surface s);
 #endif
 
 // Radiant exitance over irradiance at normal incidence for light from one direction: n_dot_l for Lambert. Includes
@@ -36,6 +41,12 @@ void main() {
     Surface s = load_surface();
 #ifdef DERMIS_PREPARE_SURFACE
     prepare_surface(s);
+#endif
+#ifdef DERMIS_OWN_VIEW
+    if (view == kViewOwn) {
+        radiance_out = vec4(own_view(s), 1.0);
+        return;
+    }
 #endif
     vec3 exitance = ambient_response(s) * s.occlusion;
     vec3 specular_radiance =

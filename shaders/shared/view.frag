@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The G-buffer made visible. Signed curvature: blue hollow, grey flat, red bulging, full at 1/8 mm; a legend at the
-// bottom runs from -1/8 to 1/8 per mm with ticks every 1/16.
+// The G-buffer made visible. Signed curvature: blue hollow, grey flat, red bulging, full at 1/8 mm; the legend at the
+// bottom says so, with ticks and unit.
 #include "shared/frame.glsl"
 #include "shared/tone_map.glsl"
 
@@ -10,6 +10,7 @@ layout(set = 0, binding = 22) uniform texture2D gbuffer_normal;
 layout(set = 0, binding = 23) uniform texture2D gbuffer_geometry;
 layout(set = 0, binding = 24) uniform texture2D gbuffer_albedo;
 layout(set = 0, binding = 25) uniform texture2D gbuffer_light;
+layout(set = 0, binding = 26) uniform texture2D view_legend;  // ink of ticks and words: src/render/legend.h
 
 const int kNormal = 0, kGeometryNormal = 1, kAlbedo = 2, kRoughness = 3, kCurvature = 4, kOcclusion = 5, kShadow = 6,
           kNDotL = 7, kDepth = 8, kUv = 9, kPosition = 10;
@@ -43,15 +44,24 @@ vec3 view_color(vec4 position, vec4 light) {
     }
 }
 
+// Centred at the bottom, one texel a pixel, smaller in pictures that are narrower.
+vec3 with_legend(vec3 color) {
+    vec2 size = vec2(textureSize(sampler2D(view_legend, linear_clamp), 0));
+    vec2 picture = vec2(textureSize(sampler2D(gbuffer_position, nearest_clamp), 0));
+    float scale = min(1.0, 0.95 * picture.x / size.x);
+    vec2 corner = vec2(0.5 * (picture.x - size.x * scale), picture.y - (size.y + 4.0) * scale);
+    vec2 p = (gl_FragCoord.xy - corner) / scale;
+    if (any(lessThan(p, vec2(0.0))) || any(greaterThan(p, size))) return color;
+    const vec2 bar_low = vec2(24.0, 4.0), bar_high = vec2(264.0, 18.0);
+    vec2 bar = (p - bar_low) / (bar_high - bar_low);
+    bool inside = all(greaterThan(bar, vec2(0.0))) && all(lessThan(bar, vec2(1.0)));
+    vec3 paper = inside ? signed_color(bar.x * 2.0 - 1.0) : vec3(0.06);
+    return mix(paper, vec3(0.95), textureLod(sampler2D(view_legend, linear_clamp), p / size, 0.0).r);
+}
+
 void main() {
     vec4 position = fetch(gbuffer_position);
     vec3 color = position.w > 0.0 ? view_color(position, fetch(gbuffer_light)) : vec3(0.12);
-    vec2 legend = (uv - vec2(0.25, 0.95)) / vec2(0.5, 0.02);
-    if ((shown == kCurvature || shown == kNDotL) && all(greaterThan(legend, vec2(0.0))) &&
-        all(lessThan(legend, vec2(1.0)))) {
-        float quarter = fract(legend.x * 4.0);
-        bool tick = legend.y > 0.6 && (quarter < 0.02 || quarter > 0.98);
-        color = tick ? vec3(0.0) : signed_color(legend.x * 2.0 - 1.0);
-    }
+    if (shown == kCurvature || shown == kNDotL) color = with_legend(color);
     display_out = vec4(color, 1.0);
 }

@@ -7,6 +7,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/frame_values.h"
+#include "dermis/render/legend.h"
 
 namespace dermis {
 namespace {
@@ -103,12 +104,29 @@ Result<void> Renderer::prepare_tables(const Technique& technique, const Paramete
     return {};
 }
 
+Result<void> Renderer::prepare_legend(const std::string& view) {
+    // Views without a scale declare the texture too; any will do for them.
+    if (legend_ && (!has_legend(view) || view == legend_view_)) return {};
+    const Result<Image> ink = make_legend(view);
+    if (!ink) return Error{"view " + view + ": " + ink.error().message};
+    Result<gpu::Texture> texture = gpu::Texture::upload(*device_, {.name = "view_legend",
+                                                                   .format = ImageFormat::r8,
+                                                                   .width = ink->width,
+                                                                   .height = ink->height,
+                                                                   .bytes = ink->bytes});
+    if (!texture) return texture.error();
+    legend_ = std::make_unique<gpu::Texture>(std::move(*texture));
+    legend_view_ = view;
+    return {};
+}
+
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
     gpu::FrameInputs inputs = {.width = settings.width, .height = settings.height};
     inputs.textures["environment_cube"] = &uploaded_->environment_cube();
     inputs.textures["environment_brdf"] = &uploaded_->environment_brdf();
     inputs.textures["no_image"] = &uploaded_->no_image();
     for (const auto& [name, texture] : tables_) inputs.textures[name] = &texture;
+    inputs.textures["view_legend"] = legend_.get();
     inputs.blocks["Frame"] =
         frame_values(*scene_, {.width = settings.width,
                                .height = settings.height,
@@ -128,6 +146,7 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
     if (std::ranges::find(views, settings.view) == views.end())
         return Error{unknown_name("view", settings.view, views)};
     if (Result<void> ready = prepare_tables(technique, values); !ready) return ready.error();
+    if (Result<void> ready = prepare_legend(settings.view); !ready) return ready.error();
 
     const std::string key = light_key(technique, values, settings, *scene_);
     const FrameContext frame = {

@@ -51,6 +51,7 @@ class Renderer {
   private:
     Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene);
     Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
+    Result<void> prepare_legend(const std::string& view);
     [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;
 
     gpu::Device* device_;
@@ -63,6 +64,8 @@ class Renderer {
     std::string tables_key_, history_key_;
     float history_distance_mm_ = 0;
     std::map<std::string, gpu::Texture> tables_;
+    std::string legend_view_;  ///< that legend_ is of
+    std::unique_ptr<gpu::Texture> legend_;
 };
 
 }  // namespace dermis

@@ -5,8 +5,12 @@
 
 #include "dermis/technique/figure.h"
 
-namespace dermis {
+namespace dermis::preintegrated {
 
-[[nodiscard]] std::vector<Figure> preintegrated_figures();
+/// Of the Unity implementation: the table, curvature, bumps, specular, parts and whole, shadow.
+[[nodiscard]] std::vector<Figure> unity_figures();
 
-}  // namespace dermis
+/// Of Yeung 2015: curves beside tables, spheres, heads, environments; and the baselines.
+[[nodiscard]] std::vector<Figure> curve_figures();
+
+}  // namespace dermis::preintegrated

@@ -17,6 +17,7 @@ layout(constant_id = 3) const int shadow = 1;
 #define DERMIS_SHADOW_WIDTH_MM (shadow == 1 ? shadow_width_mm : penumbra_mm)
 #define DERMIS_PREPARE_SURFACE
 #define DERMIS_BECKMANN_TABLE
+#define DERMIS_OWN_VIEW
 #include "shared/forward.glsl"
 #include "preintegrated/closed_form.glsl"
 #include "preintegrated/curve_2015.glsl"
@@ -153,3 +154,6 @@ vec3 ambient_response(Surface s) {
     return environment_convolved(s.n_world, sqrt(4.0 * kPi) * zh[0], sqrt(4.0 * kPi / 3.0) * zh[1],
                                  sqrt(4.0 * kPi / 5.0) * zh[2]);
 }
+
+// The curvature that shades, whatever it comes from: radiance 1 is 1/4 mm.
+vec3 own_view(Surface s) { return vec3(4.0 * skin_curvature_per_mm); }

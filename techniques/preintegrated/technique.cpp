@@ -65,6 +65,7 @@ ParameterTable parameters() {
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
     Pass pass = forward_skin_pass("preintegrated/preintegrated.frag", params.specular, frame);
+    if (frame.view == "skin_curvature") pass.constants = {{"view", 3}};
     pass.constants.insert(pass.constants.end(), {{"diffuse", int32_t(params.diffuse)},
                                                  {"shadow", int32_t(params.shadow)},
                                                  {"curvature", int32_t(params.curvature)},
@@ -86,6 +87,12 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
                                       skin);
 }
 
+std::vector<Figure> figures() {
+    std::vector<Figure> all = preintegrated::unity_figures();
+    for (Figure& figure : preintegrated::curve_figures()) all.push_back(std::move(figure));
+    return all;
+}
+
 }  // namespace
 
 Technique make_preintegrated_technique() {
@@ -93,9 +100,10 @@ Technique make_preintegrated_technique() {
             .summary = "scattering by curvature, by bumps and into shadows, from tables or a closed form",
             .source = "Penner 2011, Pre-Integrated Skin Shading, GPU Pro 2; curves: Yeung 2015",
             .parameters = parameters(),
+            .views = {"skin_curvature"},
             .build = build,
             .tables = tables,
-            .figures = preintegrated_figures};
+            .figures = figures};
 }
 
 }  // namespace dermis

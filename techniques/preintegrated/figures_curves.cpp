@@ -1,0 +1,184 @@
+#include "dermis/fit/curve_2015.h"
+#include "dermis/technique/technique.h"
+#include "preintegrated/figures.h"
+
+namespace dermis::preintegrated {
+namespace {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+constexpr const char* kClose = "distance_mm=600";
+constexpr const char* kSource = "after Yeung 2015, Pre-Integrated Skin Shading";
+
+// One way to shade, named as its row or column is.
+struct Variant {
+    const char* id;
+    const char* name;
+    Settings settings;
+    const char* compare_to;  // id of the variant it is held against
+};
+
+Settings with(Settings settings, const Settings& more) {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+}
+
+// r from 2 to 16 mm downwards, N.L from -1 to 1.
+template <class Function>
+Result<FigurePicture> over_radius(int width, int height, Function diffuse) {
+    FigurePicture picture = {width, height, {}};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Rgb d = diffuse(-1 + 2 * (x + 0.5) / width, 2 + 14 * (y + 0.5) / height);
+            for (const double channel : d) picture.rgb_linear.push_back(float(channel));
+        }
+    return picture;
+}
+
+Figure curves_figure() {
+    FigureCell ring = {.label = "ring, exact",
+                       .id = "ring",
+                       .kind = CellKind::computed,
+                       .compute = [](const SkinContext& skin, int width, int height) {
+                           return over_radius(width, height, [&](double t, double r) {
+                               return preintegrated_diffuse(skin.gaussians, t, r,
+                                                            {.construction = Construction::half_ring});
+                           });
+                       }};
+    FigureCell curves = {.label = "curves of 2015",
+                         .id = "curves",
+                         .kind = CellKind::computed,
+                         .compute =
+                             [](const SkinContext&, int width, int height) {
+                                 return over_radius(width, height, [](double t, double r) {
+                                     return curve_2015_direct(t, 1 / r);
+                                 });
+                             },
+                         .compare_to = "ring"};
+    FigureCell difference = {.label = "difference times 8",
+                             .kind = CellKind::difference,
+                             .subject = "curves",
+                             .compare_to = "ring"};
+    return {.id = "curves",
+            .title = "The curves and what they were fitted to: N·L to the right, r from 2 to 16 mm downwards",
+            .source = std::string(kSource) + ": shapes of the diffusion curves",
+            .scene = "builtin:spheres",
+            .rows = {{"", {ring, curves, difference}}}};
+}
+
+const std::vector<Variant>& sphere_variants() {
+    static const std::vector<Variant> kVariants = {
+        {"ring", "table of the ring", {{"diffuse", "lut"}, {"construction", "ring"}, {"ambient", "lut"}}, ""},
+        {"curve", "curves of 2015", {{"diffuse", "curve_2015"}, {"ambient", "curve_2015"}}, "ring"},
+        {"sphere", "table of the sphere", {{"diffuse", "lut"}, {"ambient", "lut"}}, "ring"},
+        {"closed", "closed form", {{"diffuse", "closed_form"}, {"ambient", "exact"}}, "sphere"}};
+    return kVariants;
+}
+
+Figure spheres_figure(std::string id, std::string title, std::string environment) {
+    Figure figure = {.id = std::move(id), .title = std::move(title), .scene = "builtin:spheres"};
+    figure.source = std::string(kSource) + ": spheres of radius 2, 4, 8, 16 mm, table above, curves below";
+    figure.note = "Every sphere is drawn as large as the others.";
+    for (const Variant& variant : sphere_variants()) {
+        FigureRow row = {.label = variant.name};
+        for (const char* radius : {"2", "4", "8", "16"})
+            row.cells.push_back(
+                {.label = std::string("r = ") + radius + " mm",
+                 .id = std::string(variant.id) + radius,
+                 .settings = with(variant.settings, {{"shadow", "plain"}}),
+                 .view = "diffuse",
+                 .object = std::string("sphere_") + radius + "mm",
+                 .environment = environment,
+                 .albedo = CellAlbedo::white,
+                 .compare_to = *variant.compare_to ? variant.compare_to + std::string(radius) : ""});
+        figure.rows.push_back(std::move(row));
+    }
+    return figure;
+}
+
+// Columns table, curves, Lambert; with albedo above, light alone below.
+Figure heads_figure(std::string id, std::string title, const FigureCell& common) {
+    Figure figure = {.id = std::move(id), .title = std::move(title)};
+    figure.source = std::string(kSource) + ": head with table, curves and Lambert";
+    for (const CellAlbedo albedo : {CellAlbedo::mapped, CellAlbedo::white}) {
+        const std::string suffix = albedo == CellAlbedo::white ? "_light" : "";
+        FigureRow row = {.label = albedo == CellAlbedo::white ? "Light alone" : "With albedo"};
+        const auto add = [&](const std::string& label, const std::string& name, Settings settings) {
+            FigureCell cell = common;
+            cell.label = label;
+            cell.id = name + suffix;
+            cell.settings = std::move(settings);
+            cell.albedo = albedo;
+            cell.camera = kClose;
+            if (name == "lambert") cell.technique = "lambert";
+            if (name != "table") cell.compare_to = "table" + suffix;
+            row.cells.push_back(std::move(cell));
+        };
+        add("table", "table", {});
+        add("curves of 2015", "curve", {{"diffuse", "curve_2015"}, {"ambient", "curve_2015"}});
+        add("Lambert", "lambert", {});
+        figure.rows.push_back(std::move(row));
+    }
+    return figure;
+}
+
+Figure together_figure() {
+    const auto cell = [](std::string label, std::string environment, float yaw_deg, std::string view) {
+        return FigureCell{.label = std::move(label),
+                          .settings = {{"specular", "ggx"}},
+                          .view = std::move(view),
+                          .environment = std::move(environment),
+                          .environment_yaw_deg = yaw_deg,
+                          .environment_visible = true};
+    };
+    return {.id = "environments",
+            .title = "Direct and indirect light with GGX and a prefiltered environment",
+            .source = std::string(kSource) + ": everything together, and another environment",
+            .rows = {
+                {"",
+                 {cell("studio", "studio", 0, "final"), cell("sunset", "assets:hdri/sunset.hdr", 60, "final"),
+                  cell("courtyard", "assets:hdri/courtyard.exr", 0, "final")}}}};
+}
+
+Figure baselines_figure() {
+    const auto baseline = [](std::string id, std::string label) {
+        return FigureCell{
+            .label = std::move(label), .id = id, .technique = id, .view = "diffuse", .camera = kClose};
+    };
+    const auto variant = [](std::string label, Settings settings) {
+        return FigureCell{.label = std::move(label),
+                          .settings = std::move(settings),
+                          .view = "diffuse",
+                          .camera = kClose,
+                          .compare_to = "sphere"};
+    };
+    FigureRow variants = {
+        "Pre-integrated",
+        {variant("table, sphere", {}), variant("closed form", {{"diffuse", "closed_form"}}),
+         variant("table, ring", {{"construction", "ring"}}),
+         variant("curves of 2015", {{"diffuse", "curve_2015"}, {"ambient", "curve_2015"}})}};
+    variants.cells[0].id = "sphere";
+    variants.cells[0].compare_to = "";
+    FigureRow baselines = {
+        "Baselines",
+        {baseline("lambert", "Lambert"), baseline("oren_nayar", "Oren-Nayar"), baseline("wrap", "wrap")}};
+    for (FigureCell& cell : baselines.cells) cell.compare_to = "sphere";
+    return {.id = "baselines",
+            .title = "Baselines and every table variant",
+            .source = std::string(kSource) + ": Oren-Nayar on the left, pre-integrated on the right",
+            .rows = {variants, baselines}};
+}
+
+}  // namespace
+
+std::vector<Figure> curve_figures() {
+    return {curves_figure(),
+            spheres_figure("spheres_direct", "Spheres under one light", "none"),
+            spheres_figure("spheres_with_sh", "Spheres under one light and light from all around", "studio"),
+            heads_figure("head_direct", "Under one light", {.view = "diffuse", .environment = "none"}),
+            heads_figure("head_with_sh", "Under one light and light from all around", {.view = "diffuse"}),
+            together_figure(),
+            baselines_figure()};
+}
+
+}  // namespace dermis::preintegrated

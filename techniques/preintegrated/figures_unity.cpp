@@ -1,0 +1,169 @@
+#include "dermis/bake/lut.h"
+#include "preintegrated/figures.h"
+#include "preintegrated/tables.h"
+
+namespace dermis::preintegrated {
+namespace {
+
+constexpr const char* kSource = "after a Unity implementation of Penner 2011";
+constexpr const char* kClose = "distance_mm=520";
+
+FigureCell table_cell(std::string id, std::string construction, CellEncoding encoding) {
+    return {.label = encoding == CellEncoding::linear ? "linear values shown as they are"
+                                                      : "encoded for display (sRGB)",
+            .id = std::move(id),
+            .kind = CellKind::table,
+            .settings = {{"construction", std::move(construction)}},
+            .table = "skin_lut",
+            .encoding = encoding};
+}
+
+// The script of the article, tap by tap, over our axes.
+Result<FigurePicture> unity_taps(const SkinContext&, int width, int height) {
+    Result<LutOptions> options = lut_options("unity_2011");
+    if (!options) return options.error();
+    options->width = width;
+    options->height = height;
+    options->convention.axes[1] = curvature_axis(0, kMaxCurvaturePerMm);
+    const Result<Table> table = bake_lut(*options);
+    if (!table) return table.error();
+    return FigurePicture{width, height, table->data};
+}
+
+Figure table_figure() {
+    const auto script = [](CellEncoding encoding, std::string id) {
+        FigureCell cell = table_cell(std::move(id), "ring", encoding);
+        cell.kind = CellKind::computed;
+        cell.table.clear();
+        cell.settings.clear();
+        cell.compute = unity_taps;
+        return cell;
+    };
+    FigureRow published = {"The article's script: ring in steps of 0.05 rad, variances times 1.414",
+                           {script(CellEncoding::linear, "script"), script(CellEncoding::srgb, "")}};
+    FigureRow ring = {
+        "The same ring, exact",
+        {table_cell("ring", "ring", CellEncoding::linear), table_cell("", "ring", CellEncoding::srgb)}};
+    FigureRow sphere = {
+        "The closed sphere",
+        {table_cell("sphere", "sphere", CellEncoding::linear), table_cell("", "sphere", CellEncoding::srgb)}};
+    ring.cells[0].compare_to = "script";
+    sphere.cells[0].compare_to = "ring";
+    return {.id = "table",
+            .title = "The table itself: N·L from -1 to 1 to the right, 1/r from 0 to 1/mm downwards",
+            .source = std::string(kSource) + ": the lookup texture, as stored and in linear space",
+            .note =
+                "A table is data. Read as an sRGB texture it shades as the left column looks beside the "
+                "right: too "
+                "dark in the falloff, as the article's author found.",
+            .scene = "builtin:spheres",
+            .rows = {published, ring, sphere}};
+}
+
+Figure curvature_figure() {
+    FigureCell vertex = {.label = "at the vertices, 1/mm", .view = "curvature"};
+    const auto used = [](std::string label, std::string curvature) {
+        return FigureCell{
+            .label = std::move(label), .settings = {{"curvature", curvature}}, .view = "skin_curvature"};
+    };
+    const auto shaded = [](std::string label, std::string curvature) {
+        return FigureCell{.label = std::move(label),
+                          .id = curvature,
+                          .settings = {{"curvature", curvature}, {"normals", "sharp"}},
+                          .view = "diffuse"};
+    };
+    FigureRow shown = {"Curvature",
+                       {vertex, used("|1/r| used, from the vertices", "vertex"),
+                        used("|1/r| used, from derivatives", "derivative")}};
+    FigureRow shades = {"Diffuse light",
+                        {shaded("from the vertices", "vertex"), shaded("from derivatives", "derivative")}};
+    shades.cells[1].compare_to = "vertex";
+    shades.cells.push_back({.label = "difference times 8",
+                            .kind = CellKind::difference,
+                            .subject = "derivative",
+                            .compare_to = "vertex"});
+    return {.id = "curvature",
+            .title = "Curvature",
+            .source = std::string(kSource) + ": the curvature of the model",
+            .note =
+                "Derivatives of the interpolated normal are constant within a facet, so the mesh shows; the "
+                "estimate "
+                "at the vertices is smoothed over 3 mm of skin.",
+            .rows = {shown, shades}};
+}
+
+Figure normals_figure() {
+    const auto cell = [](std::string label, std::string normals) {
+        return FigureCell{.label = std::move(label),
+                          .id = normals,
+                          .settings = {{"normals", normals}},
+                          .view = "diffuse",
+                          .camera = kClose};
+    };
+    FigureRow row = {
+        "",
+        {cell("as mapped: \"too crispy\"", "sharp"), cell("one normal a channel, blended", "blended"),
+         cell("all from the map three levels up", "smooth")}};
+    row.cells[1].compare_to = row.cells[2].compare_to = "sharp";
+    return {.id = "normals",
+            .title = "Scattering at small bumps",
+            .source = std::string(kSource) + ": \"Softening Finer Details\", mip bias 3.0",
+            .note =
+                "The weights come from the profile and the map's scale in mm instead of by eye; the smoother "
+                "read "
+                "stays within red's own width.",
+            .rows = {row}};
+}
+
+Figure parts_figure() {
+    const auto cell = [](std::string label, std::string technique, std::string view) {
+        FigureCell made = {.label = std::move(label),
+                           .id = technique + view,
+                           .technique = technique,
+                           .view = std::move(view),
+                           .camera = kClose};
+        made.settings = {{"specular", "ksk"}};
+        return made;
+    };
+    FigureRow row = {"",
+                     {cell("Lambert, diffuse alone", "lambert", "diffuse"),
+                      cell("diffuse alone", "preintegrated", "diffuse"),
+                      cell("specular alone (ksk)", "preintegrated", "specular"),
+                      cell("combined", "preintegrated", "final")}};
+    row.cells[1].compare_to = "lambertdiffuse";
+    return {
+        .id = "parts",
+        .title = "Before, and the parts: Kelemen/Szirmay-Kalos with the Beckmann table and Schlick's Fresnel",
+        .source = std::string(kSource) + ": the start, before specular, specular, and both combined",
+        .rows = {row}};
+}
+
+Figure shadow_figure() {
+    const auto cell = [](std::string label, std::string shadow) {
+        return FigureCell{.label = std::move(label),
+                          .id = shadow,
+                          .settings = {{"shadow", shadow}},
+                          .view = "diffuse",
+                          .camera = kClose,
+                          .light = "yaw=-65 pitch=30"};
+    };
+    FigureRow row = {"",
+                     {cell("as filtered", "plain"),
+                      cell("scattered, a penumbra of 8 mm", "scattered"),
+                      {.label = "difference times 8",
+                       .kind = CellKind::difference,
+                       .subject = "scattered",
+                       .compare_to = "plain"}}};
+    return {.id = "shadow",
+            .title = "Scattering into the shadow's edge",
+            .source = "Penner 2011; both articles left it out",
+            .rows = {row}};
+}
+
+}  // namespace
+
+std::vector<Figure> unity_figures() {
+    return {table_figure(), curvature_figure(), normals_figure(), parts_figure(), shadow_figure()};
+}
+
+}  // namespace dermis::preintegrated
