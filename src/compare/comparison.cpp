@@ -53,6 +53,7 @@ Result<void> measure_bytes(const Scene& scene, const ComparisonSettings& setting
 // Rounds over all techniques, so that a machine that is busy for a while is so for all of them.
 Result<void> measure_times(Renderer& renderer, const ComparisonSettings& settings,
                            std::vector<Compared>& rows) {
+    if (settings.frames == 0) return {};
     const DrawSettings draw{.width = settings.width, .height = settings.height};
     std::vector<std::vector<double>> times(rows.size());
     for (int frame = 0; frame <= settings.frames; ++frame)

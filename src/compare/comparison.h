@@ -24,7 +24,7 @@ struct ComparisonSettings {
     /// The picture is made with this shadow map, so that a technique is not charged for the coarser one's
     /// bias; frames are timed with the renderer's own.
     int shadow_map_size = 4096;
-    int frames = 5;  ///< timed ones, after one that compiles
+    int frames = 5;  ///< timed ones, after one that compiles; 0: none are
     ReferenceSettings reference;
 };
 
