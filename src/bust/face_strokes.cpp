@@ -26,10 +26,10 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
     Brush brush(layer, snap);
     // Brow: superciliary arches, the rim of the orbit down to its tail, the glabella between.
     brush.both({{{6, 43, 106}, 13, 0.8},
-                {{16, 41.5, 104}, 14, 2.0},
-                {{29, 43, 99}, 15, 2.4},
-                {{42, 41, 90}, 14, 2.2},
-                {{50, 33, 80}, 12, 1.8},
+                {{16, 41, 104}, 13, 2.6},
+                {{29, 42.5, 99}, 14, 3.0},
+                {{42, 40.5, 90}, 13.5, 2.9},
+                {{50, 33, 80}, 12, 2.3},
                 {{54, 23, 74}, 12, 1.0}});
     brush.both({{{30, 74, 98}, 20, 1.2}});  // frontal eminence
     // Temporal line, where the forehead turns to the side; the temple behind it.
@@ -38,9 +38,9 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
     brush.both({{{66, 46, 52}, 22, -1.8}, {{67, 30, 46}, 16, -1.0}});
     // Orbit: deep under the brow beside the nose, running out over the lid; trough under the lower lid.
     brush.both({{{13, 27, 99}, 8, -3.6},
-                {{16.5, 31, 98}, 9, -5.2},
-                {{24, 33.0, 97}, 8.5, -3.0},
-                {{33, 32.5, 95}, 8, -1.4},
+                {{16.5, 31, 98}, 9, -6.2},
+                {{24, 33.0, 97}, 8.5, -3.8},
+                {{33, 32.5, 95}, 8, -1.9},
                 {{42, 29, 89}, 7, -0.6}});
     brush.both(
         {{{15, 19, 96}, 7, -2.2}, {{19, 12, 96}, 8, -2.0}, {{26, 7, 95}, 9, -1.0}, {{33, 5, 93}, 9, -0.3}});
@@ -56,14 +56,14 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
                 {{24, -18, 102}, 10, -1.2},
                 {{31, -30, 96}, 12, -1.1},
                 {{35, -42, 90}, 13, -0.8}});
-    brush.both({{{30, -8, 98}, 16, 1.2}, {{38, -18, 92}, 15, 0.9}});
+    brush.both({{{30, -7, 98}, 16, 1.6}, {{38, -17, 92}, 15, 1.2}});
     // Jaw: angle, edge, and chin with its pads.
-    brush.both({{{57, -48, 16}, 18, 2.4},
+    brush.both({{{57, -49, 16}, 17, 3.2},
                 {{54, -60, 34}, 16, 2.0},
                 {{44, -74, 58}, 15, 1.4},
                 {{30, -83, 80}, 14, 0.8}});
     brush.middle({{{-19, -78, 103}, 15, 1.8}, {{0, -77, 108}, 16, 2.2}, {{19, -78, 103}, 15, 1.8}});
-    brush.middle({{{-22, -56, 99}, 11, -0.7}, {{0, -59, 106}, 11, -2.2}, {{22, -56, 99}, 11, -0.7}});
+    brush.middle({{{-22, -56, 99}, 11, -0.7}, {{0, -58.5, 106}, 10, -2.8}, {{22, -56, 99}, 11, -0.7}});
     // Back: occipital bulge, the furrow of the nape between the two cords of muscle, the vertebra that stands
     // out.
     brush.middle({{{-14, 8, -86}, 24, 0.8}, {{0, 4, -87}, 22, 1.6}, {{14, 8, -86}, 24, 0.8}});
@@ -84,7 +84,7 @@ void add_detail_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
                 {{18.4, -13, 104}, 3.2, -1.2},
                 {{17.0, -18, 105}, 3.0, -0.9},
                 {{13.5, -20.5, 107}, 2.8, -0.3}});
-    brush.both({{{20.0, -14, 105}, 7, -0.9}, {{26, -23, 101}, 9, -1.0}, {{32, -35, 95}, 10, -0.5}});
+    brush.both({{{20.0, -14, 105}, 7, -0.9}, {{26, -23, 101}, 8, -1.3}, {{32, -35, 95}, 9, -0.7}});
     // Philtrum: groove with a column on either side.
     brush.middle({{{0, -21.5, 114}, 4.0, -0.7}, {{0, -26, 115}, 4.6, -1.1}, {{0, -29.5, 116}, 4.8, -0.7}});
     brush.both({{{4.4, -21, 114}, 3.6, 0.3}, {{5.4, -25.5, 115}, 3.6, 0.55}, {{6.2, -28.6, 116}, 3.4, 0.35}});

@@ -54,9 +54,9 @@ double add_neck(double d, Point p) {
     const Point q = {std::abs(p.x), p.y, p.z};
     // Sternomastoid: mastoid process behind the ear to the sternum, and a flatter head to the collar bone.
     const double sternal = smooth_min(swept_ball(q, {54, -22, -12}, 9, {46, -84, 0}, 12),
-                                      swept_ball(q, {46, -84, 0}, 12, {11, -166, 29}, 6.0), 8);
+                                      swept_ball(q, {46, -84, 0}, 12, {12, -166, 27}, 5.5), 8);
     d = smooth_min(d, sternal, 24);
-    d = smooth_min(d, swept_ball(q, {47, -96, -6}, 10, {40, -168, 14}, 7), 24);
+    d = smooth_min(d, swept_ball(q, {47, -96, -6}, 10, {40, -168, 12}, 5), 30);
     // Splenius behind it; scalenes fill the triangle between it and the trapezius.
     d = smooth_min(d, swept_ball(q, {38, -84, -24}, 14, {54, -158, -14}, 12), 24);
     d = smooth_min(d, swept_ball(q, {40, -10, -36}, 16, {34, -90, -34}, 18), 26);
@@ -68,7 +68,7 @@ double add_neck(double d, Point p) {
     d = smooth_min(d, bone, 20);
     // Thyroid cartilage and windpipe.
     d = smooth_min(d, swept_ball(p, {0, -113, 36}, 7, {0, -125, 35}, 7), 18);
-    d = smooth_min(d, swept_ball(p, {0, -128, 31}, 9, {0, -172, 19}, 9), 18);
+    d = smooth_min(d, swept_ball(p, {0, -128, 31}, 9, {0, -172, 17}, 9), 22);
     return d;
 }
 

@@ -71,7 +71,7 @@ Relief relief(Point p, const SkinZones& z, float vermilion, uint32_t seed) {
     const float pore = (1 - std::min(cells.nearest / (size * 1.6f), 1.0f)) * amount * coarse;
     const float furrow = 1 - std::min((cells.second - cells.nearest) * 3.2f, 1.0f);
     const float grain = value_noise(q * 1.9, seed + 11);
-    float height = -0.070f * pore - 0.020f * furrow * (0.6f + 0.5f * z.eye_ring) + 0.009f * grain;
+    float height = -0.100f * pore - 0.030f * furrow * (0.6f + 0.5f * z.eye_ring) + 0.014f * grain;
     // Fine lines: level on the forehead, round the lids.
     const float lines = value_noise({p.x * 0.05, p.y * 0.62, p.z * 0.05}, seed + 12);
     height += 0.045f * z.forehead * std::min(0.0f, 0.25f - std::abs(lines)) * -1.0f * 0.6f;
@@ -81,7 +81,7 @@ Relief relief(Point p, const SkinZones& z, float vermilion, uint32_t seed) {
         const float wobble = value_noise({p.x * 0.35, p.y * 0.22, 4}, seed + 14);
         const float folds = value_noise({p.x * 0.95 + 0.8 * wobble, p.y * 0.10, 0}, seed + 15);
         const float small = value_noise({p.x * 2.1 + wobble, p.y * 0.22, 2}, seed + 16);
-        height = mixf(height, 0.065f * folds + 0.025f * small, vermilion);
+        height = mixf(height, 0.100f * folds + 0.035f * small, vermilion);
     }
     return {height, pore * (1 - vermilion)};
 }
@@ -102,7 +102,7 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     const float blood = mixf(1.0f, 0.45f, depth);
     Vec3 c = tone_albedo_linear(params.tone);
 
-    float red = 0.16f + 0.26f * z.cheek + 0.32f * z.nose + 0.36f * z.ear + 0.14f * z.knob +
+    float red = 0.16f + 0.26f * z.cheek + 0.25f * z.nose + 0.36f * z.ear + 0.14f * z.knob +
                 0.24f * z.eye_ring + 0.35f * z.nostril;
     red += 0.12f * broad + 0.10f * middle * (0.6f + z.cheek + z.nose) + 0.05f * fine;
     c = redder(c, blood * std::clamp(red, -0.15f, 0.9f));
@@ -124,10 +124,10 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     // Stubble: a cool shade with the roots as dots, on the shaved head as on the chin.
     const float roots = cell_noise(p * (1 / 0.75), seed + 5).nearest;
     const float hair = 1 - step(0.14, 0.44, roots);
-    const float patchy = 0.82f + 0.18f * broad + 0.10f * middle;
-    const float beard = float(params.stubble) * z.beard * patchy;
+    const float patchy = 0.90f + 0.10f * broad + 0.08f * middle;
+    const float beard = 1.2f * float(params.stubble) * z.beard * patchy;
     const float cover = std::min(1.0f, std::max(beard, 1.5f * float(params.stubble) * z.scalp * patchy));
-    c = mixc(c, c * mixc(Vec3{0.46f, 0.51f, 0.56f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
+    c = mixc(c, c * mixc(Vec3{0.48f, 0.50f, 0.51f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
     c = darker(c, 0.42f * cover * hair);
 
     Lips lip;
