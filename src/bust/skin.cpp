@@ -122,13 +122,14 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     }
 
     // Stubble: a cool shade with the roots as dots, on the shaved head as on the chin.
-    const float roots = cell_noise(p * (1 / 0.75), seed + 5).nearest;
-    const float hair = 1 - step(0.14, 0.44, roots);
     const float patchy = 0.90f + 0.10f * broad + 0.08f * middle;
-    const float beard = 1.2f * float(params.stubble) * z.beard * patchy;
-    const float cover = std::min(1.0f, std::max(beard, 1.5f * float(params.stubble) * z.scalp * patchy));
-    c = mixc(c, c * mixc(Vec3{0.48f, 0.50f, 0.51f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
-    c = darker(c, 0.42f * cover * hair);
+    const float shaved = float(params.stubble) * patchy;
+    const float cover = std::min(1.0f, shaved * std::max(1.2f * z.beard, 1.5f * z.scalp));
+    if (cover > 0) {
+        const float hair = 1 - step(0.14, 0.44, cell_noise(p * (1 / 0.75), seed + 5).nearest);
+        c = mixc(c, c * mixc(Vec3{0.48f, 0.50f, 0.51f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
+        c = darker(c, 0.42f * cover * hair);
+    }
 
     Lips lip;
     if (z.mouth > 0 && p.z > 60) lip = lips(p);
