@@ -26,9 +26,9 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
     Brush brush(layer, snap);
     // Brow: superciliary arches, the rim of the orbit down to its tail, the glabella between.
     brush.both({{{6, 43, 106}, 13, 0.8},
-                {{16, 41, 104}, 13, 2.6},
-                {{29, 42.5, 99}, 14, 3.0},
-                {{42, 40.5, 90}, 13.5, 2.9},
+                {{16, 40, 104}, 13, 2.6},
+                {{29, 41, 99}, 14, 3.0},
+                {{42, 39, 90}, 13.5, 2.9},
                 {{50, 33, 80}, 12, 2.3},
                 {{54, 23, 74}, 12, 1.0}});
     brush.both({{{30, 74, 98}, 20, 1.2}});  // frontal eminence
@@ -84,7 +84,7 @@ void add_detail_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
                 {{18.4, -13, 104}, 3.2, -1.2},
                 {{17.0, -18, 105}, 3.0, -0.9},
                 {{13.5, -20.5, 107}, 2.8, -0.3}});
-    brush.both({{{20.0, -14, 105}, 7, -0.9}, {{26, -23, 101}, 8, -1.3}, {{32, -35, 95}, 9, -0.7}});
+    brush.both({{{20.0, -14, 105}, 7, -0.9}, {{26, -23, 101}, 10, -1.0}, {{33, -36, 95}, 11, -0.5}});
     // Philtrum: groove with a column on either side.
     brush.middle({{{0, -21.5, 114}, 4.0, -0.7}, {{0, -26, 115}, 4.6, -1.1}, {{0, -29.5, 116}, 4.8, -0.7}});
     brush.both({{{4.4, -21, 114}, 3.6, 0.3}, {{5.4, -25.5, 115}, 3.6, 0.55}, {{6.2, -28.6, 116}, 3.4, 0.35}});

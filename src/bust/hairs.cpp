@@ -28,9 +28,9 @@ class Random {
 struct BrowLine {
     double x, y, half, lean_rad;  ///< lean of the hairs from straight outward
 };
-constexpr BrowLine kBrow[] = {{10.0, 38.8, 2.6, 1.20}, {15.0, 39.6, 4.0, 0.95}, {22.0, 40.8, 4.6, 0.60},
-                              {31.0, 42.2, 4.4, 0.32}, {40.0, 42.4, 3.8, 0.04}, {48.0, 40.4, 2.9, -0.30},
-                              {55.0, 36.6, 1.4, -0.55}};
+constexpr BrowLine kBrow[] = {{10.0, 37.6, 2.6, 1.20}, {15.0, 38.3, 4.0, 0.95}, {22.0, 39.3, 4.6, 0.60},
+                              {31.0, 40.6, 4.4, 0.32}, {40.0, 41.0, 3.8, 0.06}, {48.0, 39.3, 2.9, -0.28},
+                              {55.0, 35.8, 1.4, -0.52}};
 
 BrowLine brow_at(double t) {
     constexpr int kLast = int(std::size(kBrow)) - 1;
@@ -87,7 +87,7 @@ void Hairs::grow_brow(Side& side, uint32_t seed) {
         const double bend = lean - mix(0.5, 0.25, t);
         const Point middle = root + Point{std::cos(lean), std::sin(lean), 0} * (0.5 * length);
         grow(side, {root, middle, middle + Point{std::cos(bend), std::sin(bend), 0} * (0.5 * length)},
-             random.between(0.10, 0.17), random.between(0.45, 0.85));
+             random.between(0.10, 0.17), random.between(0.55, 0.92));
     }
 }
 

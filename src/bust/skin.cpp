@@ -102,13 +102,14 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     const float blood = mixf(1.0f, 0.45f, depth);
     Vec3 c = tone_albedo_linear(params.tone);
 
-    float red = 0.16f + 0.26f * z.cheek + 0.25f * z.nose + 0.36f * z.ear + 0.14f * z.knob +
+    float red = 0.24f + 0.26f * z.cheek + 0.25f * z.nose + 0.36f * z.ear + 0.14f * z.knob +
                 0.24f * z.eye_ring + 0.35f * z.nostril;
     red += 0.12f * broad + 0.10f * middle * (0.6f + z.cheek + z.nose) + 0.05f * fine;
     c = redder(c, blood * std::clamp(red, -0.15f, 0.9f));
-    c = darker(c, std::max(0.0f, 0.12f * z.lid + 0.13f * z.eye_ring + 0.04f * middle + 0.03f * fine +
+    c = darker(c, std::max(0.0f, 0.14f * z.lid + 0.17f * z.eye_ring + 0.04f * middle + 0.03f * fine +
                                      0.04f * z.neck));
-    c = mixc(c, c * Vec3{1.03f, 1.02f, 0.95f}, 0.5f * z.forehead);
+    // The examples lean to yellow; a fair skin seen through is a little cooler away from the forehead.
+    c = c * mixc(Vec3{0.98f, 0.96f, 1.03f}, Vec3{1.01f, 1.0f, 0.98f}, std::max(depth, 0.6f * z.forehead));
 
     // Freckles: nose and cheeks first, each with a size and a strength of its own.
     const float freckled =
@@ -124,18 +125,18 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     // Stubble: a cool shade with the roots as dots, on the shaved head as on the chin.
     const float patchy = 0.90f + 0.10f * broad + 0.08f * middle;
     const float shaved = float(params.stubble) * patchy;
-    const float cover = std::min(1.0f, shaved * std::max(1.2f * z.beard, 1.5f * z.scalp));
+    const float cover = std::min(1.0f, shaved * std::max(1.45f * z.beard, 1.6f * z.scalp));
     if (cover > 0) {
         const float hair = 1 - step(0.14, 0.44, cell_noise(p * (1 / 0.75), seed + 5).nearest);
-        c = mixc(c, c * mixc(Vec3{0.48f, 0.50f, 0.51f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
-        c = darker(c, 0.42f * cover * hair);
+        c = mixc(c, c * mixc(Vec3{0.50f, 0.53f, 0.56f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
+        c = darker(c, 0.32f * cover * hair);
     }
 
     Lips lip;
     if (z.mouth > 0 && p.z > 60) lip = lips(p);
     if (lip.vermilion > 0) {
         Vec3 red_lip =
-            redder(tone_albedo_linear(params.tone), mixf(0.95f, 0.45f, depth)) * Vec3{0.86f, 0.78f, 0.80f};
+            redder(tone_albedo_linear(params.tone), mixf(1.05f, 0.5f, depth)) * Vec3{0.80f, 0.69f, 0.78f};
         red_lip = darker(red_lip, 0.10f * depth + 0.16f * (1 - lip.along) + 0.08f * middle + 0.06f * fine);
         c = mixc(c, red_lip, (0.76f + 0.10f * middle) * lip.vermilion);
         c = darker(c, 0.75f * lip.line * lip.vermilion);

@@ -48,7 +48,7 @@ TEST(BustField, EarIsAsLongAsAskedAndThin) {
         const auto end = [&](double back, double v, double step) {
             for (;; v += step) {
                 double nearest = 1e9;
-                for (double out = v > 0 ? -0.5 : -6; out <= 3; out += 0.5)
+                for (double out = v > 0 ? -1.5 : -6; out <= 3; out += 0.5)
                     nearest = std::min(nearest, field.distance_mm(field.ear().to_head({back, v, out})));
                 if (nearest > 0 || std::abs(v) > 60) return v * length_mm / 63;
             }

@@ -1,7 +1,6 @@
 // bust_preview [clay|sketch|crop|skin|obj FILE MM_PER_UNIT] SIZE VIEW... [--tone T] [--sheet FILE]
 // Renders views of the built-in bust (or of an OBJ to hold beside it) to VIEW.png, or three a row into one
-// sheet. docs/images/bust_sheet.png: bust_preview skin 420 front quarter profile back earlight eye --sheet
-// docs/images/bust_sheet.png
+// sheet; tools/bust_pictures uses it.
 
 #include <cstdio>
 #include <cstring>
