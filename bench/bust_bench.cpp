@@ -11,7 +11,7 @@
 namespace {
 
 using namespace dermis;
-using bust::Point;
+using namespace dermis::bust;
 
 const BustField& field() {
     static const BustField standard{BustParams{}};
@@ -33,13 +33,13 @@ void surface(benchmark::State& state) {
 BENCHMARK(surface)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->Iterations(1);
 
 void atlas(benchmark::State& state) {
-    const bust::Surface mesh = make_head_surface(field());
+    const Surface mesh = make_head_surface(field());
     for (auto _ : state) benchmark::DoNotOptimize(make_atlas(mesh, field()));
 }
 BENCHMARK(atlas)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->Iterations(1);
 
 void maps_of_2048(benchmark::State& state) {
-    const bust::Atlas flat = make_atlas(make_head_surface(field()), field());
+    const Atlas flat = make_atlas(make_head_surface(field()), field());
     for (auto _ : state) benchmark::DoNotOptimize(paint_maps(flat, field(), {}, 2048));
 }
 BENCHMARK(maps_of_2048)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->Iterations(1);
