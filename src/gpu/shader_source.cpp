@@ -1,18 +1,14 @@
 // Where SPIR-V comes from: the program itself, or glslc run as a process.
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstring>
 
 #include "dermis/base/file.h"
+#include "dermis/base/process.h"
 #include "dermis/base/text.h"
 #include "dermis/gpu/executor.h"
 #include "dermis/gpu/shader_table.h"
-
-extern char** environ;
 
 namespace dermis::gpu {
 namespace fs = std::filesystem;
@@ -30,24 +26,6 @@ struct TemporaryFolder {
         if (!path.empty()) fs::remove_all(path, ignored);
     }
 };
-
-// Runs a program with both outputs in `log`. Its exit status; -1 when it cannot be started.
-int run_program(const std::vector<std::string>& arguments, const fs::path& log) {
-    std::vector<char*> argv;
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                     0600);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    pid_t child = 0;
-    const int spawned = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    int status = 0;
-    if (spawned != 0 || waitpid(child, &status, 0) != child) return -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
 
 Result<fs::path> find_source(const fs::path& root, std::string_view name) {
     for (const char* folder : {"shaders", "techniques"}) {

@@ -4,12 +4,9 @@
 
 namespace dermis {
 
-Result<void> SceneOnDevice::upload_environment(gpu::Device& device, const Scene& scene) {
+Result<void> SceneOnDevice::replace_environment(gpu::Device& device, const Scene& scene) {
     Result<EnvironmentLight> environment = prepare_environment(scene.environment);
     if (!environment) return environment.error();
-    environment_mip_count_ = environment->mips;
-    for (const Vec3& coefficient : environment->radiance_sh)
-        environment_sh_.push_back({{"radiance_linear", coefficient}});
     Result<gpu::Texture> cube = gpu::Texture::upload(device, {.name = "environment",
                                                               .format = ImageFormat::rgba16f,
                                                               .width = environment->base_size,
@@ -20,7 +17,15 @@ Result<void> SceneOnDevice::upload_environment(gpu::Device& device, const Scene&
                                                               .bytes = std::move(environment->cube)});
     if (!cube) return cube.error();
     environment_cube_ = std::make_unique<gpu::Texture>(std::move(*cube));
+    environment_mip_count_ = environment->mips;
+    environment_sh_.clear();
+    for (const Vec3& coefficient : environment->radiance_sh)
+        environment_sh_.push_back({{"radiance_linear", coefficient}});
+    return {};
+}
 
+Result<void> SceneOnDevice::upload_environment(gpu::Device& device, const Scene& scene) {
+    if (Result<void> replaced = replace_environment(device, scene); !replaced) return replaced;
     Result<std::vector<std::byte>> table = stored_brdf_table();
     if (!table) return table.error();
     Result<gpu::Texture> brdf = gpu::Texture::upload(device, {.name = "environment_brdf",

@@ -77,6 +77,10 @@ Result<Renderer> Renderer::sibling(gpu::ShaderSource shaders) {
     return renderer;
 }
 
+Result<void> Renderer::environment_changed() {
+    return uploaded_->replace_environment(*device_, *scene_);
+}
+
 Result<void> Renderer::prepare_tables(const Technique& technique, const ParameterValues& values) {
     if (!technique.tables) {
         tables_.clear();

@@ -26,13 +26,18 @@ struct DrawSettings {
 class Renderer {
   public:
     /// `device` and `scene` must outlive it. Camera, lights, exposure and the like may change between draws;
-    /// objects and materials may not.
+    /// of environment and materials it must be told; objects and maps may not change.
     [[nodiscard]] static Result<Renderer> create(gpu::Device& device, gpu::ShaderSource shaders,
                                                  const Scene& scene);
 
     /// Another renderer of the same scene, so that two pictures exist at once: its own images and tables,
     /// the same geometry and maps. The first must outlive it.
     [[nodiscard]] Result<Renderer> sibling(gpu::ShaderSource shaders);
+
+    /// The scene's environment, or its skin and the values of its materials, have changed. For siblings too.
+    /// An environment that cannot be read leaves the old one standing.
+    [[nodiscard]] Result<void> environment_changed();
+    void materials_changed() { uploaded_->update_materials(*scene_); }
 
     /// One frame. Errors name the pass, or what the technique lacks.
     [[nodiscard]] Result<gpu::FrameResult> draw(const Technique& technique, const ParameterValues& values,

@@ -147,6 +147,17 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
     return {};
 }
 
+// The draws stand in the order in which upload_objects made them.
+void SceneOnDevice::update_materials(const Scene& scene) {
+    auto draw = draws_.begin();
+    for (const SceneObject& object : scene.objects)
+        for (const Submesh& submesh : object.mesh.submeshes) {
+            const bool is_skin = object.classes[submesh.material] == MaterialClass::skin;
+            draw++->values = material_values(object.mesh.materials[submesh.material],
+                                             is_skin ? scene.skin.albedo_tint_linear : Vec3{1, 1, 1});
+        }
+}
+
 Result<SceneOnDevice> SceneOnDevice::upload(gpu::Device& device, const Scene& scene) {
     SceneOnDevice uploaded;
     if (Result<void> done = uploaded.upload_maps(device, scene); !done) return done.error();

@@ -15,6 +15,11 @@ class SceneOnDevice {
     /// Decodes maps on all cores. Errors name the file.
     [[nodiscard]] static Result<SceneOnDevice> upload(gpu::Device& device, const Scene& scene);
 
+    /// After a change of the scene's environment; on an error the old one stays.
+    [[nodiscard]] Result<void> replace_environment(gpu::Device& device, const Scene& scene);
+    /// After a change of its skin (tint, roughness, ...) or of the values of its materials; maps stay.
+    void update_materials(const Scene& scene);
+
     [[nodiscard]] const std::vector<gpu::Draw>& draws() const { return draws_; }
     [[nodiscard]] bool has(gpu::DrawClass draw_class) const;
     [[nodiscard]] const gpu::Texture& environment_cube() const { return *environment_cube_; }

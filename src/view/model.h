@@ -53,8 +53,11 @@ struct Model {
     Scene* scene = nullptr;  ///< lives in the stage; null until the first one is loaded
     std::array<TechniqueChoice, 2> choices;
     std::string view = "final";
+    int tone = 0;  ///< 0: as the maps are; 1 to 6: OpenPBR's skins
     Compare compare = Compare::off;
-    float split = 0.5f;  ///< of the picture's width
+    float split = 0.5f;      ///< of the picture's width
+    std::string truth_path;  ///< a picture that stands on the right side instead of a technique
+    std::vector<std::string> recent;
     bool show_panels = true, show_help = false, vsync = true;
     float user_scale = 1;  ///< of the interface, on top of the display's
     Notices notices;

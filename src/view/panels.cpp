@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "dermis/optics/presets.h"
 #include "dermis/render/shared_passes.h"
 #include "dermis/view/widgets.h"
 
@@ -33,7 +34,7 @@ void show_technique(Model& model, size_t choice, PanelRequests& requests, Widget
     ImGui::PopTextWrapPos();
     for (const Parameter& parameter : chosen.technique().parameters.parameters)
         rows.parameter(parameter, chosen.values());
-    if (!chosen.technique().parameters.parameters.empty() && ImGui::SmallButton("defaults"))
+    if (choice == 0 && !chosen.technique().parameters.parameters.empty() && ImGui::SmallButton("defaults"))
         requests.actions.push_back(Action::reset_parameters);
 }
 
@@ -102,6 +103,55 @@ void show_light(Scene& scene, WidgetMap& widgets) {
                 scene.environment.visible);
 }
 
+void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets) {
+    static const std::vector<std::string> kTones = {"as the maps are", "I", "II", "III", "IV", "V", "VI"};
+    static const std::vector<std::string> kProfiles = profile_names();
+    Rows rows(widgets, "skin.");
+    int tone = model.tone;
+    if (rows.choice({.name = "tone",
+                     .doc = "OpenPBR's six skins: profile, and a tint that gives the maps their mean colour"},
+                    kTones, tone))
+        requests.tone = tone;
+    Skin& skin = model.scene->skin;
+    int profile = index_of(kProfiles, skin.profile);
+    if (rows.choice({.name = "profile",
+                     .doc = "how far light travels inside; see dermis profile",
+                     .default_value = double(profile)},
+                    kProfiles, profile))
+        skin.profile = kProfiles[size_t(profile)];
+    rows.color({.name = "tint", .doc = "multiplies the colour of the skin, linear", .max = 4},
+               skin.albedo_tint_linear);
+}
+
+void show_compare(Model& model, PanelRequests& requests, WidgetMap& widgets) {
+    static const std::vector<std::string> kModes = {"off", "wipe", "side by side"};
+    Rows rows(widgets, "compare.");
+    int mode = int(model.compare);
+    if (rows.choice({.name = "mode", .doc = "two techniques on one head; drag the white line"}, kModes, mode))
+        model.compare = Compare(mode);
+    if (!model.compares()) return;
+    if (model.truth_path.empty()) {
+        if (ImGui::Button("Swap sides  (X)")) requests.actions.push_back(Action::swap_sides);
+        ImGui::TextDisabled("right side");
+        show_technique(model, 1, requests, widgets);
+        return;
+    }
+    ImGui::TextDisabled("right side: %s", model.truth_path.c_str());
+    if (ImGui::Button("A technique instead")) model.truth_path.clear();
+}
+
+// A list that opens over its button.
+void show_recent(const Model& model, PanelRequests& requests) {
+    if (model.recent.size() < 2) return;
+    const float width = ImGui::CalcTextSize("recent").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+    if (ImGui::SmallButton("recent")) ImGui::OpenPopup("recent scenes");
+    if (!ImGui::BeginPopup("recent scenes")) return;
+    for (const std::string& path : model.recent)
+        if (ImGui::Selectable(path.c_str())) requests.open = path;
+    ImGui::EndPopup();
+}
+
 void show_camera(Scene& scene, PanelRequests& requests, WidgetMap& widgets) {
     Rows rows(widgets, "camera.");
     Camera& camera = scene.camera;
@@ -168,12 +218,15 @@ void show_column(Model& model, const PanelFacts& facts, PanelRequests& requests,
     ImGui::Begin("settings", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
     if (model.scene) {
         ImGui::TextUnformatted(model.scene->name.c_str());
+        show_recent(model, requests);
         ImGui::PushTextWrapPos(0);
         if (!model.scene->credit.empty()) ImGui::TextDisabled("%s", model.scene->credit.c_str());
         ImGui::PopTextWrapPos();
     }
     if (section("Technique", true)) show_technique(model, 0, requests, widgets);
     if (section("Picture", true)) show_view(model, widgets);
+    if (model.scene && section("Skin", false)) show_skin(model, requests, widgets);
+    if (section("Compare", true)) show_compare(model, requests, widgets);
     if (model.scene && section("Light", true)) show_light(*model.scene, widgets);
     if (model.scene && section("Camera", false)) show_camera(*model.scene, requests, widgets);
     if (section("Time", true)) show_times(facts);
@@ -186,7 +239,10 @@ void show_status(const Model& model, const PanelFacts& facts) {
     ImGui::SetNextWindowSize({picture.width, float(facts.height) - picture.height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(12 * facts.scale, 4 * facts.scale));
     ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoInputs);
-    ImGui::TextDisabled("%s   %s", facts.picture_state.c_str(), facts.loading ? "loading …" : "");
+    if (facts.probe.empty())
+        ImGui::TextDisabled("%s   %s", facts.picture_state.c_str(), facts.loading ? "loading …" : "");
+    else
+        ImGui::TextUnformatted(facts.probe.c_str());
     const char* right = "F1 help";
     ImGui::SameLine(picture.width - ImGui::CalcTextSize(right).x - 12 * facts.scale);
     ImGui::TextDisabled("%s", right);

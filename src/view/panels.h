@@ -2,6 +2,7 @@
 // The interface over the picture: a column of settings on the right, a line of state below the picture, help.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,11 +30,14 @@ struct PanelFacts {
     double frame_ms = 0;
     std::vector<float> frame_history_ms;  ///< oldest first
     bool loading = false;
+    std::string probe;  ///< what is under the mouse
 };
 
 /// What a panel wants done beyond the model.
 struct PanelRequests {
     std::vector<Action> actions;
+    std::optional<int> tone;  ///< Model::tone wanted
+    std::string open;         ///< a scene
 };
 
 /// Where widgets stand, by what they set ("exposure_ev", a parameter's name): scripts drag them like a

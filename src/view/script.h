@@ -11,6 +11,9 @@
 //     key ctrl+C
 //     slide picture.exposure_ev 0.7   # drags a widget to a share of its range
 //     drop head.glb
+//     copy broken.frag shaders/a/b.frag   # files; makes and mends what is watched
+//     save scene.toml                 # the scene with what was changed
+//     clipboard "yaw=30 pitch=5"      # as if copied elsewhere
 //     resize 640 480
 //     wait 5                          # frames
 //     settle                          # until the picture is as good as it gets
@@ -39,6 +42,9 @@ enum class CommandKind {
     key,
     slide,
     drop,
+    copy,
+    save,
+    clipboard,
     resize,
     minimise,
     restore,

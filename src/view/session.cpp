@@ -6,6 +6,7 @@
 
 #include "dermis/base/text.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/scene/scene_paths.h"
 
 namespace dermis::view {
 namespace {
@@ -13,13 +14,6 @@ namespace {
 constexpr double kScriptFrameS = 1.0 / 30;
 constexpr size_t kHistoryFrames = 90;
 constexpr float kDesignHeightPx = 900;  // the window's height at which the interface has scale 1
-
-Result<Start> load_start(const std::string& path) {
-    Result<Scene> scene = load_scene(path);
-    if (!scene) return scene.error();
-    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
-    return Start{.scene = std::move(*scene)};
-}
 
 // In steps of a quarter: a font is made for each.
 float automatic_scale(float content_scale, int height) {
@@ -29,10 +23,18 @@ float automatic_scale(float content_scale, int height) {
 
 }  // namespace
 
+Result<Start> load_start(const std::string& path) {
+    Result<Scene> scene = load_scene(path);
+    if (!scene) return scene.error();
+    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    return Start{.scene = std::move(*scene)};
+}
+
 Session::Session(const ViewerOptions& options, Window window, gpu::Device device)
     : options_(&options),
       window_(std::move(window)),
       device_(std::move(device)),
+      shaders_(options.shader_root.empty() ? std::string(DERMIS_SOURCE_DIR) : options.shader_root),
       model_{.choices = {TechniqueChoice(all_techniques().front()),
                          TechniqueChoice(all_techniques().front())}} {}
 
@@ -48,6 +50,8 @@ Result<std::unique_ptr<Session>> Session::open(const ViewerOptions& options) {
     session->loading_ = std::move(loading);
     session->loading_path_ = options.scene_path;
     session->report_.device = session->device_.info().name;
+    if (options.keeps_state) session->state_ = load_state();
+    session->model_.recent = session->state_.recent;
     if (Result<void> made = session->make_window_side(); !made) return made.error();
     return session;
 }
@@ -93,17 +97,14 @@ PictureSize Session::picture_size() const {
     return {std::max(1, int(area.width * share)), std::max(1, int(area.height))};
 }
 
-void Session::load(const std::string& path) {
-    if (loading_.valid()) return model_.notices.inform("open", "still loading " + loading_path_, now_s());
-    loading_path_ = path;
-    loading_ = std::async(std::launch::async, load_start, path);
-}
-
 Result<void> Session::take_loaded() {
     if (!loading_.valid()) return {};
     if (loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
     const bool first = !stage_;
     Result<Start> start = loading_.get();
+    if (reloading_ && stage_ && start &&
+        camera_text(start->scene.camera) == file_camera_)  // the file says nothing new of it
+        start->scene.camera = model_.scene->camera;
     if (start) {
         const Result<void> begun = begin_scene(std::move(*start), first);
         if (begun || first) return begun;
@@ -117,25 +118,53 @@ Result<void> Session::take_loaded() {
 
 Result<void> Session::begin_scene(Start start, bool first) {
     auto scene = std::make_unique<Scene>(std::move(start.scene));
-    Result<Stage> stage =
-        Stage::create(device_, gpu::embedded_shaders(), std::move(scene), options_->samples);
+    if (!reloading_) file_camera_ = camera_text(scene->camera);
+    Result<Stage> stage = Stage::create(device_, shaders_.source(), std::move(scene), options_->samples);
     if (!stage) return stage.error();
     model_.scene = nullptr;
+    probe_.reset();
+    probe_key_.clear();
     stage_.emplace(std::move(*stage));
     model_.scene = &stage_->scene();
     model_.scene_path = loading_path_;
+    file_skin_ = model_.scene->skin;
+    drawn_tint_ = file_skin_.albedo_tint_linear;
+    mean_albedo_.reset();
+    model_.tone = 0;
+    follow_scene(first);
     if (first) {
         if (start.technique) {
             for (TechniqueChoice& choice : model_.choices) choice.choose(*start.technique);
             if (start.values) model_.choices[0].values() = *start.values;
         }
         model_.view = start.view;
+        if (!options_->truth.empty()) open_truth(options_->truth);
     }
     model_.notices.clear("open");
     for (const std::string& warning : model_.scene->warnings)
         model_.notices.inform("warning", warning, now_s());
     window_.set_title(model_.scene->name + " - Dermis");
     return {};
+}
+
+// Watches the scene's file, takes the technique that it asks for, remembers it.
+void Session::follow_scene(bool first) {
+    const std::filesystem::path by_name = find_scene(model_.scene_path);
+    scene_files_.watch({by_name.empty() ? std::filesystem::path(model_.scene_path) : by_name});
+    remember(state_, model_.scene_path);
+    model_.recent = state_.recent;
+    const Scene& scene = *model_.scene;
+    if (!first && !reloading_ && !scene.technique.empty()) {
+        const Result<const Technique*> technique = find_technique(scene.technique);
+        if (!technique) model_.notices.complain("technique", technique.error().message);
+        if (technique) {
+            model_.choices[0].choose(**technique);
+            for (const auto& [name, text] : scene.settings)
+                if (const Result<void> set = model_.choices[0].values().set(name, text); !set)
+                    model_.notices.complain("technique", set.error().message);
+        }
+    }
+    reloading_ = false;
 }
 
 Result<void> Session::rescale() {
@@ -151,7 +180,8 @@ PanelFacts Session::facts() const {
                         .height = size_.height,
                         .device = report_.device,
                         .frame_history_ms = history_ms_,
-                        .loading = loading_.valid()};
+                        .loading = loading_.valid(),
+                        .probe = probe_text_};
     facts.picture_state = facts.device;
     if (!stage_ || stage_->picture(0).width == 0) return facts;
     const Picture& picture = stage_->picture(0);
@@ -167,16 +197,24 @@ PanelFacts Session::facts() const {
 Result<void> Session::refresh_pictures() {
     drew_ = false;
     if (!stage_) return {};
-    const size_t sides = model_.compares() ? 2 : 1;
+    follow_skin();
+    if (Result<void> made = refresh_truth(); !made) return made;
+    const size_t sides = model_.compares() && !truth_ ? 2 : 1;
     for (size_t side = 0; side < sides; ++side) {
         const Result<bool> drew = stage_->refresh(model_, side, picture_size(), now_s());
         const std::string topic = "picture " + std::to_string(side);
         if (!drew) {
-            model_.notices.complain(topic, drew.error().message);
+            // Shaders that compile and do not fit together are taken back; anything else is told.
+            if (shaders_unproven_ && shaders_.take_back(drew.error().message))
+                stage_->forget_shaders();
+            else
+                model_.notices.complain(topic, drew.error().message);
             continue;
         }
         if (!*drew) continue;
         model_.notices.clear(topic);
+        if (shaders_unproven_) shaders_.confirm();
+        shaders_unproven_ = false;
         drew_ = true;
         if (side > 0) continue;
         history_ms_.push_back(float(stage_->picture(0).timings.frame_ms));
@@ -189,15 +227,19 @@ Result<void> Session::show(const InterfaceDraws& draws) {
     if (!swapchain_)  // its pacing was changed
         if (Result<void> made = make_swapchain(); !made) return made;
     const auto a = stage_ ? stage_->image(0) : std::nullopt;
-    const auto b = stage_ && model_.compares() ? stage_->image(1) : std::nullopt;
+    const auto b = stage_ && model_.compares() && !truth_ ? stage_->image(1) : std::nullopt;
+    const bool two = model_.compares() && (b || truth_);
     gpu::FrameInputs inputs = {.width = size_.width, .height = size_.height, .draws = draws.draws};
     Arrangement arrangement = Arrangement::none;
     if (a) {
         arrangement = Arrangement::one;
-        if (b && model_.compare == Compare::wipe) arrangement = Arrangement::wipe;
-        if (b && model_.compare == Compare::side_by_side) arrangement = Arrangement::side_by_side;
+        if (two && model_.compare == Compare::wipe) arrangement = Arrangement::wipe;
+        if (two && model_.compare == Compare::side_by_side) arrangement = Arrangement::side_by_side;
         inputs.images["picture_a"] = *a;
-        inputs.images["picture_b"] = b ? *b : *a;
+        if (truth_)
+            inputs.textures["picture_b"] = &*truth_;
+        else
+            inputs.images["picture_b"] = b ? *b : *a;
     }
     const PassList list = window_passes({.width = size_.width,
                                          .height = size_.height,
@@ -218,7 +260,7 @@ Result<void> Session::show(const InterfaceDraws& draws) {
 
 bool Session::is_settled() const {
     if (loading_.valid() || !stage_ || drew_) return false;
-    return stage_->is_final(0) && (!model_.compares() || stage_->is_final(1));
+    return stage_->is_final(0) && (!model_.compares() || truth_ || stage_->is_final(1));
 }
 
 Result<void> Session::frame() {
@@ -238,12 +280,16 @@ Result<void> Session::frame() {
     interface_->begin(events, size.width, size.height, std::max(now_s() - last_frame_s_, 1e-3));
     last_frame_s_ = now_s();
     take_input(events);
+    follow_files();
+    probe_text_ = probe_line();
     PanelRequests requests;
     widgets_.clear();
     show_panels(model_, facts(), requests, widgets_);
     Result<InterfaceDraws> draws = interface_->end();
     if (!draws) return draws.error();
     for (const Action action : requests.actions) act(action);
+    if (requests.tone) choose_tone(*requests.tone);
+    if (!requests.open.empty()) open_file(requests.open);
     if (Result<void> refreshed = refresh_pictures(); !refreshed) return refreshed;
     if (Result<void> shown = show(*draws); !shown) return shown;
     return step_script();
@@ -256,6 +302,11 @@ Result<ViewerReport> Session::run() {
         if (options_->frames > 0 && report_.frames >= options_->frames) break;
     }
     if (loading_.valid()) loading_.wait();
+    if (options_->keeps_state) {
+        state_.width = size_.width;
+        state_.height = size_.height;
+        store_state(state_);
+    }
     if (const std::vector<std::string> said = device_.messages(); !said.empty())
         return Error{"the validation layers complained: " + join(said, "; ")};
     return report_;

@@ -1,19 +1,25 @@
 #pragma once
 // What lives while the window is open. Its work is spread over session.cpp (the frame), session_input.cpp
-// (mouse and keys) and session_script.cpp.
+// (mouse and keys), session_files.cpp and session_script.cpp.
 
 #include <chrono>
 #include <deque>
 #include <future>
 
 #include "dermis/gpu/swapchain.h"
+#include "dermis/view/hot_shaders.h"
 #include "dermis/view/interface.h"
+#include "dermis/view/probe.h"
 #include "dermis/view/stage.h"
+#include "dermis/view/state_file.h"
 #include "dermis/view/viewer.h"
 #include "dermis/view/window.h"
 #include "dermis/view/window_frame.h"
 
 namespace dermis::view {
+
+/// A scene, ready to draw.
+[[nodiscard]] Result<Start> load_start(const std::string& path);
 
 class Session {
   public:
@@ -21,7 +27,7 @@ class Session {
     [[nodiscard]] Result<ViewerReport> run();
 
   private:
-    enum class Drag { none, orbit, pan, light };
+    enum class Drag { none, orbit, pan, light, wipe };
 
     Session(const ViewerOptions& options, Window window, gpu::Device device);
     [[nodiscard]] Result<void> make_window_side();
@@ -31,7 +37,16 @@ class Session {
     [[nodiscard]] Result<void> frame();
     [[nodiscard]] Result<void> take_loaded();
     [[nodiscard]] Result<void> begin_scene(Start start, bool first);
+    void follow_scene(bool first);
     void load(const std::string& path);
+    void open_file(const std::string& path);
+    void open_panorama(const std::string& path);
+    void open_truth(const std::string& path);
+    void choose_tone(int tone);
+    void follow_files();
+    void follow_skin();
+    [[nodiscard]] Result<void> refresh_truth();
+    [[nodiscard]] std::string probe_line();
     [[nodiscard]] Result<void> refresh_pictures();
     [[nodiscard]] Result<void> show(const InterfaceDraws& draws);
     [[nodiscard]] Result<void> rescale();
@@ -50,6 +65,10 @@ class Session {
     void choose_technique(int step);
     void choose_view(int step);
     void save_picture();
+    void copy_view();
+    void paste_view();
+    [[nodiscard]] Result<void> save_scene(const std::string& path);
+    [[nodiscard]] std::string free_name(const std::string& stem, const std::string& extension) const;
 
     // session_script.cpp
     [[nodiscard]] Result<void> step_script();
@@ -65,11 +84,27 @@ class Session {
     std::optional<gpu::Swapchain> swapchain_;
     std::optional<gpu::Executor> executor_;
     std::optional<Interface> interface_;
+    HotShaders shaders_;
     std::optional<Stage> stage_;
+    std::optional<gpu::Texture> truth_;  ///< the right side, when it is a picture
+    std::optional<Probe> probe_;
     Model model_;
 
     std::future<Result<Start>> loading_;
     std::string loading_path_;
+    bool reloading_ = false;  ///< the same scene again: the view stays
+    FileWatch scene_files_;
+    std::string file_camera_;  ///< the camera as the scene's file had it
+    std::optional<Vec3> mean_albedo_;
+    Vec3 drawn_tint_;  ///< what the materials on the device were made with
+    bool shaders_unproven_ = false;
+    Image truth_image_;
+    std::string truth_key_;
+    Skin file_skin_;  ///< as the scene came
+    double last_look_s_ = 0;
+    std::string probe_text_;
+    std::string probe_key_;
+    WindowState state_;
     WindowSize size_;
     std::deque<Event> waiting_;  ///< not yet given to the interface
     WidgetMap widgets_;

@@ -47,7 +47,7 @@ void Session::take_input(const std::vector<Event>& events) {
                     act(action_of({event.key, event.modifiers}));
                 break;
             case EventKind::drop:
-                for (const std::filesystem::path& path : event.paths) load(path.string());
+                for (const std::filesystem::path& path : event.paths) open_file(path.string());
                 break;
             case EventKind::text:
                 break;
@@ -71,6 +71,12 @@ void Session::take_mouse(const Event& event) {
     }
     mouse_px_ = event.position_px;
     if (interface_->wants_mouse()) return;
+    const Region area = picture_area();
+    const float line_px = area.x + model_.split * area.width;
+    if (model_.compare == Compare::wipe && std::abs(mouse_px_.x - line_px) < 8 * interface_->scale()) {
+        drag_ = Drag::wipe;
+        return;
+    }
     const bool right = event.button == MouseButton::right, middle = event.button == MouseButton::middle;
     drag_ = right || event.modifiers.ctrl     ? Drag::light
             : middle || event.modifiers.shift ? Drag::pan
@@ -81,7 +87,9 @@ void Session::drag_to(Vec2 position_px) {
     const Vec2 moved_px = position_px - mouse_px_;
     mouse_px_ = position_px;
     if (!model_.scene || moved_px == Vec2{}) return;
-    const float height_px = picture_area().height;
+    const Region area = picture_area();
+    const float height_px = area.height;
+    if (drag_ == Drag::wipe) model_.split = std::clamp((position_px.x - area.x) / area.width, 0.0f, 1.0f);
     if (drag_ == Drag::orbit) orbit(model_.scene->camera, moved_px, height_px);
     if (drag_ == Drag::pan) pan(model_.scene->camera, moved_px, height_px);
     if (drag_ == Drag::light) turn_key_light(*model_.scene, moved_px, height_px);
@@ -105,19 +113,12 @@ void Session::choose_view(int step) {
 // The first free of dermis-001.png, dermis-002.png, ... in the directory the program runs in.
 void Session::save_picture() {
     if (!stage_) return;
-    for (int number = 1; number < 1000; ++number) {
-        const std::string digits = std::to_string(number);
-        const std::string path =
-            "dermis-" + std::string(3 - std::min<size_t>(3, digits.size()), '0') + digits + ".png";
-        if (std::filesystem::exists(path)) continue;
-        const Result<void> written = stage_->write(model_, 0, picture_size(), path);
-        if (written)
-            model_.notices.inform("screenshot", "written: " + std::filesystem::absolute(path).string(),
-                                  now_s());
-        else
-            model_.notices.complain("screenshot", written.error().message);
-        return;
-    }
+    const std::string path = free_name("dermis", ".png");
+    const Result<void> written = stage_->write(model_, 0, picture_size(), path);
+    if (written)
+        model_.notices.inform("file", "written: " + std::filesystem::absolute(path).string(), now_s());
+    else
+        model_.notices.complain("file", written.error().message);
 }
 
 void Session::act(Action action) {
@@ -152,6 +153,26 @@ void Session::act(Action action) {
         case Action::darker:
             if (scene) scene->exposure_ev += (action == Action::brighter ? 1.0f : -1.0f) / 3;
             return;
+        case Action::compare:
+            model_.compare = Compare((int(model_.compare) + 1) % 3);
+            return;
+        case Action::swap_sides:
+            if (!truth_) std::swap(model_.choices[0], model_.choices[1]);
+            return;
+        case Action::copy_view:
+            return copy_view();
+        case Action::paste_view:
+            return paste_view();
+        case Action::save_scene: {
+            const std::string path = free_name(scene ? scene->name : "scene", ".toml");
+            const Result<void> saved = save_scene(path);
+            if (saved)
+                model_.notices.inform("file", "written: " + std::filesystem::absolute(path).string(),
+                                      now_s());
+            else
+                model_.notices.complain("file", saved.error().message);
+            return;
+        }
         case Action::screenshot:
             return save_picture();
         case Action::vsync:

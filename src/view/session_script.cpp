@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 #include "dermis/render/shared_passes.h"
@@ -54,6 +55,15 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             scripted_ = slide_frames(widget->second, command.numbers[0]);
             return {};
         }
+        case CommandKind::copy: {
+            const Result<std::vector<std::byte>> bytes = read_file(command.words[0]);
+            return bytes ? write_file(command.words[1], *bytes) : bytes.error();
+        }
+        case CommandKind::save:
+            return save_scene(command.words[0]);
+        case CommandKind::clipboard:
+            window_.set_clipboard(command.words[0]);
+            return {};
         case CommandKind::resize:
             window_.resize({int(command.numbers[0]), int(command.numbers[1])});
             scripted_.resize(3);  // the display answers in its own time
@@ -96,11 +106,15 @@ std::string Session::state_text() {
     std::string text = "scene " + model_.scene_path + "\ntechnique " + choice.technique().id + "\n";
     for (const Parameter& parameter : choice.technique().parameters.parameters)
         text += "set " + parameter.name + "=" + choice.values().text(parameter) + "\n";
+    if (model_.compares())
+        text += "right " + (truth_ ? model_.truth_path : model_.choices[1].technique().id) + "\n";
+    text += "profile " + model_.scene->skin.profile + "\n";
     text += "view " + model_.view + "\ncamera " + camera_text(model_.scene->camera) + "\n";
     const auto key = std::ranges::find(model_.scene->lights, true, &Light::is_key);
     if (key != model_.scene->lights.end()) text += "light " + light_text(*key) + "\n";
     text += "exposure_ev " + to_text(model_.scene->exposure_ev) + "\n";
     text += "window " + std::to_string(size_.width) + "x" + std::to_string(size_.height) + "\n";
+    text += "clipboard " + window_.clipboard() + "\n";
     for (const Notice& notice : model_.notices.all()) text += "notice " + notice.text + "\n";
     return text;
 }

@@ -101,6 +101,16 @@ Result<void> Stage::write(Model& model, size_t choice, PictureSize size, const s
     return write_output(**drawer, chosen.technique(), chosen.values(), draw, path, output);
 }
 
+void Stage::skin_changed() {
+    sides_[0].renderer->materials_changed();
+    invalidate();
+}
+
+Result<void> Stage::environment_changed() {
+    invalidate();
+    return sides_[0].renderer->environment_changed();
+}
+
 void Stage::invalidate() {
     for (Side& side : sides_) side.key.clear();
 }

@@ -45,6 +45,10 @@ class Stage {
     [[nodiscard]] Result<void> write(Model& model, size_t choice, PictureSize size,
                                      const std::filesystem::path& path);
 
+    /// The scene's skin or its environment were changed. An error leaves the environment as it was drawn.
+    void skin_changed();
+    [[nodiscard]] Result<void> environment_changed();
+
     /// Forgets what stands, so that the next refresh draws.
     void invalidate();
     /// Reads all shaders again.

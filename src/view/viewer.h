@@ -32,6 +32,10 @@ struct ViewerOptions {
     float interface_scale = 0;  ///< 0: from the display and the window's height
     int frames = 0;             ///< end after so many; 0: when the person does
     std::vector<ScriptCommand> script;
+    std::string
+        shader_root;    ///< with shaders/ and techniques/, to follow their changes; empty: the source tree
+    std::string truth;  ///< a picture to compare with
+    bool keeps_state = true;                             ///< window size and recent scenes
     std::string script_name;                             ///< for messages
     std::function<void(const std::string& line)> print;  ///< what the script's print says
 };

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "cli/run_program.h"
@@ -149,6 +150,123 @@ TEST_F(ViewWindow, a_dropped_file_is_opened_and_one_that_is_none_is_a_notice) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("scene " + path("quad.obj")));
     EXPECT_THAT(result.out, HasSubstr("broken.toml:2: mesh.file"));
+}
+
+TEST_F(ViewWindow, a_broken_shader_is_told_and_the_last_good_one_goes_on_until_it_is_mended) {
+    const std::string source = DERMIS_SOURCE_DIR;
+    ASSERT_EQ(shell("mkdir " + path("root") + " && cp -r " + source + "/shaders " + source + "/techniques " +
+                    path("root"))
+                  .exit_code,
+              0);
+    ASSERT_TRUE(write_text_file(path("broken.frag"), "#version 460\nvoid main() { colour = 1; }\n"));
+    // Compiles, and does not fit its pass.
+    ASSERT_TRUE(write_text_file(path("alien.frag"),
+                                "#version 460\nlayout(location = 0) in vec4 nobody;\n"
+                                "layout(location = 0) out vec4 c;\nvoid main() { c = nobody; }\n"));
+    Result<std::string> good = read_text_file(source + "/shaders/shared/tone_map.frag");
+    ASSERT_TRUE(good);
+    const size_t alpha = good->rfind("1.0)");
+    ASSERT_NE(alpha, std::string::npos);
+    const std::string target = path("root") + "/shaders/shared/tone_map.frag";
+    ASSERT_TRUE(write_text_file(path("red.frag"), good->replace(alpha, 4, "1.0) * vec4(1, 0, 0, 1)")));
+    const ProgramResult result =
+        view(std::string(kSmall) + "-t lambert --shaders " + path("root"),
+             "settle\nscreenshot DIR/before.png\ncopy DIR/broken.frag " + target +
+                 "\nwait 14\nprint\ndrag left 90 90 99 90\nsettle\n"
+                 "screenshot DIR/still.png\ncopy DIR/alien.frag " +
+                 target + "\nwait 14\nsettle\nscreenshot DIR/alien.png\ncopy DIR/red.frag " + target +
+                 "\nwait 14\nsettle\nscreenshot DIR/red.png\nprint\nquit\n");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(value_of(result, "notice"), HasSubstr("tone_map.frag:2"));
+    EXPECT_NE(image("before.png").bytes, image("still.png").bytes);  // the drag was drawn
+    EXPECT_EQ(image("still.png").bytes, image("alien.png").bytes);
+    const Image red = image("red.png");
+    EXPECT_GT(red.at(5, 5, 0), 0);
+    EXPECT_EQ(red.at(5, 5, 1), 0);
+    EXPECT_THAT(result.out.substr(result.out.rfind("technique ")), Not(HasSubstr("notice")));
+}
+
+TEST_F(ViewWindow, a_scene_file_is_followed_and_saved_with_what_was_changed) {
+    ASSERT_TRUE(
+        write_text_file(path("a.toml"), "name = \"A\" # first\n[[mesh]]\nfile = \"builtin:spheres\"\n"));
+    ASSERT_TRUE(write_text_file(path("b.toml"), "exposure_ev = 2\n[[mesh]]\nfile = \"builtin:spheres\"\n"));
+    ASSERT_TRUE(write_text_file(path("c.toml"), "exposure_ev = \n"));
+    const ProgramResult result = view(path("a.toml") + " --size 560x320 --samples 1 -t wrap", R"(
+        set wrap=0.125
+        drag left 90 90 120 80
+        save DIR/saved.toml
+        copy DIR/c.toml DIR/a.toml
+        wait 14
+        print
+        copy DIR/b.toml DIR/a.toml
+        wait 14
+        print
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("a.toml:1: not TOML"));
+    const std::string last = result.out.substr(result.out.rfind("technique "));
+    EXPECT_THAT(last, HasSubstr("exposure_ev 2\n"));
+    EXPECT_THAT(last, Not(HasSubstr("not TOML")));
+    EXPECT_THAT(last, HasSubstr("camera " + value_of(result, "camera")));  // the view stayed
+    const Result<std::string> saved = read_text_file(path("saved.toml"));
+    ASSERT_TRUE(saved);
+    EXPECT_THAT(*saved, HasSubstr("name = \"A\" # first"));
+    EXPECT_THAT(*saved, HasSubstr("wrap = 0.125"));
+    EXPECT_TRUE(std::filesystem::exists(path("state") + "/dermis/view.toml"));
+}
+
+TEST_F(ViewWindow, two_techniques_and_a_picture_stand_beside_each_other) {
+    const ProgramResult result = view(std::string(kSmall) + "-t lambert", R"(
+        screenshot DIR/left.png
+        key C
+        key X
+        key T
+        key X
+        settle
+        capture DIR/wipe.png
+        drag left 140 100 60 100
+        settle
+        capture DIR/wiped.png
+        key C
+        settle
+        capture DIR/beside.png
+        drop DIR/left.png
+        settle
+        print
+        capture DIR/truth.png
+        key C
+        settle
+        capture DIR/off.png
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Image wipe = image("wipe.png"), wiped = image("wiped.png"), off = image("off.png");
+    EXPECT_NEAR(wipe.at(140, 5, 0), 0.85, 0.01);  // the line stands in the middle of the picture
+    EXPECT_NEAR(wiped.at(60, 5, 0), 0.85, 0.01);  // and where it was dragged
+    EXPECT_LT(off.at(140, 5, 0), 0.5);
+    EXPECT_THAT(value_of(result, "right"), HasSubstr("left.png"));
+    EXPECT_NE(image("beside.png").bytes, image("truth.png").bytes);
+}
+
+TEST_F(ViewWindow, a_view_is_copied_as_a_command_and_pasted) {
+    const ProgramResult result = view(std::string(kSmall) + "-t wrap", R"(
+        drag left 90 90 120 80
+        key ctrl+C
+        wait 1
+        print
+        clipboard "-t oren_nayar --camera 'yaw=12 pitch=3'"
+        key ctrl+V
+        wait 1
+        print
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(value_of(result, "clipboard"),
+                HasSubstr("dermis render builtin:spheres -t wrap --camera 'yaw="));
+    const std::string last = result.out.substr(result.out.rfind("technique "));
+    EXPECT_THAT(last, HasSubstr("technique oren_nayar\n"));
+    EXPECT_THAT(last, HasSubstr("camera yaw=12 pitch=3 "));
 }
 
 TEST_F(ViewWindow, what_cannot_start_says_why_in_one_line) {

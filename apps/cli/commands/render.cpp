@@ -9,6 +9,7 @@
 #include "command.h"
 #include "dermis/render/output.h"
 #include "render_options.h"
+#include "turntable.h"
 
 namespace dermis::cli {
 namespace {
@@ -78,27 +79,6 @@ void print_timings(const gpu::FrameResult& timings, const gpu::Device& device) {
     std::printf("  %-24s %9.3f ms  on %s\n", "frame", timings.frame_ms, device.info().name.c_str());
 }
 
-// "out/%04d.png" numbers the frames; any other name is written once, after the last.
-std::string frame_path(const std::string& pattern, int frame) {
-    const size_t percent = pattern.find('%');
-    const size_t d = percent == std::string::npos ? percent : pattern.find('d', percent);
-    if (d == std::string::npos) return pattern;
-    const std::string digits = pattern.substr(percent + 1, d - percent - 1);
-    const size_t width = digits.empty() ? 0 : size_t(std::clamp(std::atoi(digits.c_str()), 0, 12));
-    std::string number = std::to_string(frame);
-    if (number.size() < width) number.insert(0, width - number.size(), '0');
-    return pattern.substr(0, percent) + number + pattern.substr(d + 1);
-}
-
-// The eye turned about the target's vertical.
-Camera turned(Camera camera, double angle_rad) {
-    const Vec3 offset = camera.eye_mm - camera.target_mm;
-    const float c = float(std::cos(angle_rad)), s = float(std::sin(angle_rad));
-    camera.eye_mm =
-        camera.target_mm + Vec3{c * offset.x + s * offset.z, offset.y, c * offset.z - s * offset.x};
-    return camera;
-}
-
 Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& prepared,
                                                   const Options& options) {
     const bool numbered = frame_path(options.output, 0) != options.output;
@@ -108,9 +88,7 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     std::vector<gpu::FrameResult> results;
     for (int frame = 0; frame < frames; ++frame) {
         const double turn_rad = options.turn_deg * 3.14159265358979 / 180 * frame / frames;
-        prepared.scene.camera = turned(start, turn_rad);
-        fit_depth_range(prepared.scene.camera, prepared.scene.bounds_center_mm,
-                        prepared.scene.bounds_radius_mm);
+        turn_camera(prepared.scene, start, turn_rad);
         prepared.draw.frame_index = frame;
         Result<gpu::FrameResult> drawn = renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
         if (!drawn) return drawn.error();

@@ -5,20 +5,37 @@
 
 #include "command.h"
 #include "dermis/base/file.h"
+#include "dermis/view/state_file.h"
 #include "dermis/view/viewer.h"
 #include "render_options.h"
+#include "turntable.h"
 
 namespace dermis::cli {
 namespace {
 
 struct Options {
     RenderOptions render;
-    std::string script;
-    int frames = 0;
+    Turntable turntable;
+    std::string script, truth, shader_root;
+    int frames = 0, turn_frames = 0;
     float interface_scale = 0;
 };
 
-Result<int> view_scene(const Options& options) {
+// Without a window: the frames of one turn.
+Result<int> turn_scene(const Options& options) {
+    Turntable turntable = options.turntable;
+    turntable.render = options.render;
+    turntable.frames = options.turn_frames;
+    if (turntable.render.size.empty()) turntable.render.size = "1024x1024";
+    return run_turntable(turntable);
+}
+
+Result<int> view_scene(Options options) {
+    if (options.turn_frames != 0) return turn_scene(options);
+    if (options.render.size.empty()) {
+        const view::WindowState state = view::load_state();
+        options.render.size = std::to_string(state.width) + "x" + std::to_string(state.height);
+    }
     const Result<std::pair<int, int>> size = parse_size(options.render.size);
     if (!size) return size.error();
     view::ViewerOptions viewer = {.scene_path = options.render.scene,
@@ -36,6 +53,8 @@ Result<int> view_scene(const Options& options) {
                                   .samples = options.render.samples,
                                   .interface_scale = options.interface_scale,
                                   .frames = options.frames,
+                                  .shader_root = options.shader_root,
+                                  .truth = options.truth,
                                   .script_name = options.script,
                                   .print = [](const std::string& text) { std::printf("%s", text.c_str()); }};
     if (!options.script.empty()) {
@@ -57,13 +76,22 @@ Result<int> view_scene(const Options& options) {
 
 void add_view_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    options->render.size = "1280x800";
+    options->render.size = "";  // the last window's
     options->render.samples = 4;
     CLI::App* command = line.add("view", "look at a scene in a window, in real time (F1 there: help)",
                                  "dermis view head_scan --technique preintegrated");
     options->render.add_to(*command);
     command->add_option("--interface-scale", options->interface_scale,
                         "size of letters and widgets (default: from the display)");
+    command->add_option("--truth", options->truth,
+                        "a picture to compare with: what dermis reference wrote, or any");
+    command->add_option("--turntable", options->turn_frames, "no window: so many frames of one turn into -o");
+    command
+        ->add_option("-o,--output", options->turntable.output,
+                     "of the turntable: out/%04d.png, or a film.mp4")
+        ->capture_default_str();
+    command->add_option("--shaders", options->shader_root,
+                        "folder with shaders/ and techniques/ to follow (default: the source tree)");
     command->add_option("--frames", options->frames, "close after so many");
     command->add_option("--script", options->script, "a file of input instead of a person; see docs/view.md");
     line.when_chosen(command, [options] { return view_scene(*options); });

@@ -1,0 +1,107 @@
+#include "turntable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "dermis/base/file.h"
+#include "dermis/base/process.h"
+#include "dermis/base/progress.h"
+#include "dermis/base/text.h"
+
+namespace dermis::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> draw_turn(const Turntable& turntable, const std::string& pattern) {
+    Result<Prepared> prepared = prepare(turntable.render);
+    if (!prepared) return prepared.error();
+    Result<gpu::Device> device = gpu::Device::create(
+        {.validation = turntable.render.validation, .name_contains = turntable.render.device});
+    if (!device) return device.error();
+    Result<Renderer> renderer = Renderer::create(*device, gpu::embedded_shaders(), prepared->scene);
+    if (!renderer) return renderer.error();
+    const OutputSettings output = {.credit = prepared->scene.credit,
+                                   .description = prepared->scene.name + ", " + prepared->technique->id};
+    const Camera start = prepared->scene.camera;
+    Progress progress("turntable", size_t(turntable.frames));
+    for (int frame = 0; frame < turntable.frames; ++frame) {
+        turn_camera(prepared->scene, start, 2 * 3.14159265358979 * frame / turntable.frames);
+        prepared->draw.frame_index = frame;
+        if (const auto drawn = renderer->draw(*prepared->technique, *prepared->values, prepared->draw);
+            !drawn)
+            return drawn.error();
+        if (Result<void> written = write_output(*renderer, *prepared->technique, *prepared->values,
+                                                prepared->draw, frame_path(pattern, frame), output);
+            !written)
+            return written;
+        progress.advance(1);
+    }
+    return {};
+}
+
+// Frames in a folder beside the film, which goes when the film is made.
+Result<void> draw_film(const Turntable& turntable) {
+    const fs::path folder = turntable.output + ".frames";
+    const std::string pattern = (folder / "%04d.png").string();
+    std::error_code ec;
+    if (fs::exists(folder, ec)) return Error{folder.string() + " is in the way: the frames would go there"};
+    Result<void> done = draw_turn(turntable, pattern);
+    if (done)
+        done = write_beside(turntable.output, [&](const fs::path& temporary) -> Result<void> {
+            const fs::path log = folder / "ffmpeg.txt";
+            const int status = run_program(
+                {"ffmpeg", "-y", "-loglevel", "error", "-framerate", "30", "-i", pattern, "-pix_fmt",
+                 "yuv420p", "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", temporary.string()},
+                log);
+            if (status == 0) return {};
+            if (status == 127 || status == -1)
+                return Error{
+                    "a film needs ffmpeg (Debian: apt-get install ffmpeg); -o out/%04d.png does without"};
+            const Result<std::string> said = read_text_file(log);
+            return Error{"ffmpeg: " + (said ? std::string(trim(split(*said, '\n')[0])) : "failed")};
+        });
+    fs::remove_all(folder, ec);
+    return done;
+}
+
+}  // namespace
+
+std::string frame_path(const std::string& pattern, int frame) {
+    const size_t percent = pattern.find('%');
+    const size_t d = percent == std::string::npos ? percent : pattern.find('d', percent);
+    if (d == std::string::npos) return pattern;
+    const std::string digits = pattern.substr(percent + 1, d - percent - 1);
+    const size_t width = digits.empty() ? 0 : size_t(std::clamp(std::atoi(digits.c_str()), 0, 12));
+    std::string number = std::to_string(frame);
+    if (number.size() < width) number.insert(0, width - number.size(), '0');
+    return pattern.substr(0, percent) + number + pattern.substr(d + 1);
+}
+
+void turn_camera(Scene& scene, const Camera& start, double angle_rad) {
+    const Vec3 offset = start.eye_mm - start.target_mm;
+    const float c = float(std::cos(angle_rad)), s = float(std::sin(angle_rad));
+    scene.camera = start;
+    scene.camera.eye_mm =
+        start.target_mm + Vec3{c * offset.x + s * offset.z, offset.y, c * offset.z - s * offset.x};
+    fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
+}
+
+Result<int> run_turntable(const Turntable& turntable) {
+    if (turntable.frames < 1 || turntable.frames > 100000)
+        return Error{"--turntable " + std::to_string(turntable.frames) + ": 1 to 100000 frames"};
+    const bool film = to_lower(fs::path(turntable.output).extension().string()) == ".mp4";
+    if (!film && frame_path(turntable.output, 0) == turntable.output)
+        return Error{"-o " + turntable.output +
+                     ": a turntable is numbered pictures (out/%04d.png) or a film (.mp4)"};
+    if (!film)
+        if (Result<void> good = check_output(turntable.output, {}); !good) return good.error();
+    const Result<void> done = film ? draw_film(turntable) : draw_turn(turntable, turntable.output);
+    if (!done) return done.error();
+    std::printf("%s\n", turntable.output.c_str());
+    return 0;
+}
+
+}  // namespace dermis::cli

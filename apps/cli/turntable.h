@@ -1,0 +1,26 @@
+#pragma once
+// A turn of the camera as numbered pictures or a film: what render --turn and view --turntable share.
+
+#include <string>
+
+#include "dermis/render/output.h"
+#include "render_options.h"
+
+namespace dermis::cli {
+
+/// "out/%04d.png" with the number in its place; a name without %d comes back as it is.
+[[nodiscard]] std::string frame_path(const std::string& pattern, int frame);
+
+/// Turns the eye about the target's vertical and fits the depth range.
+void turn_camera(Scene& scene, const Camera& start, double angle_rad);
+
+struct Turntable {
+    RenderOptions render;
+    std::string output = "out/%04d.png";  ///< a pattern, or a film: .mp4 (30 frames a second, needs ffmpeg)
+    int frames = 240;
+};
+
+/// A whole turn. Errors: an output that is neither, no ffmpeg, what ffmpeg says.
+[[nodiscard]] Result<int> run_turntable(const Turntable& turntable);
+
+}  // namespace dermis::cli

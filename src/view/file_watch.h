@@ -1,0 +1,32 @@
+#pragma once
+// Which files have changed since they were last looked at, by time and size.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dermis::view {
+
+class FileWatch {
+  public:
+    /// Starts over with these files and the files below these directories, as they are now.
+    void watch(const std::vector<std::filesystem::path>& paths);
+    /// Files that changed, appeared or vanished since the last call. A few microseconds a file.
+    [[nodiscard]] std::vector<std::filesystem::path> changed();
+
+  private:
+    struct Stamp {
+        std::filesystem::file_time_type time;
+        uintmax_t size = 0;
+        friend bool operator==(const Stamp&, const Stamp&) = default;
+    };
+    using Stamps = std::map<std::filesystem::path, Stamp>;
+    [[nodiscard]] Stamps look() const;
+
+    std::vector<std::filesystem::path> paths_;
+    Stamps stamps_;
+};
+
+}  // namespace dermis::view

@@ -1,0 +1,35 @@
+#pragma once
+// A scene file with some of its values changed: everything else, comments too, stays as somebody wrote it.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/view/model.h"
+
+namespace dermis::view {
+
+/// One value. `table`: "" for keys outside of any section, "camera", "light" with the number `index` of its
+/// [[light]]. An empty `value` takes the key out.
+struct TomlEdit {
+    std::string table, key, value;  ///< value: as TOML writes it
+    int index = 0;
+};
+
+/// In double quotes, as TOML writes a string without line breaks.
+[[nodiscard]] std::string toml_string(std::string_view text);
+
+/// Line by line; a missing section is added at the end. Values over several lines are replaced whole. Not for
+/// inline tables and dotted keys: the caller parses the result and sees.
+[[nodiscard]] std::string edit_toml(std::string_view text, const std::vector<TomlEdit>& edits);
+
+/// What a person may have changed, as edits: technique, settings, exposure, key light, surroundings, camera,
+/// skin.
+[[nodiscard]] std::vector<TomlEdit> model_edits(Model& model);
+
+/// The scene as a file of `directory`: the model's scene file with the edits, or a new one around a mesh or a
+/// built-in. Paths that were relative to the old place become absolute. Errors: the scene's file cannot be
+/// read any more, or is written in a way that edit_toml cannot change.
+[[nodiscard]] Result<std::string> scene_text(Model& model, const std::filesystem::path& directory);
+
+}  // namespace dermis::view

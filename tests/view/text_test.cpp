@@ -1,0 +1,138 @@
+// What the window writes and reads as text: changed scene files, views as command lines, its small memory.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dermis/base/file.h"
+#include "dermis/scene/scene_description.h"
+#include "dermis/view/scene_edit.h"
+#include "dermis/view/state_file.h"
+#include "dermis/view/view_line.h"
+#include "support/temporary_directory.h"
+
+namespace dermis::view {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Viewed {
+    Scene scene;
+    Model model;
+    Viewed()
+        : model{.choices = {TechniqueChoice(all_techniques().front()),
+                            TechniqueChoice(all_techniques().front())}} {
+        Result<Scene> loaded = load_scene("builtin:spheres");
+        EXPECT_TRUE(loaded);
+        scene = std::move(*loaded);
+        model.scene = &scene;
+        model.scene_path = "builtin:spheres";
+    }
+};
+
+TEST(EditToml, replaces_adds_and_takes_out_and_leaves_the_rest) {
+    const std::string text =
+        "# head\nname = \"a # b\"  # the name\n\n[[light]]\nyaw_deg = 1 # first\n[[light]]\nyaw_deg = 2\n"
+        "[camera]   # eye\ntarget_mm = [1,\n  2, # two\n  3]  # end\neye_mm = [0, 0, 1]\n";
+    const std::string edited = edit_toml(text, {{"", "name", "\"c\""},
+                                                {"", "exposure_ev", "0.5"},
+                                                {"light", "yaw_deg", "7", 1},
+                                                {"camera", "target_mm", "[4, 5, 6]"},
+                                                {"camera", "eye_mm", ""},
+                                                {"skin", "profile", "\"x\""}});
+    EXPECT_EQ(
+        edited,
+        "# head\nname = \"c\"  # the name\nexposure_ev = 0.5\n\n[[light]]\nyaw_deg = 1 # first\n[[light]]\n"
+        "yaw_deg = 7\n[camera]   # eye\ntarget_mm = [4, 5, 6]  # end\n\n[skin]\nprofile = \"x\"\n");
+}
+
+TEST(EditToml, a_second_edit_of_the_same_changes_nothing_more) {
+    const std::vector<TomlEdit> edits = {{"camera", "yaw_deg", "3"}, {"", "technique", "\"wrap\""}};
+    const std::string once = edit_toml("[[mesh]]\nfile = \"a.obj\"\n", edits);
+    EXPECT_EQ(edit_toml(once, edits), once);
+}
+
+TEST(SceneText, a_saved_built_in_reads_back_as_what_was_seen) {
+    Viewed viewed;
+    viewed.scene.exposure_ev = 0.25f;
+    viewed.scene.camera = *parse_camera("yaw=31 pitch=-4 distance_mm=222", viewed.scene.camera);
+    viewed.scene.skin.profile = "jensen_skin2";
+    const TemporaryDirectory directory;
+    const Result<std::string> text = scene_text(viewed.model, directory.path);
+    ASSERT_TRUE(text) << text.error().message;
+    const auto file = directory.path / "saved.toml";
+    ASSERT_TRUE(write_text_file(file, *text));
+    const Result<Scene> again = load_scene(file.string());
+    ASSERT_TRUE(again) << again.error().message << "\n" << *text;
+    EXPECT_EQ(camera_text(again->camera), camera_text(viewed.scene.camera));
+    EXPECT_EQ(light_text(again->key_light()), light_text(viewed.scene.key_light()));
+    EXPECT_EQ(again->lights.size(), viewed.scene.lights.size());
+    EXPECT_EQ(again->exposure_ev, 0.25f);
+    EXPECT_EQ(again->skin.profile, "jensen_skin2");
+    EXPECT_EQ(again->technique, all_techniques().front().id);
+}
+
+TEST(SceneText, comments_stay_and_paths_stay_true_elsewhere) {
+    const TemporaryDirectory directory;
+    const auto file = directory.path / "scene.toml";
+    ASSERT_TRUE(write_text_file(directory.path / "quad.obj", "v 0 0 0\nv 90 0 0\nv 0 90 0\nf 1 2 3\n"));
+    ASSERT_TRUE(write_text_file(file, "# about this head\n[[mesh]]\nfile = \"quad.obj\" # flat\n"));
+    Viewed viewed;
+    viewed.model.scene_path = file.string();
+    const Result<std::string> text = scene_text(viewed.model, directory.path / "elsewhere");
+    ASSERT_TRUE(text) << text.error().message;
+    EXPECT_THAT(*text, HasSubstr("# about this head\n"));
+    EXPECT_THAT(*text, HasSubstr("\"" + (directory.path / "quad.obj").string() + "\" # flat"));
+    const Result<std::string> beside = scene_text(viewed.model, directory.path);
+    ASSERT_TRUE(beside);
+    EXPECT_THAT(*beside, HasSubstr("file = \"quad.obj\" # flat"));
+}
+
+TEST(ViewLine, comes_back_by_pasting) {
+    Viewed viewed;
+    const Technique& wrap = **find_technique("wrap");
+    viewed.model.choices[0].choose(wrap);
+    ASSERT_TRUE(viewed.model.choices[0].values().set("wrap", "0.375"));
+    viewed.scene.camera = *parse_camera("yaw=12 pitch=3 distance_mm=321", viewed.scene.camera);
+    const std::string line = view_line(viewed.model, 640, 480);
+    EXPECT_THAT(line, ::testing::StartsWith(
+                          "dermis render builtin:spheres -t wrap --set wrap=0.375 --camera 'yaw=12 "));
+    EXPECT_THAT(line, HasSubstr("--size 640x480"));
+    Viewed other;
+    ASSERT_TRUE(apply_view_line(other.model, line));
+    EXPECT_EQ(view_line(other.model, 640, 480), line);
+}
+
+TEST(ViewLine, what_is_wrong_changes_nothing) {
+    Viewed viewed;
+    const std::string before = view_line(viewed.model, 1, 1);
+    for (const char* line : {"", "hello", "-t nothing", "--camera 'yaw=400'", "-t wrap --set wrap=9",
+                             "--camera 'yaw=10 pitch=1' --light 'yaw=x'", "--view none"}) {
+        EXPECT_FALSE(apply_view_line(viewed.model, line)) << line;
+        EXPECT_EQ(view_line(viewed.model, 1, 1), before) << line;
+    }
+    EXPECT_TRUE(apply_view_line(viewed.model, "yaw=10 pitch=1"));
+    EXPECT_THAT(view_line(viewed.model, 1, 1), HasSubstr("yaw=10 pitch=1"));
+}
+
+TEST(WindowState, round_trips_and_forgets_what_is_damaged) {
+    WindowState state{.width = 640, .height = 480};
+    for (int i = 0; i < 15; ++i) remember(state, "scene \"" + std::to_string(i) + "\"\\");
+    remember(state, "bust");
+    remember(state, "scene \"13\"\\");
+    EXPECT_EQ(state.recent.size(), kMaxRecent);
+    EXPECT_EQ(state.recent[0], "scene \"13\"\\");
+    EXPECT_EQ(state.recent[1], "bust");
+    const std::string text = state_text(state);
+    const WindowState again = parse_state(text);
+    EXPECT_EQ(again.width, 640);
+    EXPECT_EQ(again.recent, state.recent);
+    for (size_t length = 0; length < text.size(); ++length)
+        EXPECT_GE(parse_state(std::string_view(text).substr(0, length)).width, 160);
+    EXPECT_EQ(parse_state("width = 1\nheight = 99999999999\nrecent = [3, \"\", \"a\"]").width, 1280);
+    EXPECT_THAT(parse_state("recent = [3, \"\", \"a\"]").recent, ElementsAre("a"));
+}
+
+}  // namespace
+}  // namespace dermis::view
