@@ -22,6 +22,7 @@ constexpr Shortcut kShortcuts[] = {
     {{{'['}, {}}, Action::darker, "exposure a third of a stop down"},
     {{{'C'}, {}}, Action::compare, "compare two techniques: off, wipe, side by side"},
     {{{'X'}, {}}, Action::swap_sides, "left and right change places"},
+    {{{'G'}, {}}, Action::ground_truth, "against the ground truth of this view; again: stop"},
     {{{'C'}, kCtrl}, Action::copy_view, "copy this view as a command line"},
     {{{'V'}, kCtrl}, Action::paste_view, "paste a view"},
     {{{'S'}, kCtrl}, Action::save_scene, "save the scene with what was changed"},

@@ -24,6 +24,7 @@ enum class Action {
     darker,
     compare,
     swap_sides,
+    ground_truth,
     copy_view,
     paste_view,
     save_scene,

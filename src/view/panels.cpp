@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <numbers>
 
 #include "dermis/optics/presets.h"
@@ -270,6 +271,28 @@ void show_notices(const Model& model, const PanelFacts& facts) {
     }
 }
 
+// Which side is which, on a dark plate so that it reads over any picture.
+void show_side_name(const std::string& name, float x, float scale, bool to_the_left) {
+    const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+    const float pad = 6 * scale, left = to_the_left ? x - size.x - 2 * pad : x;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({left, pad}, {left + size.x + 2 * pad, 2 * pad + size.y + pad},
+                       IM_COL32(20, 20, 20, 170), 3 * scale);
+    list.AddText({left + pad, 1.5f * pad + pad * 0.5f}, IM_COL32(225, 225, 225, 255), name.c_str());
+}
+
+void show_side_names(const Model& model, const PanelFacts& facts) {
+    if (!model.compares() || !model.scene) return;
+    const Region picture = picture_region(model, facts.width, facts.height, facts.scale);
+    const std::string right = model.truth_path.empty()
+                                  ? model.choices[1].technique().id
+                                  : std::filesystem::path(model.truth_path).filename().string();
+    const float split = model.compare == Compare::wipe ? model.split : 0.5f;
+    const float line = picture.x + picture.width * split, gap = 6 * facts.scale;
+    show_side_name(model.choices[0].technique().id, line - gap, facts.scale, true);
+    show_side_name(right, line + gap, facts.scale, false);
+}
+
 void help_table(const char* id, std::span<const std::pair<std::string, std::string>> rows) {
     if (!ImGui::BeginTable(id, 2)) return;
     ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 13);
@@ -316,6 +339,7 @@ void show_panels(Model& model, const PanelFacts& facts, PanelRequests& requests,
         show_column(model, facts, requests, widgets);
         show_status(model, facts);
     }
+    show_side_names(model, facts);
     show_notices(model, facts);
     if (model.show_help) show_help(model, facts);
 }

@@ -35,6 +35,7 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
                                 {"settle", CommandKind::settle, "", "settle"},
                                 {"screenshot", CommandKind::screenshot, "w", "screenshot picture.png"},
                                 {"capture", CommandKind::capture, "w", "capture window.png"},
+                                {"lose_device", CommandKind::lose_device, "", "lose_device"},
                                 {"print", CommandKind::print, "", "print"},
                                 {"quit", CommandKind::quit, "", "quit"}};
 

@@ -19,6 +19,7 @@
 //     settle                          # until the picture is as good as it gets
 //     screenshot picture.png          # the picture alone; .exr is linear
 //     capture window.png              # the window as it stands
+//     lose_device                     # as if the driver had lost the GPU: everything on it is made anew
 //     print                           # the state, on standard output
 //     quit
 
@@ -52,6 +53,7 @@ enum class CommandKind {
     settle,
     screenshot,
     capture,
+    lose_device,
     print,
     quit
 };

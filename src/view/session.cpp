@@ -15,6 +15,14 @@ constexpr double kScriptFrameS = 1.0 / 30;
 constexpr size_t kHistoryFrames = 90;
 constexpr float kDesignHeightPx = 900;  // the window's height at which the interface has scale 1
 
+// The baseline, or against the baseline the technique after it.
+const Technique& compared_with(const Technique& technique) {
+    const std::span<const Technique> all = all_techniques();
+    const auto baseline = std::ranges::find(all, "lambert", &Technique::id);
+    if (baseline != all.end() && technique.id != baseline->id) return *baseline;
+    return all[1 % all.size()];
+}
+
 // In steps of a quarter: a font is made for each.
 float automatic_scale(float content_scale, int height) {
     const float by_height = std::floor(float(height) / kDesignHeightPx * 4) / 4;
@@ -134,8 +142,9 @@ Result<void> Session::begin_scene(Start start, bool first) {
     follow_scene(first);
     if (first) {
         if (start.technique) {
-            for (TechniqueChoice& choice : model_.choices) choice.choose(*start.technique);
+            model_.choices[0].choose(*start.technique);
             if (start.values) model_.choices[0].values() = *start.values;
+            model_.choices[1].choose(compared_with(*start.technique));
         }
         model_.view = start.view;
         if (!options_->truth.empty()) open_truth(options_->truth);
@@ -259,14 +268,23 @@ Result<void> Session::show(const InterfaceDraws& draws) {
 }
 
 bool Session::is_settled() const {
-    if (loading_.valid() || !stage_ || drew_) return false;
+    if (loading_.valid() || making_truth_.valid() || !stage_ || drew_) return false;
     return stage_->is_final(0) && (!model_.compares() || truth_ || stage_->is_final(1));
+}
+
+// Nothing has happened and nothing is on its way: the window shows what it would show again.
+bool Session::may_rest(const std::vector<Event>& events, WindowSize size) const {
+    return events.empty() && awake_frames_ == 0 && size == size_ && options_->script.empty() &&
+           options_->frames == 0 && model_.notices.all().empty() && is_settled();
 }
 
 Result<void> Session::frame() {
     const std::vector<Event> events = gather_events();
     if (Result<void> taken = take_loaded(); !taken) return taken;
+    if (follow_files()) awake_frames_ = kAwakeFrames;
+    if (take_truth()) awake_frames_ = kAwakeFrames;
     const WindowSize size = window_.framebuffer();
+    if (may_rest(events, size)) return {};
     if (size.width == 0 || size.height == 0) {  // minimised
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         return step_script();
@@ -280,7 +298,6 @@ Result<void> Session::frame() {
     interface_->begin(events, size.width, size.height, std::max(now_s() - last_frame_s_, 1e-3));
     last_frame_s_ = now_s();
     take_input(events);
-    follow_files();
     probe_text_ = probe_line();
     PanelRequests requests;
     widgets_.clear();
@@ -312,10 +329,29 @@ Result<ViewerReport> Session::run() {
     return report_;
 }
 
+void Session::hand_over(ViewerOptions& options) {
+    const Start start = {.scene = *model_.scene,
+                         .technique = &model_.choices[0].technique(),
+                         .values = model_.choices[0].values(),
+                         .view = model_.view};
+    options.load = [start]() -> Result<Start> { return start; };
+    options.scene_path = model_.scene_path;
+    options.size = size_;
+    options.truth = model_.truth_path;
+    options.script.erase(options.script.begin(), options.script.begin() + std::ptrdiff_t(next_command_));
+}
+
 Result<ViewerReport> run_viewer(const ViewerOptions& options) {
-    Result<std::unique_ptr<Session>> session = Session::open(options);
-    if (!session) return session.error();
-    return (*session)->run();
+    constexpr int kMostLosses = 3;  // a scene that the driver cannot stand would lose it for ever
+    ViewerOptions current = options;
+    for (int losses = 0;; ++losses) {
+        Result<std::unique_ptr<Session>> session = Session::open(current);
+        if (!session) return session.error();
+        Result<ViewerReport> report = (*session)->run();
+        const bool lost = !report && report.error().message.find(kDeviceLost) != std::string::npos;
+        if (!lost || losses == kMostLosses || !(*session)->has_scene()) return report;
+        (*session)->hand_over(current);
+    }
 }
 
 }  // namespace dermis::view

@@ -2,10 +2,12 @@
 // What lives while the window is open. Its work is spread over session.cpp (the frame), session_input.cpp
 // (mouse and keys), session_files.cpp and session_script.cpp.
 
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <future>
 
+#include "dermis/compare/reference_cache.h"
 #include "dermis/gpu/swapchain.h"
 #include "dermis/view/hot_shaders.h"
 #include "dermis/view/interface.h"
@@ -18,6 +20,9 @@
 
 namespace dermis::view {
 
+/// In every message of a lost device (src/gpu).
+inline constexpr std::string_view kDeviceLost = "the GPU was lost";
+
 /// A scene, ready to draw.
 [[nodiscard]] Result<Start> load_start(const std::string& path);
 
@@ -25,6 +30,12 @@ class Session {
   public:
     [[nodiscard]] static Result<std::unique_ptr<Session>> open(const ViewerOptions& options);
     [[nodiscard]] Result<ViewerReport> run();
+    /// What another session needs to go on where this one ended.
+    ~Session() { stop_truth_ = true; }  // its future waits
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+    void hand_over(ViewerOptions& options);
+    [[nodiscard]] bool has_scene() const { return model_.scene != nullptr; }
 
   private:
     enum class Drag { none, orbit, pan, light, wipe };
@@ -43,7 +54,10 @@ class Session {
     void open_panorama(const std::string& path);
     void open_truth(const std::string& path);
     void choose_tone(int tone);
-    void follow_files();
+    void ask_for_truth();
+    [[nodiscard]] bool take_truth();
+    /// True when something changed.
+    bool follow_files();
     void follow_skin();
     [[nodiscard]] Result<void> refresh_truth();
     [[nodiscard]] std::string probe_line();
@@ -55,6 +69,7 @@ class Session {
     [[nodiscard]] Region picture_area() const;
     [[nodiscard]] double now_s() const;
     [[nodiscard]] bool is_settled() const;
+    [[nodiscard]] bool may_rest(const std::vector<Event>& events, WindowSize size) const;
 
     // session_input.cpp
     [[nodiscard]] std::vector<Event> gather_events();
@@ -99,6 +114,9 @@ class Session {
     Vec3 drawn_tint_;  ///< what the materials on the device were made with
     bool shaders_unproven_ = false;
     Image truth_image_;
+    std::atomic<bool> stop_truth_ = false;
+    std::atomic<float> truth_done_ = 0;  ///< 0..1
+    std::future<Result<CachedReference>> making_truth_;
     std::string truth_key_;
     Skin file_skin_;  ///< as the scene came
     double last_look_s_ = 0;
@@ -110,8 +128,9 @@ class Session {
     WidgetMap widgets_;
     Drag drag_ = Drag::none;
     Vec2 mouse_px_;
-    int awake_frames_ = 3;  ///< to draw before sleeping
-    bool drew_ = false;     ///< a picture, in this frame
+    static constexpr int kAwakeFrames = 3;  // the interface answers an event over a few frames
+    int awake_frames_ = kAwakeFrames;       ///< to draw before sleeping
+    bool drew_ = false;                     ///< a picture, in this frame
     bool quit_ = false;
     std::vector<float> history_ms_;
     double last_frame_s_ = 0;

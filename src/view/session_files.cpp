@@ -7,6 +7,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/compare/comparison.h"
 #include "dermis/image/io.h"
 #include "dermis/image/tone_map.h"
 #include "dermis/optics/presets.h"
@@ -81,6 +82,45 @@ void Session::open_truth(const std::string& path) {
     if (!model_.compares()) model_.compare = Compare::wipe;
 }
 
+// Beside the window's work, on a copy of the scene; found in the cache when dermis compare or an earlier G
+// made it.
+void Session::ask_for_truth() {
+    if (!model_.scene) return;
+    if (making_truth_.valid()) {
+        stop_truth_ = true;
+        return;
+    }
+    const PictureSize size = picture_size();
+    const ReferenceSettings settings = comparison_settings(size.width, size.height).reference;
+    stop_truth_ = false;
+    truth_done_ = 0;
+    making_truth_ = std::async(std::launch::async, [this, settings, scene = *model_.scene] {
+        return cached_reference(
+            scene, settings, [this](double done) { truth_done_ = float(done); }, &stop_truth_);
+    });
+}
+
+// True when one has come.
+bool Session::take_truth() {
+    if (!making_truth_.valid()) return false;
+    if (making_truth_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+        model_.notices.inform(
+            "truth", "ground truth: " + std::to_string(int(truth_done_ * 100)) + " %   (G stops)", now_s());
+        return false;
+    }
+    Result<CachedReference> made = making_truth_.get();
+    model_.notices.clear("truth");
+    if (!made) {
+        if (!stop_truth_) model_.notices.complain("truth", made.error().message);
+        return true;
+    }
+    truth_image_ = std::move(made->picture.radiance);
+    truth_key_.clear();
+    model_.truth_path = "ground truth";
+    if (!model_.compares()) model_.compare = Compare::wipe;
+    return true;
+}
+
 // The texture of the right side follows exposure and tone map.
 Result<void> Session::refresh_truth() {
     if (model_.truth_path.empty()) truth_image_ = Image();
@@ -131,16 +171,17 @@ void Session::follow_skin() {
     stage_->skin_changed();
 }
 
-void Session::follow_files() {
+bool Session::follow_files() {
+    bool changed = false;
     if (now_s() - last_look_s_ >= kLookEveryS) {
         last_look_s_ = now_s();
         if (shaders_.poll() && stage_) {
             stage_->forget_shaders();
-            shaders_unproven_ = true;
+            shaders_unproven_ = changed = true;
         }
         if (stage_ && !loading_.valid() && !scene_files_.changed().empty()) {
             load(model_.scene_path);
-            reloading_ = true;
+            reloading_ = changed = true;
         }
     }
     const std::vector<Notice> shown = model_.notices.all();
@@ -148,6 +189,7 @@ void Session::follow_files() {
         if (notice.topic.starts_with(kShaderTopic)) model_.notices.clear(notice.topic);
     for (const auto& [name, message] : shaders_.errors())
         model_.notices.complain(kShaderTopic + name, message + "  (the last good one goes on)");
+    return changed;
 }
 
 void Session::copy_view() {

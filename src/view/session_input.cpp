@@ -12,7 +12,6 @@ namespace dermis::view {
 namespace {
 
 constexpr double kSleepS = 0.25;
-constexpr int kAwakeFrames = 3;  // the interface answers an event over a few frames
 
 }  // namespace
 
@@ -159,6 +158,8 @@ void Session::act(Action action) {
         case Action::swap_sides:
             if (!truth_) std::swap(model_.choices[0], model_.choices[1]);
             return;
+        case Action::ground_truth:
+            return ask_for_truth();
         case Action::copy_view:
             return copy_view();
         case Action::paste_view:

@@ -1,5 +1,7 @@
 // Scripted input.
 
+#include <sys/resource.h>
+
 #include <algorithm>
 
 #include "dermis/base/file.h"
@@ -9,6 +11,15 @@
 #include "dermis/view/session.h"
 
 namespace dermis::view {
+namespace {
+
+// The most that the process has held in memory so far.
+long peak_memory_mb() {
+    rusage usage = {};
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? usage.ru_maxrss / 1024 : 0;
+}
+
+}  // namespace
 
 Result<void> Session::step_script() {
     if (options_->script.empty() || next_command_ >= options_->script.size()) return {};
@@ -82,6 +93,8 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             return stage_->write(model_, 0, picture_size(), command.words[0]);
         case CommandKind::capture:
             return capture(command.words[0]);
+        case CommandKind::lose_device:
+            return Error{std::string(kDeviceLost)};
         case CommandKind::print:
             if (options_->print) options_->print(state_text());
             return {};
@@ -114,6 +127,9 @@ std::string Session::state_text() {
     if (key != model_.scene->lights.end()) text += "light " + light_text(*key) + "\n";
     text += "exposure_ev " + to_text(model_.scene->exposure_ev) + "\n";
     text += "window " + std::to_string(size_.width) + "x" + std::to_string(size_.height) + "\n";
+    const gpu::Footprint held = executor_->footprint();
+    text += "window_images " + std::to_string(held.images) + "\n";
+    text += "peak_memory_mb " + std::to_string(peak_memory_mb()) + "\n";
     text += "clipboard " + window_.clipboard() + "\n";
     for (const Notice& notice : model_.notices.all()) text += "notice " + notice.text + "\n";
     return text;

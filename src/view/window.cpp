@@ -75,6 +75,12 @@ void on_text(GLFWwindow* handle, unsigned character) {
     state_of(handle).events.push_back({.kind = EventKind::text, .character = character});
 }
 
+// Uncovered: what is shown has to be shown again.
+void on_refresh(GLFWwindow* handle) {
+    Window::State& state = state_of(handle);
+    state.events.push_back({.kind = EventKind::mouse_move, .position_px = state.mouse_px});
+}
+
 void on_drop(GLFWwindow* handle, int count, const char** paths) {
     state_of(handle).events.push_back(
         {.kind = EventKind::drop, .paths = std::vector<std::filesystem::path>(paths, paths + count)});
@@ -107,6 +113,7 @@ Result<Window> Window::open(const std::string& title, WindowSize size) {
     glfwSetKeyCallback(state->handle, on_key);
     glfwSetCharCallback(state->handle, on_text);
     glfwSetDropCallback(state->handle, on_drop);
+    glfwSetWindowRefreshCallback(state->handle, on_refresh);
     return Window(std::move(state));
 }
 

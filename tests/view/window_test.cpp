@@ -32,12 +32,12 @@ class ViewWindow : public ::testing::Test {
     std::string path(const std::string& name) { return (directory_.path / name).string(); }
 
     /// Runs `dermis view` with a script; paths in it may use DIR.
-    ProgramResult view(const std::string& arguments, std::string script) {
+    ProgramResult view(const std::string& arguments, std::string script, const char* layers = " --validate") {
         for (size_t at; (at = script.find("DIR")) != script.npos;)
             script.replace(at, 3, directory_.path.string());
         EXPECT_TRUE(write_text_file(path("script.txt"), script));
         return shell("DISPLAY=" + display_->name() + " XDG_STATE_HOME=" + path("state") + " " +
-                     DERMIS_PROGRAM + " view " + arguments + " --validate --script " + path("script.txt"));
+                     DERMIS_PROGRAM + " view " + arguments + layers + " --script " + path("script.txt"));
     }
 
     Image image(const std::string& name) {
@@ -132,6 +132,25 @@ TEST_F(ViewWindow, every_technique_and_every_view_is_shown) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(value_of(result, "view"), "final");
     EXPECT_THAT(result.out, Not(HasSubstr("pass '")));  // no notice of a picture that failed
+}
+
+TEST_F(ViewWindow, five_hundred_frames_of_switching_leave_no_memory_behind) {
+    std::string script;
+    const auto switches = [&](int count) {
+        for (int i = 0; i < count; ++i)
+            script += i % 2 ? "technique lambert\n" : i % 5 ? "technique wrap\n" : "technique oren_nayar\n";
+    };
+    switches(100);
+    script += "print\n";
+    switches(400);
+    const ProgramResult result = view("builtin:spheres --size 160x120 --samples 1 -t lambert",
+                                      script + "print\nquit\n", "");  // the layers keep memory
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const size_t second = result.out.rfind("peak_memory_mb ");
+    const double before_mb = std::stod(value_of(result, "peak_memory_mb")),
+                 after_mb = std::stod(result.out.substr(second + 15));
+    EXPECT_GT(before_mb, 10);
+    EXPECT_LT(after_mb - before_mb, 12);
 }
 
 TEST_F(ViewWindow, a_dropped_file_is_opened_and_one_that_is_none_is_a_notice) {
@@ -247,6 +266,43 @@ TEST_F(ViewWindow, two_techniques_and_a_picture_stand_beside_each_other) {
     EXPECT_LT(off.at(140, 5, 0), 0.5);
     EXPECT_THAT(value_of(result, "right"), HasSubstr("left.png"));
     EXPECT_NE(image("beside.png").bytes, image("truth.png").bytes);
+}
+
+TEST_F(ViewWindow, a_lost_device_is_opened_again_with_what_was_seen) {
+    const ProgramResult result = view(std::string(kSmall) + "-t wrap", R"(
+        set wrap=0.125
+        drag left 90 90 120 80
+        settle
+        print
+        screenshot DIR/before.png
+        lose_device
+        settle
+        print
+        screenshot DIR/after.png
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::string last = result.out.substr(result.out.rfind("technique "));
+    EXPECT_THAT(last, HasSubstr("set wrap=0.125\n"));
+    EXPECT_THAT(last, HasSubstr("camera " + value_of(result, "camera")));
+    EXPECT_EQ(image("before.png").bytes, image("after.png").bytes);
+}
+
+TEST_F(ViewWindow, the_ground_truth_comes_beside_the_picture_and_can_be_stopped) {
+    const ProgramResult result = view("builtin:spheres --size 170x130 --samples 1 -t lambert", R"(
+        key tab
+        key tab
+        key G
+        wait 2
+        key G
+        settle
+        print
+        key G
+        wait 1
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, Not(HasSubstr("notice ")));
 }
 
 TEST_F(ViewWindow, a_view_is_copied_as_a_command_and_pasted) {
