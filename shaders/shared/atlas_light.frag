@@ -14,6 +14,10 @@ layout(set = 0, binding = 19) uniform texture2D kernel_size_map;
 const int kSpaceTexels = 0, kSpaceMm = 1;
 layout(constant_id = 12) const int space = kSpaceTexels;
 
+layout(push_constant, scalar) uniform PassValues {
+    float pre_scatter;  // share of the base colour, as an exponent, that the light takes here
+};
+
 layout(location = 0) out vec4 light_out;  // exitance over albedo
 
 const float kLargestWritten = 254.0 / 255.0;
@@ -21,6 +25,8 @@ const float kLargestWritten = 254.0 / 255.0;
 void main() {
     Surface s = load_surface();
     float kernel_size = texture(sampler2D(kernel_size_map, trilinear_repeat), s.uv).r;
-    light_out = vec4(unblurred_exitance(s, occluded, trans_shadow_alpha),
+    vec3 exitance = unblurred_exitance(s, occluded, trans_shadow_alpha);
+    if (pre_scatter > 0.0) exitance *= pow(s.albedo_linear, vec3(pre_scatter));
+    light_out = vec4(exitance,
                      space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten));
 }

@@ -138,6 +138,25 @@ Result<CellPicture> computed_picture(const FigureCell& cell, const SkinContext& 
     return picture_of(image, cell.encoding, size);
 }
 
+// An image of the frame, as the cell wants it shown.
+Result<CellPicture> frame_image(Renderer& renderer, const FigureCell& cell, CellSize size) {
+    const Result<Image> read = renderer.read(cell.image);
+    if (!read) return read.error();
+    const Image linear = to_linear_float(*read);
+    Image shown(linear.width, linear.height, 3);
+    for (int y = 0; y < shown.height; ++y)
+        for (int x = 0; x < shown.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const bool alpha = cell.image_channels == FigureImageChannels::alpha;
+                const float value =
+                    linear.at(x, y, alpha ? linear.channels - 1 : std::min(c, linear.channels - 1));
+                shown.set(
+                    x, y, c,
+                    cell.image_channels == FigureImageChannels::transmittance ? std::exp(-value) : value);
+            }
+    return picture_of(shown, cell.encoding, size);
+}
+
 }  // namespace
 
 /// A scene on the device; cells move its camera and lights and put them back.
@@ -188,6 +207,11 @@ Result<CellPicture> CellRenderer::draw_scene(const Technique& technique, const P
     stage.scene.camera = camera;
     stage.scene.lights = lights;
     if (!drawn) return drawn.error();
+    if (!cell.image.empty()) {
+        Result<CellPicture> shown = frame_image(*stage.renderer, cell, size);
+        if (shown) shown->remark = stage.remark, shown->credit = stage.scene.credit;
+        return shown;
+    }
     const Result<Image> display = stage.renderer->display();
     if (!display) return display.error();
     CellPicture picture = {

@@ -25,6 +25,16 @@ UvMetric metric_of(const Mesh& mesh, size_t first) {
     return std::isfinite(metric.e_mm2 + metric.f_mm2 + metric.g_mm2) ? metric : UvMetric{};
 }
 
+// Vertices that differ only in their normals share a place in the UV layout.
+Weld weld_places(const Mesh& mesh) {
+    std::vector<uint32_t> words;
+    for (size_t i = 0; i < mesh.positions_mm.size(); ++i)
+        for (const float value : {mesh.positions_mm[i].x, mesh.positions_mm[i].y, mesh.positions_mm[i].z,
+                                  mesh.uvs[i].x, mesh.uvs[i].y})
+            words.push_back(weld_key(value));
+    return weld_records(words, 5);
+}
+
 }  // namespace
 
 float UvMetric::mm_per_u() const {
@@ -69,13 +79,7 @@ std::vector<float> triangle_areas_mm2(const Mesh& mesh) {
 std::vector<UvMetric> vertex_uv_metrics(const Mesh& mesh) {
     const std::vector<UvMetric> triangles = triangle_uv_metrics(mesh);
     const std::vector<float> areas = triangle_areas_mm2(mesh);
-    // Vertices that differ only in their normals share a place in the UV layout.
-    std::vector<uint32_t> words;
-    for (size_t i = 0; i < mesh.positions_mm.size(); ++i)
-        for (const float value : {mesh.positions_mm[i].x, mesh.positions_mm[i].y, mesh.positions_mm[i].z,
-                                  mesh.uvs[i].x, mesh.uvs[i].y})
-            words.push_back(weld_key(value));
-    const Weld weld = weld_records(words, 5);
+    const Weld weld = weld_places(mesh);
     std::vector<UvMetric> sums(weld.count());
     std::vector<float> weights(weld.count(), 0.0f);
     for (size_t corner = 0; corner < mesh.indices.size(); ++corner) {
@@ -95,6 +99,35 @@ std::vector<UvMetric> vertex_uv_metrics(const Mesh& mesh) {
         metrics.push_back({sums[id].e_mm2 * scale, sums[id].f_mm2 * scale, sums[id].g_mm2 * scale});
     }
     return metrics;
+}
+
+UvDerivatives vertex_uv_derivatives(const Mesh& mesh) {
+    const Weld weld = weld_places(mesh);
+    const std::vector<float> areas = triangle_areas_mm2(mesh);
+    std::vector<Vec3> du(weld.count()), dv(weld.count());
+    std::vector<float> weights(weld.count(), 0.0f);
+    for (size_t first = 0; first < mesh.indices.size(); first += 3) {
+        const uint32_t* corner = &mesh.indices[first];
+        const Vec2 uv1 = mesh.uvs[corner[1]] - mesh.uvs[corner[0]],
+                   uv2 = mesh.uvs[corner[2]] - mesh.uvs[corner[0]];
+        const Vec3 d1 = mesh.positions_mm[corner[1]] - mesh.positions_mm[corner[0]],
+                   d2 = mesh.positions_mm[corner[2]] - mesh.positions_mm[corner[0]];
+        const float det = cross(uv1, uv2);
+        if (!(std::abs(det) > 1e-20f)) continue;
+        const float area = areas[first / 3];
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t id = weld.ids[corner[k]];
+            du[id] += (d1 * uv2.y - d2 * uv1.y) * (area / det);
+            dv[id] += (d2 * uv1.x - d1 * uv2.x) * (area / det);
+            weights[id] += area;
+        }
+    }
+    UvDerivatives result;
+    for (const uint32_t id : weld.ids) {
+        const float scale = weights[id] > 0 ? 1 / weights[id] : 0.0f;
+        result.du_mm.push_back(du[id] * scale), result.dv_mm.push_back(dv[id] * scale);
+    }
+    return result;
 }
 
 }  // namespace dermis

@@ -29,6 +29,13 @@ struct UvMetric {
 /// keeps its own. Interpolate it over the UV layout for a stretch map.
 [[nodiscard]] std::vector<UvMetric> vertex_uv_metrics(const Mesh& mesh);
 
+/// How the surface runs along u and v at a vertex: dP/du and dP/dv in mm for a step of 1 in UV, the mean over
+/// its triangles by area; across a UV seam each side keeps its own. Zero where the UVs have no area.
+struct UvDerivatives {
+    std::vector<Vec3> du_mm, dv_mm;
+};
+[[nodiscard]] UvDerivatives vertex_uv_derivatives(const Mesh& mesh);
+
 /// Area of every triangle in mm^2.
 [[nodiscard]] std::vector<float> triangle_areas_mm2(const Mesh& mesh);
 

@@ -6,6 +6,7 @@
 #include "dermis/base/text.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
+#include "dermis/render/atlas_check.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
 
@@ -87,12 +88,11 @@ Result<void> Renderer::prepare_tables(const Technique& technique, const Paramete
         tables_key_.clear();
         return {};
     }
-    const Result<Profile> profile = find_profile(scene_->skin.profile);
-    if (!profile) return profile.error();
-    const SkinContext skin = {.profile = *profile, .gaussians = to_gaussian_sum(*profile).sum};
-    const std::string key = settings_key(technique, values, skin);
+    const Result<const SkinContext*> skin = skin_context();
+    if (!skin) return skin.error();
+    const std::string key = settings_key(technique, values, **skin);
     if (key == tables_key_) return {};
-    const Result<std::vector<TableImage>> tables = technique.tables(values, skin);
+    const Result<std::vector<TableImage>> tables = technique.tables(values, **skin);
     if (!tables) return tables.error();
     tables_.clear();
     for (const TableImage& table : *tables) {
@@ -124,6 +124,37 @@ Result<void> Renderer::prepare_legend(const std::string& view) {
     return {};
 }
 
+// The fit behind it takes tens of milliseconds, so it is kept.
+Result<const SkinContext*> Renderer::skin_context() {
+    if (!skin_ || skin_->profile.name != scene_->skin.profile) {
+        Result<Profile> profile = find_profile(scene_->skin.profile);
+        if (!profile) return profile.error();
+        GaussianSum sum = to_gaussian_sum(*profile).sum;
+        skin_ = SkinContext{.profile = std::move(*profile), .gaussians = std::move(sum)};
+        skin_->profile.name = scene_->skin.profile;
+    }
+    return &*skin_;
+}
+
+// Once, for the first technique that draws into the skin's atlas.
+Result<void> Renderer::check_atlas() {
+    const auto draws_atlas = [](const Pass& pass) { return pass.kind == PassKind::geometry_uv_atlas; };
+    if (atlas_checked_ || std::ranges::none_of(list_.passes, draws_atlas)) return {};
+    Result<std::vector<std::string>> checked = check_skin_atlas(*scene_);
+    if (!checked) return checked.error();
+    warnings_ = std::move(*checked);
+    atlas_checked_ = true;
+    return {};
+}
+
+Result<void> Renderer::prepare_seams() {
+    if (!list_.seams || (seams_ && seams_->request == *list_.seams)) return {};
+    Result<SeamTextures> made = make_seam_textures(*device_, *scene_, *list_.seams);
+    if (!made) return made.error();
+    seams_ = std::move(*made);
+    return {};
+}
+
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
     gpu::FrameInputs inputs = {.width = settings.width, .height = settings.height};
     inputs.textures["environment_cube"] = &uploaded_->environment_cube();
@@ -131,6 +162,10 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
     inputs.textures["no_image"] = &uploaded_->no_image();
     for (const auto& [name, texture] : tables_) inputs.textures[name] = &texture;
     inputs.textures["view_legend"] = legend_.get();
+    if (list_.seams && seams_) {
+        inputs.textures["seam_map"] = &seams_->seam_map;
+        inputs.textures["chart_map"] = &seams_->chart_map;
+    }
     inputs.blocks["Frame"] =
         frame_values(*scene_, {.width = settings.width,
                                .height = settings.height,
@@ -152,6 +187,8 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
     if (Result<void> ready = prepare_tables(technique, values); !ready) return ready.error();
     if (Result<void> ready = prepare_legend(settings.view); !ready) return ready.error();
 
+    const Result<const SkinContext*> skin = skin_context();
+    if (!skin) return skin.error();
     const std::string key = light_key(technique, values, settings, *scene_);
     const FrameContext frame = {
         .width = settings.width,
@@ -163,7 +200,9 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
         .frame_index = settings.frame_index,
         .shadow_map_size = settings.shadow_map_size,
         .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
-        .has_second_light = scene_->lights.size() > 1};
+        .has_second_light = scene_->lights.size() > 1,
+        .densest_uv_per_mm = uploaded_->densest_uv_per_mm(),
+        .skin_gaussians = (*skin)->gaussians};
     const SharedPassSettings shared = {.samples = settings.samples,
                                        .shadow_map_size = settings.shadow_map_size,
                                        .deep = settings.deep,
@@ -174,6 +213,8 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
                                        .gbuffer = settings.gbuffer};
     list_ = frame_passes(technique.build(values, frame), shared);
     radiance_name_ = radiance_image(shared);
+    if (Result<void> good = check_atlas(); !good) return good.error();
+    if (Result<void> ready = prepare_seams(); !ready) return ready.error();
     Result<gpu::FrameResult> drawn = executor_.run(list_, inputs(values, settings));
     history_key_ = drawn ? key : "";
     history_distance_mm_ = frame.camera_distance_mm;

@@ -6,6 +6,7 @@
 
 #include "dermis/gpu/executor.h"
 #include "dermis/render/scene_upload.h"
+#include "dermis/render/seam_textures.h"
 #include "dermis/render/shared_passes.h"
 #include "dermis/scene/scene.h"
 #include "dermis/technique/technique.h"
@@ -49,6 +50,9 @@ class Renderer {
     [[nodiscard]] Result<Image> display();
     [[nodiscard]] Result<Image> read(std::string_view image);
 
+    /// What will look wrong, found when a technique first asked for it; one line each.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
     /// The last frame's list, whole.
     [[nodiscard]] const PassList& pass_list() const { return list_; }
     gpu::Executor& executor() { return executor_; }
@@ -57,6 +61,9 @@ class Renderer {
     Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene);
     Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
     Result<void> prepare_legend(const std::string& view);
+    Result<void> check_atlas();
+    Result<void> prepare_seams();
+    [[nodiscard]] Result<const SkinContext*> skin_context();
     [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;
 
     gpu::Device* device_;
@@ -71,6 +78,10 @@ class Renderer {
     std::map<std::string, gpu::Texture> tables_;
     std::string legend_view_;  ///< that legend_ is of
     std::unique_ptr<gpu::Texture> legend_;
+    std::vector<std::string> warnings_;
+    bool atlas_checked_ = false;
+    std::optional<SeamTextures> seams_;
+    std::optional<SkinContext> skin_;  ///< of the profile that the scene named last
 };
 
 }  // namespace dermis

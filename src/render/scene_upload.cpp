@@ -5,7 +5,9 @@
 
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
+#include "dermis/mesh/stretch.h"
 #include "dermis/render/material_maps.h"
+#include "dermis/render/seam_textures.h"
 
 namespace dermis {
 namespace {
@@ -38,12 +40,18 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
     const auto uvs = filled(mesh.uvs, count, Vec2{});
     const auto curvatures = filled(mesh.curvatures_per_mm, count, 0.0f);
     const auto occlusions = filled(mesh.occlusions, count, 1.0f);
+    const UvDerivatives derivatives =
+        mesh.uvs.size() == count ? vertex_uv_derivatives(mesh) : UvDerivatives{};
+    const auto du_mm = filled(derivatives.du_mm, count, Vec3{}),
+               dv_mm = filled(derivatives.dv_mm, count, Vec3{});
     const gpu::VertexStream streams[] = {{"position_mm", 3, floats_of(mesh.positions_mm)},
                                          {"normal", 3, floats_of(normals)},
                                          {"tangent", 4, floats_of(tangents)},
                                          {"uv", 2, floats_of(uvs)},
                                          {"curvature_per_mm", 1, curvatures},
-                                         {"occlusion", 1, occlusions}};
+                                         {"occlusion", 1, occlusions},
+                                         {"du_mm", 3, floats_of(du_mm)},
+                                         {"dv_mm", 3, floats_of(dv_mm)}};
     return gpu::Geometry::upload(device, name, streams, mesh.indices);
 }
 
@@ -160,6 +168,7 @@ void SceneOnDevice::update_materials(const Scene& scene) {
 
 Result<SceneOnDevice> SceneOnDevice::upload(gpu::Device& device, const Scene& scene) {
     SceneOnDevice uploaded;
+    uploaded.densest_uv_per_mm_ = dermis::densest_uv_per_mm(scene);
     if (Result<void> done = uploaded.upload_maps(device, scene); !done) return done.error();
     if (Result<void> done = uploaded.upload_objects(device, scene); !done) return done.error();
     if (Result<void> done = uploaded.upload_environment(device, scene); !done) return done.error();

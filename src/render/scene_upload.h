@@ -25,6 +25,7 @@ class SceneOnDevice {
     [[nodiscard]] const gpu::Texture& environment_cube() const { return *environment_cube_; }
     [[nodiscard]] const gpu::Texture& environment_brdf() const { return *environment_brdf_; }
     [[nodiscard]] const gpu::Texture& no_image() const { return *no_image_; }
+    [[nodiscard]] float densest_uv_per_mm() const { return densest_uv_per_mm_; }
     [[nodiscard]] int environment_mip_count() const { return environment_mip_count_; }
     [[nodiscard]] const std::vector<gpu::Values>& environment_sh() const { return environment_sh_; }
 
@@ -38,6 +39,7 @@ class SceneOnDevice {
     std::vector<std::unique_ptr<gpu::Geometry>> geometries_;
     std::unique_ptr<gpu::Texture> environment_cube_, environment_brdf_, no_image_;
     int environment_mip_count_ = 1;
+    float densest_uv_per_mm_ = 0;
     std::vector<gpu::Values> environment_sh_;
     std::vector<gpu::Draw> draws_;
 };

@@ -11,13 +11,18 @@ Vec3 circle(const UvCircle& c) {
     return {c.u, c.v, c.radius};
 }
 
-Pass grow_pass(const std::string& from, const std::string& to, bool across, int tiles) {
-    return {.name = across ? "cull grow across" : "cull grow down",
-            .kind = PassKind::fullscreen,
-            .shader = "shared/atlas_tiles_grow.frag",
-            .reads = {{"tiles", from}},
-            .colors = {{.image = to, .load = LoadOp::discard}},
-            .values = {{"step_x", int32_t(across)}, {"step_y", int32_t(!across)}, {"count", int32_t(tiles)}}};
+// Grows the tiles of `image` by way of `other`; they end in `image`.
+void add_growth(PassList& list, const std::string& image, const std::string& other, int tiles,
+                const std::string& suffix) {
+    for (const bool across : {true, false})
+        list.passes.push_back(
+            {.name = std::string(across ? "cull grow across" : "cull grow down") + suffix,
+             .kind = PassKind::fullscreen,
+             .shader = "shared/atlas_tiles_grow.frag",
+             .reads = {{"tiles", across ? image : other}},
+             .colors = {{.image = across ? other : image, .load = LoadOp::discard}},
+             .values = {
+                 {"step_x", int32_t(across)}, {"step_y", int32_t(!across)}, {"count", int32_t(tiles)}}});
 }
 
 }  // namespace
@@ -46,12 +51,21 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings) {
                            .colors = {{.image = "atlas_tiles", .load = LoadOp::discard}},
                            .constants = {{"tile", kCullTile}}});
     const int grow = in_tiles(settings.reach_texels);
-    list.passes.push_back(grow_pass("atlas_tiles", "atlas_tiles_grown", true, grow));
-    list.passes.push_back(grow_pass("atlas_tiles_grown", "atlas_tiles", false, grow));
+    add_growth(list, "atlas_tiles", "atlas_tiles_grown", grow, "");
+    // What is needed beyond a seam: the gutters there stand for needed places, and light goes as far again.
+    if (settings.across_seams) {
+        list.passes.push_back({.name = "cull seams",
+                               .kind = PassKind::fullscreen,
+                               .shader = "shared/atlas_tiles_seams.frag",
+                               .reads = {{"tiles", "atlas_tiles"}, "seam_map"},
+                               .colors = {{.image = "atlas_tiles_grown", .load = LoadOp::discard}},
+                               .constants = {{"tile", kCullTile}}});
+        add_growth(list, "atlas_tiles_grown", "atlas_tiles", grow, " beyond seams");
+    }
     list.passes.push_back({.name = "cull depth",
                            .kind = PassKind::fullscreen,
                            .shader = "shared/atlas_depth.frag",
-                           .reads = {{"tiles", "atlas_tiles"}},
+                           .reads = {{"tiles", settings.across_seams ? "atlas_tiles_grown" : "atlas_tiles"}},
                            .depth = DepthTarget{.image = "atlas_depth", .compare = Compare::always},
                            .constants = {{"tile", kCullTile}}});
 }

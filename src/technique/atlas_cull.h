@@ -24,8 +24,9 @@ struct AtlasCullSettings {
     bool frustum = false, back_face = false;
     float bias = 0.3f;  ///< added to v.n, for normals that are smoother than the triangles
     UvCircle exempt[2];
-    int reach_texels = 0;  ///< how far the passes that follow carry light, all together
-    int size = 1024;       ///< of the light map
+    int reach_texels = 0;       ///< how far the passes that follow carry light, all together
+    int size = 1024;            ///< of the light map
+    bool across_seams = false;  ///< what follows carries light over seams (needs PassList::seams)
 
     [[nodiscard]] bool any() const { return frustum || back_face; }
 };

@@ -34,6 +34,9 @@ enum class CellEncoding { srgb, linear };
 
 enum class CellAlbedo { mapped, white };
 
+/// What is shown of an image of the frame; transmittance is exp(-rgb).
+enum class FigureImageChannels { rgb, alpha, transmittance };
+
 /// Linear values, three a texel, rows top to bottom.
 struct FigurePicture {
     int width = 0, height = 0;
@@ -56,6 +59,8 @@ struct FigureCell {
     float environment_yaw_deg = 0;
     bool environment_visible = false;
     CellAlbedo albedo = CellAlbedo::mapped;
+    std::string image;  ///< of a render: an image of the frame by name, instead of the picture
+    FigureImageChannels image_channels = FigureImageChannels::rgb;
 
     std::string table;  ///< its name
     std::function<Result<FigurePicture>(const SkinContext&, int width, int height)> compute;

@@ -42,6 +42,7 @@ class Checker {
         : list_(list), inputs_(inputs.begin(), inputs.end()) {
         for (const ImageDeclaration& image : list.images)
             if (image.persistent) written_.insert(image.name);
+        if (list.seams) inputs_.insert({"seam_map", "chart_map"});
     }
 
     std::vector<std::string> run() {
@@ -148,6 +149,7 @@ std::vector<std::string> problems(const PassList& list, const std::vector<std::s
 
 std::string describe(const PassList& list) {
     std::string text;
+    if (list.seams) text += "input seam_map, chart_map  " + std::to_string(list.seams->size) + "\n";
     for (const ImageDeclaration& image : list.images) {
         text += "image " + image.name + "  " + std::string(format_name(image.format)) + "  " +
                 size_text(image.size);

@@ -112,9 +112,19 @@ struct Pass {
     std::vector<NamedValue> values;                          ///< members of the shader's push-constant block
 };
 
+/// Asks for the textures "seam_map" and "chart_map" of the skin's atlas (mesh/uv_seams.h), `size` texels a
+/// side: where the surface of each gutter texel lies, as x / 8 and rest, y / 8 and rest, negative for
+/// nowhere; and whose chart it is.
+struct SeamRequest {
+    int size = 1024;
+    int width_texels = 32;
+    friend bool operator==(const SeamRequest&, const SeamRequest&) = default;
+};
+
 struct PassList {
     std::vector<ImageDeclaration> images;
     std::vector<Pass> passes;
+    std::optional<SeamRequest> seams;
 
     [[nodiscard]] const ImageDeclaration* find_image(std::string_view name) const;
 };

@@ -33,6 +33,9 @@ struct FrameContext {
     int shadow_map_size = 2048;    ///< of the frame's "shadow_map", which a pass may test against
     bool has_translucent = false;  ///< the scene has sheets that tint the key light
     bool has_second_light = false;
+    /// Longest step in UV that a millimetre on the skin takes, in 99 % of its area.
+    float densest_uv_per_mm = 0.004f;
+    GaussianSum skin_gaussians;  ///< of the scene's profile
 };
 
 /// The skin and the scene that tables are baked for.

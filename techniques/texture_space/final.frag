@@ -15,6 +15,7 @@ layout(set = 0, binding = 1, scalar) uniform Params {
 layout(set = 0, binding = 21) uniform texture2D light_map;
 layout(constant_id = 1) const int view = 0;
 layout(constant_id = 2) const int specular_shadow = 1;
+layout(constant_id = 3) const int space = 0;  // 1: mm, alpha tells what was written
 
 layout(location = 0) out vec4 radiance_out;
 
@@ -27,8 +28,10 @@ void main() {
     // What lies on no texel of the atlas gets its light unblurred, and so does skin seen from inside, through the holes
     // of an open mesh: it counts as facing away, so its texels may have been culled.
     bool from_inside = dot(s.n_geometry_world, s.to_eye_world) + cull_bias <= 0.0;
-    vec3 exitance = outside_atlas(s.uv) || from_inside ? unblurred_exitance(s, occluded, trans_shadow_alpha)
-                                        : textureLod(sampler2D(light_map, linear_clamp), s.uv, 0.0).rgb;
+    vec4 blurred = textureLod(sampler2D(light_map, linear_clamp), s.uv, 0.0);
+    vec3 exitance = space == 1 ? blurred.rgb / max(blurred.a, 1e-4) : blurred.rgb;
+    if (outside_atlas(s.uv) || from_inside || (space == 1 && blurred.a < 1e-3))
+        exitance = unblurred_exitance(s, occluded, trans_shadow_alpha);
     vec3 specular_radiance = environment_specular(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);

@@ -1,19 +1,21 @@
 // Gosselin, Sander, Mitchell 2004, "Real-Time Texture-Space Skin Rendering" (ShaderX3): light the skin in its
 // texture atlas, blur that image with a kernel whose size is painted, and read it back through the camera.
-// Four steps: shadow map (shared), light map, dilation and blur, final mesh. The blur knows texels, not
-// millimetres: its width on the skin follows the unwrap. Not here: blur in millimetres.
+// Four steps: shadow map (shared), light map, dilation and blur, final mesh. The source's blur knows
+// texels, so its width on the skin follows the unwrap; with space=mm it knows the surface.
 
 #include <cmath>
 
-#include "dermis/technique/atlas_cull.h"
+#include "dermis/technique/atlas_light.h"
 #include "dermis/technique/forward.h"
-#include "dermis/technique/shadow_channels.h"
+#include "texture_space/figures.h"
 
 namespace dermis {
 namespace {
 
 enum class Filter : int32_t { poisson, gaussian, box, kawase };
 enum class Dilate : int32_t { off, source, written_only };
+enum class Space : int32_t { texels, mm };
+enum class Seams : int32_t { drop, carry };
 
 struct Params {
     int32_t light_map_size = 1024;
@@ -22,6 +24,8 @@ struct Params {
     float blur_scale = 2;
     float blur_bias = 1;
     Dilate dilate = Dilate::written_only;
+    Space space = Space::texels;
+    Seams seams = Seams::carry;
     bool translucent_shadows = true;
     float occluded = 0;
     float trans_shadow_alpha = 1;
@@ -46,12 +50,16 @@ ParameterTable parameters() {
         .integer(&Params::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
         .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"}, "taps of the blur")
         .integer(&Params::blur_passes, "blur_passes", "", 0, 16, "how often the light map is blurred")
-        .number(&Params::blur_scale, "blur_scale", "texels", 0, 64,
+        .number(&Params::blur_scale, "blur_scale", "texels or mm", 0, 64,
                 "radius of the blur where the kernel map is 1")
-        .number(&Params::blur_bias, "blur_bias", "texels", 0, 64, "added to every radius")
+        .number(&Params::blur_bias, "blur_bias", "texels or mm", 0, 64, "added to every radius")
         .choice(
             &Params::dilate, "dilate", {"off", "source", "written_only"},
             "at chart borders: nothing, the source's copy in the first pass, or average written texels only")
+        .choice(&Params::space, "space", {"texels", "mm"},
+                "the blur's radius is in texels, as in the source, or in mm on the skin, whatever the unwrap")
+        .choice(&Params::seams, "seams", {"drop", "carry"},
+                "in mm: taps that leave a chart are dropped, or carried into the chart beyond the seam")
         .toggle(&Params::translucent_shadows, "translucent_shadows", "translucent objects tint the key light")
         .number(&Params::occluded, "occluded", "", 0, 1, "share of the light that full shadow leaves")
         .number(&Params::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
@@ -81,38 +89,46 @@ ParameterTable parameters() {
         .build();
 }
 
-// How far the passes after the light map carry it: the widest tap of every blur and its bilinear neighbour,
-// and the bilinear lookup of the final mesh.
-int reach_texels(const Params& params) {
-    float reach = 1;
-    for (int i = 0; i < params.blur_passes; ++i) {
-        // Kawase's taps move out from pass to pass (blur.frag).
-        const float widest = params.filter == Filter::kawase ? 0.5f + 0.5f * float(i) : 1.0f;
-        reach += std::ceil(widest * (params.blur_scale + params.blur_bias)) + 1;
-    }
-    return int(reach);
+// Kawase's taps move out from pass to pass (taps.glsl).
+float widest_tap(const Params& params, int pass) {
+    return params.filter == Filter::kawase ? 0.5f + 0.5f * float(pass) : 1.0f;
 }
 
-AtlasCullSettings cull_settings(const Params& params, bool whole) {
-    return {.frustum = params.cull_frustum && !whole,
-            .back_face = params.cull_back_face && !whole,
-            .bias = params.cull_bias,
-            .exempt = {{params.exempt_1_u, params.exempt_1_v, params.exempt_1_radius},
-                       {params.exempt_2_u, params.exempt_2_v, params.exempt_2_radius}},
-            .reach_texels = reach_texels(params),
-            .size = params.light_map_size};
+// How far the passes after the light map carry it: the widest tap of every blur and its bilinear neighbour,
+// and the bilinear lookup of the final mesh. In mm a tap goes along two steps at once.
+int reach_texels(const Params& params, float radius_texels) {
+    float reach = 1;
+    for (int i = 0; i < params.blur_passes; ++i)
+        reach +=
+            std::ceil(widest_tap(params, i) * radius_texels * (params.space == Space::mm ? 2.0f : 1.0f)) + 1;
+    return int(std::min(reach, float(params.light_map_size)));
+}
+
+AtlasLightSettings atlas_settings(const Params& params, const FrameContext& frame, bool whole) {
+    const bool in_mm = params.space == Space::mm, carry = params.seams == Seams::carry;
+    const float radius = params.blur_scale + params.blur_bias;
+    const float longest = longest_step_texels(radius, params.light_map_size, frame);
+    return {.shadow = {.translucent = params.translucent_shadows,
+                       .second_light = params.second_light_shadow,
+                       .single_channel = params.single_channel_opacity,
+                       .lookup = params.shadow_lookup},
+            .cull = {.frustum = params.cull_frustum && !whole,
+                     .back_face = params.cull_back_face && !whole,
+                     .bias = params.cull_bias,
+                     .exempt = {{params.exempt_1_u, params.exempt_1_v, params.exempt_1_radius},
+                                {params.exempt_2_u, params.exempt_2_v, params.exempt_2_radius}},
+                     .reach_texels = reach_texels(params, in_mm ? longest : radius),
+                     .size = params.light_map_size,
+                     .across_seams = in_mm && carry},
+            .size = params.light_map_size,
+            .in_mm = in_mm,
+            .carry_seams = carry,
+            .kernel_scale_mm = params.blur_scale,
+            .kernel_bias_mm = params.blur_bias,
+            .longest_texels = longest};
 }
 
 constexpr std::array<float, 4> kNothingWritten = {0, 0, 0, 1};
-
-Pass light_pass(const ShadowChannelSettings& shadow, const FrameContext& frame) {
-    Pass pass = {.name = "light map",
-                 .kind = PassKind::geometry_uv_atlas,
-                 .shader = "shared/atlas_light.frag",
-                 .colors = {{.image = "light_map_a", .clear = kNothingWritten}}};
-    read_shadow_channels(pass, shadow, frame);
-    return pass;
-}
 
 Pass blur_pass(const Params& params, int index) {
     const bool to_b = index % 2 == 0;
@@ -129,22 +145,24 @@ Pass blur_pass(const Params& params, int index) {
             .values = {{"pass_index", float(index)}}};
 }
 
-ShadowChannelSettings shadow_settings(const Params& params) {
-    return {.translucent = params.translucent_shadows,
-            .second_light = params.second_light_shadow,
-            .single_channel = params.single_channel_opacity,
-            .lookup = params.shadow_lookup};
+Pass blur_mm_pass(const Params& params, const AtlasLightSettings& atlas, int index) {
+    Pass pass = blur_pass(params, index);
+    const std::string from = pass.reads[0].image;
+    pass.shader = "texture_space/blur_mm.frag";
+    pass.reads.clear();
+    pass.constants = {{"blur_filter", int32_t(params.filter)}};
+    pass.colors[0].clear = {0, 0, 0, 0};
+    read_atlas_metric(pass, from, atlas);
+    return pass;
 }
 
 // Culls, light map and blur.
-void add_light_map(PassList& list, const Params& params, const FrameContext& frame, bool whole) {
-    const AtlasCullSettings cull = cull_settings(params, whole);
-    add_atlas_cull(list, cull);
-    list.passes.push_back(light_pass(shadow_settings(params), frame));
-    keep_unculled(list.passes.back(), cull);
+void add_light_map(PassList& list, const Params& params, const AtlasLightSettings& atlas,
+                   const FrameContext& frame) {
+    add_atlas_light(list, atlas, frame);
     for (int i = 0; i < params.blur_passes; ++i) {
-        list.passes.push_back(blur_pass(params, i));
-        keep_unculled(list.passes.back(), cull);
+        list.passes.push_back(atlas.in_mm ? blur_mm_pass(params, atlas, i) : blur_pass(params, i));
+        keep_unculled(list.passes.back(), atlas.cull);
     }
 }
 
@@ -160,15 +178,18 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 
     const ImageSize size = {params.light_map_size, params.light_map_size};
     const std::string result = params.blur_passes % 2 == 0 ? "light_map_a" : "light_map_b";
+    // In mm charts and gutters must agree to a thousandth, which halves lose in a few passes.
+    const ImageFormat format = params.space == Space::mm ? ImageFormat::rgba32f : ImageFormat::rgba16f;
     PassList list;
     for (const char* name : {"light_map_a", "light_map_b"})
-        if (name == result || (params.blur_passes > 0 && !kept))
+        if (name == result || ((params.blur_passes > 0 || params.space == Space::mm) && !kept))
             list.images.push_back({.name = name,
-                                   .format = ImageFormat::rgba16f,
+                                   .format = format,
                                    .size = size,
                                    .persistent = params.cull_distance && name == result});
-    add_shadow_channels(list, shadow_settings(params), frame);
-    if (!kept) add_light_map(list, params, frame, far);
+    const AtlasLightSettings atlas = atlas_settings(params, frame, far);
+    add_shadow_channels(list, atlas.shadow, frame);
+    if (!kept) add_light_map(list, params, atlas, frame);
 
     const int32_t view = frame.view == "light_map" ? 3 : forward_view(frame.view);
     Pass skin = {.name = "skin",
@@ -180,8 +201,9 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                  .geometry = GeometryFilter::skin,
                  .constants = {{"specular_model", int32_t(params.specular)},
                                {"view", view},
-                               {"specular_shadow", int32_t(params.specular_shadow)}}};
-    read_shadow_channels(skin, shadow_settings(params), frame);
+                               {"specular_shadow", int32_t(params.specular_shadow)},
+                               {"space", int32_t(params.space)}}};
+    read_shadow_channels(skin, atlas.shadow, frame);
     list.passes.push_back(std::move(skin));
     return list;
 }
@@ -194,7 +216,8 @@ Technique make_texture_space_technique() {
             .source = "Gosselin, Sander, Mitchell 2004, Real-Time Texture-Space Skin Rendering",
             .parameters = parameters(),
             .views = {"light_map"},
-            .build = build};
+            .build = build,
+            .figures = texture_space_figures};
 }
 
 }  // namespace dermis

@@ -124,6 +124,8 @@ Result<int> render(Options options) {
     const Result<std::vector<gpu::FrameResult>> frames = draw_frames(*renderer, *prepared, options);
     if (!frames) return frames.error();
 
+    for (const std::string& warning : renderer->warnings())
+        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
     const gpu::FrameResult timings = median_timings(*frames);
     if (options.json) {
         std::printf("%s\n", to_json(*prepared, options, *device, timings).dump(2).c_str());

@@ -1,0 +1,92 @@
+#include "dermis/render/atlas_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dermis/base/text.h"
+#include "dermis/mesh/uv_report.h"
+
+namespace dermis {
+namespace {
+
+constexpr int kFirstTile = 1001;
+constexpr double kOverlapWorthSaying = 1e-3;
+
+std::string percent(double share) {
+    const double rounded = std::round(share * 1000) / 10;
+    return to_text(rounded > 0 ? rounded : 0.1) + " %";
+}
+
+// What one skin material says about its UVs; empty when they are fine.
+std::string tiles_warning(const Mesh& mesh, const Submesh& submesh) {
+    const uint32_t count = submesh.index_count / 3;
+    std::vector<int> tiles;
+    uint32_t outside = 0;
+    for (uint32_t t = 0; t < count; ++t) {
+        const uint32_t* corner = &mesh.indices[submesh.first_index + 3 * size_t(t)];
+        const Vec2 middle = (mesh.uvs[corner[0]] + mesh.uvs[corner[1]] + mesh.uvs[corner[2]]) * (1.0f / 3);
+        const int tile = udim_tile(middle);
+        if (tile == kFirstTile) continue;
+        ++outside;
+        if (tile != 0 && std::ranges::find(tiles, tile) == tiles.end()) tiles.push_back(tile);
+    }
+    if (outside == 0) return {};
+    std::string text = "skin material '" + mesh.materials[submesh.material].name + "': ";
+    if (outside == count && !tiles.empty()) {
+        text += "UDIM tile";
+        for (const int tile : tiles) text += " " + std::to_string(tile);
+        return text + " is skipped, the light map is tile 1001: it is lit without scattering";
+    }
+    return text + percent(double(outside) / count) +
+           " of its triangles lie outside 0..1 in UV: they are lit without scattering";
+}
+
+void append_skin(const SceneObject& object, Mesh& all) {
+    const auto base = uint32_t(all.positions_mm.size());
+    all.positions_mm.insert(all.positions_mm.end(), object.mesh.positions_mm.begin(),
+                            object.mesh.positions_mm.end());
+    all.uvs.insert(all.uvs.end(), object.mesh.uvs.begin(), object.mesh.uvs.end());
+    for (const Submesh& submesh : object.mesh.submeshes) {
+        if (object.classes[submesh.material] != MaterialClass::skin) continue;
+        for (uint32_t i = 0; i < submesh.index_count; ++i)
+            all.indices.push_back(base + object.mesh.indices[submesh.first_index + i]);
+    }
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> check_skin_atlas(const Scene& scene) {
+    std::vector<std::string> warnings, materials;
+    Mesh all;
+    for (const SceneObject& object : scene.objects) {
+        const Mesh& mesh = object.mesh;
+        bool has_skin = false;
+        for (const Submesh& submesh : mesh.submeshes) {
+            if (object.classes[submesh.material] != MaterialClass::skin || submesh.index_count == 0) continue;
+            has_skin = true;
+            const std::string& name = mesh.materials[submesh.material].name;
+            if (mesh.uvs.size() != mesh.positions_mm.size())
+                return Error{
+                    "'" + object.name + "': skin material '" + name +
+                    "' has no UVs, and this technique lights the skin in its UV atlas; unwrap the mesh, or "
+                    "choose a technique that needs no atlas"};
+            if (std::ranges::find(materials, "'" + name + "'") == materials.end())
+                materials.push_back("'" + name + "'");
+            if (std::string warning = tiles_warning(mesh, submesh); !warning.empty())
+                warnings.push_back(std::move(warning));
+        }
+        if (has_skin) append_skin(object, all);
+    }
+    if (all.indices.empty()) return warnings;
+    all.materials.resize(1);
+    all.submeshes = {{.name = "skin", .first_index = 0, .index_count = uint32_t(all.indices.size())}};
+    const UvReport report = analyze_uvs(all);
+    if (report.overlap > kOverlapWorthSaying)
+        warnings.push_back(percent(report.overlap) +
+                           " of the skin's atlas lies under more than one triangle (" +
+                           join(materials, ", ") +
+                           "): places that share texels share light, so that one shows the other's shadows");
+    return warnings;
+}
+
+}  // namespace dermis

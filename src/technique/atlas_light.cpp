@@ -1,0 +1,71 @@
+#include "dermis/technique/atlas_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dermis {
+namespace {
+
+// Blurs in texels tell by alpha 1 what was never written; blurs in mm by alpha 0.
+std::array<float, 4> nothing_written(bool in_mm) {
+    return {0, 0, 0, in_mm ? 0.0f : 1.0f};
+}
+
+Pass metric_pass(const AtlasLightSettings& settings) {
+    return {.name = "atlas metric",
+            .kind = PassKind::geometry_uv_atlas,
+            .shader = "shared/atlas_metric.frag",
+            .vertex_shader = "shared/mesh_uv_metric.vert",
+            .colors = {{.image = "atlas_metric"}},
+            .values = {{"size", float(settings.size)},
+                       {"kernel_scale", settings.kernel_scale_mm},
+                       {"kernel_bias", settings.kernel_bias_mm},
+                       {"longest_texels", settings.longest_texels}}};
+}
+
+Pass carry_pass(const AtlasLightSettings& settings) {
+    Pass pass = {.name = "carry seams",
+                 .kind = PassKind::fullscreen,
+                 .shader = "shared/atlas_carry.frag",
+                 .colors = {{.image = "light_map_a", .load = LoadOp::discard}}};
+    read_atlas_metric(pass, "light_map_b", settings);
+    return pass;
+}
+
+}  // namespace
+
+float longest_step_texels(float length_mm, int size, const FrameContext& frame) {
+    return std::clamp(length_mm * frame.densest_uv_per_mm * float(size), 0.01f, float(size) / 4);
+}
+
+void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const FrameContext& frame) {
+    if (settings.in_mm) {
+        list.seams = SeamRequest{.size = settings.size};
+        list.images.push_back(
+            {.name = "atlas_metric", .format = ImageFormat::rgba16f, .size = {settings.size, settings.size}});
+    }
+    add_atlas_cull(list, settings.cull);
+    Pass light = {.name = "light map",
+                  .kind = PassKind::geometry_uv_atlas,
+                  .shader = "shared/atlas_light.frag",
+                  .colors = {{.image = settings.in_mm ? "light_map_b" : "light_map_a",
+                              .clear = nothing_written(settings.in_mm)}},
+                  .constants = {{"space", int32_t(settings.in_mm)}},
+                  .values = {{"pre_scatter", settings.pre_scatter}}};
+    read_shadow_channels(light, settings.shadow, frame);
+    keep_unculled(light, settings.cull);
+    list.passes.push_back(std::move(light));
+    if (!settings.in_mm) return;
+    for (Pass pass : {metric_pass(settings), carry_pass(settings)}) {
+        keep_unculled(pass, settings.cull);
+        list.passes.push_back(std::move(pass));
+    }
+}
+
+void read_atlas_metric(Pass& pass, const std::string& source, const AtlasLightSettings& settings) {
+    pass.reads.emplace_back("source", source);
+    for (const char* name : {"atlas_metric", "seam_map", "chart_map"}) pass.reads.emplace_back(name);
+    pass.constants.emplace_back("carry", int32_t(settings.carry_seams));
+}
+
+}  // namespace dermis

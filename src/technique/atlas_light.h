@@ -1,0 +1,34 @@
+#pragma once
+// The first passes of every technique that lights the skin in its atlas: culls, the light map, and, where
+// blurs are to be in millimetres, the atlas's metric and gutters that stand for the chart beyond the seam.
+
+#include "dermis/technique/atlas_cull.h"
+#include "dermis/technique/shadow_channels.h"
+
+namespace dermis {
+
+struct AtlasLightSettings {
+    ShadowChannelSettings shadow;
+    AtlasCullSettings cull;
+    int size = 1024;  ///< of the light map
+    bool in_mm = false;
+    bool carry_seams =
+        true;  ///< in mm: gutters stand for the chart beyond; else taps that leave a chart are dropped
+    float pre_scatter = 0;  ///< the map takes base colour ^ this
+    /// In mm: the metric's steps are kernel size * scale + bias long, and at most longest_texels.
+    float kernel_scale_mm = 1, kernel_bias_mm = 0, longest_texels = 16;
+};
+
+/// In texels of the light map, the farthest that `length_mm` reaches on nearly all of the skin (99 % of its
+/// area); longer steps are cut to it, so that culls know how far light is carried.
+[[nodiscard]] float longest_step_texels(float length_mm, int size, const FrameContext& frame);
+
+/// Image "light_map_a" must be declared, in mm "light_map_b" too; the map ends in light_map_a. In mm it is
+/// (exitance, 1) or 0, and atlas_metric is there for read_atlas_metric(); else alpha is the kernel size and 1
+/// where nothing was written.
+void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const FrameContext& frame);
+
+/// For a pass whose shader includes shared/atlas_mm.glsl; its "source" is `source`.
+void read_atlas_metric(Pass& pass, const std::string& source, const AtlasLightSettings& settings);
+
+}  // namespace dermis

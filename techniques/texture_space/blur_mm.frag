@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One pass of the same blur with its radius in millimetres: taps lie on a disk on the surface, whatever the unwrap, and
+// follow it across seams.
+#include "shared/atlas_mm.glsl"
+#include "texture_space/taps.glsl"
+
+layout(location = 0) out vec4 light_out;
+
+void main() {
+    BlurCentre centre = blur_centre(ivec2(gl_FragCoord.xy));
+    light_out = vec4(0.0);
+    if (!centre.is_skin) return;
+    vec4 sum = blur_tap(centre, vec2(0.0)) * centre_weight();
+    for (int i = 0; i < tap_count(); ++i) {
+        vec3 t = tap(i);
+        sum += blur_tap(centre, t.xy) * t.z;
+    }
+    light_out = even(sum);
+}

@@ -1,0 +1,156 @@
+#include "texture_space/figures.h"
+
+namespace dermis {
+namespace {
+
+const std::string kSource = "after Gosselin, Sander, Mitchell 2004, figure ";
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+FigureCell cell(std::string label, std::string id, Settings settings) {
+    return {.label = std::move(label), .id = std::move(id), .settings = std::move(settings)};
+}
+
+// Two pictures that differ in one switch, and what the switch changes.
+FigureRow with_and_without(FigureCell without, FigureCell with, float gain) {
+    FigureCell difference = {.label = "difference, times " + std::to_string(int(gain)),
+                             .kind = CellKind::difference,
+                             .subject = with.id,
+                             .compare_to = without.id,
+                             .gain = gain};
+    with.compare_to = without.id;
+    return {"", {std::move(without), std::move(with), std::move(difference)}};
+}
+
+Figure blur_figure() {
+    return {.id = "blur",
+            .title = "With and without the texture-space blur",
+            .source = kSource + "2.8.1",
+            .rows = {with_and_without(cell("without", "without", {{"blur_passes", "0"}}),
+                                      cell("with", "with", {}), 8)}};
+}
+
+FigureCell image_cell(std::string label, std::string image, FigureImageChannels channels, Settings settings) {
+    FigureCell made = cell(std::move(label), "", std::move(settings));
+    made.image = std::move(image);
+    made.image_channels = channels;
+    return made;
+}
+
+Figure light_map_figure() {
+    const Settings whole = {{"cull_back_face", "off"}, {"cull_frustum", "off"}};
+    Settings raw = whole;
+    raw.emplace_back("blur_passes", "0");
+    return {.id = "light_map",
+            .title = "The light map",
+            .source = kSource + "2.8.2",
+            .rows = {{"",
+                      {image_cell("as lit", "light_map_a", FigureImageChannels::rgb, raw),
+                       image_cell("dilated and blurred", "light_map_a", FigureImageChannels::rgb, whole)}}}};
+}
+
+Figure shadow_map_figure() {
+    return {.id = "shadow_map",
+            .title = "The shadow map's channels",
+            .source = kSource + "2.8.3",
+            .note =
+                "RGB holds the optical depth of translucent sheets (the source: their opacity), shown as "
+                "what they "
+                "let through; alpha the depth of what is opaque.",
+            .scene = "glasses",
+            .rows = {{"",
+                      {image_cell("RGB, exp(-x)", "shadow_channels", FigureImageChannels::transmittance, {}),
+                       image_cell("alpha", "shadow_channels", FigureImageChannels::alpha, {})}}}};
+}
+
+Figure translucent_figure() {
+    FigureRow row = with_and_without(cell("without", "without", {{"translucent_shadows", "off"}}),
+                                     cell("with translucent shadows", "with", {}), 8);
+    for (FigureCell& one : row.cells) one.camera = "target_mm=0,5,60 distance_mm=520";
+    return {.id = "translucent_shadow",
+            .title = "Rendering a tinted lens with and without translucent shadows",
+            .source = kSource + "2.8.4",
+            .scene = "glasses",
+            .rows = {row}};
+}
+
+Figure kernel_figure() {
+    return {
+        .id = "kernel_map",
+        .title = "The blur kernel's size over the atlas",
+        .source = kSource + "2.8.5",
+        .note = "In the light map's alpha; 1 (white) is what no triangle wrote.",
+        .scene = "bust",
+        .rows = {{"",
+                  {image_cell("kernel size", "light_map_a", FigureImageChannels::alpha,
+                              {{"cull_back_face", "off"}, {"cull_frustum", "off"}, {"blur_passes", "0"}})}}}};
+}
+
+Figure dilation_figure() {
+    const Settings wide = {{"light_map_size", "512"}, {"blur_bias", "4"}};
+    const auto dilate = [&](const char* how) {
+        Settings settings = wide;
+        settings.emplace_back("dilate", how);
+        return settings;
+    };
+    FigureRow row = {"",
+                     {cell("without", "off", dilate("off")),
+                      cell("the source's copy in the first pass", "source", dilate("source")),
+                      cell("average of written texels", "written", dilate("written_only"))}};
+    row.cells[1].compare_to = row.cells[2].compare_to = "off";
+    for (FigureCell& one : row.cells) one.camera = "yaw=120 pitch=10";
+    return {.id = "dilation",
+            .title = "With and without dilation at chart borders",
+            .source = kSource + "2.8.6",
+            .rows = {row}};
+}
+
+Figure specular_figure() {
+    return {.id = "specular_shadow",
+            .title = "With and without shadowing the specular term",
+            .source = kSource + "2.8.7",
+            .rows = {with_and_without(cell("without", "without", {{"specular_shadow", "off"}}),
+                                      cell("with", "with", {}), 8)}};
+}
+
+Figure cull_figure() {
+    const Settings off = {{"cull_back_face", "off"}, {"cull_frustum", "off"}};
+    FigureRow maps = {"The light map",
+                      {image_cell("all of it", "light_map_a", FigureImageChannels::rgb, off),
+                       image_cell("culled", "light_map_a", FigureImageChannels::rgb, {})}};
+    FigureRow pictures = {"The picture", {cell("all of it", "off", off), cell("culled", "on", {})}};
+    pictures.cells[1].compare_to = "off";
+    return {.id = "culling",
+            .title = "The texture-space computation is culled on back-facing regions",
+            .source = kSource + "2.8.8",
+            .rows = {maps, pictures}};
+}
+
+Figure millimetres_figure() {
+    const Settings texels = {{"blur_passes", "3"}, {"blur_scale", "0"}, {"blur_bias", "4"}};
+    const Settings drop = {
+        {"space", "mm"}, {"seams", "drop"}, {"blur_passes", "3"}, {"blur_scale", "0"}, {"blur_bias", "2"}};
+    Settings carry = drop;
+    carry[1].second = "carry";
+    FigureRow row = {
+        "",
+        {cell("in texels, as the source", "texels", texels),
+         cell("2 mm, taps over seams dropped", "drop", drop),
+         cell("2 mm, carried over seams", "carry", carry), cell("sum of Gaussians", "gaussians", {})}};
+    row.cells[3].technique = "texture_space_gaussians";
+    for (FigureCell& one : row.cells) one.view = "light_map", one.camera = "yaw=60 pitch=8";
+    row.cells[2].compare_to = "drop";
+    return {.id = "millimetres",
+            .title = "The blurred light, in texels and in millimetres",
+            .source = "what the source could not afford; the last after d'Eon, Luebke 2007",
+            .rows = {row}};
+}
+
+}  // namespace
+
+std::vector<Figure> texture_space_figures() {
+    return {blur_figure(),     light_map_figure(), shadow_map_figure(), translucent_figure(), kernel_figure(),
+            dilation_figure(), specular_figure(),  cull_figure(),       millimetres_figure()};
+}
+
+}  // namespace dermis

@@ -1,0 +1,38 @@
+// A Gaussian along one of the two steps of the metric, which are as long as the kernel size: sigma in mm.
+#ifndef DERMIS_TEXTURE_SPACE_GAUSSIAN_GLSL
+#define DERMIS_TEXTURE_SPACE_GAUSSIAN_GLSL
+
+#include "shared/atlas_mm.glsl"
+
+layout(push_constant, scalar) uniform PassValues {
+    float sigma_mm;
+    vec4 share;  // of this Gaussian in the sum; alpha: its part of a valid texel's 1
+};
+layout(constant_id = 0) const int along_second = 0;
+layout(constant_id = 1) const int half_taps = 3;
+
+// Taps one sigma apart out to `half_taps` sigma have this variance in squares of their distance; at 3 it is 0.996.
+float spacing() {
+    float sum = 1.0, second_moment = 0.0;
+    for (int k = 1; k <= half_taps; ++k) {
+        float w = 2.0 * exp(-0.5 * float(k * k) * 9.0 / float(half_taps * half_taps));
+        sum += w;
+        second_moment += w * float(k * k);
+    }
+    return inversesqrt(second_moment / sum);
+}
+
+vec4 gaussian() {
+    BlurCentre centre = blur_centre(ivec2(gl_FragCoord.xy));
+    if (!centre.is_skin) return vec4(0.0);
+    float step_mm = sigma_mm * spacing();
+    vec4 sum = vec4(0.0);
+    for (int k = -half_taps; k <= half_taps; ++k) {
+        float weight = exp(-0.5 * float(k * k) * 9.0 / float(half_taps * half_taps));
+        float offset = float(k) * step_mm;
+        sum += blur_tap(centre, along_second != 0 ? vec2(0.0, offset) : vec2(offset, 0.0)) * weight;
+    }
+    return even(sum);
+}
+
+#endif

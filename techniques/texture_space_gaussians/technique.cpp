@@ -1,0 +1,164 @@
+// d'Eon, Luebke 2007, "Advanced Techniques for Realistic Real-Time Skin Rendering" (GPU Gems 3, chapter 14):
+// the light map is blurred by each Gaussian of the diffusion profile, every one from the one before, in two
+// passes along the surface, and the results are summed by the profile's weights. Changed: the steps of the
+// blur follow shear as well as stretch and agree across seams (shaders/shared/atlas_mm.glsl); gutters stand
+// for the chart beyond the seam; the sum is accumulated by blending, so that any number of Gaussians needs
+// three images. Not here: transmission through thin parts by the modified translucent shadow map, and the
+// energy that the specular takes.
+
+#include <algorithm>
+#include <cmath>
+
+#include "dermis/technique/atlas_light.h"
+#include "dermis/technique/forward.h"
+
+namespace dermis {
+namespace {
+
+struct Params {
+    int32_t light_map_size = 1024;
+    float width = 1;
+    int32_t half_taps = 3;
+    bool carry_seams = true;
+    float pre_scatter = 0;
+    bool translucent_shadows = true;
+    float occluded = 0;
+    float trans_shadow_alpha = 1;
+    bool cull_frustum = true;
+    bool cull_back_face = true;
+    float cull_bias = 0.3f;
+    SpecularModel specular = SpecularModel::ggx;
+};
+
+ParameterTable parameters() {
+    return ParameterTableBuilder<Params>()
+        .integer(&Params::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
+        .number(&Params::width, "width", "", 0, 10, "scales the profile's lengths")
+        .integer(&Params::half_taps, "half_taps", "", 2, 12, "taps on each side of a Gaussian's middle")
+        .toggle(&Params::carry_seams, "carry_seams",
+                "blur across the atlas's seams; off: taps that leave a chart are dropped")
+        .number(&Params::pre_scatter, "pre_scatter", "", 0, 1,
+                "share of the base colour, as an exponent, that the light takes before it is blurred")
+        .toggle(&Params::translucent_shadows, "translucent_shadows", "translucent objects tint the key light")
+        .number(&Params::occluded, "occluded", "", 0, 1, "share of the light that full shadow leaves")
+        .number(&Params::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
+                "exponent of a translucent shadow; larger is darker")
+        .toggle(&Params::cull_frustum, "cull_frustum", "leave out texels outside the view")
+        .toggle(&Params::cull_back_face, "cull_back_face", "leave out texels that face away")
+        .number(&Params::cull_bias, "cull_bias", "", 0, 2, "added to the cosine between view and normal")
+        .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .build();
+}
+
+// One step of the blur: from the variance before to this one, and the share of the profile it stands for.
+struct Step {
+    double variance_mm2 = 0, sigma_mm = 0;
+    Vec3 share;
+};
+
+// The profile's terms, narrowest first, equal variances together; shares sum to 1 per channel, as albedo lies
+// in the base colour.
+std::vector<Step> steps_of(const GaussianSum& sum, float width) {
+    std::vector<GaussianTerm> terms = sum.terms;
+    std::ranges::sort(terms, {}, &GaussianTerm::variance_mm2);
+    double total[3] = {0, 0, 0};
+    for (const GaussianTerm& term : terms)
+        for (int c = 0; c < 3; ++c) total[c] += term.weight[size_t(c)];
+    std::vector<Step> steps;
+    double before_mm2 = 0;
+    for (const GaussianTerm& term : terms) {
+        const auto share = [&](size_t c) { return total[c] > 0 ? float(term.weight[c] / total[c]) : 0.0f; };
+        const Vec3 own = {share(0), share(1), share(2)};
+        if (!steps.empty() && term.variance_mm2 <= steps.back().variance_mm2 * (1 + 1e-9)) {
+            steps.back().share += own;
+            continue;
+        }
+        steps.push_back({.variance_mm2 = term.variance_mm2,
+                         .sigma_mm = width * std::sqrt(term.variance_mm2 - before_mm2),
+                         .share = own});
+        before_mm2 = term.variance_mm2;
+    }
+    return steps;
+}
+
+AtlasLightSettings atlas_settings(const Params& params, const std::vector<Step>& steps,
+                                  const FrameContext& frame) {
+    AtlasLightSettings settings = {.shadow = {.translucent = params.translucent_shadows},
+                                   .cull = {.frustum = params.cull_frustum,
+                                            .back_face = params.cull_back_face,
+                                            .bias = params.cull_bias,
+                                            .size = params.light_map_size,
+                                            .across_seams = params.carry_seams},
+                                   .size = params.light_map_size,
+                                   .in_mm = true,
+                                   .carry_seams = params.carry_seams,
+                                   .pre_scatter = params.pre_scatter,
+                                   .longest_texels = longest_step_texels(1, params.light_map_size, frame)};
+    // Taps go to 3 sigma along each of two steps; a bilinear neighbour each, and one of the final mesh.
+    double reach = 2;
+    for (const Step& step : steps)
+        reach += 2 * std::ceil(3.1 * step.sigma_mm * double(settings.longest_texels)) + 2;
+    settings.cull.reach_texels = int(std::min(reach, double(params.light_map_size)));
+    return settings;
+}
+
+void add_gaussian(PassList& list, const Params& params, const AtlasLightSettings& atlas, const Step& step,
+                  size_t index, size_t count) {
+    const std::string name = "gaussian " + std::to_string(index + 1);
+    const float part = 1 / float(count);
+    for (const bool second : {false, true}) {
+        Pass pass = {.name = name + (second ? " second" : " first"),
+                     .kind = PassKind::fullscreen,
+                     .shader = std::string("texture_space_gaussians/gaussian_") +
+                               (second ? "second" : "first") + ".frag",
+                     .colors = {{.image = second ? "light_map_a" : "light_map_b", .load = LoadOp::discard}},
+                     .constants = {{"along_second", int32_t(second)}, {"half_taps", params.half_taps}},
+                     .values = {{"sigma_mm", float(step.sigma_mm)},
+                                {"share", Vec4{step.share.x, step.share.y, step.share.z, part}}}};
+        read_atlas_metric(pass, second ? "light_map_b" : "light_map_a", atlas);
+        keep_unculled(pass, atlas.cull);
+        if (second)
+            pass.colors.push_back({.image = "light_sum",
+                                   .load = index == 0 ? LoadOp::clear : LoadOp::load,
+                                   .blend = Blend::additive});
+        list.passes.push_back(std::move(pass));
+    }
+}
+
+PassList build(const ParameterValues& values, const FrameContext& frame) {
+    const Params params = values.as<Params>();
+    const std::vector<Step> steps = steps_of(frame.skin_gaussians, params.width);
+    const AtlasLightSettings atlas = atlas_settings(params, steps, frame);
+    const ImageSize size = {params.light_map_size, params.light_map_size};
+    PassList list;
+    // Floats: a dozen roundings to half in a row are seen.
+    for (const char* name : {"light_map_a", "light_map_b"})
+        list.images.push_back({.name = name, .format = ImageFormat::rgba32f, .size = size});
+    if (!steps.empty())
+        list.images.push_back({.name = "light_sum", .format = ImageFormat::rgba32f, .size = size});
+    add_shadow_channels(list, atlas.shadow, frame);
+    add_atlas_light(list, atlas, frame);
+    for (size_t i = 0; i < steps.size(); ++i) add_gaussian(list, params, atlas, steps[i], i, steps.size());
+
+    Pass skin = forward_skin_pass("texture_space_gaussians/final.frag", params.specular, frame);
+    skin.reads = {{"light_map", steps.empty() ? "light_map_a" : "light_sum"}};
+    read_shadow_channels(skin, atlas.shadow, frame);
+    if (frame.view == "light_map")
+        for (auto& [name, value] : skin.constants)
+            if (name == "view") value = 3;
+    list.passes.push_back(std::move(skin));
+    return list;
+}
+
+}  // namespace
+
+Technique make_texture_space_gaussians_technique() {
+    return {.id = "texture_space_gaussians",
+            .summary = "diffuse light blurred over the surface by every Gaussian of the diffusion profile",
+            .source = "d'Eon, Luebke 2007, Advanced Techniques for Realistic Real-Time Skin Rendering",
+            .parameters = parameters(),
+            .views = {"light_map"},
+            .build = build};
+}
+
+}  // namespace dermis

@@ -1,0 +1,75 @@
+#include <gmock/gmock.h>
+
+#include "dermis/mesh/primitives.h"
+#include "dermis/render/atlas_check.h"
+#include "dermis/scene/builtin.h"
+#include "render/render_test.h"
+
+using namespace dermis;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+Scene one_sphere(Vec2 uv_offset = {}, float uv_scale = 1) {
+    Scene scene;
+    scene.objects.push_back({.name = "ball", .mesh = make_sphere(20, 16), .classes = {MaterialClass::skin}});
+    scene.objects[0].mesh.materials[0].name = "hide";
+    for (Vec2& uv : scene.objects[0].mesh.uvs) uv = uv * uv_scale + uv_offset;
+    place_in_studio(scene);
+    return scene;
+}
+
+class AtlasCheck : public RenderTest {};
+
+}  // namespace
+
+TEST_F(AtlasCheck, is_silent_about_a_good_atlas) {
+    EXPECT_THAT(*check_skin_atlas(one_sphere()), IsEmpty());
+    EXPECT_THAT(*check_skin_atlas(load("builtin:spheres")), IsEmpty());
+}
+
+TEST_F(AtlasCheck, skin_without_uvs_is_an_error_that_names_the_material_and_a_way_out) {
+    Scene scene = one_sphere();
+    scene.objects[0].mesh.uvs.clear();
+    EXPECT_TRUE(complete_scene(scene));
+    Renderer renderer = make_renderer(scene);
+    const Technique& technique = **find_technique("texture_space");
+    const auto drawn =
+        renderer.draw(technique, ParameterValues(technique.parameters), {.width = 16, .height = 16});
+    ASSERT_FALSE(drawn);
+    EXPECT_THAT(drawn.error().message, HasSubstr("skin material 'hide' has no UVs"));
+    const Technique& lambert = **find_technique("lambert");
+    EXPECT_TRUE(renderer.draw(lambert, ParameterValues(lambert.parameters), {.width = 16, .height = 16}));
+}
+
+TEST_F(AtlasCheck, other_udim_tiles_are_skipped_with_a_message) {
+    EXPECT_THAT(*check_skin_atlas(one_sphere({1, 0})),
+                ElementsAre(HasSubstr("'hide': UDIM tile 1002 is skipped")));
+}
+
+TEST_F(AtlasCheck, uvs_over_the_edge_are_lit_without_scattering) {
+    EXPECT_THAT(*check_skin_atlas(one_sphere({0.25f, 0})), ElementsAre(HasSubstr("lie outside 0..1")));
+}
+
+TEST_F(AtlasCheck, overlap_says_what_will_look_wrong) {
+    Scene scene = one_sphere();
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects[1].mesh.materials[0].name = "twin";
+    EXPECT_THAT(*check_skin_atlas(scene), ElementsAre(testing::AllOf(HasSubstr("100 % of the skin's atlas"),
+                                                                     HasSubstr("'hide', 'twin'"))));
+}
+
+TEST_F(AtlasCheck, skin_outside_the_atlas_looks_like_lambert) {
+    Scene scene = one_sphere({1, 0});
+    EXPECT_TRUE(complete_scene(scene));
+    Renderer renderer = make_renderer(scene);
+    const DrawSettings diffuse = {.width = 64, .height = 64, .view = "diffuse", .shadow_map_size = 256};
+    const Image lambert = radiance(renderer, **find_technique("lambert"), diffuse);
+    for (const char* id : {"texture_space", "texture_space_gaussians"}) {
+        EXPECT_LT(relative_difference(lambert, radiance(renderer, **find_technique(id), diffuse), 1), 2e-3)
+            << id;
+        EXPECT_THAT(renderer.warnings(), ElementsAre(HasSubstr("UDIM tile 1002")));
+    }
+}

@@ -1,0 +1,234 @@
+// Blurs over the atlas in millimetres: what they make of a shadow's edge is known, and the unwrap must not
+// matter.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dermis/mesh/normals.h"
+#include "dermis/mesh/primitives.h"
+#include "dermis/mesh/tangents.h"
+#include "dermis/mesh/uv_seams.h"
+#include "dermis/scene/builtin.h"
+#include "render/render_test.h"
+
+using namespace dermis;
+
+namespace {
+
+constexpr float kSideMm = 40, kEdgeMm = 1;  // the plane's; where its shadow begins, in x
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+struct Blur {
+    const char* technique;
+    Settings settings;
+};
+
+const std::vector<Blur>& blurs_in_mm() {
+    static const std::vector<Blur> kBlurs = {
+        {"texture_space",
+         {{"space", "mm"}, {"blur_scale", "1.5"}, {"blur_bias", "0"}, {"light_map_size", "512"}}},
+        {"texture_space_gaussians", {{"light_map_size", "512"}}}};
+    return kBlurs;
+}
+
+// Where a corner of the plane lies in the atlas.
+using Unwrap = Vec2 (*)(Vec3 p_mm, bool right);
+
+Vec2 one_chart(Vec3 p, bool) {
+    return {0.5f + 0.8f * p.x / kSideMm, 0.5f - 0.8f * p.y / kSideMm};
+}
+Vec2 stretched(Vec3 p, bool) {
+    return {0.5f + 0.96f * p.x / kSideMm, 0.5f - 0.4f * p.y / kSideMm};
+}
+Vec2 sheared(Vec3 p, bool) {
+    return {0.5f + 0.6f * p.x / kSideMm + 0.3f * p.y / kSideMm, 0.5f - 0.8f * p.y / kSideMm};
+}
+// The right half lies apart and is turned by 90 degrees.
+Vec2 two_charts(Vec3 p, bool right) {
+    if (!right) return {0.45f + 0.8f * p.x / kSideMm, 0.5f - 0.8f * p.y / kSideMm};
+    return {0.75f + 0.44f * p.y / kSideMm, 0.1f + 1.1f * p.x / kSideMm};
+}
+
+Mesh plane(Unwrap unwrap) {
+    Mesh mesh;
+    for (const bool right : {false, true}) {
+        const auto first = uint32_t(mesh.positions_mm.size());
+        for (const float y : {-0.5f, 0.5f})
+            for (const float x : {right ? 0.0f : -0.5f, right ? 0.5f : 0.0f}) {
+                const Vec3 p = {x * kSideMm, y * kSideMm, 0};
+                mesh.positions_mm.push_back(p);
+                mesh.normals.push_back({0, 0, 1});
+                mesh.uvs.push_back(unwrap(p, right));
+            }
+        for (const uint32_t i : {0u, 1u, 3u, 0u, 3u, 2u}) mesh.indices.push_back(first + i);
+    }
+    mesh.materials.resize(1);
+    mesh.materials[0].base_color_linear = {1, 1, 1};
+    mesh.submeshes = {{.name = "plane", .first_index = 0, .index_count = uint32_t(mesh.indices.size())}};
+    compute_tangents(mesh);
+    return mesh;
+}
+
+Scene half_shadowed(Mesh mesh, float scale = 1) {
+    Scene scene;
+    scene.objects.push_back({.name = "skin", .mesh = std::move(mesh), .classes = {MaterialClass::skin}});
+    SceneObject blocker{.name = "blocker", .mesh = make_plane(30, 60), .classes = {MaterialClass::other}};
+    for (Vec3& p : blocker.mesh.positions_mm) p = p + Vec3{15 + kEdgeMm, 0, 60};
+    scene.objects.push_back(std::move(blocker));
+    for (SceneObject& object : scene.objects) {
+        for (Vec3& p : object.mesh.positions_mm) p *= scale;
+        object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1.0f);
+    }
+    EXPECT_TRUE(complete_scene(scene));
+    place_in_studio(scene);
+    scene.environment.kind = EnvironmentKind::none;
+    scene.lights = {{.name = "key", .intensity = 1, .to_light_world = {0, 0, 1}, .is_key = true}};
+    // From the side, below the blocker: 12 mm of the plane around its middle.
+    scene.camera = {.eye_mm = Vec3{0, -40, 30} * scale, .target_mm = {}, .vertical_fov_rad = 0.24f};
+    fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
+    return scene;
+}
+
+class AtlasMm : public RenderTest {
+  protected:
+    static ParameterValues with(const Blur& blur, const Settings& more = {}) {
+        ParameterValues values((*find_technique(blur.technique))->parameters);
+        for (const auto& [name, text] : blur.settings) EXPECT_TRUE(values.set(name, text)) << name;
+        for (const auto& [name, text] : more) EXPECT_TRUE(values.set(name, text)) << name;
+        return values;
+    }
+    static Image draw(const Scene& scene, const Blur& blur, const Settings& more = {}, float scale = 1) {
+        Renderer renderer = make_renderer(scene);
+        return radiance(renderer, **find_technique(blur.technique), with(blur, more),
+                        {.width = 96,
+                         .height = 96,
+                         .view = "light_map",
+                         .deep = true,
+                         .shadow_map_size = 1024,
+                         .penumbra_mm = 0.05f * scale});
+    }
+    /// Largest difference of any channel over the pixels that both cover.
+    static double largest_difference(const Image& a, const Image& b) {
+        double largest = 0;
+        size_t count = 0;
+        for (int y = 0; y < a.height; ++y)
+            for (int x = 0; x < a.width; ++x) {
+                if (a.at(x, y, 3) < 1 || b.at(x, y, 3) < 1) continue;
+                ++count;
+                for (int c = 0; c < 3; ++c)
+                    largest = std::max(largest, std::abs(double(a.at(x, y, c)) - b.at(x, y, c)));
+            }
+        EXPECT_GT(count, 4000u);
+        return largest * 3.14159265;
+    }
+};
+
+}  // namespace
+
+TEST_F(AtlasMm, the_edge_of_a_shadow_is_the_profiles_own) {
+    Scene scene = half_shadowed(plane(one_chart));
+    Renderer renderer = make_renderer(scene);
+    const Blur& gaussians = blurs_in_mm()[1];
+    const auto drawn =
+        renderer.draw(**find_technique(gaussians.technique), with(gaussians),
+                      {.width = 32, .height = 32, .shadow_map_size = 2048, .penumbra_mm = 0.05f});
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    const Image sum = *renderer.read("light_sum");
+    const GaussianSum skin = gpu_gems_3_skin();
+    for (const float from_edge_mm : {-6.0f, -3.0f, -1.5f, -0.7f, 0.7f, 1.5f, 3.0f, 6.0f}) {
+        const Vec2 uv = one_chart({kEdgeMm + from_edge_mm, 0, 0}, false);
+        const int x = int(uv.x * 512), y = 256;
+        // The middle of that texel, back in mm.
+        const double x_mm = ((double(x) + 0.5) / 512 - 0.5) * kSideMm / 0.8 - kEdgeMm;
+        for (int c = 0; c < 3; ++c) {
+            double expected = 0, total = 0;
+            for (const GaussianTerm& term : skin.terms) {
+                expected += term.weight[size_t(c)] * 0.5 * std::erfc(x_mm / std::sqrt(2 * term.variance_mm2));
+                total += term.weight[size_t(c)];
+            }
+            EXPECT_NEAR(sum.at(x, y, c) / sum.at(x, y, 3), expected / total, 0.02)
+                << x_mm << " mm, channel " << c;
+        }
+    }
+}
+
+TEST_F(AtlasMm, the_unwrap_does_not_matter) {
+    for (const Blur& blur : blurs_in_mm()) {
+        const Image plain = draw(half_shadowed(plane(one_chart)), blur);
+        EXPECT_LT(largest_difference(plain, draw(half_shadowed(plane(stretched)), blur)), 0.06)
+            << blur.technique;
+        EXPECT_LT(largest_difference(plain, draw(half_shadowed(plane(sheared)), blur)), 0.06)
+            << blur.technique;
+    }
+    // In texels it does.
+    const Blur texels = {"texture_space", {{"blur_scale", "10"}, {"light_map_size", "512"}}};
+    EXPECT_GT(largest_difference(draw(half_shadowed(plane(one_chart)), texels),
+                                 draw(half_shadowed(plane(stretched)), texels)),
+              0.06);
+}
+
+TEST_F(AtlasMm, a_seam_a_millimetre_from_the_shadow_does_not_show) {
+    for (const Blur& blur : blurs_in_mm()) {
+        const bool gaussians = std::string(blur.technique) == "texture_space_gaussians";
+        const Image whole = draw(half_shadowed(plane(one_chart)), blur);
+        const Scene cut = half_shadowed(plane(two_charts));
+        EXPECT_LT(largest_difference(whole, draw(cut, blur)), 0.05) << blur.technique;
+        const Settings drop = {gaussians ? std::pair<std::string, std::string>("carry_seams", "off")
+                                         : std::pair<std::string, std::string>("seams", "drop")};
+        EXPECT_GT(largest_difference(whole, draw(cut, blur, drop)), 0.08) << blur.technique;
+    }
+}
+
+TEST_F(AtlasMm, twice_the_scene_with_twice_the_millimetres_is_the_same_picture) {
+    for (const Blur& blur : blurs_in_mm()) {
+        const bool gaussians = std::string(blur.technique) == "texture_space_gaussians";
+        const Settings doubled = {gaussians ? std::pair<std::string, std::string>("width", "2")
+                                            : std::pair<std::string, std::string>("blur_scale", "3")};
+        const Image once = draw(half_shadowed(plane(sheared)), blur),
+                    twice = draw(half_shadowed(plane(sheared), 2), blur, doubled, 2);
+        EXPECT_LT(largest_difference(once, twice), 2e-3) << blur.technique;
+        const Image not_doubled = draw(half_shadowed(plane(sheared), 2), blur, {}, 2);
+        EXPECT_GT(largest_difference(once, not_doubled), 0.05) << blur.technique;
+    }
+}
+
+TEST_F(AtlasMm, even_light_stays_even_up_to_the_chart_borders) {
+    Scene scene = load("builtin:spheres");
+    scene.lights.clear();
+    for (SceneObject& object : scene.objects) {
+        object.mesh.materials[0].base_color_linear = {1, 1, 1};
+        object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1.0f);
+        for (Vec3& n : object.mesh.normals) n = {0, 1, 0};  // the same light everywhere
+    }
+    Renderer renderer = make_renderer(scene);
+    const DrawSettings diffuse = {.width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 256};
+    const Image lambert = radiance(renderer, **find_technique("lambert"), diffuse);
+    for (const Blur& blur : blurs_in_mm()) {
+        const Image image = radiance(renderer, **find_technique(blur.technique), with(blur), diffuse);
+        EXPECT_LT(relative_difference(lambert, image, 1), 1e-3) << blur.technique;
+    }
+}
+
+TEST(SeamMap, unfolds_the_neighbour_over_the_shared_edge) {
+    const Mesh mesh = plane(two_charts);
+    const AtlasPart part = {.mesh = &mesh, .triangles = {0, 1, 2, 3}};
+    const SeamMap map = make_seam_map(std::span(&part, 1), 256, 12);
+    size_t carried = 0;
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 256; ++x) {
+            const Vec2 to = map.carried[size_t(y * 256 + x)];
+            if (to.x < 0) continue;
+            ++carried;
+            // Back through the unwrap of the chart whose gutter it is, and of the one it stands for.
+            const Vec2 uv = {(float(x) + 0.5f) / 256, (float(y) + 0.5f) / 256};
+            const Vec2 left_mm = {(uv.x - 0.45f) * kSideMm / 0.8f, (0.5f - uv.y) * kSideMm / 0.8f};
+            const Vec2 right_mm = {(to.y / 256 - 0.1f) * kSideMm / 1.1f,
+                                   (to.x / 256 - 0.75f) * kSideMm / 0.44f};
+            if (map.chart[size_t(y * 256 + x)] != 1) continue;
+            EXPECT_NEAR(left_mm.x, right_mm.x, 1e-3);
+            EXPECT_NEAR(left_mm.y, right_mm.y, 1e-3);
+        }
+    EXPECT_GT(carried, 1500u);
+}
