@@ -181,6 +181,17 @@ void show_camera(Scene& scene, PanelRequests& requests, WidgetMap& widgets) {
     if (ImGui::Button("Fit  (F)")) requests.actions.push_back(Action::fit);
 }
 
+// Half the line high, so that a column of them stays calm.
+void show_bar(float share, float width, float height) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + height * 0.3f, bottom = at.y + height * 0.75f;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({at.x, top}, {at.x + width, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBg), 2);
+    list.AddRectFilled({at.x, top}, {at.x + width * std::clamp(share, 0.0f, 1.0f), bottom},
+                       ImGui::GetColorU32(ImGuiCol_PlotHistogram), 2);
+    ImGui::Dummy({width, height});
+}
+
 void show_times(const PanelFacts& facts) {
     if (!facts.frame_history_ms.empty()) {
         const float most = *std::ranges::max_element(facts.frame_history_ms);
@@ -190,15 +201,15 @@ void show_times(const PanelFacts& facts) {
                              0, text, 0, most * 1.15f, {ImGui::GetContentRegionAvail().x, 44 * facts.scale});
     }
     if (!ImGui::BeginTable("passes", 3)) return;
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.5f);
-    ImGui::TableSetupColumn("bar", ImGuiTableColumnFlags_WidthStretch, 0.25f);
-    ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthStretch, 0.25f);
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.42f);
+    ImGui::TableSetupColumn("bar", ImGuiTableColumnFlags_WidthStretch, 0.24f);
+    ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthStretch, 0.34f);
     for (const TimedPass& pass : facts.passes) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", pass.name.c_str());
         ImGui::TableNextColumn();
         const float share = facts.frame_ms > 0 ? float(pass.time_ms / facts.frame_ms) : 0;
-        ImGui::ProgressBar(share, {-1, ImGui::GetTextLineHeight() * 0.6f}, "");
+        show_bar(share, ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight());
         ImGui::TableNextColumn();
         char text[32];
         std::snprintf(text, sizeof text, "%.2f ms", pass.time_ms);
@@ -296,7 +307,7 @@ void show_side_names(const Model& model, const PanelFacts& facts) {
 void help_table(const char* id, std::span<const std::pair<std::string, std::string>> rows) {
     if (!ImGui::BeginTable(id, 2)) return;
     ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 13);
-    ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 18);
+    ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 27);
     for (const auto& [what, meaning] : rows) {
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(what.c_str());

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "dermis/base/text.h"
+#include "dermis/view/words.h"
 
 namespace dermis::view {
 namespace {
@@ -20,6 +21,7 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
                                 {"technique", CommandKind::technique, "w", "technique wrap"},
                                 {"set", CommandKind::set, "w", "set wrap=0.4"},
                                 {"view", CommandKind::view, "w", "view curvature"},
+                                {"tone", CommandKind::tone, "n", "tone 5"},
                                 {"drag", CommandKind::drag, "bnnnnm", "drag left 300 300 420 280 ctrl"},
                                 {"scroll", CommandKind::scroll, "nnn", "scroll 300 300 -2"},
                                 {"key", CommandKind::key, "k", "key ctrl+C"},
@@ -42,28 +44,6 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
 // Nothing that a script says in pixels, frames or notches is larger.
 constexpr double kMaxNumber = 1e5;
 constexpr int kDragFrames = 4;
-
-// Words of a line; '#' outside of quotes ends it. False when a quote is left open.
-bool split_words(std::string_view line, std::vector<std::string>& words) {
-    std::string word;
-    bool quoted = false, in_word = false;
-    for (const char c : line) {
-        if (c == '"') {
-            quoted = !quoted;
-            in_word = true;
-        } else if (!quoted && c == '#') {
-            break;
-        } else if (!quoted && (c == ' ' || c == '\t' || c == '\r')) {
-            if (in_word) words.push_back(std::exchange(word, ""));
-            in_word = false;
-        } else {
-            word += c;
-            in_word = true;
-        }
-    }
-    if (in_word) words.push_back(word);
-    return !quoted;
-}
 
 Result<MouseButton> parse_button(std::string_view text) {
     static const std::vector<std::string> kNames = {"left", "right", "middle"};
@@ -142,10 +122,10 @@ Result<std::vector<ScriptCommand>> parse_script(std::string_view text, const std
     for (const std::string_view line : split(text, '\n')) {
         ++line_number;
         const std::string place = file + ":" + std::to_string(line_number) + ": ";
-        std::vector<std::string> words;
-        if (!split_words(line, words)) return Error{place + "a quote is left open"};
-        if (words.empty()) continue;
-        Result<ScriptCommand> command = parse_command(words);
+        const auto words = quoted_words(line, "\"", '#');
+        if (!words) return Error{place + "a quote is left open"};
+        if (words->empty()) continue;
+        Result<ScriptCommand> command = parse_command(*words);
         if (!command) return Error{place + command.error().message};
         command->line = line_number;
         commands.push_back(std::move(*command));

@@ -6,6 +6,7 @@
 //     technique preintegrated
 //     set shadow_width=4              # a parameter
 //     view curvature
+//     tone 5                          # 0: as the maps are, 1 to 6: skin I to VI
 //     drag left 300 300 420 280       # button, from, to in pixels; then ctrl, shift or alt
 //     scroll 300 300 -3
 //     key ctrl+C
@@ -38,6 +39,7 @@ enum class CommandKind {
     technique,
     set,
     view,
+    tone,
     drag,
     scroll,
     key,

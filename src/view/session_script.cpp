@@ -58,6 +58,12 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             model_.view = command.words[0];
             return {};
         }
+        case CommandKind::tone:
+            if (command.numbers[0] != int(command.numbers[0]) || command.numbers[0] < 0 ||
+                command.numbers[0] > 6)
+                return Error{"tone: 0 (as the maps are) to 6"};
+            choose_tone(int(command.numbers[0]));
+            return {};
         case CommandKind::slide: {
             const auto widget = widgets_.find(command.words[0]);
             std::vector<std::string> names;

@@ -4,6 +4,7 @@
 
 #include "dermis/base/text.h"
 #include "dermis/render/shared_passes.h"
+#include "dermis/view/words.h"
 
 namespace dermis::view {
 namespace {
@@ -22,28 +23,6 @@ std::string shell_word(std::string_view word) {
     std::string text = "'";
     for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return text + "'";
-}
-
-// Words as a shell would split them: single and double quotes, no other magic.
-std::vector<std::string> words_of(std::string_view line) {
-    std::vector<std::string> words;
-    std::string word;
-    char quote = 0;
-    bool in_word = false;
-    for (const char c : line) {
-        if (quote ? c == quote : c == '\'' || c == '"') {
-            quote = quote ? 0 : c;
-            in_word = true;
-        } else if (!quote && (c == ' ' || c == '\n' || c == '\t' || c == '\r')) {
-            if (in_word) words.push_back(std::exchange(word, ""));
-            in_word = false;
-        } else {
-            word += c;
-            in_word = true;
-        }
-    }
-    if (in_word) words.push_back(word);
-    return words;
 }
 
 std::vector<Light>::iterator key_light(std::vector<Light>& lights) {
@@ -110,7 +89,8 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
                   .camera = model.scene->camera,
                   .lights = model.scene->lights,
                   .view = model.view};
-    const std::vector<std::string> words = words_of(line);
+    // As a shell would split them; an open quote is no view.
+    const std::vector<std::string> words = quoted_words(line, "'\"").value_or(std::vector<std::string>());
     for (size_t i = 0; i + 1 < words.size(); ++i)
         if (std::ranges::find(kOptions, words[i]) != std::end(kOptions)) {
             if (const Result<void> taken = wanted.take(words[i], words[i + 1]); !taken) return taken;

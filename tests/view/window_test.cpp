@@ -305,6 +305,29 @@ TEST_F(ViewWindow, the_ground_truth_comes_beside_the_picture_and_can_be_stopped)
     EXPECT_THAT(result.out, Not(HasSubstr("notice ")));
 }
 
+TEST_F(ViewWindow, a_skin_tone_brings_its_profile_and_colour_and_goes_again) {
+    const ProgramResult result = view("builtin:spheres --size 200x140 --samples 1 -t wrap", R"(
+        settle
+        screenshot DIR/before.png
+        tone 6
+        settle
+        print
+        screenshot DIR/dark.png
+        tone 0
+        settle
+        screenshot DIR/after.png
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(value_of(result, "profile"), "openpbr_skin_6");
+    const Image before = image("before.png"), dark = image("dark.png");
+    double difference = 0;
+    for (int y = 0; y < before.height; ++y)
+        for (int x = 0; x < before.width; ++x) difference += before.at(x, y, 0) - dark.at(x, y, 0);
+    EXPECT_GT(difference / double(before.pixel_count()), 0.02);
+    EXPECT_EQ(before.bytes, image("after.png").bytes);
+}
+
 TEST_F(ViewWindow, a_view_is_copied_as_a_command_and_pasted) {
     const ProgramResult result = view(std::string(kSmall) + "-t wrap", R"(
         drag left 90 90 120 80
