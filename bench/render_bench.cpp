@@ -2,12 +2,13 @@
 // 1024, MSAA 1, shadow and environment on; medians over frames in one run, the first left out. Ratios to
 // lambert are what to quote; absolute times belong to the machine.
 //
-//     build/bench/render_bench [SCENE] [FRAMES]
+//     build/bench/render_bench [SCENE] [FRAMES] [TECHNIQUE, beside lambert]
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 
 #include "dermis/render/complete_scene.h"
@@ -32,11 +33,74 @@ double since_ms(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+struct Run {
+    std::string name;
+    const Technique* technique;
+    ParameterValues values;
+};
+
+Run run_of(const std::string& id, const std::string& parameter = "", const std::string& value = "") {
+    const Technique* technique = *find_technique(id);
+    Run run = {value.empty() ? id : id + " " + value, technique, ParameterValues(technique->parameters)};
+    if (!value.empty() && !run.values.set(parameter, value)) std::abort();  // our own list below
+    return run;
+}
+
+// Lambert, then every technique (or one), and the variants of the one whose cost is promised.
+std::vector<Run> runs(const std::string& only) {
+    std::vector<Run> all = {run_of("lambert")};
+    for (const Technique& technique : all_techniques()) {
+        if (technique.id == "lambert" || (!only.empty() && technique.id != only)) continue;
+        all.push_back(run_of(technique.id));
+        if (technique.id != "preintegrated") continue;
+        all.push_back(run_of(technique.id, "diffuse", "closed_form"));
+        all.push_back(run_of(technique.id, "normals", "sharp"));
+        all.push_back(run_of(technique.id, "shadow", "plain"));
+    }
+    return all;
+}
+
+// Medians over frames. cpu_ms is the time all threads of this process worked, which on lavapipe is what a
+// frame costs whatever else the machine does; on a GPU it is the driver's share only.
+struct Cost {
+    double frame_ms = 0, cpu_ms = 0;
+    std::vector<std::pair<std::string, double>> passes;
+};
+
+Result<Cost> measure(Renderer& renderer, const Run& run, int frames) {
+    std::vector<gpu::FrameResult> results;
+    std::vector<double> totals, cpu;
+    for (int frame = 0; frame < frames; ++frame) {
+        const std::clock_t before = std::clock();
+        Result<gpu::FrameResult> drawn = renderer.draw(*run.technique, run.values, {.frame_index = frame});
+        if (!drawn) return drawn.error();
+        if (frame == 0) continue;  // compiles
+        cpu.push_back(double(std::clock() - before) * 1e3 / CLOCKS_PER_SEC);
+        totals.push_back(drawn->frame_ms);
+        results.push_back(std::move(*drawn));
+    }
+    Cost cost = {.frame_ms = median(totals), .cpu_ms = median(cpu)};
+    for (size_t pass = 0; pass < results[0].passes.size(); ++pass) {
+        std::vector<double> times;
+        for (const gpu::FrameResult& result : results) times.push_back(result.passes[pass].time_ms);
+        cost.passes.emplace_back(results[0].passes[pass].name, median(times));
+    }
+    return cost;
+}
+
+void print(const Run& run, const Cost& cost, double lambert_ms, double lambert_cpu_ms) {
+    std::printf("%-28s %9.2f ms  %.2f x lambert    cpu %9.2f ms  %.2f x lambert\n", run.name.c_str(),
+                cost.frame_ms, cost.frame_ms / lambert_ms, cost.cpu_ms, cost.cpu_ms / lambert_cpu_ms);
+    for (const auto& [name, time_ms] : cost.passes)
+        std::printf("    %-20s %9.2f ms\n", name.c_str(), time_ms);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "bust";
     const int frames = argc > 2 ? std::max(2, std::atoi(argv[2])) : 8;
+    const std::string only = argc > 3 ? argv[3] : "";
     const auto start = Clock::now();
     Result<Scene> scene = load_scene(name);
     if (!scene) return fail(scene.error().message);
@@ -50,28 +114,11 @@ int main(int argc, char** argv) {
         "%s, 1024x1024, %d frames after the first, on %s\nscene %.0f ms, ready to draw after %.0f ms\n",
         scene->name.c_str(), frames - 1, device->info().name.c_str(), load_ms, since_ms(start));
 
-    double lambert_ms = 0;
-    std::vector<const Technique*> order = {*find_technique("lambert")};
-    for (const Technique& technique : all_techniques())
-        if (technique.id != "lambert") order.push_back(&technique);
-    for (const Technique* technique : order) {
-        const ParameterValues values(technique->parameters);
-        std::vector<gpu::FrameResult> results;
-        for (int frame = 0; frame < frames; ++frame) {
-            Result<gpu::FrameResult> drawn = renderer->draw(*technique, values, {.frame_index = frame});
-            if (!drawn) return fail(drawn.error().message);
-            if (frame > 0) results.push_back(std::move(*drawn));
-        }
-        std::vector<double> totals;
-        for (const gpu::FrameResult& result : results) totals.push_back(result.frame_ms);
-        const double frame_ms = median(totals);
-        if (technique->id == "lambert") lambert_ms = frame_ms;
-        std::printf("%-20s %9.2f ms  %.2f x lambert\n", technique->id.c_str(), frame_ms,
-                    frame_ms / lambert_ms);
-        for (size_t pass = 0; pass < results[0].passes.size(); ++pass) {
-            std::vector<double> times;
-            for (const gpu::FrameResult& result : results) times.push_back(result.passes[pass].time_ms);
-            std::printf("    %-20s %9.2f ms\n", results[0].passes[pass].name.c_str(), median(times));
-        }
+    double lambert_ms = 0, lambert_cpu_ms = 0;
+    for (const Run& run : runs(only)) {
+        const Result<Cost> cost = measure(*renderer, run, frames);
+        if (!cost) return fail(cost.error().message);
+        if (lambert_ms == 0) lambert_ms = cost->frame_ms, lambert_cpu_ms = cost->cpu_ms;
+        print(run, *cost, lambert_ms, lambert_cpu_ms);
     }
 }

@@ -43,8 +43,9 @@ Result<void> measure_bytes(const Scene& scene, const ComparisonSettings& setting
     if (!technique.tables) return {};
     const Result<Profile> profile = find_profile(scene.skin.profile);
     if (!profile) return profile.error();
-    const auto tables = technique.tables(row.contestant.values,
-                                         {.profile = *profile, .gaussians = to_gaussian_sum(*profile).sum});
+    const auto tables = technique.tables(row.contestant.values, {.profile = *profile,
+                                                                 .gaussians = to_gaussian_sum(*profile).sum,
+                                                                 .diffuse_table = scene.skin.diffuse_table});
     if (!tables) return tables.error();
     for (const TableImage& table : *tables) row.table_bytes += table.bytes.size();
     return {};

@@ -34,7 +34,7 @@ gpu::Values parameter_block(const ParameterValues& values) {
 
 std::string settings_key(const Technique& technique, const ParameterValues& values, const SkinContext& skin) {
     Hasher hasher;
-    hasher.add(technique.id).add(skin.profile.name);
+    hasher.add(technique.id).add(skin.profile.name).add(skin.diffuse_table);
     for (const Parameter& parameter : values.table().parameters) hasher.add(values.text(parameter));
     for (const GaussianTerm& term : skin.gaussians.terms)
         hasher.add(term.variance_mm2).add(term.weight[0]).add(term.weight[1]).add(term.weight[2]);
@@ -133,6 +133,7 @@ Result<const SkinContext*> Renderer::skin_context() {
         skin_ = SkinContext{.profile = std::move(*profile), .gaussians = std::move(sum)};
         skin_->profile.name = scene_->skin.profile;
     }
+    skin_->diffuse_table = scene_->skin.diffuse_table;
     return &*skin_;
 }
 

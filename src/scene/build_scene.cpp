@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/scene/builtin.h"
@@ -75,6 +77,27 @@ void assign(const std::optional<Value>& given, Stored& stored) {
     if (given) stored = *given;
 }
 
+// The sidecar that `dermis bake curvature` writes beside a map states a unit; a map without one needs its
+// scale.
+Result<void> check_curvature_unit(const SceneDescription& description, const MapsDescription& maps,
+                                  const fs::path& map) {
+    if (!maps.curvature.given() || maps.curvature_scale_per_mm) return {};
+    const Result<std::string> sidecar = read_text_file(map.string() + ".json");
+    if (!sidecar)
+        return error_at(description, maps.curvature,
+                        map.string() +
+                            " has no unit; give curvature_scale_per_mm, the curvature in 1/mm of a map "
+                            "value of 1, or bake the map with `dermis bake curvature`");
+    const auto json = nlohmann::json::parse(*sidecar, nullptr, false);
+    const auto unit = json.is_object() ? json.find("unit") : json.end();
+    const bool stated = json.is_object() && unit != json.end();
+    if (!stated || *unit != "1/mm")
+        return error_at(description, maps.curvature,
+                        map.string() + ".json: the unit is " + (stated ? unit->dump() : "not stated") +
+                            "; a curvature map is in \"1/mm\"");
+    return {};
+}
+
 Result<void> apply_maps(const SceneDescription& description, const MapsDescription& maps,
                         Material& material) {
     for (const MapRow& row : kMapRows) {
@@ -82,6 +105,8 @@ Result<void> apply_maps(const SceneDescription& description, const MapsDescripti
         if (!file.given()) continue;
         const Result<fs::path> path = resolve(description, file);
         if (!path) return path.error();
+        if (row.from == &MapsDescription::curvature)
+            if (Result<void> known = check_curvature_unit(description, maps, *path); !known) return known;
         material.*row.to = {.name = path->string(), .encoded = {}};
     }
     // A map multiplies the constant beside it; the grey that mesh files leave there is no tint.
@@ -243,6 +268,12 @@ Result<Scene> build_scene(const SceneDescription& description) {
         scene.environment = *environment;
     }
     scene.skin = description.skin;
+    if (!scene.skin.diffuse_table.empty()) {
+        const Result<fs::path> table = resolve_path(scene.skin.diffuse_table, description.file);
+        if (!table)
+            return Error{description.file.string() + ": skin.diffuse_table: " + table.error().message};
+        scene.skin.diffuse_table = table->string();
+    }
     scene.background_linear = head.background_linear;
     scene.tone_map = head.tone_map;
     scene.exposure_ev = head.exposure_ev;

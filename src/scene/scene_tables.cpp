@@ -179,6 +179,9 @@ const KeyTable<Skin>& skin_keys() {
         KeyTable<Skin>()
             .text(&Skin::profile,
                   {.name = "profile", .doc = "name of the diffusion profile; see `dermis profiles`"})
+            .text(&Skin::diffuse_table,
+                  {.name = "diffuse_table",
+                   .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})
             .number(&Skin::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 2})
             .number(&Skin::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
             .number(&Skin::specular,

@@ -41,7 +41,8 @@ struct FrameContext {
 /// The skin and the scene that tables are baked for.
 struct SkinContext {
     Profile profile;
-    GaussianSum gaussians;  ///< the profile itself, or its fit
+    GaussianSum gaussians;           ///< the profile itself, or its fit
+    std::string diffuse_table = {};  ///< a file to read instead of baking (bake/table_io.h); empty: none
 };
 
 /// A table for the GPU: rows top to bottom, texels tightly packed in `format`.

@@ -7,6 +7,7 @@
 #include "dermis/bake/beckmann_table.h"
 #include "dermis/bake/lut.h"
 #include "dermis/bake/shadow_table.h"
+#include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
 #include "preintegrated/normal_blend.h"
 
@@ -39,7 +40,32 @@ TableImage to_image(std::string name, const Table& table) {
     return to_image(std::move(name), table.width, table.height, rgba);
 }
 
+// A table from a file, read at our texels: whatever its own size, range and warp, its convention says where
+// it holds which value. Only what it was integrated for has to be the same.
+Result<TableImage> own_diffuse_table(const TableSettings& settings, const SkinContext& skin) {
+    const bool ring = settings.construction == Construction::ring;
+    const Result<Table> table =
+        read_table(skin.diffuse_table, {.kind = TableKind::diffuse,
+                                        .construction = ring ? Construction::half_ring : Construction::sphere,
+                                        .u_axis = "n_dot_l",
+                                        .v_axis = "curvature_per_mm",
+                                        .profile = skin.profile.name});
+    if (!table) return table.error();
+    const TableAxis& curvature = table->convention.axes[1];
+    if (curvature.unit != "1/mm")
+        return Error{skin.diffuse_table + ": curvature is in " + curvature.unit + ", this use needs 1/mm"};
+    std::vector<float> rgba;
+    for (int y = 0; y < kLutHeight; ++y)
+        for (int x = 0; x < kLutWidth; ++x) {
+            const Rgb d =
+                lookup(*table, -1 + 2 * (x + 0.5) / kLutWidth, kMaxCurvaturePerMm * (y + 0.5) / kLutHeight);
+            rgba.insert(rgba.end(), {float(d[0]), float(d[1]), float(d[2]), 1.0f});
+        }
+    return to_image("skin_lut", kLutWidth, kLutHeight, rgba);
+}
+
 Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContext& skin) {
+    if (!skin.diffuse_table.empty()) return own_diffuse_table(settings, skin);
     Result<LutOptions> options =
         lut_options(settings.construction == Construction::ring ? "penner" : "dermis");
     if (!options) return options.error();
