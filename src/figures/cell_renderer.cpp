@@ -138,7 +138,7 @@ Result<CellPicture> computed_picture(const FigureCell& cell, const SkinContext& 
     return picture_of(image, cell.encoding, size);
 }
 
-// An image of the frame, as the cell wants it shown.
+// An image of the frame, as the cell wants it shown; light as the radiance of white skin.
 Result<CellPicture> frame_image(Renderer& renderer, const FigureCell& cell, CellSize size) {
     const Result<Image> read = renderer.read(cell.image);
     if (!read) return read.error();
@@ -150,9 +150,10 @@ Result<CellPicture> frame_image(Renderer& renderer, const FigureCell& cell, Cell
                 const bool alpha = cell.image_channels == FigureImageChannels::alpha;
                 const float value =
                     linear.at(x, y, alpha ? linear.channels - 1 : std::min(c, linear.channels - 1));
-                shown.set(
-                    x, y, c,
-                    cell.image_channels == FigureImageChannels::transmittance ? std::exp(-value) : value);
+                shown.set(x, y, c,
+                          cell.image_channels == FigureImageChannels::transmittance ? std::exp(-value)
+                          : alpha                                                   ? value
+                                                                                    : value / 3.14159265f);
             }
     return picture_of(shown, cell.encoding, size);
 }
