@@ -23,7 +23,7 @@ namespace dermis {
 enum class Normalisation { by_area, none };
 
 struct SurfaceIntegratorSettings {
-    int probes = 32;  ///< a visible point, 2..65536, even
+    int probes = 16;  ///< a visible point, 2..65536, even
     Normalisation normalisation = Normalisation::by_area;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dermis/base/parallel.h"
+#include "dermis/optics/presets.h"
 
 namespace dermis {
 namespace {
@@ -94,6 +95,22 @@ TEST(RandomWalk, without_scattering_nothing_comes_back) {
     const ScatteringMedium medium{
         .sigma_s_per_mm = {0, 0, 0}, .sigma_a_per_mm = {1, 2, 3}, .g = 0, .eta = 1.4};
     EXPECT_EQ(half_space_albedo(medium, std::nullopt, 1000, 1).mean, (Vec3{0, 0, 0}));
+}
+
+// Jensen 2001, figure 5, gives the dipole's albedo beside the coefficients; the dipole is a diffusion
+// approximation, which a walk is not. docs/ground_truth.md shows both.
+TEST(RandomWalk, the_skins_of_jensen_have_the_albedo_that_the_page_says) {
+    const auto expect = [](const char* name, const double(&recorded)[3]) {
+        const auto profile = find_profile(name);
+        ASSERT_TRUE(profile);
+        const auto* dipole = std::get_if<DipoleProfile>(&profile->model);
+        ASSERT_NE(dipole, nullptr);
+        const HalfSpaceAlbedo albedo = half_space_albedo(dipole->medium, std::nullopt, 200'000, 1);
+        const float mean[3] = {albedo.mean.x, albedo.mean.y, albedo.mean.z};
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], recorded[c], 0.004) << name << " channel " << c;
+    };
+    expect("jensen_skin1", {0.457, 0.227, 0.124});
+    expect("jensen_skin2", {0.650, 0.454, 0.356});
 }
 
 TEST(RandomWalk, the_number_of_threads_changes_nothing) {

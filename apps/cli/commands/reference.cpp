@@ -25,7 +25,7 @@ struct Options {
     std::string scene, output, preview, size = "512x512", camera, light, profile;
     std::string integrator = "surface", filter = "box", shadows = "key", ambient = "traced", specular = "ggx";
     std::string normalisation = "area", medium;
-    int samples = 64, probes = 32;
+    int samples = 64, probes = 16;
     uint32_t seed = 1;
     double noise = 0, width_scale = 1;
     float penumbra_mm = 2;
