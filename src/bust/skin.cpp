@@ -108,8 +108,12 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     c = redder(c, blood * std::clamp(red, -0.15f, 0.9f));
     c = darker(c, std::max(0.0f, 0.14f * z.lid + 0.17f * z.eye_ring + 0.04f * middle + 0.03f * fine +
                                      0.04f * z.neck));
-    // The examples lean to yellow; a fair skin seen through is a little cooler away from the forehead.
-    c = c * mixc(Vec3{0.98f, 0.96f, 1.03f}, Vec3{1.01f, 1.0f, 0.98f}, std::max(depth, 0.6f * z.forehead));
+    // The examples' hues wander: II leans to yellow, where a fair skin is cooler away from the forehead; IV
+    // to VI lean to olive.
+    const Vec3 warm = {1.01f, 1.0f, 0.98f};
+    const float yellow = float(std::clamp(1 - std::abs(params.tone - 2), 0.0, 1.0));
+    const Vec3 fair = mixc(Vec3{0.98f, 0.96f, 1.03f}, warm, std::max(depth, 0.6f * z.forehead));
+    c = c * mixc(warm, fair, yellow) * mixc({1, 1, 1}, {1.05f, 0.93f, 1.12f}, step(3, 4.5, params.tone));
 
     // Freckles: nose and cheeks first, each with a size and a strength of its own.
     const float freckled =
@@ -128,7 +132,10 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     const float cover = std::min(1.0f, shaved * std::max(1.45f * z.beard, 1.6f * z.scalp));
     if (cover > 0) {
         const float hair = 1 - step(0.14, 0.44, cell_noise(p * (1 / 0.75), seed + 5).nearest);
-        c = mixc(c, c * mixc(Vec3{0.50f, 0.53f, 0.56f}, Vec3{0.75f, 0.74f, 0.74f}, depth), 0.9f * cover);
+        c = mixc(c,
+                 c * mixc(mixc(Vec3{0.54f, 0.53f, 0.52f}, Vec3{0.50f, 0.53f, 0.56f}, yellow),
+                          Vec3{0.75f, 0.74f, 0.74f}, depth),
+                 0.9f * cover);
         c = darker(c, 0.32f * cover * hair);
     }
 
