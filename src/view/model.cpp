@@ -38,15 +38,11 @@ void Notices::expire(double now_s) {
     std::erase_if(all_, [&](const Notice& notice) { return !notice.is_error && notice.until_s < now_s; });
 }
 
-std::string picture_key(Model& model, size_t choice) {
-    const Scene& scene = *model.scene;
-    TechniqueChoice& chosen = model.choices[choice];
-    std::string key = chosen.technique().id + ' ' + model.view + ' ' + scene.skin.profile + ' ';
-    for (const Parameter& parameter : chosen.technique().parameters.parameters)
-        key += chosen.values().text(parameter) + ' ';
+std::string truth_key(const Scene& scene) {
+    std::string key = scene.skin.profile + ' ';
     add(key, scene.camera.eye_mm);
     add(key, scene.camera.target_mm);
-    add(key, {scene.camera.vertical_fov_rad, scene.exposure_ev, float(scene.tone_map)});
+    add(key, {scene.camera.vertical_fov_rad});
     for (const Light& light : scene.lights) {
         add(key, light.color_linear);
         add(key, light.to_light_world);
@@ -58,6 +54,16 @@ std::string picture_key(Model& model, size_t choice) {
     add(key, {scene.skin.roughness, scene.skin.specular, scene.skin.ior});
     add(key, {scene.environment.intensity, scene.environment.yaw_rad, float(scene.environment.visible)});
     return key;
+}
+
+std::string picture_key(Model& model, size_t choice) {
+    const Scene& scene = *model.scene;
+    TechniqueChoice& chosen = model.choices[choice];
+    std::string key = chosen.technique().id + ' ' + model.view + ' ';
+    for (const Parameter& parameter : chosen.technique().parameters.parameters)
+        key += chosen.values().text(parameter) + ' ';
+    add(key, {scene.exposure_ev, float(scene.tone_map)});
+    return key + truth_key(scene);
 }
 
 std::string neighbour(const std::vector<std::string>& names, const std::string& name, int step) {

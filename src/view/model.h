@@ -57,6 +57,7 @@ struct Model {
     Compare compare = Compare::off;
     float split = 0.5f;      ///< of the picture's width
     std::string truth_path;  ///< a picture that stands on the right side instead of a technique
+    bool truth_is_of_another_view = false;
     std::vector<std::string> recent;
     bool show_panels = true, show_help = false, vsync = true;
     float user_scale = 1;  ///< of the interface, on top of the display's
@@ -67,6 +68,9 @@ struct Model {
 
 /// Everything a picture depends on, as text: two equal keys are one picture. `choice` is 0 or 1.
 [[nodiscard]] std::string picture_key(Model& model, size_t choice);
+
+/// What the ground truth depends on of all that: camera, lights, surroundings, skin.
+[[nodiscard]] std::string truth_key(const Scene& scene);
 
 /// The next (or, with -1, the last) of a list of names, round and round.
 [[nodiscard]] std::string neighbour(const std::vector<std::string>& names, const std::string& name, int step);

@@ -256,8 +256,11 @@ void show_status(const Model& model, const PanelFacts& facts) {
     else
         ImGui::TextUnformatted(facts.probe.c_str());
     const char* right = "F1 help";
-    ImGui::SameLine(picture.width - ImGui::CalcTextSize(right).x - 12 * facts.scale);
-    ImGui::TextDisabled("%s", right);
+    const float taken = ImGui::GetItemRectMax().x;
+    if (taken + ImGui::CalcTextSize(right).x + 24 * facts.scale < picture.width) {
+        ImGui::SameLine(picture.width - ImGui::CalcTextSize(right).x - 12 * facts.scale);
+        ImGui::TextDisabled("%s", right);
+    }
     ImGui::End();
     ImGui::PopStyleVar();
 }
@@ -298,10 +301,11 @@ void show_side_names(const Model& model, const PanelFacts& facts) {
     const std::string right = model.truth_path.empty()
                                   ? model.choices[1].technique().id
                                   : std::filesystem::path(model.truth_path).filename().string();
+    const std::string stale = model.truth_is_of_another_view ? ", of another view (G: of this one)" : "";
     const float split = model.compare == Compare::wipe ? model.split : 0.5f;
     const float line = picture.x + picture.width * split, gap = 6 * facts.scale;
     show_side_name(model.choices[0].technique().id, line - gap, facts.scale, true);
-    show_side_name(right, line + gap, facts.scale, false);
+    show_side_name(right + stale, line + gap, facts.scale, false);
 }
 
 void help_table(const char* id, std::span<const std::pair<std::string, std::string>> rows) {

@@ -118,7 +118,9 @@ class Session {
     std::atomic<float> truth_done_ = 0;  ///< 0..1
     std::future<Result<CachedReference>> making_truth_;
     std::string truth_key_;
-    Skin file_skin_;  ///< as the scene came
+    std::string asked_view_;
+    std::string truth_view_;  ///< truth_key() of the scene that it was made of; empty for a file
+    Skin file_skin_;          ///< as the scene came
     double last_look_s_ = 0;
     std::string probe_text_;
     std::string probe_key_;

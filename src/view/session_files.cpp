@@ -79,6 +79,7 @@ void Session::open_truth(const std::string& path) {
     truth_image_ = std::move(loaded->image);
     truth_key_.clear();
     model_.truth_path = path;
+    truth_view_.clear();
     if (!model_.compares()) model_.compare = Compare::wipe;
 }
 
@@ -94,6 +95,7 @@ void Session::ask_for_truth() {
     const ReferenceSettings settings = comparison_settings(size.width, size.height).reference;
     stop_truth_ = false;
     truth_done_ = 0;
+    asked_view_ = truth_key(*model_.scene);
     making_truth_ = std::async(std::launch::async, [this, settings, scene = *model_.scene] {
         return cached_reference(
             scene, settings, [this](double done) { truth_done_ = float(done); }, &stop_truth_);
@@ -117,6 +119,7 @@ bool Session::take_truth() {
     truth_image_ = std::move(made->picture.radiance);
     truth_key_.clear();
     model_.truth_path = "ground truth";
+    truth_view_ = asked_view_;
     if (!model_.compares()) model_.compare = Compare::wipe;
     return true;
 }
@@ -126,8 +129,10 @@ Result<void> Session::refresh_truth() {
     if (model_.truth_path.empty()) truth_image_ = Image();
     if (truth_image_.empty() || !model_.scene) {
         truth_.reset();
+        model_.truth_is_of_another_view = false;
         return {};
     }
+    model_.truth_is_of_another_view = !truth_view_.empty() && truth_view_ != truth_key(*model_.scene);
     const std::string key =
         model_.truth_path + to_text(model_.scene->exposure_ev) + std::to_string(int(model_.scene->tone_map));
     if (truth_ && key == truth_key_) return {};

@@ -127,6 +127,7 @@ std::string Session::state_text() {
         text += "set " + parameter.name + "=" + choice.values().text(parameter) + "\n";
     if (model_.compares())
         text += "right " + (truth_ ? model_.truth_path : model_.choices[1].technique().id) + "\n";
+    if (model_.truth_is_of_another_view) text += "stale truth\n";
     text += "profile " + model_.scene->skin.profile + "\n";
     text += "view " + model_.view + "\ncamera " + camera_text(model_.scene->camera) + "\n";
     const auto key = std::ranges::find(model_.scene->lights, true, &Light::is_key);

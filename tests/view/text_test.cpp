@@ -116,6 +116,25 @@ TEST(ViewLine, what_is_wrong_changes_nothing) {
     EXPECT_THAT(view_line(viewed.model, 1, 1), HasSubstr("yaw=10 pitch=1"));
 }
 
+TEST(TruthKey, follows_the_view_and_the_skin_and_not_the_display) {
+    Viewed viewed;
+    const std::string before = truth_key(viewed.scene), drawn = picture_key(viewed.model, 0);
+    viewed.scene.exposure_ev += 1;
+    viewed.model.view = "normal";
+    EXPECT_EQ(truth_key(viewed.scene), before);
+    EXPECT_NE(picture_key(viewed.model, 0), drawn);
+    const auto changes = [&](const auto& change) {
+        Scene other = viewed.scene;
+        change(other);
+        return truth_key(other) != before;
+    };
+    EXPECT_TRUE(changes([](Scene& s) { s.camera.eye_mm.x += 1; }));
+    EXPECT_TRUE(changes([](Scene& s) { s.lights[0].intensity += 1; }));
+    EXPECT_TRUE(changes([](Scene& s) { s.environment.yaw_rad += 1; }));
+    EXPECT_TRUE(changes([](Scene& s) { s.skin.profile = "jensen_skin1"; }));
+    EXPECT_TRUE(changes([](Scene& s) { s.skin.albedo_tint_linear.x = 0.5f; }));
+}
+
 TEST(WindowState, round_trips_and_forgets_what_is_damaged) {
     WindowState state{.width = 640, .height = 480};
     for (int i = 0; i < 15; ++i) remember(state, "scene \"" + std::to_string(i) + "\"\\");
