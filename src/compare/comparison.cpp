@@ -156,6 +156,11 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Scene& scene,
     Result<Renderer> renderer = Renderer::create(device, gpu::embedded_shaders(), scene);
     if (!renderer) return renderer.error();
     Comparison comparison{.device = device.info().name};
+    // First, as it knows best what it cannot do.
+    Result<CachedReference> reference =
+        cached_reference(scene, settings.reference, hooks.reference, hooks.stop);
+    if (!reference) return reference.error();
+    comparison.reference = std::move(*reference);
     for (const Contestant& contestant : contestants) {
         if (hooks.technique) hooks.technique(contestant.name());
         Compared row{.contestant = contestant};
@@ -167,10 +172,6 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Scene& scene,
     }
     if (Result<void> measured = measure_times(*renderer, settings, comparison.rows); !measured)
         return measured.error();
-    Result<CachedReference> reference =
-        cached_reference(scene, settings.reference, hooks.reference, hooks.stop);
-    if (!reference) return reference.error();
-    comparison.reference = std::move(*reference);
     Result<SkinMasks> masks =
         draw_masks(*renderer, contestants.front(), settings, comparison.reference.picture.skin);
     if (!masks) return masks.error();

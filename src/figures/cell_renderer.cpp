@@ -174,7 +174,7 @@ CellRenderer::~CellRenderer() = default;
 
 Result<CellRenderer::Stage*> CellRenderer::stage(const Figure& figure, const FigureCell& cell) {
     std::string name = !cell.scene.empty() ? cell.scene : figure.scene;
-    if (!options_.scene.empty()) name = options_.scene;
+    if (!options_.scene.empty() && !figure.only_in_its_scene) name = options_.scene;
     const std::string key = name + "|" + cell.environment + "|" + std::to_string(cell.environment_yaw_deg) +
                             std::to_string(cell.environment_visible) + std::to_string(int(cell.albedo));
     if (const auto found = stages_.find(key); found != stages_.end()) return found->second.get();

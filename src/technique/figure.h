@@ -85,6 +85,7 @@ struct Figure {
     std::string source;  ///< which document's figure it makes again
     std::string note;    ///< what to see, and what differs from the source; one to three sentences
     std::string scene = kHeadScene;
+    bool only_in_its_scene = false;  ///< no other scene has what it shows
     std::string technique;  ///< empty: the one that lists it
     float aspect = 1;       ///< width over height of a cell
     std::vector<FigureRow> rows;

@@ -58,6 +58,7 @@ Figure shadow_map_figure() {
                 "what they "
                 "let through; alpha the depth of what is opaque.",
             .scene = "glasses",
+            .only_in_its_scene = true,
             .rows = {{"",
                       {image_cell("RGB, exp(-x)", "shadow_channels", FigureImageChannels::transmittance, {}),
                        image_cell("alpha", "shadow_channels", FigureImageChannels::alpha, {})}}}};
@@ -71,6 +72,7 @@ Figure translucent_figure() {
             .title = "Rendering a tinted lens with and without translucent shadows",
             .source = kSource + "2.8.4",
             .scene = "glasses",
+            .only_in_its_scene = true,
             .rows = {row}};
 }
 

@@ -53,7 +53,8 @@ TEST(UvRaster, a_square_of_two_triangles_covers_every_texel_once) {
     const UvTexel& middle = raster.texels[16 * 33 + 16];
     const Mesh& mesh = objects[0].mesh;
     const uint32_t* c = &mesh.indices[3 * middle.triangle];
-    const float u = mesh.uvs[c[0]].x * (1 - middle.u - middle.v) + mesh.uvs[c[1]].x * middle.u + mesh.uvs[c[2]].x * middle.v;
+    const float u = mesh.uvs[c[0]].x * (1 - middle.u - middle.v) + mesh.uvs[c[1]].x * middle.u +
+                    mesh.uvs[c[2]].x * middle.v;
     EXPECT_NEAR(u, 0.5f, 1e-6);
 }
 
@@ -148,7 +149,9 @@ TEST(BakeMap, a_sphere_s_thickness_follows_the_cone) {
         const float exact = 30 * (1 + std::cos(cone) * std::cos(cone));
         // Right at the poles a straight ray runs along the slivers' common edge and may pass between them.
         for_covered(*map, [&](float value, float, float v) {
-            if (std::abs(v - 0.5f) < 0.46f) EXPECT_NEAR(value, exact, 0.01f * exact) << cone;
+            if (std::abs(v - 0.5f) < 0.46f) {
+                EXPECT_NEAR(value, exact, 0.01f * exact) << cone;
+            }
         });
     }
 }
@@ -205,7 +208,8 @@ TEST(BakeMap, a_coarse_ray_grid_differs_little_from_a_fine_one_and_threads_chang
     coarse.ray_size = 64;
     const auto a = bake_map(objects, fine), b = bake_map(objects, coarse);
     double difference = 0;
-    for (size_t i = 0; i < 128 * 128; ++i) difference += std::abs(a->values.floats()[i] - b->values.floats()[i]) / (128 * 128);
+    for (size_t i = 0; i < 128 * 128; ++i)
+        difference += std::abs(a->values.floats()[i] - b->values.floats()[i]) / (128 * 128);
     EXPECT_LT(difference, 0.3);
     set_thread_limit(1);
     EXPECT_EQ(bake_map(objects, coarse)->values.bytes, b->values.bytes);
@@ -222,7 +226,8 @@ TEST(BakeMap, the_gutter_continues_the_island_and_stops) {
 
 TEST(BakeMap, what_cannot_be_baked_is_named) {
     Mesh bare = test::sphere(10, 1);
-    EXPECT_NE(bake_map(object_of(bare), small(MapKind::stretch)).error().message.find("UV"), std::string::npos);
+    EXPECT_NE(bake_map(object_of(bare), small(MapKind::stretch)).error().message.find("UV"),
+              std::string::npos);
     BakeMapSettings settings = small(MapKind::stretch);
     settings.material = "Fase";
     auto objects = object_of(test::plane(1, 0));

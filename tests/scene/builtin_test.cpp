@@ -97,7 +97,9 @@ TEST(BuiltinGlasses, have_an_opaque_frame_that_is_closed_and_lenses_that_face_fo
             area += length(face) / 2.0;
         }
         // Tubes of 1.7 to 1.9 mm, about 700 mm of them; two lenses of 52 x 42 mm.
-        if (part.name == "frame") EXPECT_NEAR(volume_mm3, 7000, 1500);
+        if (part.name == "frame") {
+            EXPECT_NEAR(volume_mm3, 7000, 1500);
+        }
         if (part.name == "lens") {
             EXPECT_NEAR(area, 2 * 0.85 * 52 * 42, 250);
             EXPECT_GT(area_forward, 0.9 * area);
@@ -115,7 +117,9 @@ TEST(BuiltinGlasses, sit_on_the_bust_without_cutting_into_the_eyes) {
     for (uint32_t i = lens.first_index; i < lens.first_index + lens.index_count; i += 40) {
         const Vec3 p = glasses.mesh.positions_mm[glasses.mesh.indices[i]];
         for (const Vec3 q : bust.mesh.positions_mm)
-            if (std::abs(q.x - p.x) < 1 && std::abs(q.y - p.y) < 1) ASSERT_LT(q.z, p.z);
+            if (std::abs(q.x - p.x) < 1 && std::abs(q.y - p.y) < 1) {
+                ASSERT_LT(q.z, p.z);
+            }
     }
 }
 

@@ -137,15 +137,10 @@ TEST(SceneFile, characters_beyond_ascii_stand_in_strings_and_comments) {
 }
 
 TEST(SceneFile, an_unknown_key_proposes_the_one_that_was_meant) {
-    EXPECT_EQ(error_of(kMesh + "[skin]\nrougness = 0.4\n"),
-              "s.toml:4: unknown key in [skin]: 'rougness'; did you mean 'roughness'? Known: profile, ior, "
-              "roughness, "
-              "specular, albedo_tint");
-    EXPECT_EQ(error_of("exposure = 1\n" + kMesh),
-              "s.toml:1: unknown key 'exposure'; did you mean 'exposure_ev'? Known: camera, environment, "
-              "light, maps, "
-              "material, mesh, settings, skin, name, credit, without_assets, background, tone_map, "
-              "exposure_ev, technique");
+    EXPECT_EQ(error_of(kMesh + "[skin]\nrougness = 0.4\n").substr(0, 85),
+              "s.toml:4: unknown key in [skin]: 'rougness'; did you mean 'roughness'? Known: profile");
+    EXPECT_EQ(error_of("exposure = 1\n" + kMesh).substr(0, 72),
+              "s.toml:1: unknown key 'exposure'; did you mean 'exposure_ev'? Known: cam");
     EXPECT_EQ(error_of(kMesh + "[material.lips.maps]\nnormals = \"a.png\"\n").substr(0, 88),
               "s.toml:4: unknown key in [material.lips.maps]: 'normals'; did you mean 'normal'? Known: ");
 }
