@@ -18,6 +18,7 @@ constexpr std::string_view kSettings =
     "preintegrated[construction=ring,shadow=plain],"
     "preintegrated[normals=sharp,shadow=plain],"
     "texture_space[light_map_size=2048],"
+    "texture_space[space=mm],"
     "texture_space[filter=gaussian],"
     "texture_space[specular_shadow=off]";
 
