@@ -36,7 +36,8 @@ Result<std::vector<SceneObject>> load_objects(const SceneDescription& descriptio
                                               const MeshDescription& mesh,
                                               std::vector<std::string>& warnings) {
     if (mesh.file.text.starts_with(kBuiltin)) {
-        auto objects = make_builtin_objects(std::string_view(mesh.file.text).substr(kBuiltin.size()));
+        auto objects =
+            make_builtin_objects(std::string_view(mesh.file.text).substr(kBuiltin.size()), mesh.bust);
         if (!objects) return error_at(description, mesh.file, objects.error().message);
         return objects;
     }

@@ -79,19 +79,31 @@ ImageSource made_by_code(std::string name, const Image& image) {
             .pixels = image.bytes};
 }
 
-Result<std::vector<SceneObject>> make_bust_objects() {
-    Result<Bust> bust = make_bust();
+// Maps are told apart by their names: "builtin:bust tone=5".
+std::string bust_name(const BustParams& params) {
+    std::string name = "builtin:bust";
+    const BustParams standard;
+    for (const BustParamInfo& info : bust_param_table())
+        if (params.*info.member != standard.*info.member)
+            name += " " + std::string(info.name) + "=" + to_text(params.*info.member);
+    if (params.seed != standard.seed) name += " seed=" + std::to_string(params.seed);
+    return name;
+}
+
+Result<std::vector<SceneObject>> make_bust_objects(const BustParams& params) {
+    Result<Bust> bust = make_bust(params);
     if (!bust) return bust.error();
     SceneObject object{.name = "bust", .mesh = std::move(bust->mesh), .classes = {MaterialClass::skin}};
     object.mesh.materials.resize(1);
+    const std::string name = bust_name(params);
     Material& skin = object.mesh.materials[0];
     skin.base_color_linear = {1, 1, 1};
     skin.roughness = 1;
-    skin.base_color_map = made_by_code("builtin:bust albedo", bust->albedo);
-    skin.normal_map = made_by_code("builtin:bust normal", bust->normal);
-    skin.roughness_map = made_by_code("builtin:bust roughness", bust->roughness);
-    skin.specular_map = made_by_code("builtin:bust specular", bust->specular);
-    skin.kernel_size_map = made_by_code("builtin:bust kernel size", bust->kernel_size);
+    skin.base_color_map = made_by_code(name + " albedo", bust->albedo);
+    skin.normal_map = made_by_code(name + " normal", bust->normal);
+    skin.roughness_map = made_by_code(name + " roughness", bust->roughness);
+    skin.specular_map = made_by_code(name + " specular", bust->specular);
+    skin.kernel_size_map = made_by_code(name + " kernel size", bust->kernel_size);
     std::vector<SceneObject> objects;
     objects.push_back(std::move(object));
     return objects;
@@ -103,9 +115,9 @@ std::vector<std::string> builtin_mesh_names() {
     return {"bust", "glasses", "spheres"};
 }
 
-Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name) {
+Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name, const BustParams& bust) {
     if (name == "spheres") return make_spheres();
-    if (name == "bust") return make_bust_objects();
+    if (name == "bust") return make_bust_objects(bust);
     if (name == "glasses") return std::vector<SceneObject>{make_glasses()};
     return Error{unknown_name("built-in scene", name, builtin_mesh_names())};
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dermis/bust/params.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
@@ -14,8 +15,10 @@ inline constexpr float kSphereRadiiMm[4] = {2, 4, 8, 16};
 
 [[nodiscard]] std::vector<std::string> builtin_mesh_names();
 
-/// The objects of "builtin:NAME". Errors: an unknown name.
-[[nodiscard]] Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name);
+/// The objects of "builtin:NAME"; `bust` are the parameters of that one. Errors: an unknown name, a parameter
+/// out of range.
+[[nodiscard]] Result<std::vector<SceneObject>> make_builtin_objects(std::string_view name,
+                                                                    const BustParams& bust = {});
 
 /// Copies ior, roughness and specular into a material of skin.
 void apply_skin(const Skin& skin, Material& material);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dermis/bust/params.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
@@ -47,6 +48,9 @@ struct MeshDescription {
     Vec3 rotate_deg, translate_mm;
     int subdivision = 0;
     MaterialClass default_class = MaterialClass::skin;
+    BustParams bust;       ///< of builtin:bust
+    std::string bust_key;  ///< the last of its parameters that was given ("mesh.tone"), or empty
+    int bust_line = 0;
 };
 
 /// Either a position, or a yaw and pitch (and a distance, unless directional) around a target.

@@ -104,6 +104,12 @@ class KeyTable {
             [](const Target&, KeyValue&) { return false; });
     }
 
+    /// A row whose value goes somewhere else than into a member of Target.
+    KeyTable& row(KeyInfo info, std::function<void(Target&, const KeyValue&)> set) {
+        keys_.push_back({std::move(info), std::move(set)});
+        return *this;
+    }
+
     [[nodiscard]] std::span<const Key<Target>> keys() const { return keys_; }
 
   private:

@@ -1,5 +1,7 @@
 // The keys of the scene file, section by section. docs/scene_file.md is printed from these rows.
 
+#include <limits>
+
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_keys.h"
 
@@ -9,6 +11,38 @@ namespace {
 const std::vector<std::string> kMaterialClasses = {"skin", "other", "translucent"};
 
 constexpr double kMaxLengthMm = 1e6;
+
+// The parameters of builtin:bust, out of the bust's own table.
+void add_bust_keys(KeyTable<MeshDescription>& table) {
+    using D = MeshDescription;
+    const auto remember = [](D& mesh, const KeyValue& value) {
+        mesh.bust_key = value.full_name;
+        mesh.bust_line = value.line;
+    };
+    const BustParams standard;
+    for (const BustParamInfo& info : bust_param_table()) {
+        KeyInfo key = {.name = std::string(info.name),
+                       .unit = std::string(info.unit),
+                       .doc = "builtin:bust: " + std::string(info.doc),
+                       .kind = KeyKind::number,
+                       .min = info.least,
+                       .max = info.most,
+                       .default_text = to_text(standard.*info.member)};
+        table.row(std::move(key), [member = info.member, remember](D& mesh, const KeyValue& value) {
+            mesh.bust.*member = value.numbers[0];
+            remember(mesh, value);
+        });
+    }
+    table.row({.name = "seed",
+               .doc = "builtin:bust: moves pores, freckles, hairs and the asymmetry",
+               .kind = KeyKind::integer,
+               .max = std::numeric_limits<int>::max(),
+               .default_text = std::to_string(standard.seed)},
+              [remember](D& mesh, const KeyValue& value) {
+                  mesh.bust.seed = uint32_t(value.integer);
+                  remember(mesh, value);
+              });
+}
 
 }  // namespace
 
@@ -63,9 +97,9 @@ const KeyTable<HeadDescription>& head_keys() {
 
 const KeyTable<MeshDescription>& mesh_keys() {
     using D = MeshDescription;
-    static const KeyTable<D> table =
-        KeyTable<D>()
-            .file(&D::file,
+    static const KeyTable<D> table = [] {
+        KeyTable<D> rows;
+        rows.file(&D::file,
                   {.name = "file",
                    .doc = "`.obj`, `.gltf`, `.glb`, or `builtin:bust`, `builtin:glasses`, `builtin:spheres`"})
             .text(&D::name, {.name = "name", .doc = "of the object; the file's name when absent"})
@@ -96,6 +130,9 @@ const KeyTable<MeshDescription>& mesh_keys() {
             .choice<MaterialClass>(&D::default_class, {.name = "default_class",
                                                        .doc = "class of the materials that state none",
                                                        .choices = kMaterialClasses});
+        add_bust_keys(rows);
+        return rows;
+    }();
     return table;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dermis/scene/builtin.h"
+#include "dermis/scene/scene_description.h"
 
 using namespace dermis;
 
@@ -121,6 +122,15 @@ TEST(BuiltinGlasses, sit_on_the_bust_without_cutting_into_the_eyes) {
                 ASSERT_LT(q.z, p.z);
             }
     }
+}
+
+TEST(BuiltinBust, is_made_with_the_parameters_of_its_mesh) {
+    Result<SceneDescription> description =
+        parse_scene("[[mesh]]\nfile = \"builtin:bust\"\ntone = 5\n", "s.toml");
+    ASSERT_TRUE(description);
+    description->meshes[0].bust.tone = 9;  // what the file's check would not let through shows the way
+    EXPECT_EQ(build_scene(*description).error().message,
+              "s.toml:2: mesh.file: bust: tone is 9; it must be between 1 and 6");
 }
 
 TEST(LoadScene, an_unknown_built_in_name_says_which_exist) {

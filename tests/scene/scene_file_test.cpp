@@ -104,6 +104,27 @@ TEST(SceneFile, every_section_arrives_in_the_description) {
     EXPECT_EQ(scene->settings, settings);
 }
 
+TEST(SceneFile, a_bust_takes_the_parameters_of_its_own_table) {
+    const Result<SceneDescription> scene = parse_scene(
+        "[[mesh]]\nfile = \"builtin:bust\"\ntone = 5\near_length_mm = 58.5\nseed = 7\n", "s.toml");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes[0].bust, (BustParams{.ear_length_mm = 58.5, .tone = 5, .seed = 7}));
+    for (const BustParamInfo& row : bust_param_table()) {
+        const std::string name(row.name), below = std::to_string(row.least - 1);
+        const std::string message = error_of("[[mesh]]\nfile = \"builtin:bust\"\n" + name + " = " + below);
+        EXPECT_TRUE(message.starts_with("s.toml:3: mesh." + name + " = ")) << message;
+    }
+    EXPECT_EQ(error_of("[[mesh]]\nfile = \"builtin:bust\"\ntone = 7\n"),
+              "s.toml:3: mesh.tone = 7: tone is a number from 1 to 6");
+}
+
+TEST(SceneFile, only_a_bust_takes_the_parameters_of_the_bust) {
+    EXPECT_EQ(error_of("[[mesh]]\nfile = \"builtin:spheres\"\ntone = 5\n"),
+              "s.toml:3: mesh.tone: only builtin:bust has it, not builtin:spheres; leave it out");
+    EXPECT_NE(error_of("[[mesh]]\nfile = \"builtin:bust\"\nfrekles = 1\n").find("did you mean 'freckles'?"),
+              std::string::npos);
+}
+
 TEST(SceneFile, every_prefix_fails_in_one_line_or_is_a_scene) {
     const std::string text = kComplete;
     for (size_t length = 0; length < text.size(); ++length) {
