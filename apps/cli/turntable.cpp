@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> draw_turn(const Turntable& turntable, const std::string& pattern) {
+// What the pictures carry: their credit and what they show.
+Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& pattern) {
     Result<Prepared> prepared = prepare(turntable.render);
     if (!prepared) return prepared.error();
     Result<gpu::Device> device = gpu::Device::create(
@@ -36,10 +37,44 @@ Result<void> draw_turn(const Turntable& turntable, const std::string& pattern) {
         if (Result<void> written = write_output(*renderer, *prepared->technique, *prepared->values,
                                                 prepared->draw, frame_path(pattern, frame), output);
             !written)
-            return written;
+            return written.error();
         progress.advance(1);
     }
-    return {};
+    return output;
+}
+
+// The matrix and the curve are stated, inside the file too: players guess by size otherwise, and skin turns
+// red or green. Sides must be even.
+std::vector<std::string> film_command(const std::string& pattern, const std::string& film,
+                                      const OutputSettings& output) {
+    return {"ffmpeg",
+            "-y",
+            "-loglevel",
+            "error",
+            "-framerate",
+            "30",
+            "-i",
+            pattern,
+            "-vf",
+            "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,"
+            "format=yuv420p",
+            "-crf",
+            "16",
+            "-colorspace",
+            "bt709",
+            "-color_primaries",
+            "bt709",
+            "-color_trc",
+            "iec61966-2-1",
+            "-color_range",
+            "tv",
+            "-movflags",
+            "+faststart",
+            "-metadata",
+            "title=" + output.description,
+            "-metadata",
+            "comment=" + output.credit,
+            film};
 }
 
 // Frames in a folder beside the film, which goes when the film is made.
@@ -48,14 +83,12 @@ Result<void> draw_film(const Turntable& turntable) {
     const std::string pattern = (folder / "%04d.png").string();
     std::error_code ec;
     if (fs::exists(folder, ec)) return Error{folder.string() + " is in the way: the frames would go there"};
-    Result<void> done = draw_turn(turntable, pattern);
-    if (done)
+    const Result<OutputSettings> drawn = draw_turn(turntable, pattern);
+    Result<void> done = drawn ? Result<void>() : drawn.error();
+    if (drawn)
         done = write_beside(turntable.output, [&](const fs::path& temporary) -> Result<void> {
             const fs::path log = folder / "ffmpeg.txt";
-            const int status = run_program(
-                {"ffmpeg", "-y", "-loglevel", "error", "-framerate", "30", "-i", pattern, "-pix_fmt",
-                 "yuv420p", "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", temporary.string()},
-                log);
+            const int status = run_program(film_command(pattern, temporary.string(), *drawn), log);
             if (status == 0) return {};
             if (status == 127 || status == -1)
                 return Error{
@@ -98,8 +131,11 @@ Result<int> run_turntable(const Turntable& turntable) {
                      ": a turntable is numbered pictures (out/%04d.png) or a film (.mp4)"};
     if (!film)
         if (Result<void> good = check_output(turntable.output, {}); !good) return good.error();
-    const Result<void> done = film ? draw_film(turntable) : draw_turn(turntable, turntable.output);
-    if (!done) return done.error();
+    if (film) {
+        if (Result<void> made = draw_film(turntable); !made) return made.error();
+    } else if (const auto drawn = draw_turn(turntable, turntable.output); !drawn) {
+        return drawn.error();
+    }
     std::printf("%s\n", turntable.output.c_str());
     return 0;
 }
