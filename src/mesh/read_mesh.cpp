@@ -61,7 +61,7 @@ Result<LoadedMesh> load_obj(std::span<const std::byte> bytes, const fs::path& na
     for (Vec3& p : file->polygons.positions_mm) p *= scale;
     const Result<PolygonMesh> refined = subdivide(file->polygons, options.subdivision_level);
     if (!refined) return Error{name.string() + ": " + refined.error().message};
-    return LoadedMesh{triangulate(*refined), std::move(file->warnings)};
+    return LoadedMesh{.mesh = triangulate(*refined), .warnings = std::move(file->warnings)};
 }
 
 // glTF knows triangles only: they are the cage.
@@ -175,10 +175,13 @@ Result<LoadedMesh> read_mesh(const fs::path& path, const MeshOptions& options) {
     if (!format) return format.error();
     const Result<std::vector<std::byte>> bytes = read_file(path);
     if (!bytes) return bytes.error();
-    const ReadSibling read_sibling = [directory = path.parent_path()](const std::string& relative_path) {
-        return read_file(directory / relative_path);
+    std::vector<fs::path> files = {path};
+    const ReadSibling read_sibling = [&](const std::string& relative_path) {
+        return read_file(files.emplace_back(path.parent_path() / relative_path));
     };
-    return parse_mesh(*bytes, *format, path, read_sibling, options);
+    Result<LoadedMesh> loaded = parse_mesh(*bytes, *format, path, read_sibling, options);
+    if (loaded) loaded->files = std::move(files);
+    return loaded;
 }
 
 }  // namespace dermis

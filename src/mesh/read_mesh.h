@@ -29,6 +29,8 @@ struct MeshOptions {
 struct LoadedMesh {
     Mesh mesh;
     std::vector<std::string> warnings;  ///< one line each, for a person
+    /// By read_mesh: the file, and what it names beside it, there or not. Maps stand in the materials.
+    std::vector<std::filesystem::path> files;
 };
 
 /// Reads a file that the mesh names (an MTL, a .bin) by its path relative to the mesh; never called with a

@@ -33,8 +33,7 @@ Result<fs::path> resolve(const SceneDescription& description, const NamedFile& f
 }
 
 Result<std::vector<SceneObject>> load_objects(const SceneDescription& description,
-                                              const MeshDescription& mesh,
-                                              std::vector<std::string>& warnings) {
+                                              const MeshDescription& mesh, Scene& scene) {
     if (mesh.file.text.starts_with(kBuiltin)) {
         auto objects =
             make_builtin_objects(std::string_view(mesh.file.text).substr(kBuiltin.size()), mesh.bust);
@@ -48,7 +47,8 @@ Result<std::vector<SceneObject>> load_objects(const SceneDescription& descriptio
                           .subdivision_level = mesh.subdivision,
                           .ignore_missing_materials = description.maps.albedo.given()});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
-    warnings.insert(warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
+    scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
+    scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());
     std::vector<SceneObject> objects(1);
     objects[0] = {.name = mesh.name.empty() ? path->stem().string() : mesh.name,
                   .mesh = std::move(loaded->mesh)};
@@ -147,7 +147,7 @@ Result<void> apply_material(const SceneDescription& description, const MaterialD
 }
 
 Result<void> add_objects(const SceneDescription& description, const MeshDescription& mesh, Scene& scene) {
-    Result<std::vector<SceneObject>> objects = load_objects(description, mesh, scene.warnings);
+    Result<std::vector<SceneObject>> objects = load_objects(description, mesh, scene);
     if (!objects) return objects.error();
     for (SceneObject& object : *objects) {
         place_mesh(object.mesh, {.scale = mesh.scale,

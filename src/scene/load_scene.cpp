@@ -31,12 +31,14 @@ Result<Scene> load_scene_file(const fs::path& path) {
     const Result<SceneDescription> description = read_description(path);
     if (!description) return description.error();
     Result<Scene> scene = build_scene(*description);
+    if (scene) scene->files.push_back(path);
     if (scene || description->head.without_assets.empty() || !lacks_asset(*description)) return scene;
 
     const Result<SceneDescription> other =
         read_description(path.parent_path() / (description->head.without_assets + ".toml"));
     Result<Scene> instead = other ? build_scene(*other) : other.error();
     if (!instead) return scene;
+    instead->files.push_back(path);
     instead->warnings.insert(instead->warnings.begin(), scene.error().message + "; drawing scene '" +
                                                             description->head.without_assets + "' instead");
     return instead;
@@ -55,7 +57,9 @@ std::vector<MaterialClass> classes_of(const std::vector<Material>& materials) {
 Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) {
     Result<LoadedMesh> loaded = read_mesh(path, {.unit_mm = options.mesh_unit_mm});
     if (!loaded) return loaded.error();
-    Scene scene{.name = path.stem().string(), .warnings = std::move(loaded->warnings)};
+    Scene scene{.name = path.stem().string(),
+                .warnings = std::move(loaded->warnings),
+                .files = std::move(loaded->files)};
     scene.objects.push_back({.name = scene.name, .mesh = std::move(loaded->mesh)});
     SceneObject& object = scene.objects.back();
     object.classes = classes_of(object.mesh.materials);

@@ -109,7 +109,8 @@ struct Scene {
     std::string technique;  ///< optional: id and settings the file asks for
     std::map<std::string, std::string> settings;
     std::vector<std::string> warnings;
-    Vec3 bounds_center_mm;  ///< of all objects
+    std::vector<std::filesystem::path> files;  ///< it was loaded from; files_of() adds what drawing reads
+    Vec3 bounds_center_mm;                     ///< of all objects
     float bounds_radius_mm = 1;
 
     [[nodiscard]] const Light& key_light() const;

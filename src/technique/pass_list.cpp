@@ -108,10 +108,11 @@ class Checker {
             }
             if (load == LoadOp::load && !written_.contains(name))
                 report(pass, "loads '" + name + "' before anything wrote it");
+            const std::string& wanted = name;  // clang 14 cannot capture `name` itself
             const bool only_tested =
                 pass.depth && name == pass.depth->image && load == LoadOp::load && !pass.depth->write;
             if (!only_tested &&
-                std::ranges::any_of(pass.reads, [&](const ImageRead& read) { return read.image == name; }))
+                std::ranges::any_of(pass.reads, [&](const ImageRead& read) { return read.image == wanted; }))
                 report(pass, "reads and writes '" + name + "'");
             if (!first) first = image;
             if (!(image->size == first->size)) report(pass, "has targets of different sizes");

@@ -23,7 +23,16 @@ FileWatch::Stamps FileWatch::look() const {
 
 void FileWatch::watch(const std::vector<fs::path>& paths) {
     paths_ = paths;
-    stamps_ = look();
+    Stamps now = look();
+    for (auto& [path, stamp] : now)
+        if (const auto known = stamps_.find(path); known != stamps_.end()) stamp = known->second;
+    stamps_ = std::move(now);
+}
+
+void FileWatch::add(const std::vector<fs::path>& paths) {
+    std::vector<fs::path> all = paths_;
+    all.insert(all.end(), paths.begin(), paths.end());
+    watch(all);
 }
 
 std::vector<fs::path> FileWatch::changed() {

@@ -11,8 +11,11 @@ namespace dermis::view {
 
 class FileWatch {
   public:
-    /// Starts over with these files and the files below these directories, as they are now.
+    /// These files and the files below these directories, from now on. Files known before count as they
+    /// were last looked at, so that no change falls between; new ones as they are now.
     void watch(const std::vector<std::filesystem::path>& paths);
+    /// These too.
+    void add(const std::vector<std::filesystem::path>& paths);
     /// Files that changed, appeared or vanished since the last call. A few microseconds a file.
     [[nodiscard]] std::vector<std::filesystem::path> changed();
 

@@ -38,6 +38,10 @@ void Notices::expire(double now_s) {
     std::erase_if(all_, [&](const Notice& notice) { return !notice.is_error && notice.until_s < now_s; });
 }
 
+std::string tone_profile(int tone) {
+    return "openpbr_skin_" + std::to_string(tone);
+}
+
 std::string truth_key(const Scene& scene) {
     std::string key = scene.skin.profile + ' ';
     add(key, scene.camera.eye_mm);

@@ -6,7 +6,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
-#include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_paths.h"
 #include "dermis/view/scene_edit.h"
 
@@ -112,20 +112,9 @@ std::string new_scene(const Model& model) {
 
 // Every path of the file that only means something beside it.
 std::string with_absolute_paths(std::string text, const SceneDescription& scene) {
-    std::vector<NamedFile> files;
-    const auto add_maps = [&](const MapsDescription& maps) {
-        for (const NamedFile* file :
-             {&maps.albedo, &maps.normal, &maps.specular, &maps.roughness, &maps.occlusion, &maps.thickness,
-              &maps.kernel_size, &maps.curvature, &maps.displacement, &maps.opacity})
-            files.push_back(*file);
-    };
-    for (const MeshDescription& mesh : scene.meshes) files.push_back(mesh.file);
-    add_maps(scene.maps);
-    for (const auto& [name, material] : scene.materials) add_maps(material.maps);
-    if (scene.environment) files.push_back(scene.environment->file);
-    for (const NamedFile& file : files) {
-        if (!file.given() || file.text.find(':') != std::string::npos || fs::path(file.text).is_absolute())
-            continue;
+    for (const NamedFile* named : named_files(scene)) {
+        const NamedFile& file = *named;
+        if (file.text.find(':') != std::string::npos || fs::path(file.text).is_absolute()) continue;
         const fs::path absolute = fs::absolute(scene.file).parent_path() / file.text;
         for (const char quote : {'"', '\''}) {
             const std::string old = quote + file.text + quote;
@@ -147,11 +136,10 @@ fs::path scene_file_of(const std::string& path_or_name) {
 }  // namespace
 
 std::vector<TomlEdit> model_edits(Model& model) {
-    static constexpr const char* kToneMaps[] = {"none", "hable", "aces", "pbr_neutral"};
     std::vector<TomlEdit> edits;
     const Scene& scene = *model.scene;
     edits.push_back({"", "exposure_ev", number(scene.exposure_ev)});
-    edits.push_back({"", "tone_map", toml_string(kToneMaps[size_t(scene.tone_map)])});
+    edits.push_back({"", "tone_map", toml_string(tone_map_names()[size_t(scene.tone_map)])});
     add_technique(edits, model);
     edits.push_back({"skin", "profile", toml_string(scene.skin.profile)});
     edits.push_back({"skin", "albedo_tint", vector(scene.skin.albedo_tint_linear)});

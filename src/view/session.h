@@ -1,6 +1,7 @@
 #pragma once
-// What lives while the window is open. Its work is spread over session.cpp (the frame), session_input.cpp
-// (mouse and keys), session_files.cpp and session_script.cpp.
+// What lives while the window is open. Its work is spread over session.cpp (opening, running, losing the
+// device), session_frame.cpp, session_scene.cpp, session_input.cpp, session_files.cpp, session_truth.cpp and
+// session_script.cpp.
 
 #include <atomic>
 #include <chrono>
@@ -23,9 +24,6 @@ namespace dermis::view {
 /// In every message of a lost device (src/gpu).
 inline constexpr std::string_view kDeviceLost = "the GPU was lost";
 
-/// A scene, ready to draw.
-[[nodiscard]] Result<Start> load_start(const std::string& path);
-
 class Session {
   public:
     [[nodiscard]] static Result<std::unique_ptr<Session>> open(const ViewerOptions& options);
@@ -44,30 +42,44 @@ class Session {
     [[nodiscard]] Result<void> make_window_side();
     [[nodiscard]] Result<void> make_swapchain();
 
-    // session.cpp
-    [[nodiscard]] Result<void> frame();
+    [[nodiscard]] double now_s() const;
+
+    // session_scene.cpp
+    void load(const std::string& path);
     [[nodiscard]] Result<void> take_loaded();
     [[nodiscard]] Result<void> begin_scene(Start start, bool first);
-    void follow_scene(bool first);
-    void load(const std::string& path);
-    void open_file(const std::string& path);
-    void open_panorama(const std::string& path);
-    void open_truth(const std::string& path);
-    void choose_tone(int tone);
-    void ask_for_truth();
-    [[nodiscard]] bool take_truth();
+    void take_over(const Handed& handed);
+    void take_technique(const SceneLook& look);
+    void follow_scene();
     /// True when something changed.
     bool follow_files();
-    void follow_skin();
+    bool follow_scene_files();
+
+    // session_truth.cpp
+    void open_truth(const std::string& path);
+    void ask_for_truth();
+    [[nodiscard]] bool take_truth();
     [[nodiscard]] Result<void> refresh_truth();
+
+    // session_files.cpp
+    void open_file(const std::string& path);
+    void open_panorama(const std::string& path);
+    void choose_tone(int tone);
+    void follow_skin();
+    void copy_view();
+    void paste_view();
+    [[nodiscard]] Result<void> save_scene(const std::string& path);
+    [[nodiscard]] std::string free_name(const std::string& stem, const std::string& extension) const;
     [[nodiscard]] std::string probe_line();
+
+    // session_frame.cpp
+    [[nodiscard]] Result<void> frame();
     [[nodiscard]] Result<void> refresh_pictures();
     [[nodiscard]] Result<void> show(const InterfaceDraws& draws);
     [[nodiscard]] Result<void> rescale();
     [[nodiscard]] PanelFacts facts() const;
     [[nodiscard]] PictureSize picture_size() const;
     [[nodiscard]] Region picture_area() const;
-    [[nodiscard]] double now_s() const;
     [[nodiscard]] bool is_settled() const;
     [[nodiscard]] bool may_rest(const std::vector<Event>& events, WindowSize size) const;
 
@@ -80,10 +92,6 @@ class Session {
     void choose_technique(int step);
     void choose_view(int step);
     void save_picture();
-    void copy_view();
-    void paste_view();
-    [[nodiscard]] Result<void> save_scene(const std::string& path);
-    [[nodiscard]] std::string free_name(const std::string& stem, const std::string& extension) const;
 
     // session_script.cpp
     [[nodiscard]] Result<void> step_script();
@@ -107,9 +115,10 @@ class Session {
 
     std::future<Result<Start>> loading_;
     std::string loading_path_;
-    bool reloading_ = false;  ///< the same scene again: the view stays
+    bool reloading_ = false;           ///< the same scene again: what was changed stays
+    bool scene_file_changed_ = false;  ///< since the scene was last read, not only its meshes and maps
     FileWatch scene_files_;
-    std::string file_camera_;  ///< the camera as the scene's file had it
+    SceneLook file_look_;  ///< as the scene's files had it
     std::optional<Vec3> mean_albedo_;
     Vec3 drawn_tint_;  ///< what the materials on the device were made with
     bool shaders_unproven_ = false;
@@ -120,7 +129,6 @@ class Session {
     std::string truth_key_;
     std::string asked_view_;
     std::string truth_view_;  ///< truth_key() of the scene that it was made of; empty for a file
-    Skin file_skin_;          ///< as the scene came
     double last_look_s_ = 0;
     std::string probe_text_;
     std::string probe_key_;

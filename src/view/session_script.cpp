@@ -132,8 +132,17 @@ std::string Session::state_text() {
     text += "view " + model_.view + "\ncamera " + camera_text(model_.scene->camera) + "\n";
     const auto key = std::ranges::find(model_.scene->lights, true, &Light::is_key);
     if (key != model_.scene->lights.end()) text += "light " + light_text(*key) + "\n";
+    const Environment& around = model_.scene->environment;
+    const bool from_file = around.kind == EnvironmentKind::file;
+    text += "surroundings " +
+            (from_file                                ? around.file.string()
+             : around.kind == EnvironmentKind::studio ? std::string("studio")
+                                                      : std::string("none")) +
+            "\n";
     text += "exposure_ev " + to_text(model_.scene->exposure_ev) + "\n";
     text += "window " + std::to_string(size_.width) + "x" + std::to_string(size_.height) + "\n";
+    text += std::string("minimised ") + (window_.framebuffer().width == 0 ? "yes\n" : "no\n");
+    text += "interface_scale " + to_text(interface_->scale()) + "\n";
     const gpu::Footprint held = executor_->footprint();
     text += "window_images " + std::to_string(held.images) + "\n";
     text += "peak_memory_mb " + std::to_string(peak_memory_mb()) + "\n";

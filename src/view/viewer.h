@@ -6,12 +6,22 @@
 #include <string>
 #include <vector>
 
+#include "dermis/image/image.h"
 #include "dermis/scene/scene.h"
 #include "dermis/technique/technique.h"
+#include "dermis/view/model.h"
+#include "dermis/view/scene_look.h"
 #include "dermis/view/script.h"
 #include "dermis/view/window.h"
 
 namespace dermis::view {
+
+/// What a window whose device was lost leaves to the next one.
+struct Handed {
+    Model model;  ///< without its scene
+    Image truth;
+    std::string truth_view;
+};
 
 /// What the window opens with.
 struct Start {
@@ -19,6 +29,8 @@ struct Start {
     const Technique* technique = nullptr;
     std::optional<ParameterValues> values;
     std::string view = "final";
+    std::optional<SceneLook> file_look;  ///< of the files, when `scene` has something else
+    std::optional<Handed> handed;
 };
 
 struct ViewerOptions {

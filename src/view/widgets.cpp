@@ -171,6 +171,16 @@ bool Rows::parameter(const Parameter& parameter, ParameterValues& values) {
     return changed;
 }
 
+int fixed_window() {
+    return ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+           ImGuiWindowFlags_NoNav;
+}
+
+int index_of(const std::vector<std::string>& names, const std::string& name) {
+    const auto found = std::ranges::find(names, name);
+    return found == names.end() ? -1 : int(found - names.begin());
+}
+
 bool section(const char* title, bool open_at_first) {
     ImGui::Spacing();
     return ImGui::CollapsingHeader(title, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);

@@ -46,6 +46,12 @@ class Rows {
 /// A heading that folds; true while open.
 [[nodiscard]] bool section(const char* title, bool open_at_first);
 
+/// Window flags of what stands where it is put: no frame, no moving, nothing remembered.
+[[nodiscard]] int fixed_window();
+
+/// Where `name` stands among `names`; -1 when it does not.
+[[nodiscard]] int index_of(const std::vector<std::string>& names, const std::string& name);
+
 /// "shadow_width_mm" as people read it: "shadow width".
 [[nodiscard]] std::string label_of(const std::string& name);
 

@@ -13,7 +13,7 @@ LoadedMesh load_with(const std::string& material, const std::string& node = "") 
         data_uri("PNG!") + R"("}],"materials":[)" + material + "]";
     auto loaded = parse_gltf_text(square_gltf(node, images, R"(,"material":0)"));
     EXPECT_TRUE(loaded) << loaded.error().message;
-    return loaded ? std::move(*loaded) : LoadedMesh{{.materials = {{}}}, {}};
+    return loaded ? std::move(*loaded) : LoadedMesh{.mesh = {.materials = {{}}}};
 }
 
 Material material_of(const std::string& material, const std::string& node = "") {

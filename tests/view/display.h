@@ -1,17 +1,50 @@
 #pragma once
 // A display of our own (Xvfb), so that windows open on a machine that has none, and never on somebody's
-// screen.
+// screen; and a window manager (twm) for what only one can do.
 
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <optional>
 #include <string>
+#include <vector>
 
 extern char** environ;
 
 namespace dermis {
+
+/// Another program, silent, until the end of its scope.
+class ChildProgram {
+  public:
+    /// started() is false where there is no such program.
+    explicit ChildProgram(const std::vector<std::string>& words) {
+        std::vector<char*> arguments;
+        for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+        arguments.push_back(nullptr);
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        for (const int output : {STDOUT_FILENO, STDERR_FILENO})
+            posix_spawn_file_actions_addopen(&actions, output, "/dev/null", 1, 0);
+        const int spawned =
+            posix_spawnp(&process_, arguments[0], &actions, nullptr, arguments.data(), environ);
+        posix_spawn_file_actions_destroy(&actions);
+        if (spawned != 0) process_ = 0;
+    }
+    ~ChildProgram() {
+        if (!process_) return;
+        kill(process_, SIGTERM);
+        waitpid(process_, nullptr, 0);
+    }
+    ChildProgram(const ChildProgram&) = delete;
+    ChildProgram& operator=(const ChildProgram&) = delete;
+
+    [[nodiscard]] bool started() const { return process_ != 0; }
+
+  private:
+    pid_t process_ = 0;
+};
 
 class VirtualDisplay {
   public:
@@ -19,36 +52,20 @@ class VirtualDisplay {
     explicit VirtualDisplay(const std::string& screen) {
         int fds[2];
         if (pipe(fds) != 0) return;
-        const std::string number_fd = std::to_string(fds[1]), depth = screen + "x24";
-        const char* arguments[] = {"Xvfb",      "-displayfd", number_fd.c_str(),
-                                   "-screen",   "0",          depth.c_str(),
-                                   "-nolisten", "tcp",        nullptr};
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
-        const int spawned =
-            posix_spawnp(&server_, "Xvfb", &actions, nullptr, const_cast<char**>(arguments), environ);
-        posix_spawn_file_actions_destroy(&actions);
+        server_.emplace(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(fds[1]), "-screen", "0",
+                                                 screen + "x24", "-nolisten", "tcp", "-noreset"});
         close(fds[1]);
-        if (spawned != 0) server_ = 0;
         char c = 0;
         std::string number;
-        while (server_ && read(fds[0], &c, 1) == 1 && c != '\n') number += c;
+        while (server_->started() && read(fds[0], &c, 1) == 1 && c != '\n') number += c;
         close(fds[0]);
         if (!number.empty()) name_ = ":" + number;
     }
-    ~VirtualDisplay() {
-        if (!server_) return;
-        kill(server_, SIGTERM);
-        waitpid(server_, nullptr, 0);
-    }
-    VirtualDisplay(const VirtualDisplay&) = delete;
-    VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
     [[nodiscard]] const std::string& name() const { return name_; }
 
   private:
-    pid_t server_ = 0;
+    std::optional<ChildProgram> server_;
     std::string name_;
 };
 

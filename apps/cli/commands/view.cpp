@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "command.h"
 #include "dermis/base/file.h"
@@ -30,6 +31,21 @@ Result<int> turn_scene(const Options& options) {
     return run_turntable(turntable);
 }
 
+// What the files say is kept apart from what --camera and --light say: it decides what stays when they
+// change.
+Result<view::Start> first_scene(RenderOptions options) {
+    const std::string camera = std::exchange(options.camera, ""), light = std::exchange(options.light, "");
+    Result<Prepared> prepared = prepare(options);
+    if (!prepared) return prepared.error();
+    const view::SceneLook file_look = view::look_of(prepared->scene);
+    if (Result<void> applied = apply_views(prepared->scene, camera, light); !applied) return applied.error();
+    return view::Start{.scene = std::move(prepared->scene),
+                       .technique = prepared->technique,
+                       .values = std::move(prepared->values),
+                       .view = prepared->draw.view,
+                       .file_look = file_look};
+}
+
 Result<int> view_scene(Options options) {
     if (options.turn_frames != 0) return turn_scene(options);
     if (options.render.size.empty()) {
@@ -39,14 +55,7 @@ Result<int> view_scene(Options options) {
     const Result<std::pair<int, int>> size = parse_size(options.render.size);
     if (!size) return size.error();
     view::ViewerOptions viewer = {.scene_path = options.render.scene,
-                                  .load = [&options]() -> Result<view::Start> {
-                                      Result<Prepared> prepared = prepare(options.render);
-                                      if (!prepared) return prepared.error();
-                                      return view::Start{.scene = std::move(prepared->scene),
-                                                         .technique = prepared->technique,
-                                                         .values = std::move(prepared->values),
-                                                         .view = prepared->draw.view};
-                                  },
+                                  .load = [&options] { return first_scene(options.render); },
                                   .size = {size->first, size->second},
                                   .device = options.render.device,
                                   .validation = options.render.validation,

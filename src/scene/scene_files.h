@@ -1,0 +1,21 @@
+#pragma once
+// Which files a scene is made of: what to look at again when one of them changes.
+
+#include <filesystem>
+#include <vector>
+
+#include "dermis/scene/scene_description.h"
+
+namespace dermis {
+
+/// The scene file, its meshes with what they name (MTL, buffers), every map that is read from disk, the
+/// panorama, the diffuse table. Sorted, each once. Baked and cached files are not among them.
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const Scene& scene);
+
+/// The paths a description states, in its order: whatever may stand in quotes in the file.
+[[nodiscard]] std::vector<const NamedFile*> named_files(const SceneDescription& description);
+
+/// Where these files are or would have to be; assets that are nowhere and built-ins are left out.
+[[nodiscard]] std::vector<std::filesystem::path> paths_of(const SceneDescription& description);
+
+}  // namespace dermis

@@ -1,0 +1,28 @@
+#pragma once
+// The parts of the interface that panels.cpp puts together. Between Interface::begin and end.
+
+#include "dermis/view/panels.h"
+
+namespace dermis::view {
+
+// technique_panels.cpp
+/// Choice, source and every parameter of one side.
+void show_technique(Model& model, size_t choice, PanelRequests& requests, WidgetMap& widgets);
+/// Debug view, exposure, tone map.
+void show_view(Model& model, WidgetMap& widgets);
+void show_compare(Model& model, PanelRequests& requests, WidgetMap& widgets);
+
+// scene_panels.cpp; all want a scene
+void show_light(Scene& scene, WidgetMap& widgets);
+void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets);
+void show_camera(Scene& scene, PanelRequests& requests, WidgetMap& widgets);
+
+// time_panel.cpp
+void show_times(const PanelFacts& facts);
+
+// overlays.cpp; over the picture
+void show_side_names(const Model& model, const PanelFacts& facts);
+void show_notices(const Model& model, const PanelFacts& facts);
+void show_help(const Model& model, const PanelFacts& facts);
+
+}  // namespace dermis::view

@@ -1,0 +1,88 @@
+// Two pictures beside each other, and the same head in another skin.
+
+#include <gmock/gmock.h>
+
+#include "view/window_fixture.h"
+
+namespace dermis {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+}  // namespace
+
+TEST_F(ViewWindow, two_techniques_and_a_picture_stand_beside_each_other) {
+    const ProgramResult result = view(std::string(kSmall) + "-t lambert", R"(
+        screenshot DIR/left.png
+        key C
+        key X
+        key T
+        key X
+        settle
+        capture DIR/wipe.png
+        drag left 140 100 60 100
+        settle
+        capture DIR/wiped.png
+        key C
+        settle
+        capture DIR/beside.png
+        drop DIR/left.png
+        settle
+        print
+        capture DIR/truth.png
+        key C
+        settle
+        capture DIR/off.png
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Image wipe = image("wipe.png"), wiped = image("wiped.png"), off = image("off.png");
+    EXPECT_NEAR(wipe.at(140, 5, 0), 0.85, 0.01);  // the line stands in the middle of the picture
+    EXPECT_NEAR(wiped.at(60, 5, 0), 0.85, 0.01);  // and where it was dragged
+    EXPECT_LT(off.at(140, 5, 0), 0.5);
+    EXPECT_THAT(value_of(result, "right"), HasSubstr("left.png"));
+    EXPECT_NE(image("beside.png").bytes, image("truth.png").bytes);
+}
+
+TEST_F(ViewWindow, the_ground_truth_comes_beside_the_picture_and_can_be_stopped) {
+    const ProgramResult result = view("builtin:spheres --size 170x130 --samples 1 -t lambert", R"(
+        key tab
+        key tab
+        key G
+        wait 2
+        key G
+        settle
+        print
+        key G
+        wait 1
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, Not(HasSubstr("notice ")));
+}
+
+TEST_F(ViewWindow, a_skin_tone_brings_its_profile_and_colour_and_goes_again) {
+    const ProgramResult result = view("builtin:spheres --size 200x140 --samples 1 -t wrap", R"(
+        settle
+        screenshot DIR/before.png
+        tone 6
+        settle
+        print
+        screenshot DIR/dark.png
+        tone 0
+        settle
+        screenshot DIR/after.png
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(value_of(result, "profile"), "openpbr_skin_6");
+    const Image before = image("before.png"), dark = image("dark.png");
+    double difference = 0;
+    for (int y = 0; y < before.height; ++y)
+        for (int x = 0; x < before.width; ++x) difference += before.at(x, y, 0) - dark.at(x, y, 0);
+    EXPECT_GT(difference / double(before.pixel_count()), 0.02);
+    EXPECT_EQ(before.bytes, image("after.png").bytes);
+}
+
+}  // namespace dermis

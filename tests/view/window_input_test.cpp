@@ -1,0 +1,126 @@
+// Hands on the window: mouse, keys, widgets, views as text.
+
+#include <gmock/gmock.h>
+
+#include "dermis/scene/scene.h"
+#include "view/window_fixture.h"
+
+namespace dermis {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+}  // namespace
+
+TEST_F(ViewWindow, a_view_found_with_the_mouse_is_the_picture_that_render_draws) {
+    const ProgramResult result = view(std::string(kSmall) + "-t oren_nayar", R"(
+        drag left 100 100 130 90
+        drag left 100 100 110 120 ctrl
+        drag middle 100 100 95 105
+        scroll 100 100 2
+        key T
+        print
+        screenshot DIR/view.png
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::string camera = value_of(result, "camera"), light = value_of(result, "light");
+    EXPECT_THAT(value_of(result, "technique"), Not("oren_nayar"));
+    const Image seen = image("view.png");
+    const ProgramResult drawn =
+        shell(std::string(DERMIS_PROGRAM) + " render builtin:spheres -t " + value_of(result, "technique") +
+              " --camera '" + camera + "' --light '" + light + "' --size " + std::to_string(seen.width) +
+              "x" + std::to_string(seen.height) + " -o " + path("render.png"));
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const Image again = image("render.png");
+    ASSERT_EQ(again.bytes.size() / again.channels, seen.bytes.size() / seen.channels);
+    // Angles travel rounded to 1e-4 degrees, which may tip single pixels of an edge.
+    int differing = 0;
+    for (int y = 0; y < seen.height; ++y)
+        for (int x = 0; x < seen.width; ++x)
+            differing += std::abs(seen.at(x, y, 1) - again.at(x, y, 1)) > 2.5f / 255;
+    EXPECT_LT(differing, seen.width * seen.height / 500);
+}
+
+TEST_F(ViewWindow, a_slider_sets_its_parameter) {
+    const ProgramResult result = view(std::string(kSmall) + "-t wrap", R"(
+        wait 2
+        slide wrap 1
+        wait 1
+        print
+        screenshot DIR/wrapped.png
+        slide wrap 0
+        wait 1
+        screenshot DIR/unwrapped.png
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("set wrap=1\n"));
+    EXPECT_NE(image("wrapped.png").bytes, image("unwrapped.png").bytes);
+}
+
+TEST_F(ViewWindow, every_technique_and_every_view_is_shown) {
+    std::string script;
+    for (size_t i = 1; i < all_techniques().size(); ++i) script += "key T\n";
+    for (int i = 0; i < 14; ++i) script += "key V\n";
+    const ProgramResult result =
+        view(square() + " --size 240x140 --samples 1 -t lambert",
+             script + "key 0\nkey F1\nkey tab\nkey ctrl+=\nkey Y\nsettle\nprint\nquit\n");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(value_of(result, "view"), "final");
+    EXPECT_THAT(result.out, Not(HasSubstr("pass '")));  // no notice of a picture that failed
+}
+
+TEST_F(ViewWindow, a_view_is_copied_as_a_command_and_pasted) {
+    const ProgramResult result = view(std::string(kSmall) + "-t wrap", R"(
+        drag left 90 90 120 80
+        key ctrl+C
+        wait 1
+        print
+        clipboard "-t oren_nayar --camera 'yaw=12 pitch=3'"
+        key ctrl+V
+        wait 1
+        print
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(value_of(result, "clipboard"),
+                HasSubstr("dermis render builtin:spheres -t wrap --camera 'yaw="));
+    const std::string last = last_state(result);
+    EXPECT_THAT(last, HasSubstr("technique oren_nayar\n"));
+    EXPECT_THAT(last, HasSubstr("camera yaw=12 pitch=3 "));
+}
+
+// Everything else here feeds events past the window library; this comes in through the display.
+TEST_F(ViewWindow, real_mouse_and_keys_do_what_the_scripted_ones_do) {
+    if (shell("command -v xdotool").exit_code != 0) GTEST_SKIP() << "no xdotool; apt-get install xdotool";
+    const std::string arguments = std::string("view ") + kSmall + "--validate -t lambert ";
+    const std::string hands =
+        "timeout 60 xdotool search --sync --name 'spheres - Dermis' "
+        "mousemove 100 100 mousedown 1 mousemove 130 90 mouseup 1 mousemove 90 80 click 4 "
+        "mousemove 100 100 keydown ctrl mousedown 1 mousemove 110 120 mouseup 1 keyup ctrl "
+        "key t key ctrl+s key ctrl+q";
+    const ProgramResult real =
+        shell("cd " + path(".") + " && { " + program(*display_) + " " + arguments + " & " +
+              "export DISPLAY=" + display_->name() + "; " + hands + " && wait $!; }");
+    ASSERT_EQ(real.exit_code, 0) << real.err;
+    const ProgramResult scripted = view(std::string(kSmall) + "-t lambert", R"(
+        drag left 100 100 130 90
+        scroll 90 80 1
+        drag left 100 100 110 120 ctrl
+        key T
+        save DIR/scripted.toml
+        quit
+    )");
+    ASSERT_EQ(scripted.exit_code, 0) << scripted.err;
+    const auto by_hand = load_scene(path("spheres-001.toml")), by_script = load_scene(path("scripted.toml"));
+    ASSERT_TRUE(by_hand) << by_hand.error().message;
+    ASSERT_TRUE(by_script) << by_script.error().message;
+    EXPECT_NE(by_hand->technique, "lambert");
+    EXPECT_EQ(by_hand->technique, by_script->technique);
+    EXPECT_LT(length(by_hand->camera.eye_mm - by_script->camera.eye_mm), 1e-2f);
+    EXPECT_LT(length(by_hand->key_light().to_light_world - by_script->key_light().to_light_world), 1e-4f);
+}
+
+}  // namespace dermis
