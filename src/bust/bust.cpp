@@ -18,7 +18,7 @@ namespace {
 
 // Part of the cache's key: raise it when meshing, flattening or painting change. Changes of the shape and of
 // the skin show in the key's probes by themselves.
-constexpr uint32_t kGeneration = 4;
+constexpr uint32_t kGeneration = 5;
 
 Vec3 to_float(Point p) {
     return {float(p.x), float(p.y), float(p.z)};

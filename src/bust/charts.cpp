@@ -1,5 +1,6 @@
 #include "dermis/bust/charts.h"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <queue>
@@ -15,7 +16,7 @@ using Labels = std::vector<int>;
 int label(const BustField& field, Point p_world) {
     const Point p = field.to_standard(p_world);
     if (on_cut(p)) return int(ChartKind::underside);
-    if (field.on_ear_front(p)) return int(p.x > 0 ? ChartKind::left_ear : ChartKind::right_ear);
+    if (field.on_ear(p)) return int(p.x > 0 ? ChartKind::left_ear : ChartKind::right_ear);
     return int(ChartKind::head);
 }
 
@@ -70,6 +71,44 @@ void unite(Labels& labels, const HalfEdges& edges) {
         for (size_t f = 0; f < labels.size(); ++f)
             if (adopted[piece[f]] >= 0) labels[f] = adopted[piece[f]], changed = true;
         if (!changed) return;
+    }
+}
+
+// Draws the zigzag of edges between two labels straight, then lets the vertices beside it follow. A move that
+// would leave a sliver is not made.
+void straighten(Surface& surface, const Labels& labels, const HalfEdges& edges, const BustField& field) {
+    constexpr double kLeastTwiceAreaMm2 = 0.03;
+    const size_t n = surface.points.size();
+    std::vector<std::vector<int>> along(n), around(n), faces(n);
+    for (size_t h = 0; h < edges.twin.size(); ++h) {
+        const auto& t = surface.triangles[h / 3];
+        const int a = t[h % 3], b = t[(h % 3 + 1) % 3];
+        around[size_t(a)].push_back(b);
+        faces[size_t(a)].push_back(int(h / 3));
+        if (labels[h / 3] != labels[size_t(edges.twin[h] / 3)]) along[size_t(a)].push_back(b);
+    }
+    std::vector<char> beside(n, 0);
+    for (size_t v = 0; v < n; ++v)
+        if (!along[v].empty())
+            for (const int w : around[v]) beside[size_t(w)] = along[size_t(w)].empty();
+    const auto is_sliver = [&](int f) {
+        const auto& t = surface.triangles[size_t(f)];
+        const Point a = surface.points[size_t(t[0])];
+        return length(cross(surface.points[size_t(t[1])] - a, surface.points[size_t(t[2])] - a)) <
+               kLeastTwiceAreaMm2;
+    };
+    const auto relax = [&](const std::vector<int>& ring, size_t v, double weight) {
+        Point sum = {0, 0, 0};
+        for (const int w : ring) sum = sum + surface.points[size_t(w)];
+        const Point before = surface.points[v];
+        surface.points[v] = field.project(mix(before, sum * (1.0 / double(ring.size())), weight), 2);
+        if (std::ranges::any_of(faces[v], is_sliver)) surface.points[v] = before;
+    };
+    for (int round = 0; round < 8; ++round) {
+        for (size_t v = 0; v < n; ++v)
+            if (along[v].size() == 2) relax(along[v], v, 0.5);
+        for (size_t v = 0; v < n; ++v)
+            if (beside[v]) relax(around[v], v, 0.3);
     }
 }
 
@@ -184,7 +223,7 @@ std::vector<std::vector<int>> boundary_loops(const Surface& surface) {
     return loops;
 }
 
-std::vector<Chart> cut_charts(const Surface& surface, const BustField& field) {
+std::vector<Chart> cut_charts(Surface surface, const BustField& field) {
     const HalfEdges edges(surface);
     Labels labels(surface.triangles.size());
     parallel_for(labels.size(), 1024, [&](size_t begin, size_t end) {
@@ -196,6 +235,7 @@ std::vector<Chart> cut_charts(const Surface& surface, const BustField& field) {
     });
     smooth(labels, edges);
     unite(labels, edges);
+    straighten(surface, labels, edges, field);
     const std::vector<int> seam = back_seam(surface, edges, labels);
     std::vector<char> cut(edges.twin.size(), 0);
     for (const int h : seam) cut[h] = cut[edges.twin[h]] = 1;

@@ -18,7 +18,7 @@ struct Chart {
 };
 
 /// One chart per kind, each in one piece.
-[[nodiscard]] std::vector<Chart> cut_charts(const Surface& surface, const BustField& field);
+[[nodiscard]] std::vector<Chart> cut_charts(Surface surface, const BustField& field);
 
 /// The boundaries of a surface as loops of vertices, inside on the left, longest first.
 [[nodiscard]] std::vector<std::vector<int>> boundary_loops(const Surface& surface);

@@ -127,9 +127,18 @@ Point Ear::to_head(Point q) const {
     return origin_ + (back_ * q.x + up_ * q.y + out_ * q.z) * scale_;
 }
 
-bool Ear::on_front(Point p, double head_distance) const {
+namespace {
+// Where the ear ends in front, by the height in the ear frame: behind the tragus, in the crease before the
+// helix's root and the lobe.
+double front_edge(double v) {
+    return mix(-5.6, 0.6, smooth_step(-11.5, -8.5, v) * (1 - smooth_step(4, 9, v)));
+}
+}  // namespace
+
+bool Ear::on_ear(Point p, double head_distance) const {
     Point q = to_ear({std::abs(p.x), p.y, p.z});
-    if (length(q - Point{9, 0, 0}) > 46 || outline(q.x, q.y) > 2.5) return false;
+    const double away = outline(q.x, q.y);
+    if (length(q - Point{9, 0, 0}) > 46 || away > 4) return false;
     q.z += lean(q.y);
     // Half way through the plate, or through the wall of the bowl.
     double middle = relief_.at({q.x, q.y, 0}) - 0.6;
@@ -137,7 +146,9 @@ bool Ear::on_front(Point p, double head_distance) const {
                  v = (q.y - kBowl.center.y) / (kBowl.radii.y - 1);
     const double inside = 1 - u * u - v * v;
     if (inside > 0) middle = std::min(middle, kBowl.center.z - (kBowl.radii.z - 1.2) * std::sqrt(inside));
-    return q.z > middle && (outline(q.x, q.y) < 1.5 || head_distance > 1.5);
+    if (q.z <= middle) return head_distance > 3.0;  // the back of the ear ends in the groove at the head
+    if (q.x < front_edge(q.y) && q.z > -2.5) return false;
+    return away < 1.0 || head_distance > 2.0;
 }
 
 }  // namespace dermis::bust

@@ -68,7 +68,7 @@ double add_nose(double d, Point p) {
     // Wings: the wall from the tip back to the cheek, highest near the tip and fullest where it turns in.
     double wing = swept_ball(q, {4.0, -7.5, 116.5}, 6.8, {10.6, -10.6, 111.0}, 6.6);
     wing = smooth_min(wing, swept_ball(q, {10.6, -10.4, 111.6}, 6.6, {13.2, -12.6, 104.5}, 5.2), 7);
-    wing = smooth_min(wing, swept_ball(q, {9.5, -12.5, 113.0}, 4.4, {13.2, -14.5, 107}, 3.4), 6);
+    wing = smooth_min(wing, swept_ball(q, {9.2, -13.6, 113.4}, 4.6, {13.2, -15.6, 106.6}, 3.6), 6);
     nose = smooth_min(nose, wing, 10);
     const double body = smooth_min(d, nose, 8);
     return smooth_max(body, -nostril_distance_mm(q), 2.6);
@@ -77,8 +77,8 @@ double add_nose(double d, Point p) {
 double nostril_distance_mm(Point p) {
     // Opens down and a little outward; runs up and forward under the tip.
     const Point q = {std::abs(p.x), p.y, p.z};
-    const double opening = swept_ball(q, {4.9, -19.4, 118.0}, 2.2, {8.8, -20.4, 109.6}, 3.4);
-    const double depth = swept_ball(q, {6.2, -16.5, 114}, 2.0, {8.0, -12.5, 108}, 2.0);
+    const double opening = swept_ball(q, {5.0, -19.7, 115.4}, 2.5, {8.7, -20.2, 108.8}, 3.3);
+    const double depth = swept_ball(q, {5.9, -17.0, 113}, 1.7, {7.8, -12.5, 108}, 1.9);
     return smooth_min(opening, depth, 3);
 }
 

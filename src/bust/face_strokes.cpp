@@ -64,12 +64,22 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
                 {{30, -83, 80}, 14, 0.8}});
     brush.middle({{{-19, -78, 103}, 15, 1.8}, {{0, -77, 108}, 16, 2.2}, {{19, -78, 103}, 15, 1.8}});
     brush.middle({{{-22, -56, 99}, 11, -0.7}, {{0, -58.5, 106}, 10, -2.8}, {{22, -56, 99}, 11, -0.7}});
-    // Back: occipital bulge, the furrow of the nape between the two cords of muscle, the vertebra that stands
-    // out.
-    brush.middle({{{-14, 8, -86}, 24, 0.8}, {{0, 4, -87}, 22, 1.6}, {{14, 8, -86}, 24, 0.8}});
-    brush.middle({{{0, -40, -68}, 18, -1.2}, {{0, -66, -62}, 17, -1.0}, {{0, -100, -66}, 17, -0.4}});
-    brush.both({{{19, -36, -66}, 20, 0.8}, {{19, -70, -62}, 20, 0.8}, {{22, -104, -66}, 20, 0.4}});
-    brush.middle({{{0, -136, -74}, 30, 1.8}});
+    // Back: the occiput with its bump over the muscles' line, the furrow of the nape between two cords of
+    // muscle, the seventh neck vertebra, and the hollow of the spine below it between the trapezius' halves.
+    brush.middle({{{-16, 12, -86}, 26, 1.0}, {{0, 8, -87}, 26, 2.2}, {{16, 12, -86}, 26, 1.0}});
+    brush.middle({{{0, -14, -84}, 13, 1.1}});
+    brush.both({{{14, -22, -80}, 14, -0.7}, {{34, -20, -70}, 16, -0.9}, {{50, -14, -50}, 16, -0.8}});
+    brush.middle({{{0, -36, -70}, 15, -1.6},
+                  {{0, -58, -62}, 14, -2.0},
+                  {{0, -84, -62}, 14, -1.6},
+                  {{0, -108, -66}, 14, -0.8}});
+    brush.both({{{17, -34, -68}, 17, 1.1},
+                {{19, -62, -62}, 17, 1.5},
+                {{21, -92, -64}, 18, 1.3},
+                {{26, -118, -68}, 20, 0.8}});
+    brush.middle({{{0, -129, -70}, 13, 2.0}, {{0, -134, -72}, 22, 1.2}});
+    brush.middle({{{0, -150, -76}, 16, -1.2}, {{0, -176, -80}, 18, -2.0}, {{0, -200, -82}, 18, -2.0}});
+    brush.both({{{30, -160, -76}, 30, 1.6}, {{44, -190, -78}, 32, 2.0}});
 }
 
 void add_detail_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
@@ -90,6 +100,9 @@ void add_detail_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
     brush.both({{{4.4, -21, 114}, 3.6, 0.3}, {{5.4, -25.5, 115}, 3.6, 0.55}, {{6.2, -28.6, 116}, 3.4, 0.35}});
     // Corners of the mouth.
     brush.both({{{24, -39.4, 102}, 5.0, -0.8}, {{27, -40.0, 99}, 7, -0.8}});
+    // Creases of the nape.
+    brush.middle({{{-26, -50, -58}, 6, -0.3}, {{0, -53, -63}, 6.5, -1.0}, {{24, -49, -59}, 6, -0.4}});
+    brush.middle({{{-20, -67, -60}, 6, -0.3}, {{-4, -69, -62}, 6, -0.7}, {{20, -65, -60}, 6, -0.2}});
     // Notch over the breastbone.
     brush.middle({{{0, -166, 34}, 14, -2.0}});
 }

@@ -33,8 +33,8 @@ class BustField {
     [[nodiscard]] bust::Point to_standard(bust::Point p_world) const;
     [[nodiscard]] const bust::Ear& ear() const { return ear_; }
     /// For a point of the surface, in the standard head.
-    [[nodiscard]] bool on_ear_front(bust::Point p_standard) const {
-        return ear_.on_front(p_standard, solids(p_standard));
+    [[nodiscard]] bool on_ear(bust::Point p_standard) const {
+        return ear_.on_ear(p_standard, solids(p_standard));
     }
 
   private:

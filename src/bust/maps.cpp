@@ -7,6 +7,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/bust/skin.h"
 #include "dermis/image/colour.h"
+#include "dermis/image/skin_colour.h"
 
 namespace dermis::bust {
 namespace {
@@ -86,6 +87,28 @@ SkinZones blend(const SkinZones& a, const SkinZones& b, const SkinZones& c, cons
     return zones;
 }
 
+// What brings the mean over the surface, were it not shaved, to the tone: zones and noise add more pigment
+// than they take.
+Vec3 colour_balance(const Atlas& atlas, const std::vector<Point>& standard,
+                    const std::vector<SkinZones>& zones, BustParams params, const Hairs& hairs) {
+    params.stubble = 0;
+    std::vector<Vec3> albedo(standard.size());
+    parallel_for(standard.size(), 1024, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            albedo[i] = skin_at(standard[i], zones[i], params, hairs).albedo_linear;
+    });
+    Vec3 sum;
+    float area = 0;
+    for (const auto& t : atlas.mesh.triangles) {
+        const Point a = atlas.mesh.points[t[0]];
+        const float twice = float(length(cross(atlas.mesh.points[t[1]] - a, atlas.mesh.points[t[2]] - a)));
+        for (const int corner : t) sum += albedo[size_t(corner)] * twice;
+        area += 3 * twice;
+    }
+    const Vec3 tone = skin_tone_albedo_linear(params.tone) * area;
+    return {tone.x / sum.x, tone.y / sum.y, tone.z / sum.z};
+}
+
 uint8_t code(float v) {
     return uint8_t(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
@@ -136,7 +159,8 @@ SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams
     const auto kernel = maps.kernel_size.values<uint8_t>();
     std::vector<float> height(owner.size(), 0);
     const Hairs hairs(params.seed);
-    const Vec3 plain = tone_albedo_linear(params.tone);
+    const Vec3 plain = skin_tone_albedo_linear(params.tone);
+    const Vec3 balance = colour_balance(atlas, standard, zones, params, hairs);
     parallel_for(size_t(side), 8, [&](size_t begin, size_t end) {
         for (size_t i = begin * side; i < end * side; ++i) {
             SkinSample s = {.albedo_linear = plain};
@@ -146,6 +170,7 @@ SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams
                     locate(atlas, owner[i], (double(i % side) + 0.5) / side, (double(i / side) + 0.5) / side);
                 const Point p = standard[t[0]] * w.a + standard[t[1]] * w.b + standard[t[2]] * w.c;
                 s = skin_at(p, blend(zones[t[0]], zones[t[1]], zones[t[2]], w), params, hairs);
+                s.albedo_linear = s.albedo_linear * balance;
             }
             const Vec3 c = srgb_encode(s.albedo_linear);
             albedo[3 * i] = code(c.x), albedo[3 * i + 1] = code(c.y), albedo[3 * i + 2] = code(c.z);

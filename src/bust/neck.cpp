@@ -16,8 +16,8 @@ constexpr Ring kNeck[] = {{30, -20, 40, 42},   {-20, -14, 46, 47},  {-60, -10, 5
                           {-90, -9, 51, 53},   {-115, -11, 53, 55}, {-140, -18, 55, 55},
                           {-165, -25, 60, 54}, {-200, -28, 72, 58}, {-250, -28, 80, 64}};
 // Trapezius: from the nape out to the shoulders.
-constexpr Ring kTrapezius[] = {{-20, -34, 20, 16},   {-70, -36, 40, 23},   {-105, -38, 54, 27},
-                               {-130, -40, 76, 30},  {-150, -40, 102, 34}, {-168, -38, 136, 40},
+constexpr Ring kTrapezius[] = {{-20, -34, 20, 16},   {-70, -36, 42, 23},   {-105, -38, 60, 27},
+                               {-130, -40, 84, 31},  {-150, -40, 108, 35}, {-168, -38, 136, 40},
                                {-185, -36, 168, 46}, {-215, -33, 186, 56}, {-260, -33, 190, 60}};
 
 double column(std::span<const Ring> rings, Point p) {
@@ -63,12 +63,12 @@ double add_neck(double d, Point p) {
     // Chest and collar bones.
     const Ellipsoid chest = {{0, -252, -20}, {195, 98, 80}};
     d = smooth_min(d, chest.distance_mm(p), 26);
-    const double bone = smooth_min(swept_ball(q, {12, -172, 27}, 6.5, {62, -170, 22}, 5),
-                                   swept_ball(q, {62, -170, 22}, 5, {150, -172, -26}, 7), 12);
-    d = smooth_min(d, bone, 20);
+    const double bone = smooth_min(swept_ball(q, {14, -173, 23}, 6, {62, -171, 19}, 5),
+                                   swept_ball(q, {62, -171, 19}, 5, {150, -172, -26}, 7), 20);
+    d = smooth_min(d, bone, 26);
     // Thyroid cartilage and windpipe.
-    d = smooth_min(d, swept_ball(p, {0, -113, 36}, 7, {0, -125, 35}, 7), 18);
-    d = smooth_min(d, swept_ball(p, {0, -128, 31}, 9, {0, -172, 17}, 9), 22);
+    d = smooth_min(d, swept_ball(p, {0, -112, 34}, 7, {0, -124, 33}, 7.5), 22);
+    d = smooth_min(d, swept_ball(p, {0, -128, 29}, 10, {0, -172, 14}, 10), 28);
     return d;
 }
 

@@ -44,9 +44,9 @@ class Ear {
     [[nodiscard]] Point to_ear(Point p) const;
     /// The left ear's point at ear coordinates q.
     [[nodiscard]] Point to_head(Point q) const;
-    /// Whether a point of the surface is on the ear's outward face; `head_distance` is the distance to the
-    /// head without ears.
-    [[nodiscard]] bool on_front(Point p, double head_distance) const;
+    /// Whether a point of the surface is on the ear, up to the creases where it meets the head;
+    /// `head_distance` is the distance to the head without ears.
+    [[nodiscard]] bool on_ear(Point p, double head_distance) const;
 
   private:
     [[nodiscard]] double plate(Point q) const;

@@ -12,7 +12,7 @@ namespace dermis::bust {
 /// brows and lashes are sharper and found per texel.
 struct SkinZones {
     float cheek = 0, nose = 0, t_zone = 0, ear = 0, lid = 0, eye_ring = 0, beard = 0, scalp = 0, forehead = 0,
-          neck = 0, mouth = 0, knob = 0, nostril = 0;
+          neck = 0, mouth = 0, knob = 0, nostril = 0, perioral = 0;
 };
 inline constexpr int kZoneCount = sizeof(SkinZones) / sizeof(float);
 
@@ -26,10 +26,7 @@ struct SkinSample {
     float height_mm = 0;     ///< relief too fine for the mesh
 };
 
-/// Linear sRGB of OpenPBR's skin examples I to VI (tone 1 to 6), straight lines between.
-[[nodiscard]] Vec3 tone_albedo_linear(double tone);
-
-/// About 0.5 microseconds.
+/// About 0.7 microseconds.
 [[nodiscard]] SkinSample skin_at(Point p_standard, const SkinZones& zones, const BustParams& params,
                                  const Hairs& hairs);
 

@@ -59,13 +59,14 @@ SkinZones skin_zones(Point p) {
     z.beard = std::max(low, lip) * ramp(2, 26, q.z) * ramp(-122, -92, q.y) *
               (1 - 0.35f * blob(p, {0, -56, 108}, {9, 7, 20}));
     z.scalp =
-        ramp(-5, 6,
-             into_hair_mm(q) + 3.0 * value_noise(p * (1 / 9.0), 31) + 1.5 * value_noise(p * (1 / 3.0), 32)) *
+        ramp(-7, 9,
+             into_hair_mm(q) + 4.5 * value_noise(p * (1 / 11.0), 31) + 2.0 * value_noise(p * (1 / 3.5), 32)) *
         (1 - 0.9f * z.ear);
     z.forehead = blob(p, {0, 62, 92}, {70, 36, 50});
     z.neck = 1 - ramp(-112, -86, p.y);
     z.mouth = blob(p, {0, -39, 108}, {48, 30, 40}) > 0 ? 1.0f : 0.0f;
     z.knob = std::max(blob(p, {0, -78, 108}, {22, 18, 22}), blob(q, {30, 46, 98}, {30, 14, 24}));
+    z.perioral = std::max(blob(q, {33, -46, 92}, {17, 22, 26}), 0.8f * blob(p, {0, -57, 106}, {24, 12, 22}));
     z.nostril = blob(q, {8, -17, 112}, {12, 8, 14});
     return z;
 }

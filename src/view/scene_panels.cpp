@@ -69,9 +69,10 @@ void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets) {
     static const std::vector<std::string> kProfiles = profile_names();
     Rows rows(widgets, "skin.");
     int tone = model.tone;
-    if (rows.choice({.name = "tone",
-                     .doc = "OpenPBR's six skins: profile, and a tint that gives the maps their mean colour"},
-                    kTones, tone))
+    if (rows.choice(
+            {.name = "tone",
+             .doc = "the profile of OpenPBR's skin, and a tint that gives the maps the tone's mean colour"},
+            kTones, tone))
         requests.tone = tone;
     Skin& skin = model.scene->skin;
     int profile = index_of(kProfiles, skin.profile);

@@ -6,6 +6,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
+#include "dermis/image/skin_colour.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/skin_tone.h"
 #include "dermis/view/scene_edit.h"
@@ -59,9 +60,7 @@ void Session::choose_tone(int tone) {
         mean_albedo_ = *mean;
     }
     if (!profile) return model_.notices.complain("tone", profile.error().message);
-    const Vec3 albedo = {float(diffuse_albedo(*profile, 0)), float(diffuse_albedo(*profile, 1)),
-                         float(diffuse_albedo(*profile, 2))};
-    skin.albedo_tint_linear = tint_towards(albedo, *mean_albedo_);
+    skin.albedo_tint_linear = tint_towards(skin_tone_albedo_linear(tone), *mean_albedo_);
     skin.profile = name;
     model_.tone = tone;
 }

@@ -53,11 +53,15 @@ TEST(BustAtlas, LiesWithinTheSquareAndTurnsEveryTriangleTheSameWay) {
         ASSERT_GT(std::min(uv.x, uv.y), 0);
         ASSERT_LT(std::max(uv.x, uv.y), 1);
     }
-    size_t turned = 0;
-    for (size_t i = 0; i < mesh.indices.size(); i += 3)
-        turned += doubled_area(mesh.uvs[mesh.indices[i]], mesh.uvs[mesh.indices[i + 1]],
-                               mesh.uvs[mesh.indices[i + 2]]) > 1e-12;
+    size_t turned = 0, flat = 0;
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const double area = doubled_area(mesh.uvs[mesh.indices[i]], mesh.uvs[mesh.indices[i + 1]],
+                                         mesh.uvs[mesh.indices[i + 2]]);
+        turned += area > 1e-12;
+        flat += std::abs(area) <= 1e-12;
+    }
     EXPECT_EQ(turned, 0u);  // v runs down, so fronts are clockwise
+    EXPECT_EQ(flat, 0u);
 }
 
 TEST(BustAtlas, NoTexelBelongsToTwoTriangles) {
