@@ -1,8 +1,10 @@
 #include "render_options.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "dermis/base/text.h"
+#include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
 
 namespace dermis::cli {
@@ -18,6 +20,11 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     command.add_option("--camera", camera, "\"yaw=30 pitch=5 distance_mm=600 fov_deg=30\", any of them");
     command.add_option("--light", light, "\"yaw=-60 pitch=20 intensity=3\" of the key light, any of them");
+    command.add_option("--look", look,
+                       "\"exposure_ev=0.5 tint=1,.9,.8 tone_map=aces profile=NAME surroundings=2 turned=30 "
+                       "in_the_picture=1\", any of them");
+    command.add_option("--environment", environment,
+                       "a panorama (.hdr, .exr) instead of the scene's surroundings");
     command.add_option("--view", view, "final, diffuse, specular, normal, albedo, curvature, shadow, ...")
         ->capture_default_str();
     command.add_option("--samples", samples, "a pixel: 1 or 4")->capture_default_str();
@@ -59,6 +66,21 @@ Result<void> apply_views(Scene& scene, const std::string& camera, const std::str
     return {};
 }
 
+Result<void> apply_looks(Scene& scene, const std::string& look, const std::string& environment) {
+    if (!environment.empty()) {
+        std::error_code ec;
+        if (!std::filesystem::is_regular_file(environment, ec))
+            return Error{"--environment " + environment + ": no such file; it is a panorama, .hdr or .exr"};
+        scene.environment.kind = EnvironmentKind::file;
+        scene.environment.file = environment;
+    }
+    if (look.empty()) return {};
+    if (Result<void> parsed = parse_look(look, scene); !parsed) return parsed;
+    const Result<Profile> profile = find_profile(scene.skin.profile);
+    if (!profile) return Error{"--look: " + profile.error().message};
+    return {};
+}
+
 Result<Prepared> prepare(const RenderOptions& options) {
     const Result<std::pair<int, int>> size = parse_size(options.size);
     if (!size) return size.error();
@@ -71,6 +93,8 @@ Result<Prepared> prepare(const RenderOptions& options) {
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
+        return applied.error();
+    if (Result<void> applied = apply_looks(*scene, options.look, options.environment); !applied)
         return applied.error();
 
     const bool scenes_own = options.technique.empty() || options.technique == scene->technique;

@@ -13,7 +13,8 @@
 namespace dermis::cli {
 
 struct RenderOptions {
-    std::string scene = "bust", technique, size = "1024x1024", camera, light, view = "final", device;
+    std::string scene = "bust", technique, size = "1024x1024", camera, light, look, environment,
+                view = "final", device;
     std::vector<std::string> settings;  ///< name=value
     int samples = 1;
     bool validation = false;
@@ -35,6 +36,9 @@ struct Prepared {
 /// --camera and --light, as parse_camera and parse_light have them; empty ones change nothing. Call it before
 /// anything is derived from the scene's views.
 [[nodiscard]] Result<void> apply_views(Scene& scene, const std::string& camera, const std::string& light);
+
+/// --look and --environment; empty ones change nothing.
+[[nodiscard]] Result<void> apply_looks(Scene& scene, const std::string& look, const std::string& environment);
 
 /// "1024x768", each side 1 to 8192.
 [[nodiscard]] Result<std::pair<int, int>> parse_size(std::string_view text);

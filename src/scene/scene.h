@@ -116,6 +116,13 @@ struct Scene {
     [[nodiscard]] const Light& key_light() const;
 };
 
+/// "exposure_ev=0.5 tint=1,.9,.8 surroundings=2 turned=30 in_the_picture=1 tone_map=aces profile=NAME": all
+/// that changes the picture and is neither camera, key light, objects nor maps. Keys not given keep what the
+/// scene has; after an error nothing has changed. The profile is not looked up.
+[[nodiscard]] Result<void> parse_look(std::string_view text, Scene& scene);
+/// The inverse: what differs from the scene `than`, numbers rounded to 1e-4; empty where nothing does.
+[[nodiscard]] std::string look_text(const Scene& scene, const Scene& than);
+
 struct SceneOptions {
     std::optional<float> mesh_unit_mm;  ///< of a bare mesh file; a scene file states its own
 };

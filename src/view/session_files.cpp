@@ -75,13 +75,23 @@ void Session::follow_skin() {
 void Session::copy_view() {
     if (!model_.scene) return;
     const PictureSize size = picture_size();
-    window_.set_clipboard(view_line(model_, size.width, size.height));
+    const std::string line = view_line(
+        model_, file_look_, {.width = size.width, .height = size.height, .samples = stage_->samples()});
+    window_.set_clipboard(line);
+    (void)apply_view_line(model_, line);  // rounded as the line is, so that both draw the same
     model_.notices.inform("view", "copied: a command line that draws this picture", now_s());
 }
 
 void Session::paste_view() {
     if (!model_.scene) return;
-    const Result<void> pasted = apply_view_line(model_, window_.clipboard());
+    const Environment before = model_.scene->environment;
+    Result<void> pasted = apply_view_line(model_, window_.clipboard());
+    const Environment& around = model_.scene->environment;
+    if (pasted && (around.kind != before.kind || around.file != before.file)) {
+        pasted = stage_->environment_changed();
+        if (!pasted) model_.scene->environment = before;
+    }
+    if (model_.scene->skin.profile != tone_profile(model_.tone)) model_.tone = 0;
     if (pasted)
         model_.notices.inform("view", "pasted", now_s());
     else

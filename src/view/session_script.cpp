@@ -69,6 +69,8 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             std::vector<std::string> names;
             for (const auto& [name, region] : widgets_) names.push_back(name);
             if (widget == widgets_.end()) return Error{unknown_name("widget", command.words[0], names)};
+            if (widget->second.y + widget->second.height > float(size_.height))
+                return Error{command.words[0] + " is out of sight; make the window higher"};
             scripted_ = slide_frames(widget->second, command.numbers[0]);
             return {};
         }

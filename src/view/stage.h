@@ -31,6 +31,8 @@ class Stage {
                                               std::unique_ptr<Scene> scene, int samples);
 
     [[nodiscard]] Scene& scene() { return *scene_; }
+    /// Of the finished picture.
+    [[nodiscard]] int samples() const { return limits_.samples; }
 
     /// Draws the side `choice` if it is due. True when it drew. An error leaves the last picture standing,
     /// and comes once: the next attempt waits for a change.

@@ -89,31 +89,53 @@ TEST(SceneText, comments_stay_and_paths_stay_true_elsewhere) {
     EXPECT_THAT(*beside, HasSubstr("file = \"quad.obj\" # flat"));
 }
 
+constexpr DrawSettings kSize = {.width = 640, .height = 480};
+
+TEST(ViewLine, names_what_was_changed_of_the_look_and_nothing_else) {
+    Viewed viewed;
+    const SceneLook file = look_of(viewed.scene);
+    EXPECT_THAT(view_line(viewed.model, file, kSize), Not(HasSubstr("--look")));
+    viewed.scene.exposure_ev += 1;
+    viewed.scene.skin.profile = "jensen_skin1";
+    viewed.scene.environment.kind = EnvironmentKind::file;
+    viewed.scene.environment.file = "/a/b c.hdr";
+    const std::string line = view_line(viewed.model, file, {.width = 640, .height = 480, .samples = 4});
+    EXPECT_THAT(line, HasSubstr("--look 'exposure_ev="));
+    EXPECT_THAT(line, HasSubstr(" profile=jensen_skin1' --environment '/a/b c.hdr' --samples 4"));
+    EXPECT_THAT(line, Not(HasSubstr("tint")));
+    Viewed other;
+    ASSERT_TRUE(apply_view_line(other.model, line));
+    EXPECT_EQ(other.scene.exposure_ev, viewed.scene.exposure_ev);
+    EXPECT_EQ(other.scene.environment.file, "/a/b c.hdr");
+}
+
 TEST(ViewLine, comes_back_by_pasting) {
     Viewed viewed;
     const Technique& wrap = **find_technique("wrap");
     viewed.model.choices[0].choose(wrap);
     ASSERT_TRUE(viewed.model.choices[0].values().set("wrap", "0.375"));
     viewed.scene.camera = *parse_camera("yaw=12 pitch=3 distance_mm=321", viewed.scene.camera);
-    const std::string line = view_line(viewed.model, 640, 480);
+    const std::string line = view_line(viewed.model, look_of(viewed.scene), kSize);
     EXPECT_THAT(line, ::testing::StartsWith(
                           "dermis render builtin:spheres -t wrap --set wrap=0.375 --camera 'yaw=12 "));
     EXPECT_THAT(line, HasSubstr("--size 640x480"));
     Viewed other;
     ASSERT_TRUE(apply_view_line(other.model, line));
-    EXPECT_EQ(view_line(other.model, 640, 480), line);
+    EXPECT_EQ(view_line(other.model, look_of(viewed.scene), kSize), line);
 }
 
 TEST(ViewLine, what_is_wrong_changes_nothing) {
     Viewed viewed;
-    const std::string before = view_line(viewed.model, 1, 1);
+    const SceneLook file = look_of(viewed.scene);
+    const std::string before = view_line(viewed.model, file, kSize);
     for (const char* line : {"", "hello", "-t nothing", "--camera 'yaw=400'", "-t wrap --set wrap=9",
-                             "--camera 'yaw=10 pitch=1' --light 'yaw=x'", "--view none"}) {
+                             "--camera 'yaw=10 pitch=1' --light 'yaw=x'", "--view none",
+                             "--look 'exposure_ev=x'", "--look profile=nobody", "--look tone_map=red"}) {
         EXPECT_FALSE(apply_view_line(viewed.model, line)) << line;
-        EXPECT_EQ(view_line(viewed.model, 1, 1), before) << line;
+        EXPECT_EQ(view_line(viewed.model, file, kSize), before) << line;
     }
     EXPECT_TRUE(apply_view_line(viewed.model, "yaw=10 pitch=1"));
-    EXPECT_THAT(view_line(viewed.model, 1, 1), HasSubstr("yaw=10 pitch=1"));
+    EXPECT_THAT(view_line(viewed.model, file, kSize), HasSubstr("yaw=10 pitch=1"));
 }
 
 TEST(TruthKey, follows_the_view_and_the_skin_and_not_the_display) {

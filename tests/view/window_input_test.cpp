@@ -72,24 +72,59 @@ TEST_F(ViewWindow, every_technique_and_every_view_is_shown) {
     EXPECT_THAT(result.out, Not(HasSubstr("pass '")));  // no notice of a picture that failed
 }
 
-TEST_F(ViewWindow, a_view_is_copied_as_a_command_and_pasted) {
-    const ProgramResult result = view(std::string(kSmall) + "-t wrap", R"(
+TEST_F(ViewWindow, a_copied_view_is_a_command_that_draws_the_same_bytes) {
+    ASSERT_TRUE(write_image(path("around.hdr"), Image(16, 8, 3)));
+    const ProgramResult result = view("builtin:spheres --size 560x320 --samples 4 -t wrap", R"(
         drag left 90 90 120 80
+        drag left 90 90 95 105 ctrl
+        drop DIR/around.hdr
+        tone 4
+        set wrap=0.3125
+        clipboard "--look 'surroundings=0.41234 turned=33.33333'"
+        key ctrl+V
+        key ]
         key ctrl+C
+        settle
+        print
+        screenshot DIR/seen.png
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    std::string line = value_of(result, "clipboard");
+    ASSERT_TRUE(line.starts_with("dermis render builtin:spheres -t wrap ")) << line;
+    EXPECT_THAT(line, HasSubstr(" --look 'exposure_ev="));
+    EXPECT_THAT(line, HasSubstr(" surroundings=0.4123 turned=33.3333 "));
+    const ProgramResult drawn = shell(DERMIS_PROGRAM + line.substr(6) + " -o " + path("drawn.png"));
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const Image seen = image("seen.png"), again = image("drawn.png");
+    ASSERT_EQ(seen.width, again.width);
+    int differing = 0;
+    for (int y = 0; y < seen.height; ++y)
+        for (int x = 0; x < seen.width; ++x)
+            for (int c = 0; c < 3; ++c) differing += seen.at(x, y, c) != again.at(x, y, c);
+    EXPECT_EQ(differing, 0) << line;
+}
+
+TEST_F(ViewWindow, a_view_is_pasted) {
+    const ProgramResult result = view(square() + " --size 560x320 --samples 1 -t wrap", R"(
+        clipboard "-t oren_nayar --camera 'yaw=12 pitch=3' --look 'exposure_ev=2 profile=jensen_skin1'"
+        key ctrl+V
         wait 1
         print
-        clipboard "-t oren_nayar --camera 'yaw=12 pitch=3'"
+        clipboard "--environment /nowhere.hdr"
         key ctrl+V
         wait 1
         print
         quit
     )");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(value_of(result, "clipboard"),
-                HasSubstr("dermis render builtin:spheres -t wrap --camera 'yaw="));
     const std::string last = last_state(result);
     EXPECT_THAT(last, HasSubstr("technique oren_nayar\n"));
     EXPECT_THAT(last, HasSubstr("camera yaw=12 pitch=3 "));
+    EXPECT_THAT(last, HasSubstr("exposure_ev 2\n"));
+    EXPECT_THAT(last, HasSubstr("profile jensen_skin1\n"));
+    EXPECT_THAT(last, HasSubstr("surroundings studio\n"));
+    EXPECT_THAT(last, HasSubstr("/nowhere.hdr"));
 }
 
 // Everything else here feeds events past the window library; this comes in through the display.

@@ -31,14 +31,18 @@ Result<int> turn_scene(const Options& options) {
     return run_turntable(turntable);
 }
 
-// What the files say is kept apart from what --camera and --light say: it decides what stays when they
-// change.
+// What the files say is kept apart from what --camera, --light and --look say: it decides what stays when
+// they change.
 Result<view::Start> first_scene(RenderOptions options) {
-    const std::string camera = std::exchange(options.camera, ""), light = std::exchange(options.light, "");
+    const std::string camera = std::exchange(options.camera, ""), light = std::exchange(options.light, ""),
+                      look = std::exchange(options.look, ""),
+                      environment = std::exchange(options.environment, "");
     Result<Prepared> prepared = prepare(options);
     if (!prepared) return prepared.error();
     const view::SceneLook file_look = view::look_of(prepared->scene);
     if (Result<void> applied = apply_views(prepared->scene, camera, light); !applied) return applied.error();
+    if (Result<void> applied = apply_looks(prepared->scene, look, environment); !applied)
+        return applied.error();
     return view::Start{.scene = std::move(prepared->scene),
                        .technique = prepared->technique,
                        .values = std::move(prepared->values),
