@@ -66,6 +66,9 @@ Result<ScoreboardRow> parse_row(std::string_view line, size_t number) {
         const bool optional = names[i] == "terminator_rmse" || names[i] == "penumbra_rmse";
         if (!value && !(optional && fields[i].empty()))
             return wrong("'" + fields[i] + "' under " + std::string(names[i]) + " is no number");
+        // Rows are sorted and plotted by these. Equal pictures have an infinite PSNR.
+        const bool sound = !value || std::isfinite(*value) || (names[i] == "psnr_db" && *value > 0);
+        if (!sound) return wrong("'" + fields[i] + "' under " + std::string(names[i]) + " is not finite");
         values.push_back(value);
     }
     ScoreboardRow row{.row = {.scene = fields[0], .technique = fields[1], .settings = fields[2]},
@@ -80,7 +83,8 @@ Result<ScoreboardRow> parse_row(std::string_view line, size_t number) {
                       .terminator_rmse = values[6],
                       .penumbra_rmse = values[7]};
     row.row.time_ms = *values[8];
-    row.row.bytes = size_t(std::max(*values[9], 0.0));
+    constexpr double kMostBytes = 1e15;
+    row.row.bytes = size_t(std::clamp(*values[9], 0.0, kMostBytes));
     return row;
 }
 

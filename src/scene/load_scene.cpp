@@ -81,7 +81,7 @@ Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& op
         return load_builtin(std::string_view(path_or_name).substr(kBuiltin.size()));
     const fs::path path = path_or_name;
     std::error_code ec;
-    if (looks_like_a_name(path_or_name) && !fs::exists(path, ec)) {
+    if (looks_like_a_name(path_or_name) && !fs::is_regular_file(path, ec)) {
         if (const fs::path file = find_scene(path_or_name); !file.empty()) return load_scene_file(file);
         return Error{unknown_name("scene", path_or_name, scene_names()) +
                      ", or a .toml, .obj, .gltf or .glb file"};

@@ -132,6 +132,11 @@ class ParameterValues {
     [[nodiscard]] std::string text(const Parameter& parameter) const;
     [[nodiscard]] std::array<double, 3> get(const Parameter& parameter) const;
     void put(const Parameter& parameter, std::array<double, 3> value);
+    /// All of them; `Params` is what the table was built for.
+    template <class Params>
+    void put_all(const Params& params) {
+        std::memcpy(bytes_.data(), &params, sizeof params);
+    }
 
     template <class Params>
     [[nodiscard]] Params as() const {

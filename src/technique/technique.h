@@ -62,6 +62,10 @@ struct Technique {
     std::function<PassList(const ParameterValues&, const FrameContext&)> build;
     /// Tables for these settings, baked on the CPU (cached by the bakers); absent when it needs none.
     std::function<Result<std::vector<TableImage>>(const ParameterValues&, const SkinContext&)> tables;
+    /// What stands in for these settings while something moves on a slow device and the picture is drawn
+    /// with `scale` (under 1) of its sides: the same look with fewer texels, taps or passes, none of which is
+    /// more than the settings have. Absent when only pixels cost.
+    std::function<ParameterValues(ParameterValues, float scale)> coarse;
     /// The figures of its source, for `dermis figures`; absent when it has none.
     std::function<std::vector<Figure>()> figures;
 };

@@ -19,6 +19,7 @@ struct Region {
 struct TimedPass {
     std::string name;
     double time_ms = 0;
+    std::vector<float> history_ms;  ///< oldest first, this one last
 };
 
 /// What panels show and cannot change.

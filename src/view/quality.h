@@ -1,6 +1,7 @@
 #pragma once
-// How finely a picture is drawn: coarse while something moves on a slow device, whole when it stops, with
-// four samples a pixel when it has stood still for a while.
+// How finely a picture is drawn: coarse while something moves on a slow device (fewer pixels, and what
+// Technique::coarse leaves out: texels, taps, passes of the blur), whole when it stops, with four samples a
+// pixel when it has stood still for a while.
 
 #include <optional>
 

@@ -75,6 +75,7 @@ class Session {
     // session_frame.cpp
     [[nodiscard]] Result<void> frame();
     [[nodiscard]] Result<void> refresh_pictures();
+    void note_times(const gpu::FrameResult& timings);
     [[nodiscard]] Result<void> show(const InterfaceDraws& draws);
     [[nodiscard]] Result<void> rescale();
     [[nodiscard]] PanelFacts facts() const;
@@ -143,6 +144,7 @@ class Session {
     bool drew_ = false;                     ///< a picture, in this frame
     bool quit_ = false;
     std::vector<float> history_ms_;
+    std::map<std::string, std::vector<float>> pass_history_ms_;
     double last_frame_s_ = 0;
 
     size_t next_command_ = 0;

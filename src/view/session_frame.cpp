@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <thread>
 
 #include "dermis/view/session.h"
@@ -48,13 +49,34 @@ PanelFacts Session::facts() const {
     facts.picture_state = facts.device;
     if (!stage_ || stage_->picture(0).width == 0) return facts;
     const Picture& picture = stage_->picture(0);
+    const std::string samples = std::to_string(picture.quality.samples);
+    char time[32];
+    std::snprintf(time, sizeof time, picture.timings.frame_ms < 10 ? "%.1f ms" : "%.0f ms",
+                  picture.timings.frame_ms);
     facts.picture_state = std::to_string(picture.width) + " x " + std::to_string(picture.height) + "   " +
-                          std::to_string(picture.quality.samples) +
-                          (picture.quality.samples > 1 ? " samples   " : " sample   ") + facts.device;
+                          samples + (samples == "1" ? " sample   " : " samples   ") + time + "   " +
+                          facts.device;
     facts.frame_ms = picture.timings.frame_ms;
     for (const gpu::PassTiming& pass : picture.timings.passes)
-        facts.passes.push_back({pass.name, pass.time_ms});
+        if (const auto history = pass_history_ms_.find(pass.name); history != pass_history_ms_.end())
+            facts.passes.push_back({pass.name, pass.time_ms, history->second});
     return facts;
+}
+
+// Passes that this picture did not have are forgotten.
+void Session::note_times(const gpu::FrameResult& timings) {
+    const auto add = [](std::vector<float>& history, double time_ms) {
+        history.push_back(float(time_ms));
+        if (history.size() > kHistoryFrames) history.erase(history.begin());
+    };
+    add(history_ms_, timings.frame_ms);
+    std::map<std::string, std::vector<float>> histories;
+    for (const gpu::PassTiming& pass : timings.passes) {
+        std::vector<float>& history = histories[pass.name];
+        if (history.empty()) history = std::move(pass_history_ms_[pass.name]);
+        add(history, pass.time_ms);
+    }
+    pass_history_ms_ = std::move(histories);
 }
 
 Result<void> Session::refresh_pictures() {
@@ -80,8 +102,7 @@ Result<void> Session::refresh_pictures() {
         shaders_unproven_ = false;
         drew_ = true;
         if (side > 0) continue;
-        history_ms_.push_back(float(stage_->picture(0).timings.frame_ms));
-        if (history_ms_.size() > kHistoryFrames) history_ms_.erase(history_ms_.begin());
+        note_times(stage_->picture(0).timings);
     }
     return {};
 }

@@ -67,8 +67,11 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
     if (!drawer) return drawer.error();
     const DrawSettings draw = settings(model, size, *quality);
     fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
-    TechniqueChoice& chosen = model.choices[choice];
-    Result<gpu::FrameResult> drawn = (*drawer)->draw(chosen.technique(), chosen.values(), draw);
+    const Technique& technique = model.choices[choice].technique();
+    const ParameterValues& chosen = model.choices[choice].values();
+    const bool coarse = quality->scale < 1 && technique.coarse;
+    Result<gpu::FrameResult> drawn =
+        (*drawer)->draw(technique, coarse ? technique.coarse(chosen, quality->scale) : chosen, draw);
     side.failed = !drawn;
     if (!drawn) return drawn.error();
     side.ladder->drawn(*quality, megapixels(size), drawn->frame_ms);

@@ -66,7 +66,8 @@ void store_state(const WindowState& state) {
 
 void remember(WindowState& state, const std::string& path) {
     std::error_code ec;
-    const std::string kept = fs::exists(path, ec) ? fs::absolute(path, ec).lexically_normal().string() : path;
+    const std::string kept =
+        fs::is_regular_file(path, ec) ? fs::absolute(path, ec).lexically_normal().string() : path;
     std::erase(state.recent, kept);
     state.recent.insert(state.recent.begin(), kept);
     if (state.recent.size() > kMaxRecent) state.recent.resize(kMaxRecent);

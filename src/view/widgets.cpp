@@ -17,8 +17,12 @@ std::string range_text(const NumberRow& row) {
            (row.unit.empty() ? "" : " " + row.unit);
 }
 
+// Beside the column, level with its row: below the mouse it would hide the rows that follow.
 void tooltip(const std::string& text, const std::string& detail) {
     if (text.empty() && detail.empty()) return;
+    const float gap = ImGui::GetStyle().WindowPadding.x / 2;
+    ImGui::SetNextWindowPos({ImGui::GetWindowPos().x - gap, ImGui::GetItemRectMin().y}, ImGuiCond_Always,
+                            {1, 0});
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
     ImGui::TextUnformatted(text.c_str());

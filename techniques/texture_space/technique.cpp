@@ -3,6 +3,7 @@
 // Four steps: shadow map (shared), light map, dilation and blur, final mesh. The source's blur knows
 // texels, so its width on the skin follows the unwrap; with space=mm it knows the surface.
 
+#include <algorithm>
 #include <cmath>
 
 #include "dermis/technique/atlas_light.h"
@@ -16,6 +17,8 @@ enum class Filter : int32_t { poisson, gaussian, box, kawase };
 enum class Dilate : int32_t { off, source, written_only };
 enum class Space : int32_t { texels, mm };
 enum class Seams : int32_t { drop, carry };
+
+constexpr float kMaxBlurRadius = 64;
 
 struct Params {
     int32_t light_map_size = 1024;
@@ -50,9 +53,9 @@ ParameterTable parameters() {
         .integer(&Params::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
         .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"}, "taps of the blur")
         .integer(&Params::blur_passes, "blur_passes", "", 0, 16, "how often the light map is blurred")
-        .number(&Params::blur_scale, "blur_scale", "texels or mm", 0, 64,
+        .number(&Params::blur_scale, "blur_scale", "texels or mm", 0, kMaxBlurRadius,
                 "radius of the blur where the kernel map is 1")
-        .number(&Params::blur_bias, "blur_bias", "texels or mm", 0, 64, "added to every radius")
+        .number(&Params::blur_bias, "blur_bias", "texels or mm", 0, kMaxBlurRadius, "added to every radius")
         .choice(
             &Params::dilate, "dilate", {"off", "source", "written_only"},
             "at chart borders: nothing, the source's copy in the first pass, or average written texels only")
@@ -208,6 +211,27 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     return list;
 }
 
+// A smaller light map, and half of the blur's passes at a radius that widens the light as much: variances of
+// blurs add, so that n passes of radius r and m of r sqrt(n / m) are one width. Kawase's filter has its radii
+// from the number of the pass and keeps them.
+ParameterValues coarse(ParameterValues values, float scale) {
+    constexpr int32_t kSmallest = 256;
+    auto params = values.as<Params>();
+    const int32_t size =
+        std::max(int32_t(float(params.light_map_size) * scale), std::min(params.light_map_size, kSmallest));
+    float wider = params.space == Space::texels ? float(size) / float(params.light_map_size) : 1.0f;
+    params.light_map_size = size;
+    if (params.filter != Filter::kawase && params.blur_passes > 1) {
+        const int32_t passes = (params.blur_passes + 1) / 2;
+        wider *= std::sqrt(float(params.blur_passes) / float(passes));
+        params.blur_passes = passes;
+    }
+    params.blur_scale = std::min(params.blur_scale * wider, kMaxBlurRadius);
+    params.blur_bias = std::min(params.blur_bias * wider, kMaxBlurRadius);
+    values.put_all(params);
+    return values;
+}
+
 }  // namespace
 
 Technique make_texture_space_technique() {
@@ -217,6 +241,7 @@ Technique make_texture_space_technique() {
             .parameters = parameters(),
             .views = {"light_map"},
             .build = build,
+            .coarse = coarse,
             .figures = texture_space_figures};
 }
 

@@ -68,3 +68,13 @@ TEST_F(TextureSpace, without_dilation_the_gutter_darkens_the_seams) {
     const Image dark = draw(renderer, with({{"dilate", "off"}, {"blur_passes", "4"}, {"blur_bias", "20"}}));
     EXPECT_GT(relative_difference(good, dark, 1), 0.05);
 }
+
+TEST_F(TextureSpace, its_stand_in_for_a_moving_picture_blurs_as_widely) {
+    const Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    const ParameterValues values = with({{"blur_passes", "8"}, {"blur_bias", "6"}});
+    const Technique& technique = **find_technique("texture_space");
+    const Image whole = draw(renderer, values), coarse = draw(renderer, technique.coarse(values, 0.25f)),
+                sharp = draw(renderer, with({{"blur_passes", "0"}}));
+    EXPECT_LT(mean_difference(whole, coarse), 0.25 * mean_difference(whole, sharp));
+}

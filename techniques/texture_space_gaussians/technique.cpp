@@ -150,6 +150,17 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     return list;
 }
 
+// A smaller light map and the fewest taps; lengths are in mm and stay.
+ParameterValues coarse(ParameterValues values, float scale) {
+    constexpr int32_t kSmallest = 256, kFewestTaps = 2;
+    auto params = values.as<Params>();
+    params.light_map_size =
+        std::max(int32_t(float(params.light_map_size) * scale), std::min(params.light_map_size, kSmallest));
+    params.half_taps = kFewestTaps;
+    values.put_all(params);
+    return values;
+}
+
 }  // namespace
 
 Technique make_texture_space_gaussians_technique() {
@@ -158,7 +169,8 @@ Technique make_texture_space_gaussians_technique() {
             .source = "d'Eon, Luebke 2007, Advanced Techniques for Realistic Real-Time Skin Rendering",
             .parameters = parameters(),
             .views = {"light_map"},
-            .build = build};
+            .build = build,
+            .coarse = coarse};
 }
 
 }  // namespace dermis

@@ -61,6 +61,8 @@ TEST(Scoreboard, a_file_that_is_no_scoreboard_is_named_by_line) {
     std::string bad = good;
     bad.replace(bad.rfind("0.5"), 3, "x");
     EXPECT_THAT(parse_scoreboard(bad).error().message, HasSubstr("is no number"));
+    bad.replace(bad.rfind(",x,") + 1, 1, "nan");  // what could not be sorted
+    EXPECT_THAT(parse_scoreboard(bad).error().message, HasSubstr("is not finite"));
 }
 
 TEST(Scoreboard, the_table_is_sorted_by_error_and_the_plot_has_a_panel_a_scene) {

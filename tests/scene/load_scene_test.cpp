@@ -242,6 +242,16 @@ TEST(LoadScene, names_without_a_path_are_scenes_of_the_project) {
     EXPECT_EQ(message.rfind("unknown scene 'sphere'; did you mean 'spheres'? Known: ", 0), 0u) << message;
 }
 
+TEST(LoadScene, a_folder_of_the_same_name_does_not_hide_a_scene) {
+    const SceneDirectory dir;
+    const auto before = std::filesystem::current_path();
+    std::filesystem::create_directory(dir.file("spheres"));
+    std::filesystem::current_path(std::filesystem::path(dir.file("spheres")).parent_path());
+    const Result<Scene> scene = load_scene("spheres");
+    std::filesystem::current_path(before);
+    EXPECT_TRUE(scene) << scene.error().message;
+}
+
 TEST(LoadScene, what_is_neither_scene_nor_mesh_is_an_error) {
     const SceneDirectory dir;
     dir.put("a.txt", "hello");

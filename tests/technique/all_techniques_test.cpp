@@ -91,3 +91,25 @@ TEST(AllTechniques, building_is_pure) {
             << technique.id;
     }
 }
+
+TEST(AllTechniques, stand_ins_for_a_moving_picture_stay_in_their_ranges) {
+    int with_one = 0;
+    for (const Technique& technique : all_techniques()) {
+        if (!technique.coarse) continue;
+        ++with_one;
+        for (const ParameterValues& values : variations(technique))
+            for (const float scale : {0.75f, 0.25f}) {
+                const ParameterValues coarse = technique.coarse(values, scale);
+                for (const Parameter& parameter : technique.parameters.parameters) {
+                    ParameterValues checked(technique.parameters);
+                    EXPECT_TRUE(checked.set(parameter.name, coarse.text(parameter)))
+                        << technique.id << " " << parameter.name;
+                    if (parameter.kind == ParameterKind::integer) {
+                        EXPECT_LE(coarse.get(parameter)[0], values.get(parameter)[0])
+                            << technique.id << " " << parameter.name;
+                    }
+                }
+            }
+    }
+    EXPECT_GT(with_one, 0);
+}

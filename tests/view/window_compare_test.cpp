@@ -13,7 +13,7 @@ using ::testing::Not;
 }  // namespace
 
 TEST_F(ViewWindow, two_techniques_and_a_picture_stand_beside_each_other) {
-    const ProgramResult result = view(std::string(kSmall) + "-t lambert", R"(
+    const ProgramResult result = view(kSmall + "-t lambert", R"(
         screenshot DIR/left.png
         key C
         key X

@@ -91,7 +91,7 @@ TEST_F(ViewWindow, a_broken_shader_is_told_and_the_last_good_one_goes_on_until_i
     const std::string target = path("root") + "/shaders/shared/tone_map.frag";
     ASSERT_TRUE(write_text_file(path("red.frag"), good->replace(alpha, 4, "1.0) * vec4(1, 0, 0, 1)")));
     const ProgramResult result =
-        view(std::string(kSmall) + "-t lambert --shaders " + path("root"),
+        view(kSmall + "-t lambert --shaders " + path("root"),
              "settle\nscreenshot DIR/before.png\ncopy DIR/broken.frag " + target +
                  "\nwait 14\nprint\ndrag left 90 90 99 90\nsettle\n"
                  "screenshot DIR/still.png\ncopy DIR/alien.frag " +

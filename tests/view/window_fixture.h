@@ -70,6 +70,6 @@ class ViewWindow : public ::testing::Test {
     inline static std::unique_ptr<VirtualDisplay> display_;
 };
 
-inline constexpr const char* kSmall = "builtin:spheres --size 560x320 --samples 1 ";
+inline const std::string kSmall = "builtin:spheres --size 560x320 --samples 1 ";
 
 }  // namespace dermis

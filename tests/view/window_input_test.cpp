@@ -14,7 +14,7 @@ using ::testing::Not;
 }  // namespace
 
 TEST_F(ViewWindow, a_view_found_with_the_mouse_is_the_picture_that_render_draws) {
-    const ProgramResult result = view(std::string(kSmall) + "-t oren_nayar", R"(
+    const ProgramResult result = view(kSmall + "-t oren_nayar", R"(
         drag left 100 100 130 90
         drag left 100 100 110 120 ctrl
         drag middle 100 100 95 105
@@ -44,7 +44,7 @@ TEST_F(ViewWindow, a_view_found_with_the_mouse_is_the_picture_that_render_draws)
 }
 
 TEST_F(ViewWindow, a_slider_sets_its_parameter) {
-    const ProgramResult result = view(std::string(kSmall) + "-t wrap", R"(
+    const ProgramResult result = view(kSmall + "-t wrap", R"(
         wait 2
         slide wrap 1
         wait 1
@@ -74,7 +74,7 @@ TEST_F(ViewWindow, every_technique_and_every_view_is_shown) {
 
 TEST_F(ViewWindow, a_copied_view_is_a_command_that_draws_the_same_bytes) {
     ASSERT_TRUE(write_image(path("around.hdr"), Image(16, 8, 3)));
-    const ProgramResult result = view("builtin:spheres --size 560x320 --samples 4 -t wrap", R"(
+    const ProgramResult result = view("builtin:spheres --size 400x240 --samples 4 -t wrap", R"(
         drag left 90 90 120 80
         drag left 90 90 95 105 ctrl
         drop DIR/around.hdr
@@ -130,7 +130,7 @@ TEST_F(ViewWindow, a_view_is_pasted) {
 // Everything else here feeds events past the window library; this comes in through the display.
 TEST_F(ViewWindow, real_mouse_and_keys_do_what_the_scripted_ones_do) {
     if (shell("command -v xdotool").exit_code != 0) GTEST_SKIP() << "no xdotool; apt-get install xdotool";
-    const std::string arguments = std::string("view ") + kSmall + "--validate -t lambert ";
+    const std::string arguments = "view " + kSmall + "--validate -t lambert ";
     const std::string hands =
         "timeout 60 xdotool search --sync --name 'spheres - Dermis' "
         "mousemove 100 100 mousedown 1 mousemove 130 90 mouseup 1 mousemove 90 80 click 4 "
@@ -140,7 +140,7 @@ TEST_F(ViewWindow, real_mouse_and_keys_do_what_the_scripted_ones_do) {
         shell("cd " + path(".") + " && { " + program(*display_) + " " + arguments + " & " +
               "export DISPLAY=" + display_->name() + "; " + hands + " && wait $!; }");
     ASSERT_EQ(real.exit_code, 0) << real.err;
-    const ProgramResult scripted = view(std::string(kSmall) + "-t lambert", R"(
+    const ProgramResult scripted = view(kSmall + "-t lambert", R"(
         drag left 100 100 130 90
         scroll 90 80 1
         drag left 100 100 110 120 ctrl

@@ -46,7 +46,7 @@ TEST_F(ViewWindow, five_hundred_frames_of_switching_leave_no_memory_behind) {
 }
 
 TEST_F(ViewWindow, a_lost_device_is_opened_again_with_what_was_seen) {
-    const ProgramResult result = view(std::string(kSmall) + "-t wrap", R"(
+    const ProgramResult result = view(kSmall + "-t wrap", R"(
         set wrap=0.125
         drag left 90 90 120 80
         settle
