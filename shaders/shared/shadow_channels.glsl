@@ -19,19 +19,6 @@ const float kSourceDepthBias = 0.01;
 // Half floats near 1 are this far apart.
 const float kHalfStep = 1.0 / 2048.0;
 
-vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
-    vec4 p = light_from_world * vec4(p_mm, 1.0);
-    return vec3(p.xy / p.w * 0.5 + 0.5, p.z / p.w);
-}
-
-// Moved off the surface as shadow_visibility does.
-vec3 lifted_mm(vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, float radius_mm) {
-    float n_dot_l = clamp(dot(n_geometry_world, to_light_world), 0.0, 1.0);
-    return p_mm + n_geometry_world * (sqrt(1.0 - n_dot_l * n_dot_l) * radius_mm + 1.5 * shadow_texel_mm);
-}
-
-bool outside_map(vec3 p) { return any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0))); }
-
 // Light through the translucent sheets, to the power that darkens it (trans_shadow_alpha).
 vec3 tint_of(vec4 texel, float darkening) {
     vec3 depth = channels == kChannelsTwoLights ? texel.rrr : texel.rgb;
@@ -40,40 +27,38 @@ vec3 tint_of(vec4 texel, float darkening) {
 
 // Visibility times tint of the key light, both over a disk of `width_mm`.
 vec3 key_light_through(vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm, float darkening) {
-    float radius_mm = max(0.5 * width_mm, shadow_texel_mm);
     if (shadow_lookup == kLookupSingle) {
         // The source's own test: one texel, no filter, a constant bias.
         vec3 p = shadow_map_position(light_view_projection, p_mm);
-        if (outside_map(p)) return vec3(1.0);
+        if (outside_shadow_map(p)) return vec3(1.0);
         vec4 texel = textureLod(sampler2D(shadow_channels, nearest_clamp), p.xy, 0.0);
         return p.z - kSourceDepthBias < texel.a ? tint_of(texel, darkening) : vec3(0.0);
     }
     float visibility = shadow_visibility(p_mm, n_geometry_world, to_light_world, width_mm);
     if (channels == kChannelsNone || visibility == 0.0) return vec3(visibility);
-    vec3 p = shadow_map_position(light_view_projection, lifted_mm(p_mm, n_geometry_world, to_light_world, radius_mm));
-    if (outside_map(p)) return vec3(visibility);
-    vec2 radius = radius_mm / shadow_texel_mm / vec2(textureSize(sampler2D(shadow_channels, linear_clamp), 0));
+    ShadowDisk disk =
+        shadow_disk(light_view_projection, p_mm, n_geometry_world, to_light_world, filter_radius_mm(width_mm));
+    if (outside_shadow_map(disk.center)) return vec3(visibility);
     vec3 tint = vec3(0.0);
     for (int i = 0; i < kTintTaps; ++i)
         tint += tint_of(textureLod(sampler2D(shadow_channels, linear_clamp),
-                                   p.xy + vogel_disk(i, kTintTaps) * radius, 0.0), darkening);
+                                   shadow_tap_position(disk, vogel_disk(i, kTintTaps)).xy, 0.0), darkening);
     return visibility * tint / float(kTintTaps);
 }
 
 // The same of the second light, whose depth lies in B: compared tap by tap.
 vec3 second_light_through(vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm, float darkening) {
     bool single = shadow_lookup == kLookupSingle;
-    float radius_mm = max(0.5 * width_mm, shadow_texel_mm);
-    vec3 p = shadow_map_position(second_light_view_projection,
-                                 single ? p_mm : lifted_mm(p_mm, n_geometry_world, to_light_world, radius_mm));
-    if (outside_map(p)) return vec3(1.0);
-    vec2 radius = radius_mm / shadow_texel_mm / vec2(textureSize(sampler2D(shadow_channels, nearest_clamp), 0));
+    ShadowDisk disk = shadow_disk(second_light_view_projection, p_mm, n_geometry_world, to_light_world,
+                                  filter_radius_mm(width_mm));
+    if (single) disk.center = shadow_map_position(second_light_view_projection, p_mm);
+    if (outside_shadow_map(disk.center)) return vec3(1.0);
     float bias = single ? kSourceDepthBias : 2.0 * kHalfStep;
     int taps = single ? 1 : kShadowTaps;
     float sum = 0.0;
     for (int i = 0; i < taps; ++i) {
-        vec2 offset = single ? vec2(0.0) : vogel_disk(i, taps) * radius;
-        vec4 texel = textureLod(sampler2D(shadow_channels, nearest_clamp), p.xy + offset, 0.0);
+        vec3 p = single ? disk.center : shadow_tap_position(disk, vogel_disk(i, taps));
+        vec4 texel = textureLod(sampler2D(shadow_channels, nearest_clamp), p.xy, 0.0);
         if (p.z - bias < texel.b) sum += exp(-texel.g * darkening);
     }
     return vec3(sum / float(taps));

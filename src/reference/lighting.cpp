@@ -26,6 +26,20 @@ Vec3 mix(Vec3 a, Vec3 b, float t) {
     return a + (b - a) * t;
 }
 
+// shaders/shared/shadow.glsl, shadow_disk(): point `disk` of the unit disk that is round as the light sees
+// it, in the tangent plane, lifted out of hollows and, under grazing light, out of the surface.
+Vec3 tangent_disk(Vec3 n, Vec3 to_light, Vec2 disk, float radius_mm) {
+    constexpr float kHollow = 0.1f, kFacetLift = 0.3f, kMostSlope = 4;
+    const LocalFrame frame = frame_of(to_light);
+    const float n_dot_l = std::clamp(dot(n, to_light), 0.0f, 1.0f), sine = std::sqrt(1 - n_dot_l * n_dot_l);
+    const float per_cosine = std::min(1 / std::max(n_dot_l, 1e-3f), kMostSlope / std::max(sine, 1e-3f));
+    const Vec3 facing = (frame.tangent * disk.x + frame.bitangent * disk.y) * radius_mm;
+    const Vec3 in_plane = facing - to_light * (dot(facing, n) * per_cosine);
+    const float lacking = std::max(0.0f, sine - kMostSlope * n_dot_l);
+    return in_plane +
+           n * (0.5f * kHollow / radius_mm * dot(in_plane, in_plane) + radius_mm * (kFacetLift + lacking));
+}
+
 }  // namespace
 
 LightArrival light_at(const Light& light, Vec3 p_mm) {
@@ -82,13 +96,7 @@ Vec3 Lighting::light_visibility(const Light& light, const Receiver& receiver, Ve
     if (settings_.shadows == ShadowCasters::key && !light.is_key) return {1, 1, 1};
     const float offset_mm = 10 * rays_.epsilon_mm(), radius_mm = 0.5f * settings_.penumbra_mm;
     Vec3 origin_mm = receiver.p_smooth_mm + receiver.n_geometry * offset_mm;
-    if (radius_mm > 0) {
-        const float n_dot_l = std::clamp(dot(receiver.n_geometry, to_light), 0.0f, 1.0f);
-        const Vec2 disk = sample_disk(u) * radius_mm;
-        const LocalFrame frame = frame_of(to_light);
-        origin_mm += receiver.n_geometry * (radius_mm * std::sqrt(1 - n_dot_l * n_dot_l)) +
-                     frame.tangent * disk.x + frame.bitangent * disk.y;
-    }
+    if (radius_mm > 0) origin_mm += tangent_disk(receiver.n_geometry, to_light, sample_disk(u), radius_mm);
     return transmittance(
         {.origin_mm = origin_mm, .direction = to_light, .min_mm = offset_mm, .max_mm = distance_mm});
 }

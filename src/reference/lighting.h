@@ -26,8 +26,8 @@ struct LightingSettings {
     AmbientModel ambient = AmbientModel::traced;
     SpecularReflection specular = SpecularReflection::ggx;
     /// Full width of the edge of every shadow, as the renderer's filter makes it: the shadow ray starts
-    /// anywhere in a disk of this diameter that faces the light, lifted off the surface so that the disk does
-    /// not dip under it.
+    /// anywhere in a disk in the tangent plane whose outline, seen from the light, is a circle of this
+    /// diameter.
     float penumbra_mm = 0;
     /// Above 1: only the part 1 - F(angle, eta) of the light that a smooth dielectric lets in counts as
     /// irradiance.

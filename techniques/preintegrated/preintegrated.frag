@@ -36,7 +36,7 @@ layout(constant_id = 6) const int ambient = kAmbientLut;
 layout(set = 0, binding = 18) uniform texture2D curvature_map;
 layout(set = 0, binding = 21) uniform texture2D skin_lut;           // N.L * .5 + .5, curvature
 layout(set = 0, binding = 22) uniform texture2D skin_zonal;         // curvature, order 0 to 2
-layout(set = 0, binding = 23) uniform texture2D skin_shadow;        // position in the penumbra, at shadow_width_mm
+layout(set = 0, binding = 23) uniform texture2D skin_shadow;        // visibility, under shadow_width_mm
 layout(set = 0, binding = 24) uniform texture2D skin_closed_form;   // curvature, rows of coefficients
 layout(set = 0, binding = 25) uniform texture2D skin_gaussians;     // a texel a term: weights, variance in mm^2
 layout(set = 0, binding = 26) uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
@@ -110,32 +110,29 @@ void prepare_surface(inout Surface s) {
     }
 }
 
-vec3 cosines(Surface s, vec3 to_light_world) {
-    float sharp = dot(s.n_world, to_light_world);
-    if (normals == kNormalsSharp) return vec3(sharp);
-    float smoothed = dot(n_smooth_world, to_light_world);
-    if (normals == kNormalsSmooth) return vec3(smoothed);
-    return mix(vec3(sharp), vec3(smoothed), smooth_weight);
+vec3 falloff(float n_dot_l) {
+    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(vec3(n_dot_l), skin_curvature_per_mm);
+    if (diffuse == kDiffuseClosedForm) return closed_form(closed_form_row, vec3(n_dot_l));
+    vec2 uv = vec2(n_dot_l * 0.5 + 0.5, skin_curvature_per_mm / kMaxCurvaturePerMm);
+    return textureLod(sampler2D(skin_lut, linear_clamp), uv, 0.0).rgb;
 }
 
-vec3 lut_sample(float t, float v) { return textureLod(sampler2D(skin_lut, linear_clamp), vec2(t * 0.5 + 0.5, v), 0.0).rgb; }
-
-// One N.L a channel: the table is read once for each.
-vec3 diffuse_falloff(vec3 t) {
-    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(t, skin_curvature_per_mm);
-    if (diffuse == kDiffuseClosedForm) return closed_form(closed_form_row, t);
-    float v = skin_curvature_per_mm / kMaxCurvaturePerMm;
-    if (normals != kNormalsBlended) return lut_sample(t.r, v);
-    return vec3(lut_sample(t.r, v).r, lut_sample(t.g, v).g, lut_sample(t.b, v).b);
+// Light is what scatters, so the answers to both normals are mixed, not the normals: a bump's lit side still counts where
+// the mean normal has turned away, and the table is read twice instead of once a channel.
+vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
+    if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world));
+    vec3 sharp = falloff(dot(s.n_world, to_light_world));
+    if (normals == kNormalsSharp) return sharp;
+    return mix(sharp, falloff(dot(n_smooth_world, to_light_world)), smooth_weight);
 }
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
-    vec3 scattered = diffuse_falloff(cosines(s, to_light_world));
+    vec3 scattered = diffuse_falloff(s, to_light_world);
     if (shadow == kShadowPlain) return scattered * visibility;
-    // Turned away from the light the shadow map only says what N.L says already; there the falloff alone decides.
-    float facing = smoothstep(-0.15, 0.15, dot(s.n_geometry_world, to_light_world));
-    vec3 penumbra = textureLod(sampler2D(skin_shadow, linear_clamp), vec2(visibility, 0.5), 0.0).rgb;
-    return scattered * mix(vec3(1.0), penumbra, facing);
+    float size = float(textureSize(sampler2D(skin_shadow, linear_clamp), 0).x);
+    vec3 penumbra =
+        textureLod(sampler2D(skin_shadow, linear_clamp), vec2(texel_centres(visibility, size), 0.5), 0.0).rgb;
+    return scattered * penumbra;
 }
 
 // sqrt(4 pi / (2 l + 1)) zh_l in place of the cosine lobe's bands (Ramamoorthi, Hanrahan 2001).

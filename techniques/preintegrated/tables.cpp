@@ -6,17 +6,16 @@
 
 #include "dermis/bake/beckmann_table.h"
 #include "dermis/bake/lut.h"
-#include "dermis/bake/shadow_table.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
 #include "preintegrated/normal_blend.h"
+#include "preintegrated/shadow_ramp.h"
 
 namespace dermis::preintegrated {
 namespace {
 
 constexpr int kLutWidth = 512, kLutHeight = 256, kRows = 257;
 constexpr int kBeckmannWidth = 256, kBeckmannHeight = 256;
-constexpr double kShadowSharpening = 3;
 // Of the sharp read of the normal map, as powers of two: 4 microns to 16 mm. The shader knows both.
 constexpr double kLeastLogMm = -8, kMostLogMm = 4;
 constexpr int kBlendTexels = 97;
@@ -109,15 +108,14 @@ Result<TableImage> closed_form_table(const TableSettings& settings, const SkinCo
     return to_image("skin_closed_form", kRows, 4, rgba);
 }
 
+// Rows at even steps of visibility, both ends included.
 Result<TableImage> shadow_table(const TableSettings& settings, const SkinContext& skin) {
-    const Result<Table> table = bake_shadow({.profile = skin.profile,
-                                             .width = 256,
-                                             .height = 1,
-                                             .min_width_mm = settings.shadow_width_mm,
-                                             .max_width_mm = settings.shadow_width_mm * 1.0001,
-                                             .sharpening = kShadowSharpening});
-    if (!table) return table.error();
-    return to_image("skin_shadow", *table);
+    const auto ramp = shadow_ramp(skin.profile, settings.shadow_width_mm, kRows);
+    if (!ramp) return ramp.error();
+    std::vector<float> rgba;
+    for (const Rgb& light : *ramp)
+        rgba.insert(rgba.end(), {float(light[0]), float(light[1]), float(light[2]), 1.0f});
+    return to_image("skin_shadow", kRows, 1, rgba);
 }
 
 // The profile itself: weights in red, green, blue, variance in alpha; one texel a term.

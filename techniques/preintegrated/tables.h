@@ -13,7 +13,7 @@ inline constexpr double kMaxCurvaturePerMm = 1;
 struct TableSettings {
     Construction construction = Construction::sphere;
     double normal_lod_bias = 3;
-    double shadow_width_mm = 8;
+    double shadow_width_mm = 3;
     bool needs_beckmann = false;  ///< otherwise one texel stands in for the table
 };
 

@@ -26,7 +26,7 @@ struct Params {
     Normals normals = Normals::blended;
     float normal_lod_bias = 3;
     Shadow shadow = Shadow::scattered;
-    float shadow_width_mm = 8;
+    float shadow_width_mm = 3;
     Ambient ambient = Ambient::lut;
     SpecularModel specular = SpecularModel::ggx;
     float oiliness = 1;
