@@ -96,7 +96,8 @@ std::vector<Contestant> default_contestants() {
     std::vector<Contestant> list;
     for (const Technique& technique : all_techniques())
         list.push_back({.technique = &technique, .values = ParameterValues(technique.parameters)});
-    std::ranges::stable_partition(list, [](const Contestant& c) { return c.technique->id == "lambert"; });
+    std::stable_partition(list.begin(), list.end(),
+                          [](const Contestant& c) { return c.technique->id == "lambert"; });
     return list;
 }
 

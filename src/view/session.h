@@ -81,6 +81,9 @@ class Session {
     [[nodiscard]] PanelFacts facts() const;
     [[nodiscard]] PictureSize picture_size() const;
     [[nodiscard]] Region picture_area() const;
+    /// The pictures are as good as they get.
+    [[nodiscard]] bool is_drawn() const;
+    /// And nothing is on its way that would change them.
     [[nodiscard]] bool is_settled() const;
     [[nodiscard]] bool may_rest(const std::vector<Event>& events, WindowSize size) const;
 

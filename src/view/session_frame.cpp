@@ -142,9 +142,13 @@ Result<void> Session::show(const InterfaceDraws& draws) {
     return {};
 }
 
-bool Session::is_settled() const {
-    if (loading_.valid() || making_truth_.valid() || !stage_ || drew_) return false;
+bool Session::is_drawn() const {
+    if (!stage_ || drew_) return false;
     return stage_->is_final(0) && (!model_.compares() || truth_ || stage_->is_final(1));
+}
+
+bool Session::is_settled() const {
+    return is_drawn() && !loading_.valid() && !making_truth_.valid();
 }
 
 // Nothing has happened and nothing is on its way: the window shows what it would show again.

@@ -11,16 +11,18 @@
 namespace dermis::view {
 namespace {
 
-constexpr double kSleepS = 0.25;
+constexpr double kSleepS = 0.25, kShortSleepS = 0.1;
 
 }  // namespace
 
 // At most one change of a button a frame: the interface would miss a click that comes and goes within one.
 std::vector<Event> Session::gather_events() {
-    const bool busy = awake_frames_ > 0 || loading_.valid() || !options_->script.empty() || !is_settled() ||
+    const bool busy = awake_frames_ > 0 || loading_.valid() || !options_->script.empty() || !is_drawn() ||
                       options_->frames > 0 || !waiting_.empty();
+    // A ground truth in the making wants the processor for itself.
+    const double sleep_s = making_truth_.valid() ? kShortSleepS : kSleepS;
     awake_frames_ = std::max(awake_frames_ - 1, 0);
-    for (Event& event : window_.poll(busy ? 0 : kSleepS)) waiting_.push_back(std::move(event));
+    for (Event& event : window_.poll(busy ? 0 : sleep_s)) waiting_.push_back(std::move(event));
     if (!options_->script.empty()) {
         waiting_.clear();  // the script alone
         if (!scripted_.empty()) {

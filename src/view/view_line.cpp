@@ -116,15 +116,20 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
                                                     "--light", "--look",      "--environment", "--view"};
     if (line.size() > kMaxLineBytes) return Error{"the clipboard holds no view: it is too long"};
     Wanted wanted{.choice = model.choices[0], .scene = without_objects(*model.scene), .view = model.view};
+    // A line that was broken on its way, inside of quotes too, is one line.
+    std::string one_line(line);
+    std::ranges::replace_if(
+        one_line, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
     // As a shell would split them; an open quote is no view.
-    const std::vector<std::string> words = quoted_words(line, "'\"").value_or(std::vector<std::string>());
+    const std::vector<std::string> words = quoted_words(one_line, "'\"").value_or(std::vector<std::string>());
     for (size_t i = 0; i + 1 < words.size(); ++i)
         if (std::ranges::find(kOptions, words[i]) != std::end(kOptions)) {
             if (const Result<void> taken = wanted.take(words[i], words[i + 1]); !taken) return taken;
             ++i;
         }
     if (!wanted.anything && line.find("yaw=") != line.npos) {
-        if (const Result<void> taken = wanted.take("--camera", std::string(trim(line))); !taken) return taken;
+        if (const Result<void> taken = wanted.take("--camera", std::string(trim(one_line))); !taken)
+            return taken;
     }
     if (!wanted.anything)
         return Error{"the clipboard holds no view; copy one with ctrl+C, or write --camera 'yaw=30 pitch=5'"};

@@ -30,5 +30,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
     if (const auto camera = dermis::parse_camera(text, dermis::Camera{}))
         expect(dermis::parse_camera(dermis::camera_text(*camera), *camera).ok());
+    dermis::Scene look;
+    if (dermis::parse_look(text, look)) {
+        const dermis::Scene plain;
+        dermis::Scene again;
+        expect(dermis::parse_look(dermis::look_text(look, plain), again).ok());
+    }
     return 0;
 }

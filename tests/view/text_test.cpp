@@ -89,7 +89,7 @@ TEST(SceneText, comments_stay_and_paths_stay_true_elsewhere) {
     EXPECT_THAT(*beside, HasSubstr("file = \"quad.obj\" # flat"));
 }
 
-constexpr DrawSettings kSize = {.width = 640, .height = 480};
+const DrawSettings kSize = {.width = 640, .height = 480};
 
 TEST(ViewLine, names_what_was_changed_of_the_look_and_nothing_else) {
     Viewed viewed;
@@ -134,6 +134,9 @@ TEST(ViewLine, what_is_wrong_changes_nothing) {
         EXPECT_FALSE(apply_view_line(viewed.model, line)) << line;
         EXPECT_EQ(view_line(viewed.model, file, kSize), before) << line;
     }
+    const std::string told = apply_view_line(viewed.model, "--camera 'yaw=\n4x0'").error().message;
+    EXPECT_EQ(told.find('\n'), told.npos);
+    EXPECT_TRUE(apply_view_line(viewed.model, "--camera 'pitch=2\n yaw=20'"));  // broken by a mail
     EXPECT_TRUE(apply_view_line(viewed.model, "yaw=10 pitch=1"));
     EXPECT_THAT(view_line(viewed.model, file, kSize), HasSubstr("yaw=10 pitch=1"));
 }

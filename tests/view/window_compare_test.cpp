@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "view/window_fixture.h"
 
 namespace dermis {
@@ -48,7 +50,12 @@ TEST_F(ViewWindow, two_techniques_and_a_picture_stand_beside_each_other) {
 TEST_F(ViewWindow, the_ground_truth_comes_beside_the_picture_and_can_be_stopped) {
     const ProgramResult result = view("builtin:spheres --size 170x130 --samples 1 -t lambert", R"(
         key tab
-        key tab
+        key G
+        settle
+        print
+        screenshot DIR/picture.png
+        capture DIR/beside.png
+        drag left 20 50 30 50
         key G
         wait 2
         key G
@@ -59,7 +66,21 @@ TEST_F(ViewWindow, the_ground_truth_comes_beside_the_picture_and_can_be_stopped)
         quit
     )");
     ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(value_of(result, "right"), "ground truth");
+    const std::string first = result.out.substr(0, result.out.rfind("technique "));
+    EXPECT_THAT(first, Not(HasSubstr("stale truth")));
+    EXPECT_THAT(last_state(result), HasSubstr("stale truth"));  // stopped: the one of the old view stands
     EXPECT_THAT(result.out, Not(HasSubstr("notice ")));
+    // The right half shows the same spheres with more light from bounces and less from approximations.
+    const Image picture = image("picture.png"), beside = image("beside.png");
+    double difference = 0, brightness = 0;
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = picture.width * 5 / 8; x < picture.width; ++x) {
+            difference += std::abs(picture.at(x, y, 1) - beside.at(x, y, 1));
+            brightness += picture.at(x, y, 1);
+        }
+    EXPECT_LT(difference, 0.2 * brightness);
+    EXPECT_GT(difference, 0);
 }
 
 TEST_F(ViewWindow, a_skin_tone_brings_its_profile_and_colour_and_goes_again) {

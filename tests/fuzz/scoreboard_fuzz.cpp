@@ -1,0 +1,25 @@
+// A scoreboard that a person may have edited: rows, or one line that names the line; what was read can be
+// written, tabled and plotted.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "dermis/compare/scoreboard.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const auto rows = dermis::parse_scoreboard(text);
+    if (!rows) {
+        const std::string& message = rows.error().message;
+        if (!message.starts_with("scoreboard line ") || message.find('\n') != std::string::npos) std::abort();
+        return 0;
+    }
+    const auto again = dermis::parse_scoreboard(dermis::scoreboard_csv(*rows));
+    if (!again || again->size() != rows->size()) std::abort();
+    (void)dermis::scoreboard_markdown(*rows);
+    (void)dermis::scoreboard_plot(*rows);
+    (void)dermis::merged(*rows, *again);
+    return 0;
+}
