@@ -127,6 +127,7 @@ Vec3 lip_colour(Vec3 tone, const Lips& l, const Mottle& m, float depth) {
 SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const Hairs& hairs_drawn) {
     const uint32_t seed = params.seed * 7919u;
     const float depth = float(std::clamp((params.tone - 1) / 5, 0.0, 1.0));
+    const float brown = std::max(0.0f, depth - 0.2f);  // beyond the fair tones
     const Mottle m = mottle(p, seed);
     Lips lip;
     if (z.mouth > 0 && p.z > 60) lip = lips(p);
@@ -146,7 +147,7 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
         c = c * mixc({1, 1, 1}, {0.34f, 0.33f, 0.34f}, 0.85f * strength * shaved.hair);
     }
     if (lip.vermilion > 0) {
-        c = mixc(c, lip_colour(tone, lip, m, depth), 0.92f * lip.vermilion);
+        c = mixc(c, lip_colour(tone, lip, m, std::min(1.0f, depth + 0.6f * brown)), 0.92f * lip.vermilion);
         c = with_pigments(c, 0.9f * lip.line * lip.vermilion, 0.35f * lip.line * lip.vermilion);
     }
     const float hollow = z.nostril > 0 ? 1 - step(0.0, 2.2, nostril_distance_mm(p)) : 0;
@@ -158,8 +159,8 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     s.albedo_linear = c;
     s.height_mm = r.height_mm + 0.07f * hairs + 0.05f * shaved.hair;
     s.roughness = 0.48f - 0.08f * z.t_zone - 0.05f * z.nose + 0.03f * z.cheek + 0.05f * z.neck -
-                  0.02f * depth + 0.05f * m.blotch + 0.04f * m.middle + 0.05f * m.fine + 0.12f * r.pore +
-                  0.05f * shaved.shade + 0.10f * shaved.hair;
+                  0.02f * depth + 0.06f * brown + 0.05f * m.blotch + 0.04f * m.middle + 0.05f * m.fine +
+                  0.12f * r.pore + 0.05f * shaved.shade + 0.10f * shaved.hair;
     s.roughness = mixf(s.roughness, 0.42f + 0.06f * m.fine + 0.05f * m.middle, lip.vermilion);
     s.specular = std::clamp(
         0.92f + 0.08f * z.t_zone - 0.45f * r.pore - 0.2f * r.cavity + 0.06f * m.middle - 0.4f * hairs, 0.2f,
