@@ -28,6 +28,7 @@ constexpr Shortcut kShortcuts[] = {
     {{{'S'}, kCtrl}, Action::save_scene, "save the scene with what was changed"},
     {{kKeyF12, {}}, Action::screenshot, "the picture as a PNG"},
     {{{'Y'}, {}}, Action::vsync, "wait for the display, or not"},
+    {{kKeyEscape, {}}, Action::dismiss, "messages away"},
     {{{'='}, kCtrl}, Action::larger_interface, "larger interface"},
     {{{'-'}, kCtrl}, Action::smaller_interface, "smaller interface"},
     {{{'Q'}, kCtrl}, Action::quit, "quit"},

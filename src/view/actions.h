@@ -30,6 +30,7 @@ enum class Action {
     save_scene,
     screenshot,
     vsync,
+    dismiss,
     larger_interface,
     smaller_interface,
     quit

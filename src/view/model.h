@@ -42,6 +42,7 @@ class Notices {
     void complain(std::string topic, std::string text);
     void clear(const std::string& topic);
     void expire(double now_s);
+    void dismiss() { all_.clear(); }
     [[nodiscard]] const std::vector<Notice>& all() const { return all_; }
 
   private:

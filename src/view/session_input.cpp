@@ -184,6 +184,8 @@ void Session::act(Action action) {
             model_.notices.inform(
                 "vsync", model_.vsync ? "waits for the display" : "does not wait for the display", now_s());
             return;
+        case Action::dismiss:
+            return model_.notices.dismiss();
         case Action::larger_interface:
         case Action::smaller_interface:
             model_.user_scale = std::clamp(

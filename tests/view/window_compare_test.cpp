@@ -15,7 +15,7 @@ using ::testing::Not;
 }  // namespace
 
 TEST_F(ViewWindow, two_techniques_and_a_picture_stand_beside_each_other) {
-    const ProgramResult result = view(kSmall + "-t lambert", R"(
+    const ProgramResult result = view(square() + " --size 560x320 --samples 1 -t lambert", R"(
         screenshot DIR/left.png
         key C
         key X

@@ -31,14 +31,17 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_what_is_none_is_a_no
     std::string script;
     for (const char* name : {"square.obj", "square.glb", "scene.toml"})
         script += std::string("drop DIR/") + name + "\nsettle\nprint\n";
-    const ProgramResult result = view(
-        kSmall, script + "drop DIR/broken.toml\nsettle\nprint\ndrop DIR/nowhere.hdr\nsettle\nprint\nquit\n");
+    const ProgramResult result =
+        view(kSmall, script +
+                         "drop DIR/broken.toml\nsettle\nprint\ndrop DIR/nowhere.hdr\nsettle\nprint\n"
+                         "key escape\nwait 1\nprint\nquit\n");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     for (const char* name : {"square.obj", "square.glb", "scene.toml"})
         EXPECT_THAT(result.out, HasSubstr("scene " + path(name) + "\n"));
     EXPECT_EQ(result.out.find("notice "), result.out.find("notice " + path("broken.toml")));
     EXPECT_THAT(result.out, HasSubstr("broken.toml:2: mesh.file"));
-    EXPECT_THAT(last_state(result), HasSubstr("nowhere.hdr"));
+    EXPECT_THAT(result.out, HasSubstr("nowhere.hdr"));
+    EXPECT_THAT(last_state(result), Not(HasSubstr("notice")));  // escape sent it away
     EXPECT_THAT(last_state(result), HasSubstr("surroundings studio\n"));
 }
 
@@ -91,7 +94,7 @@ TEST_F(ViewWindow, a_broken_shader_is_told_and_the_last_good_one_goes_on_until_i
     const std::string target = path("root") + "/shaders/shared/tone_map.frag";
     ASSERT_TRUE(write_text_file(path("red.frag"), good->replace(alpha, 4, "1.0) * vec4(1, 0, 0, 1)")));
     const ProgramResult result =
-        view(kSmall + "-t lambert --shaders " + path("root"),
+        view(square() + " --size 560x320 --samples 1 -t lambert --shaders " + path("root"),
              "settle\nscreenshot DIR/before.png\ncopy DIR/broken.frag " + target +
                  "\nwait 14\nprint\ndrag left 90 90 99 90\nsettle\n"
                  "screenshot DIR/still.png\ncopy DIR/alien.frag " +

@@ -62,6 +62,9 @@ TEST_F(ViewWindow, a_slider_sets_its_parameter) {
 
 TEST_F(ViewWindow, every_technique_and_every_view_is_shown) {
     std::string script;
+    for (const char* atlas : {"texture_space", "texture_space_gaussians"})
+        script += std::string("technique ") + atlas + "\nset light_map_size=64\n";
+    script += "technique lambert\n";
     for (size_t i = 1; i < all_techniques().size(); ++i) script += "key T\n";
     for (int i = 0; i < 14; ++i) script += "key V\n";
     const ProgramResult result =
