@@ -30,6 +30,11 @@ void prepare_surface(inout Surface s);
 vec3 own_view(Surface s);
 #endif
 
+// With DERMIS_TRANSMISSION defined: the same for light of the key that comes through the skin from behind.
+#ifdef DERMIS_TRANSMISSION
+vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility);
+#endif
+
 // Radiant exitance over irradiance at normal incidence for light from one direction: n_dot_l for Lambert. Includes
 // the visibility of the light, which a technique may want to scatter too.
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility);
@@ -57,6 +62,9 @@ void main() {
         if (i == key_light)
             visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world,
                                            DERMIS_SHADOW_WIDTH_MM);
+#ifdef DERMIS_TRANSMISSION
+        if (i == key_light) exitance += light.irradiance_linear * transmitted_response(s, light.to_light_world, visibility);
+#endif
         exitance += light.irradiance_linear * direct_response(s, light.to_light_world, visibility);
         specular_radiance += light.irradiance_linear * visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);

@@ -17,16 +17,17 @@ vec2 vogel_disk(int index, int count) {
 }
 
 float shadow_depth_tap(vec3 p_light) {
-    return texture(sampler2DShadow(shadow_map, shadow_compare), p_light);
+    return texture(sampler2DShadow(shadow_map, shadow_compare), vec3(p_light.xy, min(p_light.z, 1.0)));
 }
 
 vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
     vec4 p = light_from_world * vec4(p_mm, 1.0);
-    return vec3(p.xy / p.w * 0.5 + 0.5, p.z / p.w);
+    return p.w > 0.0 ? vec3(p.xy / p.w * 0.5 + 0.5, p.z / p.w) : vec3(-1.0);  // behind a spot or point light
 }
 
+// What lies past the far end, as skin lifted off the far side of the scene may, still has everything before it.
 bool outside_shadow_map(vec3 p_light) {
-    return any(lessThan(p_light, vec3(0.0))) || any(greaterThan(p_light, vec3(1.0)));
+    return any(lessThan(p_light, vec3(0.0))) || any(greaterThan(p_light.xy, vec2(1.0)));
 }
 
 // The disk of a filtered shadow, round as the light sees it and lying in the tangent plane of the receiver: no flat or

@@ -18,9 +18,11 @@ layout(constant_id = 3) const int shadow = 1;
 #define DERMIS_PREPARE_SURFACE
 #define DERMIS_BECKMANN_TABLE
 #define DERMIS_OWN_VIEW
+#define DERMIS_TRANSMISSION
 #include "shared/forward.glsl"
 #include "preintegrated/closed_form.glsl"
 #include "preintegrated/curve_2015.glsl"
+#include "preintegrated/transmission.glsl"
 #include "preintegrated/zonal.glsl"
 
 const int kDiffuseLut = 0, kDiffuseCurve2015 = 1, kDiffuseClosedForm = 2;
@@ -30,6 +32,8 @@ const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
 layout(constant_id = 4) const int curvature = kCurvatureVertex;
 const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2;
 layout(constant_id = 5) const int normals = kNormalsBlended;
+const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
+layout(constant_id = 7) const int transmission = kTransmissionShadowMap;
 const int kAmbientExact = 0, kAmbientLut = 1, kAmbientCurve2015 = 2;
 layout(constant_id = 6) const int ambient = kAmbientLut;
 
@@ -41,6 +45,7 @@ layout(set = 0, binding = 24) uniform texture2D skin_closed_form;   // curvature
 layout(set = 0, binding = 25) uniform texture2D skin_gaussians;     // a texel a term: weights, variance in mm^2
 layout(set = 0, binding = 26) uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
 layout(set = 0, binding = 27) uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
+layout(set = 0, binding = 28) uniform texture2D skin_transmission;  // distance
 
 const float kMaxCurvaturePerMm = 1.0;
 const float kLeastLogMm = -8.0, kMostLogMm = 4.0;  // of skin_normal_blend
@@ -133,6 +138,13 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
     vec3 penumbra =
         textureLod(sampler2D(skin_shadow, linear_clamp), vec2(texel_centres(visibility, size), 0.5), 0.0).rgb;
     return scattered * penumbra;
+}
+
+// The shadow table has what scatters into the penumbra; beyond it, and behind thin parts, the light is gathered.
+vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility) {
+    if (transmission == kTransmissionNone || visibility > 0.3) return vec3(0.0);
+    return (1.0 - smoothstep(0.0, 0.3, visibility)) *
+           transmitted_light(skin_transmission, s.p_world_mm, to_light_world);
 }
 
 // sqrt(4 pi / (2 l + 1)) zh_l in place of the cosine lobe's bands (Ramamoorthi, Hanrahan 2001).

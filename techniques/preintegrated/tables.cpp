@@ -154,12 +154,25 @@ Result<TableImage> beckmann_table(const TableSettings& settings, const SkinConte
     return to_image("skin_beckmann", kBeckmannWidth, kBeckmannHeight, roots, ImageFormat::r32f);
 }
 
+// R per mm^2 at even steps of distance, both ends included.
+Result<TableImage> transmission_table(const TableSettings&, const SkinContext& skin) {
+    std::vector<float> rgba;
+    for (int i = 0; i < kRows; ++i) {
+        const double distance_mm = std::max(kMostDistanceMm * i / (kRows - 1), kLeastDistanceMm);
+        for (int c = 0; c < 3; ++c)
+            rgba.push_back(float(
+                reflectance_per_mm2({.name = "", .source = "", .model = skin.gaussians}, c, distance_mm)));
+        rgba.push_back(1);
+    }
+    return to_image("skin_transmission", kRows, 1, rgba);
+}
+
 }  // namespace
 
 Result<std::vector<TableImage>> bake_tables(const TableSettings& settings, const SkinContext& skin) {
     std::vector<TableImage> images;
     for (const auto make : {diffuse_table, zonal_table, closed_form_table, shadow_table, gaussian_table,
-                            normal_blend_table, beckmann_table}) {
+                            normal_blend_table, beckmann_table, transmission_table}) {
         Result<TableImage> image = make(settings, skin);
         if (!image) return image.error();
         images.push_back(std::move(*image));

@@ -10,6 +10,11 @@ namespace dermis::preintegrated {
 /// Curvatures from 0 to this fill the tables; preintegrated.frag knows the same number.
 inline constexpr double kMaxCurvaturePerMm = 1;
 
+/// Distances from 0 to this fill the transmission table; transmission.glsl knows the same number.
+inline constexpr double kMostDistanceMm = 12;
+/// Nearer points count as this far: taps are half a millimetre apart.
+inline constexpr double kLeastDistanceMm = 0.4;
+
 struct TableSettings {
     Construction construction = Construction::sphere;
     double normal_lod_bias = 3;
@@ -17,8 +22,8 @@ struct TableSettings {
     bool needs_beckmann = false;  ///< otherwise one texel stands in for the table
 };
 
-/// skin_lut, skin_zonal, skin_shadow, skin_closed_form, skin_gaussians, skin_normal_blend, skin_beckmann; all
-/// 32-bit float with four channels but the last, which has one.
+/// skin_lut, skin_zonal, skin_shadow, skin_closed_form, skin_gaussians, skin_normal_blend, skin_beckmann,
+/// skin_transmission; all 32-bit float with four channels but skin_beckmann, which has one.
 [[nodiscard]] Result<std::vector<TableImage>> bake_tables(const TableSettings& settings,
                                                           const SkinContext& skin);
 

@@ -15,6 +15,7 @@ enum class TableConstruction : int32_t { sphere, ring };
 enum class Curvature : int32_t { vertex, derivative, image };
 enum class Normals : int32_t { sharp, smooth, blended };
 enum class Shadow : int32_t { plain, scattered };
+enum class Transmission : int32_t { none, shadow_map };
 enum class Ambient : int32_t { exact, lut, curve_2015 };
 
 struct Params {
@@ -27,6 +28,7 @@ struct Params {
     float normal_lod_bias = 3;
     Shadow shadow = Shadow::scattered;
     float shadow_width_mm = 3;
+    Transmission transmission = Transmission::none;
     Ambient ambient = Ambient::lut;
     SpecularModel specular = SpecularModel::ggx;
     float oiliness = 1;
@@ -51,6 +53,8 @@ ParameterTable parameters() {
                 "how much smaller the mip is, at most")
         .choice(&Params::shadow, "shadow", {"plain", "scattered"}, "whether light scatters into the penumbra")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
+        .choice(&Params::transmission, "transmission", {"none", "shadow_map"},
+                "light through ears and other thin parts, gathered from the shadow map")
         .choice(
             &Params::ambient, "ambient", {"exact", "lut", "curve_2015"},
             "zonal harmonics for light from all around: the sphere's closed form, a table, hand-made curves")
@@ -70,9 +74,10 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                                  {"shadow", int32_t(params.shadow)},
                                                  {"curvature", int32_t(params.curvature)},
                                                  {"normals", int32_t(params.normals)},
-                                                 {"ambient", int32_t(params.ambient)}});
+                                                 {"ambient", int32_t(params.ambient)},
+                                                 {"transmission", int32_t(params.transmission)}});
     for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_closed_form", "skin_gaussians",
-                              "skin_normal_blend", "skin_beckmann"})
+                              "skin_normal_blend", "skin_beckmann", "skin_transmission"})
         pass.reads.push_back(table);
     return {.passes = {pass}};
 }

@@ -1,0 +1,60 @@
+// Light through a small sphere from behind: the pole away from the light gets what the sphere's own integral
+// says.
+
+#include <gtest/gtest.h>
+
+#include "dermis/optics/preintegration.h"
+#include "render/grid_scene.h"
+
+using namespace dermis;
+
+namespace {
+
+class PreintegratedTransmission : public PreintegratedTest {
+  protected:
+    // The middle of a white sphere whose whole light comes from behind it.
+    static Rgb dark_pole(float radius_mm, const std::string& transmission) {
+        Result<Scene> scene = load_scene("builtin:spheres");
+        EXPECT_TRUE(scene && complete_scene(*scene));
+        const auto found = std::ranges::find_if(scene->objects, [&](const SceneObject& object) {
+            return std::abs(object.mesh.curvatures_per_mm[0] - 1 / radius_mm) < 0.01f;
+        });
+        EXPECT_NE(found, scene->objects.end());
+        scene->objects = {*found};
+        Mesh& mesh = scene->objects[0].mesh;
+        mesh.materials[0].base_color_linear = {1, 1, 1};
+        Vec3 center_mm;
+        for (const Vec3 p : mesh.positions_mm) center_mm += p * (1.0f / float(mesh.positions_mm.size()));
+        scene->bounds_center_mm = center_mm;
+        scene->bounds_radius_mm = 1.1f * radius_mm;
+        scene->environment.kind = EnvironmentKind::none;
+        scene->camera.target_mm = center_mm;
+        scene->camera.eye_mm = center_mm + Vec3{0, 0, 200};
+        Light behind;
+        behind.is_key = true;
+        behind.intensity = 1;
+        behind.to_light_world = {0, 0, -1};
+        scene->lights = {behind};
+        Renderer renderer = make_renderer(*scene);
+        const Image image = radiance(renderer, technique(), values_of({{"transmission", transmission}}),
+                                     {.width = 65, .height = 65, .view = "diffuse"});
+        Rgb exitance;
+        for (int c = 0; c < 3; ++c) exitance[size_t(c)] = std::numbers::pi * double(image.at(32, 32, c));
+        return exitance;
+    }
+};
+
+}  // namespace
+
+TEST_F(PreintegratedTransmission, through_a_sphere_is_the_sphere_s_integral) {
+    for (const float radius_mm : {2.0f, 4.0f}) {
+        const Rgb light = dark_pole(radius_mm, "shadow_map"),
+                  exact = preintegrated_diffuse(gpu_gems_3_skin(), -1, radius_mm, {});
+        EXPECT_GT(light[0], 5e-4) << radius_mm;
+        EXPECT_NEAR(light[0] / exact[0], 1, 0.2) << radius_mm << " mm: " << light[0] << ", " << exact[0];
+    }
+}
+
+TEST_F(PreintegratedTransmission, is_none_unless_asked_for) {
+    EXPECT_EQ(dark_pole(2, "none"), (Rgb{0, 0, 0}));
+}
