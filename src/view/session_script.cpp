@@ -143,6 +143,10 @@ std::string Session::state_text() {
             "\n";
     text += "exposure_ev " + to_text(model_.scene->exposure_ev) + "\n";
     text += "window " + std::to_string(size_.width) + "x" + std::to_string(size_.height) + "\n";
+    const Picture& picture = stage_->picture(0);
+    text += "picture " + std::to_string(picture.width) + "x" + std::to_string(picture.height) + " " +
+            std::to_string(picture.quality.samples) + "\npasses " +
+            std::to_string(picture.timings.passes.size()) + "\n";
     text += std::string("minimised ") + (window_.framebuffer().width == 0 ? "yes\n" : "no\n");
     text += "interface_scale " + to_text(interface_->scale()) + "\n";
     const gpu::Footprint held = executor_->footprint();

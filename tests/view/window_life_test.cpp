@@ -45,6 +45,24 @@ TEST_F(ViewWindow, five_hundred_frames_of_switching_leave_no_memory_behind) {
     EXPECT_LT(after_mb - before_mb, 12);
 }
 
+TEST_F(ViewWindow, on_a_slow_device_the_first_picture_is_coarse_and_the_last_has_every_pass_and_sample) {
+    const ProgramResult result =
+        view(square() + " --size 640x480 -t texture_space --set light_map_size=512 --set blur_passes=8", R"(
+        print
+        settle
+        print
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    if (result.out.find("on llvmpipe") == std::string::npos) GTEST_SKIP() << "no slow device";
+    const std::string last = last_state(result);
+    EXPECT_THAT(last, HasSubstr("picture 320x454 4\n"));
+    const int first_width = std::stoi(value_of(result, "picture"));
+    EXPECT_LT(first_width, 320);
+    // Half of the blur's passes, and no resolve of the samples.
+    EXPECT_LE(std::stoi(value_of(result, "passes")), std::stoi(last.substr(last.find("passes ") + 7)) - 5);
+}
+
 TEST_F(ViewWindow, a_lost_device_is_opened_again_with_what_was_seen) {
     const ProgramResult result = view(kSmall + "-t wrap", R"(
         set wrap=0.125
