@@ -43,13 +43,7 @@ TEST_F(TextureSpace, without_blur_it_is_lambert) {
 }
 
 TEST_F(TextureSpace, every_filter_keeps_even_light_even_up_to_the_chart_borders) {
-    Scene scene = load("builtin:spheres");
-    scene.lights.clear();
-    for (SceneObject& object : scene.objects) {
-        object.mesh.materials[0].base_color_linear = {1, 1, 1};
-        object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1.0f);
-        for (Vec3& n : object.mesh.normals) n = {0, 1, 0};  // the same light everywhere
-    }
+    const Scene scene = evenly_lit_spheres();
     Renderer renderer = make_renderer(scene);
     const Image lambert = radiance(renderer, **find_technique("lambert"), kSmall);
     for (const char* filter : {"poisson", "gaussian", "box", "kawase"}) {

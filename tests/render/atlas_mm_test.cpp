@@ -195,13 +195,7 @@ TEST_F(AtlasMm, twice_the_scene_with_twice_the_millimetres_is_the_same_picture) 
 }
 
 TEST_F(AtlasMm, even_light_stays_even_up_to_the_chart_borders) {
-    Scene scene = load("builtin:spheres");
-    scene.lights.clear();
-    for (SceneObject& object : scene.objects) {
-        object.mesh.materials[0].base_color_linear = {1, 1, 1};
-        object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1.0f);
-        for (Vec3& n : object.mesh.normals) n = {0, 1, 0};  // the same light everywhere
-    }
+    const Scene scene = evenly_lit_spheres();
     Renderer renderer = make_renderer(scene);
     const DrawSettings diffuse = {.width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 256};
     const Image lambert = radiance(renderer, **find_technique("lambert"), diffuse);

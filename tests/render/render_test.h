@@ -16,6 +16,18 @@ class RenderTest : public gpu::GpuTest {
         return std::move(*scene);
     }
 
+    /// White spheres that see the same light everywhere: no key, no occlusion, one normal.
+    static Scene evenly_lit_spheres() {
+        Scene scene = load("builtin:spheres");
+        scene.lights.clear();
+        for (SceneObject& object : scene.objects) {
+            object.mesh.materials[0].base_color_linear = {1, 1, 1};
+            object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1.0f);
+            for (Vec3& n : object.mesh.normals) n = {0, 1, 0};
+        }
+        return scene;
+    }
+
     static Renderer make_renderer(const Scene& scene) {
         Result<Renderer> renderer = Renderer::create(device(), gpu::embedded_shaders(), scene);
         EXPECT_TRUE(renderer) << renderer.error().message;
