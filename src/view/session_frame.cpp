@@ -173,7 +173,8 @@ Result<void> Session::frame() {
     }
     if (size != size_) {
         size_ = size;
-        if (Result<void> resized = swapchain_->resize(size.width, size.height); !resized) return resized;
+        if (swapchain_)
+            if (Result<void> resized = swapchain_->resize(size.width, size.height); !resized) return resized;
     }
     if (Result<void> scaled = rescale(); !scaled) return scaled;
     model_.notices.expire(now_s());

@@ -109,6 +109,7 @@ Result<void> Session::begin_scene(Start start, bool first) {
 void Session::take_over(const Handed& handed) {
     model_ = handed.model;
     model_.notices = {};
+    if (!model_.vsync) swapchain_.reset();  // it was made to wait
     truth_image_ = handed.truth;
     truth_view_ = handed.truth_view;
 }

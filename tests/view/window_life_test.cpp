@@ -67,6 +67,9 @@ TEST_F(ViewWindow, a_lost_device_is_opened_again_with_what_was_seen) {
     const ProgramResult result = view(kSmall + "-t wrap", R"(
         set wrap=0.125
         drag left 90 90 120 80
+        key Y
+        key C
+        tone 3
         settle
         print
         screenshot DIR/before.png
@@ -79,6 +82,8 @@ TEST_F(ViewWindow, a_lost_device_is_opened_again_with_what_was_seen) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string last = last_state(result);
     EXPECT_THAT(last, HasSubstr("set wrap=0.125\n"));
+    EXPECT_THAT(last, HasSubstr("right lambert\n"));
+    EXPECT_THAT(last, HasSubstr("profile openpbr_skin_3\n"));
     EXPECT_THAT(last, HasSubstr("camera " + value_of(result, "camera")));
     EXPECT_EQ(image("before.png").bytes, image("after.png").bytes);
 }
