@@ -1,10 +1,10 @@
-# cmake -DBUILD=... -DSOURCE=... -P run.cmake: installs the built tree beside it, builds the consumer against that, runs
+# cmake -DBUILD=... -DSOURCE=... [-DLINK_FLAGS=...] -P run.cmake: installs the built tree beside it, builds the consumer against that, runs
 # it. Nothing outside BUILD/consumer is touched.
 set(work ${BUILD}/consumer)
 file(REMOVE_RECURSE ${work})
 foreach(step
         "${CMAKE_COMMAND};--install;${BUILD};--prefix;${work}/prefix"
-        "${CMAKE_COMMAND};-S;${SOURCE};-B;${work}/build;-DCMAKE_PREFIX_PATH=${work}/prefix;-DCMAKE_CXX_STANDARD=20"
+        "${CMAKE_COMMAND};-S;${SOURCE};-B;${work}/build;-DCMAKE_PREFIX_PATH=${work}/prefix;-DCMAKE_CXX_STANDARD=20;-DCMAKE_EXE_LINKER_FLAGS=${LINK_FLAGS}"
         "${CMAKE_COMMAND};--build;${work}/build"
         "${work}/build/consumer;${work}/lut.exr")
     execute_process(COMMAND ${step} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE failed)
