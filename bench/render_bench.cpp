@@ -56,7 +56,7 @@ std::vector<Run> runs(const std::string& only) {
         all.push_back(run_of(technique.id, "diffuse", "closed_form"));
         all.push_back(run_of(technique.id, "normals", "sharp"));
         all.push_back(run_of(technique.id, "shadow", "plain"));
-        all.push_back(run_of(technique.id, "transmission", "none"));
+        all.push_back(run_of(technique.id, "transmission", "shadow_map"));
     }
     return all;
 }
