@@ -144,12 +144,11 @@ Figure shadow_figure() {
                           .id = shadow,
                           .settings = {{"shadow", shadow}},
                           .view = "diffuse",
-                          .camera = kClose,
-                          .light = "yaw=-65 pitch=30"};
+                          .camera = kClose};
     };
     FigureRow row = {"",
                      {cell("as filtered", "plain"),
-                      cell("scattered, a penumbra of 8 mm", "scattered"),
+                      cell("scattered into the filter's width", "scattered"),
                       {.label = "difference times 8",
                        .kind = CellKind::difference,
                        .subject = "scattered",
