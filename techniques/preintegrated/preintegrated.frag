@@ -20,6 +20,7 @@ layout(constant_id = 3) const int shadow = 1;
 #define DERMIS_OWN_VIEW
 #define DERMIS_TRANSMISSION
 #include "shared/forward.glsl"
+#include "shared/texel_centres.glsl"
 #include "preintegrated/closed_form.glsl"
 #include "preintegrated/curve_2015.glsl"
 #include "preintegrated/transmission.glsl"
@@ -32,10 +33,10 @@ const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
 layout(constant_id = 4) const int curvature = kCurvatureVertex;
 const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2;
 layout(constant_id = 5) const int normals = kNormalsBlended;
-const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
-layout(constant_id = 7) const int transmission = kTransmissionShadowMap;
 const int kAmbientExact = 0, kAmbientLut = 1, kAmbientCurve2015 = 2;
 layout(constant_id = 6) const int ambient = kAmbientLut;
+const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
+layout(constant_id = 7) const int transmission = kTransmissionNone;
 
 layout(set = 0, binding = 18) uniform texture2D curvature_map;
 layout(set = 0, binding = 21) uniform texture2D skin_lut;           // N.L * .5 + .5, curvature
@@ -76,9 +77,6 @@ float chosen_curvature_per_mm(Surface s) {
         k = curvature_scale_per_mm * texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r;
     return clamp(abs(k) * curvature_gain, 0.0, kMaxCurvaturePerMm);
 }
-
-// From the centre of the first texel to that of the last.
-float texel_centres(float x, float size) { return (clamp(x, 0.0, 1.0) * (size - 1.0) + 0.5) / size; }
 
 // What a texel of the normal map covers on the skin, along the atlas axis that is stretched more: how the position moves
 // with the texel, out of how both move with the pixel.

@@ -6,6 +6,7 @@
 #define DERMIS_TRANSMISSION_GLSL
 
 #include "shared/shadow.glsl"
+#include "shared/texel_centres.glsl"
 
 const float kMostDistanceMm = 12.0;  // tables.h has it too
 const float kWidestRingMm = 6.0;
@@ -32,7 +33,7 @@ vec3 transmitted_light(texture2D table, vec3 p_mm, vec3 to_light_world) {
         if (tap_z == 1.0) continue;  // no skin
         float depth_mm = (here.z - tap_z) * mm_per_z;
         float distance_mm = sqrt(radius_mm * radius_mm + depth_mm * depth_mm);
-        float u = (min(distance_mm / kMostDistanceMm, 1.0) * (size - 1.0) + 0.5) / size;
+        float u = texel_centres(distance_mm / kMostDistanceMm, size);
         light += radius_mm * textureLod(sampler2D(table, linear_clamp), vec2(u, 0.5), 0.0).rgb;
     }
     return light * 2.0 * kPi * step_mm;
