@@ -1,4 +1,4 @@
-// Times of src/mesh: its files read on the scanned head (skipped without it), the rest on the bust.
+// Times of dermis/mesh: its files read on the scanned head (skipped without it), the rest on the bust.
 
 #include <benchmark/benchmark.h>
 

@@ -11,7 +11,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/progress.h"
-#include "dermis/compare/scoreboard.h"
+#include "dermis/judge/scoreboard.h"
 #include "dermis/render/complete_scene.h"
 
 namespace {

@@ -1,19 +1,16 @@
-# The house's build rules: one library target per folder of src/, linking only what its arrow allows.
+# Build rules: one library target per folder of dermis/, linking what the folder includes and nothing else.
+# A header is included by its path in this tree, "dermis/folder/header.h", which is also its path when installed.
 include_guard()
-
-# Headers are written and included as <dermis/folder/header.h>, in this tree as in an installed one.
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/include/dermis SYMBOLIC)
 
 set_property(GLOBAL PROPERTY DERMIS_LAYERS "")
 
-# dermis_library(optics ARROWS base PACKAGES Eigen3::Eigen [INSTALL])
-#   ARROWS    the folders of src/ this one may include; also written to layers.txt, which a test checks every
-#             #include against
+# dermis_library(optics DEPENDS base PACKAGES Eigen3::Eigen [INSTALL])
+#   DEPENDS   the folders of dermis/ whose headers this one includes: all of them and no other. Also written to
+#             layers.txt, which a test compares with every #include
 #   PACKAGES  third-party targets, never visible in a public header
 #   INSTALL   part of the CPU library that engines link
 function(dermis_library folder)
-    cmake_parse_arguments(arg "INSTALL" "" "ARROWS;PACKAGES" ${ARGN})
+    cmake_parse_arguments(arg "INSTALL" "" "DEPENDS;PACKAGES" ${ARGN})
     file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp)
     if(sources)
         add_library(dermis_${folder} STATIC ${sources})
@@ -26,14 +23,14 @@ function(dermis_library folder)
     endif()
     add_library(dermis::${folder} ALIAS dermis_${folder})
     set_target_properties(dermis_${folder} PROPERTIES EXPORT_NAME ${folder})
-    target_include_directories(dermis_${folder} ${scope} $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+    target_include_directories(dermis_${folder} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
         $<INSTALL_INTERFACE:include>)
     target_compile_features(dermis_${folder} ${scope} cxx_std_20)
-    foreach(arrow ${arg_ARROWS})
-        target_link_libraries(dermis_${folder} ${scope} dermis_${arrow})
+    foreach(dependency ${arg_DEPENDS})
+        target_link_libraries(dermis_${folder} ${scope} dermis_${dependency})
     endforeach()
-    list(JOIN arg_ARROWS " " arrows)
-    set_property(GLOBAL APPEND PROPERTY DERMIS_LAYERS "${folder}: ${arrows}")
+    list(JOIN arg_DEPENDS " " dependencies)
+    set_property(GLOBAL APPEND PROPERTY DERMIS_LAYERS "${folder}: ${dependencies}")
     if(arg_INSTALL)
         set_property(GLOBAL APPEND PROPERTY DERMIS_INSTALLED ${folder})
     endif()
@@ -63,7 +60,7 @@ function(dermis_test_folder folder)
     # What Vulkan drivers and layers keep until the end is reported without a module, as they are unloaded by then:
     # nothing to suppress it by. The folders without Vulkan look for leaks. A long quarantine of freed memory would look
     # like growth to the test that watches for it.
-    if(DERMIS_SANITIZE AND "${folder};${arg_LINK}" MATCHES "gpu|render|technique|cli|view|compare|figures")
+    if(DERMIS_SANITIZE AND "${folder};${arg_LINK}" MATCHES "gpu|render|technique|cli|view|judge|figures")
         list(APPEND properties ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=1")
     endif()
     if(arg_WHOLE)

@@ -8,7 +8,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dermis)
 foreach(folder ${installed})
     install(TARGETS dermis_${folder} EXPORT dermis ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
     # Headers in subfolders are a library's own.
-    file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${folder}/*.h)
+    file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/dermis/${folder}/*.h)
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dermis/${folder})
 endforeach()
 install(EXPORT dermis NAMESPACE dermis:: FILE dermis-targets.cmake DESTINATION ${package_dir})

@@ -1,4 +1,4 @@
-// dermis: parses, calls, prints. What a command does lives in src/.
+// dermis: parses, calls, prints. What a command does is in dermis/.
 
 #include <cstdio>
 

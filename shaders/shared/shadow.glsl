@@ -34,7 +34,7 @@ bool outside_shadow_map(vec3 p_light) {
 // bulging surface shadows itself, and no shadow moves when the filter grows, as it does when the lookup is lifted by the
 // filter's radius (Holbert 2011). That is left for grazing light alone, where the disk would be endless; past the
 // terminator it lets through what scatters there. Hollows of a radius above ten times the disk's are lifted over too.
-// src/reference/lighting.cpp has the same disk.
+// dermis/reference/lighting.cpp has the same disk.
 struct ShadowDisk {
     vec3 center, axis_x, axis_y;  // in the shadow map
     vec3 lift;                    // a millimetre along the normal, in the shadow map

@@ -1,5 +1,5 @@
 // Pre-integrated diffuse light as a line and a hyperbola: D = (a t + s sqrt(q^2 + t^2) + k0 + k1 t^2) / 2, five colours
-// of curvature alone (src/fit/closed_form.h). Error against the integral for r from 1 mm: 0.0017.
+// of curvature alone (dermis/optics/closed_form.h). Error against the integral for r from 1 mm: 0.0017.
 #ifndef DERMIS_CLOSED_FORM_GLSL
 #define DERMIS_CLOSED_FORM_GLSL
 

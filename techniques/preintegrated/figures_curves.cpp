@@ -1,4 +1,4 @@
-#include "dermis/fit/curve_2015.h"
+#include "dermis/optics/curve_2015.h"
 #include "dermis/technique/technique.h"
 #include "preintegrated/figures.h"
 

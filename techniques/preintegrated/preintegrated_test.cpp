@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dermis/fit/closed_form.h"
-#include "dermis/fit/curve_2015.h"
+#include "dermis/optics/closed_form.h"
+#include "dermis/optics/curve_2015.h"
 #include "render/grid_scene.h"
 
 using namespace dermis;

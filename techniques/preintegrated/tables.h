@@ -1,7 +1,7 @@
 #pragma once
 // The tables that preintegrated.frag reads, baked for a profile.
 
-#include "dermis/fit/closed_form.h"
+#include "dermis/optics/closed_form.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/technique/technique.h"
 

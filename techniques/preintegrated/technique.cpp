@@ -1,7 +1,7 @@
 // Pre-integrated skin shading: Penner 2011, GPU Pro 2 and SIGGRAPH 2011 "Pre-Integrated Skin Shading".
 // Assumes that within a few mean free paths the skin is a sphere of the local curvature under one distant
 // light; a point then needs only N.L and curvature. Tables come from the bakers (exact on the sphere, or the
-// published ring), the closed form from src/fit, the hand-made curves from Yeung 2015.
+// published ring), the closed form from dermis/optics, the hand-made curves from Yeung 2015.
 
 #include "dermis/technique/forward.h"
 #include "preintegrated/figures.h"

@@ -2,7 +2,7 @@
 
 #include "dermis/figures/figures.h"
 
-#include "dermis/figures/sheet.h"
+#include "dermis/plot/sheet.h"
 #include "support/gpu_fixture.h"
 
 using namespace dermis;

@@ -1,5 +1,5 @@
 #pragma once
-// Files of each format as other programs write them, made with the libraries rather than with src/image.
+// Files of each format as other programs write them, made with the libraries rather than with dermis/image.
 
 #include <cstdint>
 #include <span>

@@ -1,5 +1,5 @@
 #pragma once
-// Small pictures for the tests of src/image, each texel different from its neighbours.
+// Small pictures for the tests of dermis/image, each texel different from its neighbours.
 
 #include <algorithm>
 #include <cmath>

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/bake/profile_report.h"
 #include "dermis/base/file.h"
 #include "dermis/optics/burley_scaling.h"
 #include "dermis/optics/presets.h"
-#include "dermis/optics/profile_report.h"
 
 using namespace dermis;
 using testing::HasSubstr;

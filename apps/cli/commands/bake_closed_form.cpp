@@ -6,7 +6,7 @@
 #include "bake_options.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
-#include "dermis/fit/fit_errors.h"
+#include "dermis/bake/fit_errors.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 

@@ -8,8 +8,8 @@
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/presets.h"
-#include "dermis/reference/bake_map.h"
-#include "dermis/reference/map_file.h"
+#include "dermis/rays/bake_map.h"
+#include "dermis/rays/map_file.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::cli {

@@ -10,8 +10,8 @@
 #include "dermis/base/file.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
-#include "dermis/compare/comparison.h"
-#include "dermis/compare/report.h"
+#include "dermis/judge/comparison.h"
+#include "dermis/judge/report.h"
 #include "dermis/render/complete_scene.h"
 #include "render_options.h"
 

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "dermis/bake/profile_report.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/presets.h"
-#include "dermis/optics/profile_report.h"
 
 namespace dermis::cli {
 namespace {

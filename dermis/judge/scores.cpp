@@ -1,0 +1,117 @@
+#include "dermis/judge/scores.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "dermis/base/text.h"
+#include "dermis/image/metrics.h"
+
+namespace dermis {
+namespace {
+
+bool covers_anything(const Image& mask) {
+    return std::ranges::any_of(mask.floats(), [](float v) { return v > 0; });
+}
+
+Result<std::optional<double>> rmse_over(const Image& radiance, const Image& reference, const Image& mask) {
+    if (!covers_anything(mask)) return std::optional<double>();
+    const Result<double> value = rmse(radiance, reference, mask);
+    if (!value) return value.error();
+    return std::optional<double>(*value);
+}
+
+std::string csv_field(std::string text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    for (size_t i = 0; (i = text.find('"', i)) != std::string::npos; i += 2) text.insert(i, 1, '"');
+    return '"' + text + '"';
+}
+
+// Four figures are more than any of the errors deserves.
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
+
+std::string number(const std::optional<double>& value) {
+    return value ? number(*value) : "";
+}
+
+}  // namespace
+
+SkinMasks make_masks(const Image& light, const Image& position, const Image& skin) {
+    SkinMasks masks{Image(skin.width, skin.height, 1), Image(skin.width, skin.height, 1),
+                    Image(skin.width, skin.height, 1)};
+    for (size_t i = 0; i < skin.pixel_count(); ++i) {
+        const bool drawn = position.floats()[4 * i + 3] > 0;
+        if (!drawn || skin.floats()[i] < 1) continue;
+        masks.skin.floats()[i] = 1;
+        const float n_dot_l = light.floats()[4 * i + 2], visibility = light.floats()[4 * i + 3];
+        if (std::abs(n_dot_l) < kTerminatorCosine) masks.terminator.floats()[i] = 1;
+        if (n_dot_l >= kTerminatorCosine && visibility > 0 && visibility < 1) masks.penumbra.floats()[i] = 1;
+    }
+    return masks;
+}
+
+Image masked_radiance(const Image& radiance, const Image& reference, const Image& mask) {
+    Image result = to_linear_float(reference);
+    const Image from = to_linear_float(radiance);
+    for (size_t i = 0; i < mask.pixel_count(); ++i)
+        if (mask.floats()[i] > 0)
+            std::copy_n(&from.floats()[size_t(from.channels) * i], 3,
+                        &result.floats()[size_t(result.channels) * i]);
+    return result;
+}
+
+Result<Scores> score(const Image& radiance, const Image& reference, const SkinMasks& masks,
+                     const Display& display) {
+    if (radiance.width != reference.width || radiance.height != reference.height)
+        return Error{"a picture of " + std::to_string(radiance.width) + "x" +
+                     std::to_string(radiance.height) + " cannot be held against one of " +
+                     std::to_string(reference.width) + "x" + std::to_string(reference.height)};
+    const Image light = masked_radiance(radiance, reference, masks.skin);
+    const Image shown = tone_mapped(light, display.tone_map, display.exposure);
+    const Image shown_reference = tone_mapped(reference, display.tone_map, display.exposure);
+    Scores scores;
+    const auto keep = [](double& target, const Result<double>& value) -> Result<void> {
+        if (!value) return value.error();
+        target = *value;
+        return {};
+    };
+    for (const Result<void>& step :
+         {keep(scores.rmse, rmse(light, reference, masks.skin)),
+          keep(scores.rel_mse, rel_mse(light, reference, masks.skin)),
+          keep(scores.psnr_db, psnr_db(shown, shown_reference, masks.skin)),
+          keep(scores.ssim, ssim(shown, shown_reference, masks.skin)),
+          keep(scores.delta_e_2000, mean_ciede2000(shown, shown_reference, masks.skin)),
+          keep(scores.flip, mean_flip(shown, shown_reference, masks.skin))})
+        if (!step) return step.error();
+    const Result<std::optional<double>> terminator = rmse_over(light, reference, masks.terminator);
+    if (!terminator) return terminator.error();
+    const Result<std::optional<double>> penumbra = rmse_over(light, reference, masks.penumbra);
+    if (!penumbra) return penumbra.error();
+    scores.terminator_rmse = *terminator;
+    scores.penumbra_rmse = *penumbra;
+    return scores;
+}
+
+std::string scores_csv(const std::vector<ScoreRow>& rows) {
+    std::string text =
+        "scene,technique,settings,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,"
+        "time_ms,bytes\n";
+    for (const ScoreRow& row : rows) {
+        const Scores& s = row.scores;
+        const std::string fields[] = {csv_field(row.scene),     csv_field(row.technique),
+                                      csv_field(row.settings),  number(s.rmse),
+                                      number(s.rel_mse),        number(s.psnr_db),
+                                      number(s.ssim),           number(s.delta_e_2000),
+                                      number(s.flip),           number(s.terminator_rmse),
+                                      number(s.penumbra_rmse),  number(row.time_ms),
+                                      std::to_string(row.bytes)};
+        text += join(fields, ",") + "\n";
+    }
+    return text;
+}
+
+}  // namespace dermis

@@ -1,0 +1,18 @@
+#pragma once
+// Accessors of a glTF file as plain arrays. Internal to dermis/mesh.
+
+#include <cstdint>
+#include <vector>
+
+#include "dermis/mesh/gltf/document.h"
+
+namespace dermis::gltf {
+
+/// Elements of `components` (1 to 4) floats each; interleaved, normalised integer and sparse ones too. Empty
+/// after an error.
+[[nodiscard]] std::vector<float> read_floats(Document& document, uint64_t accessor, size_t components);
+
+/// Unsigned scalars of 8, 16 or 32 bits. Empty after an error.
+[[nodiscard]] std::vector<uint32_t> read_indices(Document& document, uint64_t accessor);
+
+}  // namespace dermis::gltf

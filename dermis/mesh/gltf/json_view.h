@@ -1,0 +1,63 @@
+#pragma once
+// A place in a JSON document that knows its path, so that every complaint names file and place. Internal to
+// dermis/mesh.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dermis/base/result.h"
+
+namespace dermis::gltf {
+
+/// What reading has complained of so far. Reading goes on after an error with harmless values; the caller
+/// asks at the end of each step.
+struct Complaints {
+    std::string file;
+    std::optional<Error> error;  ///< the first
+    std::vector<std::string> warnings;
+
+    void fail(const std::string& place, const std::string& text);
+    void warn(const std::string& place, const std::string& text);
+};
+
+/// Missing members give views that do not exist and values that fall back; members of a wrong type are
+/// errors.
+class JsonView {
+  public:
+    JsonView(const nlohmann::json* value, std::string place, Complaints& complaints)
+        : value_(value), place_(std::move(place)), complaints_(&complaints) {}
+
+    [[nodiscard]] bool exists() const { return value_ != nullptr; }
+    [[nodiscard]] const std::string& place() const { return place_; }
+    [[nodiscard]] JsonView operator[](const char* key) const;
+    [[nodiscard]] JsonView operator[](size_t index) const;  ///< an index past the end is an error
+    [[nodiscard]] size_t size() const;                      ///< elements of an array, 0 when missing
+
+    [[nodiscard]] double number(double fallback) const;
+    [[nodiscard]] uint64_t integer(uint64_t fallback) const;  ///< 0 .. 2^53
+    [[nodiscard]] std::string text(const std::string& fallback) const;
+    [[nodiscard]] bool boolean(bool fallback) const;
+    /// An array of exactly `N` finite numbers.
+    template <size_t N>
+    [[nodiscard]] std::array<double, N> numbers(std::array<double, N> fallback) const {
+        if (!exists()) return fallback;
+        if (!value_->is_array() || value_->size() != N)
+            return fail("must be an array of " + std::to_string(N) + " numbers"), fallback;
+        for (size_t i = 0; i < N; ++i) fallback[i] = (*this)[i].number(fallback[i]);
+        return fallback;
+    }
+
+    void fail(const std::string& text) const { complaints_->fail(place_, text); }
+    void warn(const std::string& text) const { complaints_->warn(place_, text); }
+    [[nodiscard]] bool failed() const { return complaints_->error.has_value(); }
+
+  private:
+    const nlohmann::json* value_;
+    std::string place_;
+    Complaints* complaints_;
+};
+
+}  // namespace dermis::gltf

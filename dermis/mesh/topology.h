@@ -1,0 +1,73 @@
+#pragma once
+// Corners around a position, and which of them hang together. Internal to dermis/mesh.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dermis/mesh/mesh.h"
+#include "dermis/mesh/weld.h"
+
+namespace dermis {
+
+/// Corner c belongs to triangle c / 3. For a vertex numbering of `count` vertices: corners(v) lists all
+/// corners there.
+class CornerTable {
+  public:
+    CornerTable(std::span<const uint32_t> indices, size_t count);
+    [[nodiscard]] std::span<const uint32_t> corners(size_t vertex) const {
+        return std::span(corners_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
+    }
+
+  private:
+    std::vector<uint32_t> first_, corners_;
+};
+
+/// Union-find; the lowest item of a set leads it.
+class DisjointSets {
+  public:
+    explicit DisjointSets(size_t count) { reset(count); }
+    void reset(size_t count);
+    [[nodiscard]] uint32_t find(uint32_t item);
+    void join(uint32_t a, uint32_t b);
+
+  private:
+    std::vector<uint32_t> parent_;
+};
+
+[[nodiscard]] inline uint32_t next_corner(uint32_t corner) {
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+[[nodiscard]] inline uint32_t previous_corner(uint32_t corner) {
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
+/// An edge that starts at a vertex, as one of the corners there sees it.
+struct Spoke {
+    uint32_t far_end;  ///< the vertex at its other end
+    uint32_t local;    ///< which of the corners around
+};
+
+/// Both edges of every corner around a vertex, sorted, so that corners which share an edge are neighbours. `vertices` has
+/// the vertex of every corner of the mesh.
+void collect_spokes(std::span<const uint32_t> corners, std::span<const uint32_t> vertices,
+                    std::vector<Spoke>& spokes);
+
+/// mesh.indices through the weld: triangles of positions, whatever the seams.
+[[nodiscard]] std::vector<uint32_t> welded_indices(std::span<const uint32_t> indices, const Weld& weld);
+
+/// Rearranges all attributes: vertex i of the new mesh is vertex from[i] of the old. The indices are the
+/// caller's.
+void gather_vertices(Mesh& mesh, std::span<const uint32_t> from);
+
+/// Gives vertices whose corners disagree their own copies. `group_of_corner` has any number for each corner;
+/// corners of a vertex with equal numbers stay one vertex. All attributes present are copied.
+void split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner);
+
+/// Drops vertices no triangle uses.
+void drop_unused_vertices(Mesh& mesh);
+
+/// Interior angle of a corner in radians; 0 for degenerate triangles.
+[[nodiscard]] float corner_angle_rad(const Mesh& mesh, uint32_t corner);
+
+}  // namespace dermis

@@ -1,0 +1,75 @@
+#pragma once
+// Maps of a mesh, one value a texel of its UV atlas: what the texture-space, pre-integrated and transmittance
+// techniques read beside the artist's maps.
+//
+// They live here and not in dermis/bake because thickness and occlusion need rays, and one baker for all five
+// shares the atlas, the gutter and the file.
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/image/image.h"
+#include "dermis/optics/profile.h"
+#include "dermis/scene/scene.h"
+
+namespace dermis {
+
+enum class MapKind {
+    curvature,    ///< signed mean curvature in 1/mm, positive where convex (mesh/curvature.h)
+    thickness,    ///< mm of material under the surface: mean depth of inward rays, see
+                  ///< BakeMapSettings::cone_rad
+    kernel_size,  ///< 0..0.996: how far light spreads sideways as a share of that and the way through
+    stretch,      ///< mm per unit of u, mm per unit of v, cosine of the angle between the two directions
+    occlusion     ///< ambient visibility 0..1, as vertex_occlusion.h has it
+};
+
+/// "curvature", "thickness", "kernel-size", "stretch", "occlusion".
+[[nodiscard]] std::string_view map_kind_name(MapKind kind);
+
+struct BakeMapSettings {
+    MapKind kind = MapKind::curvature;
+    int size = 2048;         ///< texels a side, 16..16384
+    int gutter_texels = 16;  ///< islands grow by so much, 0..256
+    /// Rays are traced on a grid of at most this many texels a side and interpolated: what they find is
+    /// smooth.
+    int ray_size = 1024;
+    int rays = 32;           ///< a texel of that grid, 1..4096
+    float smoothing_mm = 0;  ///< curvature: see compute_curvature
+    /// Thickness: half angle of the cone around the inward normal, 0..1.5. Rays are cosine-weighted, and each
+    /// counts with its depth, distance times cosine: exact for a slab whatever the angle; a sphere of radius
+    /// R reads R (1 + cos^2 cone).
+    float cone_rad = 0.7853982f;
+    float max_mm =
+        200;  ///< thickness where no ray finds the far side; occlusion: how far it looks (0: any distance)
+    std::optional<Profile> profile;       ///< kernel_size needs it
+    std::optional<std::string> material;  ///< else all skin
+};
+
+struct BakedMap {
+    MapKind kind = MapKind::curvature;
+    Image values;    ///< f32, linear, 1 channel (stretch: 3), gutter included
+    Image coverage;  ///< u8: 255 where a triangle lies
+    std::string unit;
+    float min = 0, max = 0;  ///< over covered texels, first channel
+    std::vector<std::string> warnings;
+};
+
+/// Kernel size: s / (s + t), t the thickness and s the radius within which 95 % of the light of the profile's
+/// widest channel leaves; at most 254/255, because 1 stands for "not written" in the texture-space method
+/// (Gosselin, Sander, Mitchell 2004). Half where the skin is as thick as light spreads; an ear of 4 mm reads
+/// .53 with the GPU Gems 3 profile.
+[[nodiscard]] float kernel_size_of_thickness(float spread_mm, float thickness_mm);
+[[nodiscard]] float spread_radius_mm(const Profile& profile);
+
+/// Errors: sizes out of range, no UVs, no covered texel, an unknown material, no profile. Warnings: overlap,
+/// UVs outside 0..1, thickness rays that leave through holes. 2048 x 2048 on the head scan: see bench/.
+[[nodiscard]] Result<BakedMap> bake_map(std::span<const SceneObject> objects, const BakeMapSettings& settings,
+                                        const std::function<void(double done)>& progress = {});
+
+}  // namespace dermis

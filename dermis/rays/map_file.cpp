@@ -1,0 +1,112 @@
+#include "dermis/rays/map_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/image/io.h"
+
+namespace dermis {
+namespace {
+
+constexpr Vec3 kBackground = {0.02f, 0.02f, 0.02f};
+
+std::string sidecar_text(const BakedMap& map, const MapOrigin& origin) {
+    const BakeMapSettings& s = origin.settings;
+    nlohmann::ordered_json json = {{"kind", map_kind_name(map.kind)},
+                                   {"unit", map.unit},
+                                   {"width", map.values.width},
+                                   {"height", map.values.height},
+                                   {"channels", map.values.channels},
+                                   {"v_origin", "top"},
+                                   {"encoding", "linear"},
+                                   {"range", {map.min, map.max}},
+                                   {"gutter_texels", s.gutter_texels},
+                                   {"mesh", origin.mesh}};
+    if (s.material) json["material"] = *s.material;
+    switch (map.kind) {
+        case MapKind::curvature:
+            json["sign"] = "positive where convex";
+            json["smoothing_mm"] = s.smoothing_mm;
+            break;
+        case MapKind::kernel_size:
+            json["profile"] = s.profile->name;
+            json["spread_mm"] = spread_radius_mm(*s.profile);
+            [[fallthrough]];
+        case MapKind::thickness:
+            json["cone_rad"] = s.cone_rad;
+            [[fallthrough]];
+        case MapKind::occlusion:
+            json["rays"] = s.rays;
+            json["max_mm"] = s.max_mm;
+            break;
+        case MapKind::stretch:
+            break;
+    }
+    json["tool"] = "dermis " DERMIS_VERSION;
+    return json.dump(2) + "\n";
+}
+
+// The 98th percentile of the absolute value: a few wild texels must not darken the rest.
+float full_scale(const BakedMap& map) {
+    std::vector<float> values;
+    const auto channels = size_t(map.values.channels);
+    for (size_t i = 0; i < map.values.pixel_count(); ++i)
+        if (map.coverage.bytes[i] != std::byte{0})
+            values.push_back(std::abs(map.values.floats()[i * channels]));
+    if (values.empty()) return 1;
+    const auto at = values.begin() + std::ptrdiff_t(double(values.size() - 1) * 0.98);
+    std::nth_element(values.begin(), at, values.end());
+    return std::max(*at, 1e-12f);
+}
+
+// White at 0, and as light on both sides.
+Vec3 diverging(float t) {
+    const Vec3 white{0.9f, 0.9f, 0.9f}, convex{0.6f, 0.04f, 0.03f}, concave{0.03f, 0.12f, 0.6f};
+    const Vec3 end = t > 0 ? convex : concave;
+    return white + (end - white) * std::min(std::abs(t), 1.0f);
+}
+
+}  // namespace
+
+std::filesystem::path map_sidecar_path(const std::filesystem::path& path) {
+    return path.string() + ".json";
+}
+
+std::filesystem::path map_preview_path(const std::filesystem::path& path) {
+    return path.parent_path() / (path.stem().string() + "_preview.png");
+}
+
+Image map_preview(const BakedMap& map) {
+    const float scale = full_scale(map);
+    Image picture(map.values.width, map.values.height, 3);
+    const auto channels = size_t(map.values.channels);
+    for (size_t i = 0; i < picture.pixel_count(); ++i) {
+        const float* value = &map.values.floats()[i * channels];
+        Vec3 color = kBackground;
+        if (map.coverage.bytes[i] != std::byte{0}) {
+            const float t = value[0] / scale;
+            color = map.kind == MapKind::curvature ? diverging(t)
+                                                   : Vec3{t, channels == 3 ? value[1] / scale : t, t};
+        }
+        float* to = &picture.floats()[3 * i];
+        to[0] = color.x;
+        to[1] = color.y;
+        to[2] = color.z;
+    }
+    return convert(picture, PixelFormat::u8, Encoding::srgb);
+}
+
+Result<void> write_map(const std::filesystem::path& path, const BakedMap& map, const MapOrigin& origin) {
+    if (to_lower(path.extension().string()) != ".exr")
+        return Error{path.string() + ": maps are written as .exr (a preview .png comes beside it)"};
+    const std::string text = sidecar_text(map, origin);
+    const Image half = convert(map.values, PixelFormat::f16, Encoding::linear);
+    if (Result<void> written = write_image(path, half, {{"dermis", text}}); !written) return written;
+    if (Result<void> written = write_text_file(map_sidecar_path(path), text); !written) return written;
+    return write_image(map_preview_path(path), map_preview(map));
+}
+
+}  // namespace dermis

@@ -1,0 +1,31 @@
+#pragma once
+// Baked maps as files: EXR half with what its numbers mean inside and beside it, and a picture to look at.
+
+#include <filesystem>
+
+#include "dermis/base/result.h"
+#include "dermis/image/image.h"
+#include "dermis/rays/bake_map.h"
+
+namespace dermis {
+
+/// What the sidecar says beyond the map itself.
+struct MapOrigin {
+    std::string mesh;  ///< file or scene
+    BakeMapSettings settings;
+};
+
+/// FILE.exr (half), FILE.exr.json (kind, unit, channels, size, v_origin, encoding, range of the covered
+/// texels, gutter, settings, tool; the same text inside the EXR under "dermis"), and FILE_preview.png. Each
+/// is written whole or not at all. Errors: an extension other than .exr, a file that cannot be written.
+[[nodiscard]] Result<void> write_map(const std::filesystem::path& path, const BakedMap& map,
+                                     const MapOrigin& origin);
+
+/// u8 sRGB: curvature blue (concave) over white to red (convex), others grey from black at 0; the 98th
+/// percentile is full. Background is dark grey.
+[[nodiscard]] Image map_preview(const BakedMap& map);
+
+[[nodiscard]] std::filesystem::path map_sidecar_path(const std::filesystem::path& path);
+[[nodiscard]] std::filesystem::path map_preview_path(const std::filesystem::path& path);
+
+}  // namespace dermis

@@ -1,0 +1,299 @@
+#include "dermis/rays/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+
+namespace dermis {
+namespace {
+
+struct DeviceRelease {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DevicePointer = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
+using ScenePointer = std::unique_ptr<RTCSceneTy, SceneRelease>;
+
+// One mesh's triangles of one set; Embree numbers them from 0.
+struct Part {
+    uint32_t object = 0;
+    std::vector<uint32_t> triangles;  // of the mesh
+};
+
+struct TriangleSet {
+    ScenePointer scene;
+    std::vector<Part> parts;  // by Embree's geometry number
+};
+
+bool belongs(RaySet set, MaterialClass material_class) {
+    if (set == RaySet::translucent) return material_class == MaterialClass::translucent;
+    if (set == RaySet::skin) return material_class == MaterialClass::skin;
+    return material_class != MaterialClass::translucent;
+}
+
+MaterialClass class_of(std::span<const MaterialClass> classes, uint32_t material) {
+    return material < classes.size() ? classes[material] : MaterialClass::skin;
+}
+
+Part select_triangles(const Mesh& mesh, std::span<const MaterialClass> classes, RaySet set) {
+    Part part;
+    for (const Submesh& submesh : mesh.submeshes) {
+        if (!belongs(set, class_of(classes, submesh.material))) continue;
+        for (uint32_t i = 0; i < submesh.index_count / 3; ++i)
+            part.triangles.push_back(submesh.first_index / 3 + i);
+    }
+    if (mesh.submeshes.empty() && belongs(set, class_of(classes, 0)))
+        for (uint32_t i = 0; i < mesh.triangle_count(); ++i) part.triangles.push_back(i);
+    return part;
+}
+
+// False when Embree has no memory for it.
+bool attach(RTCDevice device, RTCScene scene, const Mesh& mesh, const Part& part) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                              sizeof(Vec3), mesh.positions_mm.size());
+    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), part.triangles.size()));
+    const bool allocated = positions && indices;
+    if (allocated) {
+        std::memcpy(positions, mesh.positions_mm.data(), mesh.positions_mm.size() * sizeof(Vec3));
+        for (const uint32_t triangle : part.triangles)
+            for (int corner = 0; corner < 3; ++corner) *indices++ = mesh.indices[3 * triangle + corner];
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+    }
+    rtcReleaseGeometry(geometry);
+    return allocated;
+}
+
+RTCRayHit embree_ray(const Ray& ray) {
+    RTCRayHit query{};
+    query.ray = {ray.origin_mm.x,
+                 ray.origin_mm.y,
+                 ray.origin_mm.z,
+                 ray.min_mm,
+                 ray.direction.x,
+                 ray.direction.y,
+                 ray.direction.z,
+                 0,
+                 ray.max_mm,
+                 ~0u,
+                 0,
+                 0};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return query;
+}
+
+RayHit make_hit(const TriangleSet& set, float distance_mm, uint32_t geometry, uint32_t primitive, float u,
+                float v, Vec3 normal) {
+    const Part& part = set.parts[geometry];
+    return {.distance_mm = distance_mm,
+            .object = part.object,
+            .triangle = part.triangles[primitive],
+            .u = u,
+            .v = v,
+            .n_face = normalize(normal)};
+}
+
+// Embree calls the filter for every triangle the ray crosses; refusing each one makes it go on to the next.
+struct CollectContext {
+    RTCIntersectContext embree;
+    const TriangleSet* set;
+    std::span<RayHit> hits;
+    size_t count;
+};
+
+void collect(const RTCFilterFunctionNArguments* arguments) {
+    assert(arguments->N == 1);
+    auto* context = reinterpret_cast<CollectContext*>(arguments->context);
+    const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
+    const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
+    if (context->count < context->hits.size())
+        context->hits[context->count++] = make_hit(*context->set, ray->tfar, hit->geomID, hit->primID, hit->u,
+                                                   hit->v, {hit->Ng_x, hit->Ng_y, hit->Ng_z});
+    arguments->valid[0] = 0;
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+    DevicePointer device;
+    std::array<TriangleSet, 3> sets;
+    std::vector<const Mesh*> meshes;
+    float epsilon_mm = 1e-6f;
+
+    [[nodiscard]] const TriangleSet& set(RaySet which) const { return sets[size_t(which)]; }
+
+    // False when the ray library failed.
+    bool add_set(RaySet which, std::span<const std::span<const MaterialClass>> classes) {
+        TriangleSet& set = sets[size_t(which)];
+        for (uint32_t object = 0; object < meshes.size(); ++object) {
+            Part part = select_triangles(*meshes[object], classes[object], which);
+            part.object = object;
+            if (!part.triangles.empty()) set.parts.push_back(std::move(part));
+        }
+        if (set.parts.empty()) return true;
+        set.scene.reset(rtcNewScene(device.get()));
+        rtcSetSceneFlags(set.scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+        // Not the high quality: its spatial splits would report a triangle twice to all_hits.
+        rtcSetSceneBuildQuality(set.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
+        for (const Part& part : set.parts)
+            if (!attach(device.get(), set.scene.get(), *meshes[part.object], part)) return false;
+        rtcCommitScene(set.scene.get());
+        return rtcGetDeviceError(device.get()) == RTC_ERROR_NONE;
+    }
+
+    Result<void> build(std::span<const std::span<const MaterialClass>> classes) {
+        size_t triangles = 0;
+        float extent_mm = 0;
+        for (const Mesh* mesh : meshes) {
+            triangles += mesh->triangle_count();
+            for (const Vec3 p : mesh->positions_mm)
+                extent_mm = std::max({extent_mm, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        }
+        if (triangles == 0) return Error{"the scene has no triangle to trace rays against"};
+        epsilon_mm = 2e-6f * extent_mm;
+        device.reset(rtcNewDevice(nullptr));
+        if (!device) return Error{"the ray library (Embree) does not start on this machine"};
+        for (const RaySet which : {RaySet::opaque, RaySet::skin, RaySet::translucent})
+            if (!add_set(which, classes))
+                return Error{"the ray library (Embree) has not enough memory for this scene"};
+        return {};
+    }
+};
+
+RayScene::RayScene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+Result<RayScene> RayScene::build(std::span<const SceneObject> objects) {
+    auto impl = std::make_unique<Impl>();
+    std::vector<std::span<const MaterialClass>> classes;
+    for (const SceneObject& object : objects) {
+        impl->meshes.push_back(&object.mesh);
+        classes.push_back(object.classes);
+    }
+    if (Result<void> built = impl->build(classes); !built) return built.error();
+    return RayScene(std::move(impl));
+}
+
+Result<RayScene> RayScene::build(const Mesh& mesh) {
+    auto impl = std::make_unique<Impl>();
+    impl->meshes.push_back(&mesh);
+    const std::span<const MaterialClass> all_skin;
+    if (Result<void> built = impl->build(std::span(&all_skin, 1)); !built) return built.error();
+    return RayScene(std::move(impl));
+}
+
+std::optional<RayHit> RayScene::closest_hit(RaySet which, const Ray& ray) const {
+    const TriangleSet& set = impl_->set(which);
+    if (!set.scene) return std::nullopt;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query = embree_ray(ray);
+    rtcIntersect1(set.scene.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return make_hit(set, query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
+                    {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+}
+
+bool RayScene::occluded(RaySet which, const Ray& ray) const {
+    const TriangleSet& set = impl_->set(which);
+    if (!set.scene) return false;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay query = embree_ray(ray).ray;
+    rtcOccluded1(set.scene.get(), &context, &query);
+    return query.tfar < 0;
+}
+
+size_t RayScene::all_hits(RaySet which, const Ray& ray, std::span<RayHit> hits) const {
+    const TriangleSet& set = impl_->set(which);
+    if (!set.scene) return 0;
+    CollectContext context{.embree = {}, .set = &set, .hits = hits, .count = 0};
+    rtcInitIntersectContext(&context.embree);
+    context.embree.filter = collect;
+    RTCRayHit query = embree_ray(ray);
+    rtcIntersect1(set.scene.get(), &context.embree, &query);
+    return context.count;
+}
+
+RayScene::Bounds RayScene::bounds(RaySet which) const {
+    RTCBounds box;
+    rtcGetSceneBounds(impl_->set(which).scene.get(), &box);
+    return {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};
+}
+
+bool RayScene::has(RaySet which) const {
+    return impl_->set(which).scene != nullptr;
+}
+const Mesh& RayScene::mesh(uint32_t object) const {
+    return *impl_->meshes[object];
+}
+size_t RayScene::object_count() const {
+    return impl_->meshes.size();
+}
+float RayScene::epsilon_mm() const {
+    return impl_->epsilon_mm;
+}
+
+SurfaceAttributes RayScene::surface_at(const RayHit& hit) const {
+    const Mesh& mesh = *impl_->meshes[hit.object];
+    const uint32_t* corner = &mesh.indices[3 * size_t(hit.triangle)];
+    const float weight[3] = {1 - hit.u - hit.v, hit.u, hit.v};
+    SurfaceAttributes surface{.n_face_world = hit.n_face,
+                              .material = material_of_triangle(mesh, hit.triangle)};
+    Vec3 normal;
+    for (int i = 0; i < 3; ++i) {
+        surface.p_world_mm += mesh.positions_mm[corner[i]] * weight[i];
+        if (!mesh.normals.empty()) normal += mesh.normals[corner[i]] * weight[i];
+        if (!mesh.uvs.empty()) surface.uv = surface.uv + mesh.uvs[corner[i]] * weight[i];
+        if (!mesh.tangents.empty()) {
+            const Vec4 t = mesh.tangents[corner[i]];
+            Vec4& sum = surface.tangent_world;
+            sum = {sum.x + t.x * weight[i], sum.y + t.y * weight[i], sum.z + t.z * weight[i], t.w};
+        }
+    }
+    surface.n_geometry_world = dot(normal, normal) > 1e-12f ? normalize(normal) : hit.n_face;
+    // Each corner's tangent plane, where the point lies below it, pulls the point up to it.
+    surface.p_smooth_mm = surface.p_world_mm;
+    if (!mesh.normals.empty())
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 n = mesh.normals[corner[i]];
+            const float above_mm = dot(surface.p_world_mm - mesh.positions_mm[corner[i]], n);
+            surface.p_smooth_mm += n * (-std::min(above_mm, 0.0f) * weight[i]);
+        }
+    return surface;
+}
+
+Vec2 RayScene::uv_step(const RayHit& hit, Vec3 step_mm) const {
+    const Mesh& mesh = *impl_->meshes[hit.object];
+    if (mesh.uvs.empty()) return {};
+    const uint32_t* corner = &mesh.indices[3 * size_t(hit.triangle)];
+    const Vec3 p = mesh.positions_mm[corner[0]];
+    const Vec3 e1 = mesh.positions_mm[corner[1]] - p, e2 = mesh.positions_mm[corner[2]] - p;
+    // step = a e1 + b e2, from the normal equations.
+    const float e11 = dot(e1, e1), e12 = dot(e1, e2), e22 = dot(e2, e2), s1 = dot(step_mm, e1),
+                s2 = dot(step_mm, e2);
+    const float determinant = e11 * e22 - e12 * e12;
+    if (!(determinant > 0)) return {};
+    const float a = (s1 * e22 - s2 * e12) / determinant, b = (s2 * e11 - s1 * e12) / determinant;
+    const Vec2 uv = mesh.uvs[corner[0]], uv1 = mesh.uvs[corner[1]], uv2 = mesh.uvs[corner[2]];
+    return {(uv1.x - uv.x) * a + (uv2.x - uv.x) * b, (uv1.y - uv.y) * a + (uv2.y - uv.y) * b};
+}
+
+uint32_t material_of_triangle(const Mesh& mesh, uint32_t triangle) {
+    const auto after =
+        std::upper_bound(mesh.submeshes.begin(), mesh.submeshes.end(), 3 * triangle,
+                         [](uint32_t index, const Submesh& submesh) { return index < submesh.first_index; });
+    return after == mesh.submeshes.begin() ? 0 : std::prev(after)->material;
+}
+
+}  // namespace dermis

@@ -1,0 +1,122 @@
+#include "dermis/rays/vertex_occlusion.h"
+
+#include <bit>
+#include <cstring>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
+#include "dermis/base/parallel.h"
+#include "dermis/rays/random.h"
+#include "dermis/rays/sampling.h"
+
+namespace dermis {
+namespace {
+
+// Raised when the algorithm changes, so that old cache entries are not taken for new ones.
+constexpr int kAlgorithmVersion = 1;
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+void add_mesh(Hasher& hasher, const Mesh& mesh, std::span<const MaterialClass> classes) {
+    hasher.add(bytes_of(mesh.positions_mm)).add(bytes_of(mesh.normals)).add(bytes_of(mesh.indices));
+    for (const Submesh& submesh : mesh.submeshes)
+        hasher.add(submesh.first_index).add(submesh.index_count).add(submesh.material);
+    hasher.add(std::as_bytes(classes));
+}
+
+std::string content_hash(std::span<const SceneObject> objects, const OcclusionSettings& settings) {
+    Hasher hasher;
+    hasher.add(kAlgorithmVersion).add(settings.rays).add(settings.max_mm);
+    for (const SceneObject& object : objects) add_mesh(hasher, object.mesh, object.classes);
+    return hasher.hex();
+}
+
+// Equal for vertices that only a UV seam tells apart.
+uint32_t seed_of(Vec3 p_mm, Vec3 n) {
+    uint32_t seed = 0;
+    for (const float value : {p_mm.x, p_mm.y, p_mm.z, n.x, n.y, n.z})
+        seed = hash_u32(seed, std::bit_cast<uint32_t>(value));
+    return seed;
+}
+
+std::vector<float> mesh_occlusion(const RayScene& scene, const Mesh& mesh,
+                                  const OcclusionSettings& settings) {
+    std::vector<float> occlusion(mesh.positions_mm.size(), 1.0f);
+    if (mesh.normals.size() != occlusion.size()) return occlusion;
+    parallel_for(occlusion.size(), 256, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const Vec3 p_mm = mesh.positions_mm[i], n = mesh.normals[i];
+            if (dot(n, n) > 0.5f) occlusion[i] = point_occlusion(scene, p_mm, n, seed_of(p_mm, n), settings);
+        }
+    });
+    return occlusion;
+}
+
+std::vector<std::byte> pack(const std::vector<std::vector<float>>& objects) {
+    std::vector<std::byte> bytes;
+    for (const std::vector<float>& values : objects)
+        bytes.insert(bytes.end(), bytes_of(values).begin(), bytes_of(values).end());
+    return bytes;
+}
+
+// Nothing when the size is not that of these objects.
+std::optional<std::vector<std::vector<float>>> unpack(std::span<const std::byte> bytes,
+                                                      std::span<const SceneObject> objects) {
+    std::vector<std::vector<float>> values;
+    for (const SceneObject& object : objects) {
+        values.emplace_back(object.mesh.positions_mm.size());
+        const size_t size = values.back().size() * sizeof(float);
+        if (bytes.size() < size) return std::nullopt;
+        if (size > 0) std::memcpy(values.back().data(), bytes.data(), size);
+        bytes = bytes.subspan(size);
+    }
+    if (!bytes.empty()) return std::nullopt;
+    return values;
+}
+
+}  // namespace
+
+float point_occlusion(const RayScene& scene, Vec3 p_mm, Vec3 n, uint32_t seed,
+                      const OcclusionSettings& settings) {
+    const LocalFrame frame = frame_of(n);
+    const float offset_mm = 10 * scene.epsilon_mm();
+    int open = 0;
+    for (int i = 0; i < settings.rays; ++i) {
+        const Vec3 direction =
+            frame.to_world(sample_cosine_hemisphere(OwenSequence(seed, uint32_t(i)).next_2d()));
+        open += !scene.occluded(RaySet::opaque, {.origin_mm = p_mm + n * offset_mm,
+                                                 .direction = direction,
+                                                 .min_mm = offset_mm,
+                                                 .max_mm = settings.max_mm});
+    }
+    return float(open) / float(settings.rays);
+}
+
+Result<std::vector<std::vector<float>>> compute_vertex_occlusion(std::span<const SceneObject> objects,
+                                                                 const OcclusionSettings& settings) {
+    if (settings.rays < 1 || settings.rays > 65536)
+        return Error{"occlusion rays: " + std::to_string(settings.rays) + " is outside 1..65536"};
+    const std::string hash = content_hash(objects, settings);
+    if (settings.use_cache)
+        if (const auto stored = cache_load("occlusion", hash))
+            if (auto values = unpack(*stored, objects)) return std::move(*values);
+    Result<RayScene> scene = RayScene::build(objects);
+    if (!scene) return scene.error();
+    std::vector<std::vector<float>> values;
+    for (const SceneObject& object : objects) values.push_back(mesh_occlusion(*scene, object.mesh, settings));
+    if (settings.use_cache) cache_store("occlusion", hash, pack(values));
+    return values;
+}
+
+Result<std::vector<float>> compute_vertex_occlusion(const Mesh& mesh, const OcclusionSettings& settings) {
+    const SceneObject object{.name = {}, .mesh = mesh, .classes = {}};
+    Result<std::vector<std::vector<float>>> values =
+        compute_vertex_occlusion(std::span(&object, 1), settings);
+    if (!values) return values.error();
+    return std::move((*values)[0]);
+}
+
+}  // namespace dermis

@@ -1,0 +1,183 @@
+#include "dermis/reference/lighting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dermis/optics/fresnel.h"
+#include "dermis/optics/microfacet.h"
+#include "dermis/rays/sampling.h"
+
+namespace dermis {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr size_t kMostTranslucentLayers = 16;
+
+bool is_black(Vec3 v) {
+    return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
+float entry_transmittance(double eta, float cosine) {
+    return eta > 1 ? float(1 - fresnel_dielectric(cosine, eta)) : 1.0f;
+}
+
+Vec3 mix(Vec3 a, Vec3 b, float t) {
+    return a + (b - a) * t;
+}
+
+// shaders/shared/shadow.glsl, shadow_disk(): point `disk` of the unit disk that is round as the light sees
+// it, in the tangent plane, lifted out of hollows and, under grazing light, out of the surface.
+Vec3 tangent_disk(Vec3 n, Vec3 to_light, Vec2 disk, float radius_mm) {
+    constexpr float kHollow = 0.1f, kFacetLift = 0.3f, kMostSlope = 4;
+    const LocalFrame frame = frame_of(to_light);
+    const float n_dot_l = std::clamp(dot(n, to_light), 0.0f, 1.0f), sine = std::sqrt(1 - n_dot_l * n_dot_l);
+    const float per_cosine = std::min(1 / std::max(n_dot_l, 1e-3f), kMostSlope / std::max(sine, 1e-3f));
+    const Vec3 facing = (frame.tangent * disk.x + frame.bitangent * disk.y) * radius_mm;
+    const Vec3 in_plane = facing - to_light * (dot(facing, n) * per_cosine);
+    const float lacking = std::max(0.0f, sine - kMostSlope * n_dot_l);
+    return in_plane +
+           n * (0.5f * kHollow / radius_mm * dot(in_plane, in_plane) + radius_mm * (kFacetLift + lacking));
+}
+
+}  // namespace
+
+LightArrival light_at(const Light& light, Vec3 p_mm) {
+    const Vec3 color = light.color_linear * light.intensity;
+    if (light.kind == LightKind::directional) return {color, normalize(light.to_light_world)};
+    const Vec3 offset_mm = light.position_mm - p_mm;
+    const float distance_mm = std::max(length(offset_mm), 1.0f), distance_m = distance_mm * 1e-3f;
+    const Vec3 to_light = normalize(offset_mm);
+    float cone = 1;
+    if (light.kind == LightKind::spot) {
+        const float cos_outer = std::cos(light.outer_angle_rad), cos_inner = std::cos(light.inner_angle_rad);
+        const float along = dot(to_light, normalize(light.to_light_world));
+        const float ramp =
+            std::clamp((along - cos_outer) / std::max(cos_inner - cos_outer, 1e-4f), 0.0f, 1.0f);
+        cone = ramp * ramp;
+    }
+    return {color * (cone / (distance_m * distance_m)), to_light, distance_mm};
+}
+
+float specular_response(SpecularReflection model, Vec3 n, Vec3 to_eye, Vec3 to_light, float roughness,
+                        float f0) {
+    const float n_dot_l = dot(n, to_light);
+    if (n_dot_l <= 0 || model == SpecularReflection::none) return 0;
+    const Vec3 h = normalize(to_eye + to_light);
+    const double n_dot_h = std::clamp(dot(n, h), 0.0f, 1.0f),
+                 n_dot_v = std::clamp(dot(n, to_eye), 1e-3f, 1.0f);
+    const double fresnel = fresnel_schlick(std::clamp(dot(h, to_eye), 0.0f, 1.0f), f0);
+    const double alpha = double(roughness) * roughness;
+    if (model == SpecularReflection::blinn_phong) {
+        // The renderer's: normalised to reflect all light at normal incidence (Hoffman 2010), exponent at
+        // least 1.
+        const double exponent = std::max(blinn_phong_exponent(alpha), 1.0);
+        return float(fresnel * (exponent + 8) / (8 * std::numbers::pi) * std::pow(n_dot_h, exponent) *
+                     n_dot_l);
+    }
+    const double brdf = microfacet_brdf(ggx_d(n_dot_h, alpha), ggx_smith_g(n_dot_l, n_dot_v, alpha), fresnel,
+                                        n_dot_l, n_dot_v);
+    return float(brdf * n_dot_l);
+}
+
+Vec3 Lighting::transmittance(const Ray& ray) const {
+    if (rays_.occluded(RaySet::opaque, ray)) return {};
+    Vec3 through{1, 1, 1};
+    if (!rays_.has(RaySet::translucent)) return through;
+    RayHit hits[kMostTranslucentLayers];
+    const size_t count = rays_.all_hits(RaySet::translucent, ray, hits);
+    for (const RayHit& hit : std::span(hits, count))
+        through = through * materials_.transmittance_at(rays_.surface_at(hit), hit.object);
+    return through;
+}
+
+Vec3 Lighting::light_visibility(const Light& light, const Receiver& receiver, Vec3 to_light,
+                                float distance_mm, Vec2 u) const {
+    if (settings_.shadows == ShadowCasters::key && !light.is_key) return {1, 1, 1};
+    const float offset_mm = 10 * rays_.epsilon_mm(), radius_mm = 0.5f * settings_.penumbra_mm;
+    Vec3 origin_mm = receiver.p_smooth_mm + receiver.n_geometry * offset_mm;
+    if (radius_mm > 0) origin_mm += tangent_disk(receiver.n_geometry, to_light, sample_disk(u), radius_mm);
+    return transmittance(
+        {.origin_mm = origin_mm, .direction = to_light, .min_mm = offset_mm, .max_mm = distance_mm});
+}
+
+Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingRandom& random) const {
+    if (environment_.dark()) return {};
+    const double eta = settings_.entry_eta;
+    if (settings_.ambient == AmbientModel::renderer) {
+        const float entry = eta > 1 ? float(1 - diffuse_external_reflectance(eta)) : 1.0f;
+        return environment_.harmonic_irradiance(receiver.n) * (receiver.occlusion * entry);
+    }
+    // One direction from an even mixture of the cosine lobe and the bright parts: the balance heuristic of
+    // Veach 1997 for one sample.
+    const Vec3 direction = random.environment_choice < 0.5f
+                               ? frame_of(receiver.n).to_world(sample_cosine_hemisphere(random.environment))
+                               : environment_.sample(random.environment).direction_world;
+    const float cosine = dot(receiver.n, direction);
+    if (cosine <= 0) return {};
+    const float density = 0.5f * (cosine / kPi + environment_.density(direction));
+    const float offset_mm = 10 * rays_.epsilon_mm();
+    const Vec3 through = transmittance({.origin_mm = receiver.p_smooth_mm + receiver.n_geometry * offset_mm,
+                                        .direction = direction,
+                                        .min_mm = offset_mm});
+    return through * environment_.radiance(direction) * (cosine * entry_transmittance(eta, cosine) / density);
+}
+
+Vec3 Lighting::irradiance(const Receiver& receiver, const LightingRandom& random) const {
+    Vec3 sum;
+    for (const Light& light : scene_.lights) {
+        const LightArrival arrival = light_at(light, receiver.p_smooth_mm);
+        const float cosine = dot(receiver.n, arrival.to_light);
+        if (cosine <= 0 || is_black(arrival.irradiance_linear)) continue;
+        const Vec3 visible =
+            light_visibility(light, receiver, arrival.to_light, arrival.distance_mm, random.penumbra);
+        sum +=
+            arrival.irradiance_linear * visible * (cosine * entry_transmittance(settings_.entry_eta, cosine));
+    }
+    return sum + environment_irradiance(receiver, random);
+}
+
+Vec3 Lighting::environment_reflection(const ShadingPoint& point, Vec3 to_eye, Vec2 u) const {
+    const LocalFrame frame = frame_of(point.n);
+    Vec3 v = frame.to_local(to_eye);
+    v.z = std::max(v.z, 1e-3f);
+    v = normalize(v);
+    const float alpha = point.roughness * point.roughness;
+    const Vec3 h = sample_ggx_visible_normal(u, v, alpha);
+    const Vec3 l = h * (2 * dot(v, h)) - v;
+    if (l.z <= 0) return {};
+    // Visible normals leave F * G2 / G1(v) as the weight (Heitz 2018, equation 19).
+    const double weight = fresnel_schlick(std::clamp(dot(v, h), 0.0f, 1.0f), point.f0) *
+                          ggx_smith_g(l.z, v.z, alpha) / ggx_smith_g1(v.z, alpha);
+    const Vec3 direction = frame.to_world(l);
+    const float offset_mm = 10 * rays_.epsilon_mm();
+    const Vec3 through = transmittance({.origin_mm = point.p_smooth_mm + point.n_geometry * offset_mm,
+                                        .direction = direction,
+                                        .min_mm = offset_mm});
+    return through * environment_.radiance(direction) * float(weight);
+}
+
+Vec3 Lighting::specular_radiance(const ShadingPoint& given, Vec3 to_eye, const LightingRandom& random) const {
+    if (settings_.specular == SpecularReflection::none) return {};
+    // A metal's F0 is its colour; the models take one number, so its colour multiplies the result.
+    ShadingPoint point = given;
+    point.f0 = given.f0 + (1 - given.f0) * given.metallic;
+    const Receiver receiver{point.p_smooth_mm, point.n_geometry, point.n, point.occlusion};
+    Vec3 sum;
+    for (const Light& light : scene_.lights) {
+        const LightArrival arrival = light_at(light, point.p_smooth_mm);
+        const float response = specular_response(settings_.specular, point.n, to_eye, arrival.to_light,
+                                                 point.roughness, point.f0);
+        if (response <= 0 || is_black(arrival.irradiance_linear)) continue;
+        sum += arrival.irradiance_linear * response *
+               light_visibility(light, receiver, arrival.to_light, arrival.distance_mm, random.penumbra);
+    }
+    if (settings_.specular == SpecularReflection::ggx && settings_.ambient == AmbientModel::traced &&
+        !environment_.dark())
+        sum += environment_reflection(point, to_eye, random.environment);
+    if (reflection_ && settings_.ambient == AmbientModel::renderer)
+        sum += reflection_->radiance(point.n, to_eye, point.roughness, point.f0, point.occlusion);
+    return sum * mix({1, 1, 1}, given.albedo_linear, given.metallic);
+}
+
+}  // namespace dermis

@@ -1,0 +1,107 @@
+#pragma once
+// Light that arrives at a point of the scene, shadowed by rays: irradiance for the diffuse transport,
+// reflected radiance for the specular one.
+
+#include <string_view>
+
+#include "dermis/rays/ray_scene.h"
+#include "dermis/reference/environment_sampler.h"
+#include "dermis/reference/materials.h"
+#include "dermis/reference/split_sum.h"
+#include "dermis/scene/scene.h"
+
+namespace dermis {
+
+/// Which lights cast shadows: the key light alone, as the renderer has it, or every one.
+enum class ShadowCasters { key, all };
+
+/// Environment light: traced through the scene, or as the renderer approximates it (order-2 harmonics times
+/// the vertices' ambient visibility, and the split sum for its reflections when a Lighting is given one).
+enum class AmbientModel { traced, renderer };
+
+enum class SpecularReflection { none, blinn_phong, ggx };
+
+struct LightingSettings {
+    ShadowCasters shadows = ShadowCasters::key;
+    AmbientModel ambient = AmbientModel::traced;
+    SpecularReflection specular = SpecularReflection::ggx;
+    /// Full width of the edge of every shadow, as the renderer's filter makes it: the shadow ray starts
+    /// anywhere in a disk in the tangent plane whose outline, seen from the light, is a circle of this
+    /// diameter.
+    float penumbra_mm = 0;
+    /// Above 1: only the part 1 - F(angle, eta) of the light that a smooth dielectric lets in counts as
+    /// irradiance.
+    double entry_eta = 1;
+};
+
+/// Uniform numbers for one evaluation.
+struct LightingRandom {
+    Vec2 penumbra, environment;
+    float environment_choice = 0;
+};
+
+/// Where light is received; normals are unit.
+struct Receiver {
+    Vec3 p_smooth_mm;
+    Vec3 n_geometry;
+    Vec3 n;  ///< shading normal: the cosine of the irradiance is to this one
+    float occlusion = 1;
+};
+
+/// Keeps references; everything must outlive it. Safe from any thread.
+class Lighting {
+  public:
+    Lighting(const Scene& scene, const RayScene& rays, const MaterialSet& materials,
+             const EnvironmentSampler& environment, const LightingSettings& settings,
+             const SplitSumReflection* reflection = nullptr)
+        : scene_(scene),
+          rays_(rays),
+          materials_(materials),
+          environment_(environment),
+          settings_(settings),
+          reflection_(reflection) {}
+
+    /// An unbiased estimate of the irradiance, linear; exact (no noise) without penumbra and traced
+    /// environment.
+    [[nodiscard]] Vec3 irradiance(const Receiver& receiver, const LightingRandom& random) const;
+
+    /// An unbiased estimate of the radiance reflected by the surface itself towards the eye. Directional,
+    /// point and spot lights as shaders/shared/specular.glsl has them; the environment by the same GGX with
+    /// rays when traced (only with the ggx model), else by the split sum.
+    [[nodiscard]] Vec3 specular_radiance(const ShadingPoint& point, Vec3 to_eye,
+                                         const LightingRandom& random) const;
+
+    /// What comes through of light along the segment: 0 behind opaque things, coloured behind translucent
+    /// ones (each surface crossed multiplies).
+    [[nodiscard]] Vec3 transmittance(const Ray& ray) const;
+
+    [[nodiscard]] const LightingSettings& settings() const { return settings_; }
+
+  private:
+    [[nodiscard]] Vec3 light_visibility(const Light& light, const Receiver& receiver, Vec3 to_light,
+                                        float distance_mm, Vec2 u) const;
+    [[nodiscard]] Vec3 environment_irradiance(const Receiver& receiver, const LightingRandom& random) const;
+    [[nodiscard]] Vec3 environment_reflection(const ShadingPoint& point, Vec3 to_eye, Vec2 u) const;
+
+    const Scene& scene_;
+    const RayScene& rays_;
+    const MaterialSet& materials_;
+    const EnvironmentSampler& environment_;
+    LightingSettings settings_;
+    const SplitSumReflection* reflection_;
+};
+
+/// What reaches `p_mm` of a light that nothing blocks.
+struct LightArrival {
+    Vec3 irradiance_linear;  ///< on a surface that faces the light
+    Vec3 to_light;
+    float distance_mm = 1e30f;
+};
+/// Inverse square in metres; a spot fades between its angles as a squared linear ramp of the cosine.
+[[nodiscard]] LightArrival light_at(const Light& light, Vec3 p_mm);
+
+/// BRDF times cosine of one light, one number: F0 is a number too. 0 below the horizon.
+[[nodiscard]] float specular_response(SpecularReflection model, Vec3 n, Vec3 to_eye, Vec3 to_light,
+                                      float roughness, float f0);
+
+}  // namespace dermis

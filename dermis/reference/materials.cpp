@@ -1,0 +1,158 @@
+#include "dermis/reference/materials.h"
+
+#include <algorithm>
+
+#include "dermis/base/hash.h"
+#include "dermis/image/dilate.h"
+#include "dermis/optics/fresnel.h"
+#include "dermis/rays/uv_raster.h"
+#include "dermis/scene/image_source.h"
+
+namespace dermis {
+namespace {
+
+// Renderer and ground truth keep roughness off zero alike, where a highlight would be a point.
+constexpr float kLeastRoughness = 0.03f;
+
+Vec3 rgb(Vec4 v) {
+    return {v.x, v.y, v.z};
+}
+
+// A factor that glTF keeps in alpha and others in red.
+float factor(const Texture& map, const SurfaceAttributes& surface) {
+    const Vec4 value = map.sample(surface.uv, surface.footprint);
+    return map.channels() == 4 ? value.w : value.x;
+}
+
+Vec3 tangent_space_normal(Vec3 mapped, const SurfaceAttributes& surface) {
+    const Vec3 n = surface.n_geometry_world, along = rgb(surface.tangent_world);
+    const Vec3 t = normalize(along - n * dot(n, along));
+    if (dot(t, t) < 0.5f) return n;
+    const Vec3 b = cross(n, t) * (surface.tangent_world.w < 0 ? -1.0f : 1.0f);
+    return normalize(t * mapped.x + b * mapped.y + n * mapped.z);
+}
+
+}  // namespace
+
+Result<const Texture*> MaterialSet::texture_of(const ImageSource& source, ImageUse use,
+                                               const SceneObject& object, const Material& material) {
+    if (!source.present()) return static_cast<const Texture*>(nullptr);
+    const int gutter = material.dilate_texels;
+    const std::string key =
+        Hasher().add(source.name).add(std::span(source.encoded)).add(use).add(gutter).hex();
+    std::unique_ptr<Texture>& texture = textures_[key];
+    if (!texture) {
+        Result<Image> loaded = load_image_source(source, use);
+        if (!loaded) return loaded.error();
+        Image& image = *loaded;
+        const auto every = [](const SceneObject&, uint32_t) { return true; };
+        if (gutter > 0)
+            dilate(image,
+                   coverage_mask(rasterise_uv(std::span(&object, 1), image.width, image.height, every)),
+                   gutter);
+        texture = std::make_unique<Texture>(image);
+    }
+    return static_cast<const Texture*>(texture.get());
+}
+
+Result<MaterialSet> MaterialSet::load(const Scene& scene) {
+    struct Slot {
+        ImageSource Material::*source;
+        const Texture* Maps::*map;
+        ImageUse use;
+    };
+    static const Slot kSlots[] = {
+        {&Material::base_color_map, &Maps::base_color, ImageUse::color},
+        {&Material::normal_map, &Maps::normal, ImageUse::data},
+        {&Material::specular_map, &Maps::specular, ImageUse::data},
+        {&Material::roughness_map, &Maps::roughness, ImageUse::data},
+        {&Material::metallic_roughness_map, &Maps::metallic_roughness, ImageUse::data},
+        {&Material::occlusion_map, &Maps::occlusion, ImageUse::data},
+        {&Material::opacity_map, &Maps::opacity, ImageUse::color}};
+    MaterialSet set;
+    set.scene_ = &scene;
+    for (const SceneObject& object : scene.objects) {
+        std::vector<Entry>& entries = set.objects_.emplace_back();
+        for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
+            Entry entry{.material = &object.mesh.materials[i]};
+            if (i < object.classes.size()) entry.material_class = object.classes[i];
+            for (const Slot& slot : kSlots) {
+                Result<const Texture*> texture =
+                    set.texture_of(entry.material->*slot.source, slot.use, object, *entry.material);
+                if (!texture) return texture.error();
+                entry.maps.*slot.map = *texture;
+            }
+            entries.push_back(entry);
+        }
+    }
+    return set;
+}
+
+const MaterialSet::Entry& MaterialSet::entry(const SurfaceAttributes& surface, uint32_t object) const {
+    return objects_[object][surface.material];
+}
+
+Vec3 MaterialSet::normal_at(const SurfaceAttributes& surface, uint32_t object) const {
+    const Entry& e = entry(surface, object);
+    const Vec3 n = surface.n_geometry_world;
+    if (!e.maps.normal) return n;
+    Vec3 mapped = rgb(e.maps.normal->sample(surface.uv, surface.footprint)) * 2.0f - Vec3{1, 1, 1};
+    const float scale = e.material->normal_scale;
+    if (e.material->normal_space == NormalSpace::object) return normalize(n + (mapped - n) * scale);
+    mapped.x *= scale;
+    mapped.y *= scale;
+    return tangent_space_normal(mapped, surface);
+}
+
+Vec3 MaterialSet::transmittance_at(const SurfaceAttributes& surface, uint32_t object) const {
+    const Entry& e = entry(surface, object);
+    if (e.maps.opacity) return rgb(e.maps.opacity->sample(surface.uv, surface.footprint));
+    return e.material->base_color_linear * (1 - e.material->opacity);
+}
+
+float MaterialSet::occlusion_at(const SurfaceAttributes& surface, const RayHit& hit) const {
+    const Entry& e = entry(surface, hit.object);
+    const Mesh& mesh = scene_->objects[hit.object].mesh;
+    float occlusion = 1;
+    if (!mesh.occlusions.empty()) {
+        const uint32_t* corner = &mesh.indices[3 * size_t(hit.triangle)];
+        occlusion = mesh.occlusions[corner[0]] * (1 - hit.u - hit.v) + mesh.occlusions[corner[1]] * hit.u +
+                    mesh.occlusions[corner[2]] * hit.v;
+    }
+    return e.maps.occlusion ? occlusion * e.maps.occlusion->sample(surface.uv, surface.footprint).x
+                            : occlusion;
+}
+
+ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& hit) const {
+    const Entry& e = entry(surface, hit.object);
+    const Material& material = *e.material;
+    const bool is_skin = e.material_class == MaterialClass::skin;
+    ShadingPoint point{.p_mm = surface.p_world_mm,
+                       .p_smooth_mm = surface.p_smooth_mm,
+                       .n_face = surface.n_face_world,
+                       .n_geometry = surface.n_geometry_world,
+                       .n = normal_at(surface, hit.object),
+                       .albedo_linear = material.base_color_linear,
+                       .emission_linear = material.emission_linear,
+                       .roughness = material.roughness,
+                       .f0 = float(f0_of_eta(material.ior)) * material.specular,
+                       .metallic = is_skin ? 0 : material.metallic,
+                       .opacity = material.opacity,
+                       .occlusion = occlusion_at(surface, hit),
+                       .material_class = e.material_class};
+    if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;
+    if (e.maps.base_color)
+        point.albedo_linear =
+            point.albedo_linear * rgb(e.maps.base_color->sample(surface.uv, surface.footprint));
+    if (e.maps.specular) point.f0 *= factor(*e.maps.specular, surface);
+    if (e.maps.roughness) point.roughness *= e.maps.roughness->sample(surface.uv, surface.footprint).x;
+    if (e.maps.metallic_roughness) {
+        const Vec4 packed = e.maps.metallic_roughness->sample(surface.uv, surface.footprint);
+        if (!e.maps.roughness) point.roughness *= packed.y;
+        point.metallic *= packed.z;
+    }
+    point.roughness = std::clamp(point.roughness, kLeastRoughness, 1.0f);
+    return point;
+}
+
+}  // namespace dermis

@@ -1,0 +1,184 @@
+#include "dermis/reference/pixel_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dermis/optics/presets.h"
+#include "dermis/rays/random.h"
+#include "dermis/reference/random_walk.h"
+
+namespace dermis {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr int kMostLayers = 16;
+constexpr int kAlbedoWalks = 200'000;
+
+Vec3 project(const Mat4& m, Vec3 p) {
+    const auto row = [&](int r) { return m.m[r] * p.x + m.m[4 + r] * p.y + m.m[8 + r] * p.z + m.m[12 + r]; };
+    return Vec3{row(0), row(1), row(2)} * (1 / row(3));
+}
+
+// Surfaces other than skin are seen from both sides, as the renderer draws them.
+void face_the_eye(ShadingPoint& point, Vec3 to_eye) {
+    if (point.material_class == MaterialClass::skin || dot(point.n_face, to_eye) >= 0) return;
+    point.n = -point.n;
+    point.n_geometry = -point.n_geometry;
+    point.p_smooth_mm = point.p_mm;
+}
+
+}  // namespace
+
+PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays,
+                           MaterialSet materials, EnvironmentSampler environment,
+                           SplitSumReflection reflection, const LightingSettings& lighting)
+    : scene_(scene),
+      settings_(settings),
+      rays_(std::move(rays)),
+      materials_(std::move(materials)),
+      environment_(std::move(environment)),
+      reflection_(std::move(reflection)),
+      lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_) {
+    const float aspect = float(settings.width) / float(settings.height);
+    inverse_view_projection_ = camera_matrices(scene.camera, aspect).inverse_view_projection;
+}
+
+void PixelSampler::use_profile(const Profile& profile) {
+    surface_.emplace(
+        rays_, materials_, lighting_, ProfileSampler(profile, settings_.width_scale),
+        SurfaceIntegratorSettings{.probes = settings_.probes, .normalisation = settings_.normalisation});
+}
+
+void PixelSampler::use_medium(const ScatteringMedium& medium) {
+    WalkIntegratorSettings walk{.walks = settings_.probes};
+    if (settings_.normalisation == Normalisation::by_area) {
+        walk.normalisation = half_space_albedo(medium, std::nullopt, kAlbedoWalks, 1).mean;
+        for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z})
+            walk.normalisation.*c = std::max(walk.normalisation.*c, 1e-6f);
+    }
+    walk_.emplace(rays_, materials_, lighting_, medium, walk);
+}
+
+Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
+                                                           const ReferenceSettings& settings) {
+    Result<RayScene> rays = RayScene::build(scene.objects);
+    if (!rays) return rays.error();
+    Result<MaterialSet> materials = MaterialSet::load(scene);
+    if (!materials) return materials.error();
+    Result<EnvironmentSampler> environment = EnvironmentSampler::load(scene.environment);
+    if (!environment) return environment.error();
+    LightingSettings lighting = settings.lighting;
+    const bool approximate =
+        lighting.ambient == AmbientModel::renderer && lighting.specular != SpecularReflection::none;
+    Result<SplitSumReflection> reflection = SplitSumReflection::load(
+        approximate ? scene.environment : Environment{.kind = EnvironmentKind::none});
+    if (!reflection) return reflection.error();
+    const bool walks = settings.integrator == Integrator::walk;
+    ScatteringMedium medium;
+    if (walks) {
+        Result<ScatteringMedium> found = settings.medium ? *settings.medium : medium_of_scene(scene);
+        if (!found) return found.error();
+        if (Result<void> good = check(*found); !good) return good.error();
+        medium = *found;
+        lighting.entry_eta = medium.eta;
+    }
+    std::unique_ptr<PixelSampler> sampler(new PixelSampler(scene, settings, std::move(*rays),
+                                                           std::move(*materials), std::move(*environment),
+                                                           std::move(*reflection), lighting));
+    if (walks) sampler->use_medium(medium);
+    if (settings.integrator == Integrator::surface && settings.width_scale > 0) {
+        Result<Profile> profile = find_profile(scene.skin.profile);
+        if (!profile) return profile.error();
+        sampler->use_profile(*profile);
+    }
+    return sampler;
+}
+
+Ray PixelSampler::camera_ray(int x, int y, Vec2 within) const {
+    const float clip_x = 2 * (float(x) + within.x) / float(settings_.width) - 1;
+    const float clip_y = 2 * (float(y) + within.y) / float(settings_.height) - 1;
+    const Vec3 near_mm = project(inverse_view_projection_, {clip_x, clip_y, 0});
+    const Vec3 far_mm = project(inverse_view_projection_, {clip_x, clip_y, 1});
+    return {
+        .origin_mm = near_mm, .direction = normalize(far_mm - near_mm), .max_mm = length(far_mm - near_mm)};
+}
+
+// Igehy 1999, "Tracing Ray Differentials": where the rays of the neighbouring pixels meet the plane of the
+// triangle.
+UvFootprint PixelSampler::footprint(int x, int y, const RayHit& hit, Vec3 p_mm) const {
+    if (settings_.filter != PixelFilter::center) return {};
+    const auto step = [&](int dx, int dy) -> Vec2 {
+        const Ray ray = camera_ray(x + dx, y + dy, {0.5f, 0.5f});
+        const float along = dot(ray.direction, hit.n_face);
+        if (std::abs(along) < 1e-6f) return {};
+        const float distance_mm = dot(p_mm - ray.origin_mm, hit.n_face) / along;
+        return rays_.uv_step(hit, ray.origin_mm + ray.direction * distance_mm - p_mm);
+    };
+    return {step(1, 0), step(0, 1)};
+}
+
+Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footprint,
+                            const LightingRandom& random, uint32_t seed, PixelSample& sample) const {
+    const DiffusePoint diffuse{point.p_mm, point.n_geometry, footprint};
+    const bool skin = point.material_class == MaterialClass::skin;
+    if (skin && surface_) return surface_->exitance(diffuse, seed);
+    if (skin && walk_) {
+        const WalkIntegrator::Result walked = walk_->exitance(diffuse, point.n_face, seed);
+        sample.walks += settings_.probes;
+        sample.lost_walks += walked.lost;
+        return walked.exitance;
+    }
+    return lighting_.irradiance({point.p_smooth_mm, point.n_geometry, point.n, point.occlusion}, random);
+}
+
+MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t seed,
+                                        PixelSample& sample) const {
+    const Vec3 to_eye = -seen.ray.direction;
+    SurfaceAttributes surface = rays_.surface_at(seen.hit);
+    surface.footprint = footprint(seen.x, seen.y, seen.hit, surface.p_world_mm);
+    ShadingPoint point = materials_.shade(surface, seen.hit);
+    face_the_eye(point, to_eye);
+    OwenSequence uniform(seed, 0);
+    const LightingRandom random{uniform.next_2d(), uniform.next_2d(), uniform.next_1d()};
+    const Vec3 m = exitance(point, surface.footprint, random, seed, sample);
+    const Vec3 albedo = point.albedo_linear * (1 - point.metallic);
+    sample.diffuse += weight * (albedo * m * (point.opacity / kPi) + point.emission_linear);
+    sample.specular += weight * lighting_.specular_radiance(point, to_eye, random);
+    return point.material_class;
+}
+
+PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
+    const uint32_t pixel = hash_u32(settings_.seed, uint32_t(x), uint32_t(y));
+    OwenSequence camera(pixel, index);
+    const Vec2 within = settings_.filter == PixelFilter::center ? Vec2{0.5f, 0.5f} : camera.next_2d();
+    Ray ray = camera_ray(x, y, within);
+    PixelSample result;
+    float through = 1;
+    uint32_t seed = hash_u32(pixel, index + 1);
+    const std::optional<RayHit> solid = rays_.closest_hit(RaySet::opaque, ray);
+    if (solid) ray.max_mm = solid->distance_mm;
+    // Translucent surfaces lie over what is behind them by their opacity, front to back.
+    for (int layer = 0; layer < kMostLayers && rays_.has(RaySet::translucent); ++layer) {
+        const std::optional<RayHit> glass = rays_.closest_hit(RaySet::translucent, ray);
+        if (!glass) break;
+        const SurfaceAttributes surface = rays_.surface_at(*glass);
+        const float opacity = scene_.objects[glass->object].mesh.materials[surface.material].opacity;
+        add_surface({*glass, ray, x, y}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
+        result.coverage += through * opacity;
+        through *= 1 - opacity;
+        ray.min_mm = glass->distance_mm + 4 * rays_.epsilon_mm();
+    }
+    if (solid) {
+        const MaterialClass seen =
+            add_surface({*solid, ray, x, y}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
+        result.coverage += through;
+        if (seen == MaterialClass::skin) result.skin = through;
+        return result;
+    }
+    const bool shown = scene_.environment.visible && !environment_.dark();
+    result.background = (shown ? environment_.radiance(ray.direction) : scene_.background_linear) * through;
+    return result;
+}
+
+}  // namespace dermis

@@ -1,0 +1,59 @@
+#pragma once
+// One sample of one pixel: the path from the eye to what it sees. Internal to dermis/reference.
+
+#include <atomic>
+
+#include "dermis/reference/picture.h"
+#include "dermis/reference/walk_integrator.h"
+
+namespace dermis {
+
+struct PixelSample {
+    Vec3 diffuse, specular, background;
+    float coverage = 0;
+    float skin = 0;  ///< share of what is seen that is skin
+    int walks = 0, lost_walks = 0;
+    [[nodiscard]] Vec3 radiance() const { return diffuse + specular + background; }
+};
+
+/// Everything a picture needs, loaded once; safe from any thread afterwards. Not movable: parts refer to each
+/// other.
+class PixelSampler {
+  public:
+    [[nodiscard]] static Result<std::unique_ptr<PixelSampler>> create(const Scene& scene,
+                                                                      const ReferenceSettings& settings);
+    /// Sample `index` of the pixel; depends on seed, pixel and index alone.
+    [[nodiscard]] PixelSample sample(int x, int y, uint32_t index) const;
+
+  private:
+    PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays, MaterialSet materials,
+                 EnvironmentSampler environment, SplitSumReflection reflection,
+                 const LightingSettings& lighting);
+    void use_profile(const Profile& profile);
+    void use_medium(const ScatteringMedium& medium);
+
+    [[nodiscard]] Ray camera_ray(int x, int y, Vec2 within) const;
+    [[nodiscard]] UvFootprint footprint(int x, int y, const RayHit& hit, Vec3 p_mm) const;
+    /// A surface with the ray that sees it and the pixel it is seen in.
+    struct Seen {
+        RayHit hit;
+        Ray ray;
+        int x, y;
+    };
+    MaterialClass add_surface(const Seen& seen, Vec3 weight, uint32_t seed, PixelSample& sample) const;
+    [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const UvFootprint& footprint,
+                                const LightingRandom& random, uint32_t seed, PixelSample& sample) const;
+
+    const Scene& scene_;
+    ReferenceSettings settings_;
+    RayScene rays_;
+    MaterialSet materials_;
+    EnvironmentSampler environment_;
+    SplitSumReflection reflection_;
+    Lighting lighting_;
+    Mat4 inverse_view_projection_;
+    std::optional<SurfaceIntegrator> surface_;
+    std::optional<WalkIntegrator> walk_;
+};
+
+}  // namespace dermis

@@ -1,0 +1,113 @@
+#pragma once
+// The diffuse transport as it is: light scattering in a homogeneous medium behind a smooth boundary.
+//
+// A path starts under the visible point and is followed backwards to where its light came in. Free paths come
+// from one channel, chosen by what the path still carries, and are weighted by the mean of all channels'
+// densities (Wilkie, Nawaz, Droske, Weidlich, Hanika 2014, Hero Wavelength Spectral Sampling); directions
+// from Henyey and Greenstein; paths that carry little end by Russian roulette. At the boundary a path goes
+// back in with the probability of Fresnel's equations (no other loss), else it ends.
+//
+// Light that enters is taken to fill the refraction cone as diffuse light does: the boundary is a smooth
+// dielectric that also diffuses. With eta 1 there is no reflection, and directions inside are Lambert's.
+
+#include <algorithm>
+#include <optional>
+
+#include "dermis/optics/medium.h"
+#include "dermis/rays/random.h"
+#include "dermis/rays/sampling.h"
+
+namespace dermis {
+
+/// Where a straight line inside the medium meets its boundary.
+struct BoundaryHit {
+    float distance_mm = 0;
+    Vec3 n_out;  ///< unit, out of the medium
+};
+
+/// A path's end. Nothing came back: absorbed, or lost through a hole of the mesh.
+struct WalkEnd {
+    Vec3 throughput;  ///< of each channel, from the end to the start
+    Vec3 p_mm;        ///< on the boundary
+    Vec3 direction;   ///< of the last flight
+    int collisions = 0;
+    bool lost = false;  ///< the line met no boundary, or met it from outside
+};
+
+/// The medium in the form the walk wants; sigma_t > 0 in every channel.
+struct WalkMedium {
+    Vec3 sigma_s_per_mm, sigma_t_per_mm;
+    float g = 0;
+    float eta = 1;
+};
+[[nodiscard]] WalkMedium walk_medium(const ScatteringMedium& medium);
+
+/// Most collisions of one path: at albedo 1 roulette never ends one, and a path that long carries no picture.
+inline constexpr int kMostCollisions = 100'000;
+
+/// The direction of diffuse light just inside: density proportional to (1 - F) cosine about the inward
+/// normal.
+[[nodiscard]] Vec3 sample_entry_direction(Vec3 n_out, float eta, Pcg32& random);
+
+/// The free flight of one collision: scatter or leave.
+struct Flight {
+    float distance_mm;
+    int hero;  ///< the channel it was drawn from
+};
+[[nodiscard]] Flight sample_flight(const WalkMedium& medium, Vec3 throughput, Pcg32& random);
+/// Multiplies the throughput by what passes `distance_mm` over the density with which flights do.
+[[nodiscard]] Vec3 pass_weight(const WalkMedium& medium, Vec3 throughput, float distance_mm);
+/// The same for a collision there.
+[[nodiscard]] Vec3 scatter_weight(const WalkMedium& medium, Vec3 throughput, float distance_mm);
+/// False when the path ends; else the throughput is raised by what ending ones lose.
+[[nodiscard]] bool survives_roulette(Vec3& throughput, Pcg32& random);
+/// Where a smooth boundary sends a path that arrives with `direction`: out, or the reflected direction.
+[[nodiscard]] std::optional<Vec3> internal_reflection(Vec3 direction, Vec3 n_out, float eta, Pcg32& random);
+
+/// Boundary: std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) const; nothing
+/// means that the flight of max_mm stays inside, or for an infinite one that the line never leaves.
+template <class Boundary>
+[[nodiscard]] WalkEnd random_walk(const WalkMedium& medium, const Boundary& boundary, Vec3 p_mm,
+                                  Vec3 direction, Pcg32& random) {
+    WalkEnd path{.throughput = {1, 1, 1}, .p_mm = p_mm, .direction = direction};
+    const WalkEnd absorbed{};
+    while (path.collisions < kMostCollisions) {
+        const Flight flight = sample_flight(medium, path.throughput, random);
+        const std::optional<BoundaryHit> hit = boundary(path.p_mm, path.direction, flight.distance_mm);
+        if (!hit) {
+            path.throughput = scatter_weight(medium, path.throughput, flight.distance_mm);
+            path.p_mm += path.direction * flight.distance_mm;
+            path.direction = sample_henyey_greenstein(random.next_2d(), path.direction, medium.g);
+            ++path.collisions;
+            if (!survives_roulette(path.throughput, random)) return absorbed;
+            continue;
+        }
+        if (dot(hit->n_out, path.direction) <= 0) return {.lost = true};
+        path.throughput = pass_weight(medium, path.throughput, hit->distance_mm);
+        path.p_mm += path.direction * hit->distance_mm;
+        const auto reflected = internal_reflection(path.direction, hit->n_out, medium.eta, random);
+        if (!reflected) return path;
+        path.direction = *reflected;
+    }
+    return absorbed;
+}
+
+/// The medium fills z < 0.
+struct HalfSpace {
+    std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) const {
+        if (direction.z <= 0) return std::nullopt;
+        const float distance_mm = std::max(0.0f, -p_mm.z) / direction.z;
+        if (distance_mm > max_mm) return std::nullopt;
+        return BoundaryHit{distance_mm, {0, 0, 1}};
+    }
+};
+
+struct HalfSpaceAlbedo {
+    Vec3 mean, standard_error;
+};
+/// How much of the light that entered a half-space comes out again, red, green, blue, 0..1. `start`: the
+/// direction just inside (z < 0), or none for diffuse light. Deterministic; about 1 microsecond a collision.
+[[nodiscard]] HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<Vec3> start,
+                                                int walks, uint32_t seed);
+
+}  // namespace dermis

@@ -1,0 +1,74 @@
+#pragma once
+// The diffuse transport as a surface integral: light enters at y, spreads by the diffusion profile, leaves at
+// x.
+//
+//     M(x) = integral E(y) R(|x - y|) dA_y / integral R(|x - y|) dA_y
+//
+// over all skin, |x - y| being the straight distance, so that light also crosses an ear. E is the shadowed
+// irradiance on the shading normal of y, normal map included: what a technique reads from its maps the ground
+// truth reads from the same ones. dA is the area of the triangles.
+//
+// Estimated by probes (King, Kulla, Conty, Fajardo 2013, BSSRDF Importance Sampling): a disk around x takes a
+// radius from the profile, a segment through it finds the surface, and the three axes the disk may have are
+// combined by their densities. Both integrals use the same probes, so that an even irradiance has no noise at
+// all; the bias of such a quotient, which falls as 1 / probes, is removed to first order by the jackknife
+// (Quenouille 1956).
+
+#include "dermis/rays/sampling.h"
+#include "dermis/reference/lighting.h"
+#include "dermis/reference/profile_sampler.h"
+
+namespace dermis {
+
+enum class Normalisation { by_area, none };
+
+struct SurfaceIntegratorSettings {
+    int probes = 16;  ///< a visible point, 2..65536, even
+    Normalisation normalisation = Normalisation::by_area;
+};
+
+/// A visible point of skin.
+struct DiffusePoint {
+    Vec3 p_mm;
+    Vec3 n_geometry;
+    UvFootprint footprint = {};  ///< of the pixel that sees it: the maps around it are read as smoothly
+};
+
+/// Everything given must outlive it. Safe from any thread.
+class SurfaceIntegrator {
+  public:
+    SurfaceIntegrator(const RayScene& rays, const MaterialSet& materials, const Lighting& lighting,
+                      ProfileSampler profile, const SurfaceIntegratorSettings& settings)
+        : rays_(rays),
+          materials_(materials),
+          lighting_(lighting),
+          profile_(std::move(profile)),
+          settings_(settings) {}
+
+    /// Radiant exitance over albedo, linear, by one set of probes. Estimates with different seeds are
+    /// independent.
+    [[nodiscard]] Vec3 exitance(const DiffusePoint& point, uint32_t seed) const;
+
+  private:
+    struct Sums {
+        Vec3 irradiance, reflectance;
+    };
+    void probe(const DiffusePoint& point, const LocalFrame& frame, uint32_t seed, uint32_t index,
+               Sums& sums) const;
+    [[nodiscard]] float probe_density(const LocalFrame& frame, Vec3 offset_mm, Vec3 n_face) const;
+
+    const RayScene& rays_;
+    const MaterialSet& materials_;
+    const Lighting& lighting_;
+    ProfileSampler profile_;
+    SurfaceIntegratorSettings settings_;
+};
+
+/// Mean of independent estimates with the standard error that they show.
+struct Estimate {
+    Vec3 mean, standard_error;
+};
+[[nodiscard]] Estimate estimate_exitance(const SurfaceIntegrator& integrator, const DiffusePoint& point,
+                                         int estimates, uint32_t seed);
+
+}  // namespace dermis

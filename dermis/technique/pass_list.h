@@ -1,0 +1,141 @@
+#pragma once
+// A frame as data: the images it needs and the passes that fill them. dermis/gpu executes it; nothing here knows
+// Vulkan.
+//
+// Names tie it together. A texture, block or specialisation constant in a shader is bound to what carries its
+// name: an image of this list, an input of the frame (shadow_map, environment_cube, ...), a map of the
+// material being drawn, or a value. Samplers have fixed names: linear_clamp, linear_repeat, nearest_clamp,
+// trilinear_repeat, trilinear_clamp, shadow_compare.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/base/vec.h"
+
+namespace dermis {
+
+enum class ImageFormat { r8, rgba8, r16f, rg16f, rgba16f, r32f, rgba32f, depth32f };
+[[nodiscard]] std::string_view format_name(ImageFormat format);
+[[nodiscard]] size_t bytes_per_texel(ImageFormat format);
+
+/// width = height = 0: the frame's size times frame_scale.
+struct ImageSize {
+    int width = 0, height = 0;
+    float frame_scale = 1;
+    friend bool operator==(const ImageSize&, const ImageSize&) = default;
+};
+
+struct ImageDeclaration {
+    std::string name;
+    ImageFormat format = ImageFormat::rgba16f;
+    ImageSize size;
+    int samples = 1;          ///< 1 or 4
+    int mips = 1;             ///< 0: a full chain
+    bool persistent = false;  ///< keeps its content into the next frame
+    friend bool operator==(const ImageDeclaration&, const ImageDeclaration&) = default;
+};
+
+/// What a pass rasterises. geometry_screen: through the camera; geometry_uv_atlas: at uv * 2 - 1;
+/// geometry_light: from the key light. resolve, generate_mips and copy are transfers from reads[0] (to
+/// colors[0]).
+enum class PassKind {
+    fullscreen,
+    compute,
+    geometry_screen,
+    geometry_uv_atlas,
+    geometry_light,
+    resolve,
+    generate_mips,
+    copy
+};
+
+/// Which of the scene's draws a geometry pass takes.
+enum class GeometryFilter { skin, other, opaque, translucent, all };
+
+enum class LoadOp { clear, load, discard };
+enum class Blend { none, additive, alpha, multiply };
+enum class Compare { less, less_equal, equal, always };
+enum class Cull { none, back, front };
+
+struct ColorTarget {
+    std::string image;
+    LoadOp load = LoadOp::clear;
+    std::array<float, 4> clear = {0, 0, 0, 0};
+    Blend blend = Blend::none;
+    uint32_t write_mask = 0xF;  ///< bits: 1 red, 2 green, 4 blue, 8 alpha
+    int mip = 0;
+};
+
+/// Depth that is loaded and not written may be read by the same pass.
+struct DepthTarget {
+    std::string image;
+    LoadOp load = LoadOp::clear;
+    float clear = 1;
+    bool write = true;
+    Compare compare = Compare::less_equal;
+};
+
+/// Binds the shader's `texture` (or storage image) to `image`; one name when both are the same.
+struct ImageRead {
+    std::string texture, image;
+    ImageRead(const char* name) : texture(name), image(name) {}
+    ImageRead(std::string name) : texture(name), image(std::move(name)) {}
+    ImageRead(std::string texture_name, std::string image_name)
+        : texture(std::move(texture_name)), image(std::move(image_name)) {}
+};
+
+using ShaderValue = std::variant<int32_t, float, Vec2, Vec3, Vec4, Mat4>;
+using NamedValue = std::pair<std::string, ShaderValue>;
+
+struct Pass {
+    std::string name;
+    PassKind kind = PassKind::fullscreen;
+    /// Fragment or compute, "folder/name.frag". Empty: geometry that writes depth only, or a fullscreen pass
+    /// that only clears its targets.
+    std::string shader;
+    std::string vertex_shader;  ///< empty: the shared one of the kind
+    std::vector<ImageRead> reads;
+    std::vector<ColorTarget> colors;
+    std::optional<DepthTarget> depth;
+    std::vector<ImageRead> storage;  ///< images a compute pass writes; the first one's size gives its groups
+    GeometryFilter geometry = GeometryFilter::skin;
+    Cull cull = Cull::none;
+    float depth_bias_constant = 0, depth_bias_slope = 0;
+    std::vector<std::pair<std::string, int32_t>> constants;  ///< specialisation constants by name
+    std::vector<NamedValue> values;                          ///< members of the shader's push-constant block
+};
+
+/// Asks for the textures "seam_map" and "chart_map" of the skin's atlas (mesh/uv_seams.h), `size` texels a
+/// side: where the surface of each gutter texel lies, as x / 8 and rest, y / 8 and rest, negative for
+/// nowhere; and whose chart it is.
+struct SeamRequest {
+    int size = 1024;
+    int width_texels = 32;
+    friend bool operator==(const SeamRequest&, const SeamRequest&) = default;
+};
+
+struct PassList {
+    std::vector<ImageDeclaration> images;
+    std::vector<Pass> passes;
+    std::optional<SeamRequest> seams;
+
+    [[nodiscard]] const ImageDeclaration* find_image(std::string_view name) const;
+};
+
+/// Everything wrong with a list, one line each; empty when it can run. `inputs` are the images the frame
+/// supplies. Found: duplicate names, images read or loaded before anything wrote them (persistent ones
+/// excepted), a pass that reads what it writes, targets of one pass with different sizes or sample counts,
+/// missing shaders, no targets.
+[[nodiscard]] std::vector<std::string> problems(const PassList& list, const std::vector<std::string>& inputs);
+
+/// For people: one line an image, one a pass.
+[[nodiscard]] std::string describe(const PassList& list);
+
+}  // namespace dermis

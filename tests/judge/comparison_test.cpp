@@ -1,0 +1,123 @@
+// The whole of it on a small picture: truth, techniques, page.
+
+#include "dermis/judge/comparison.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "dermis/judge/report.h"
+#include "render/render_test.h"
+#include "support/temporary_directory.h"
+
+using namespace dermis;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+// Its own cache, so that nothing made before can stand in for what is made now.
+class Comparisons : public RenderTest {
+  protected:
+    void SetUp() override {
+        RenderTest::SetUp();
+        ::setenv("DERMIS_CACHE", directory_.path.c_str(), 1);
+    }
+    void TearDown() override {
+        ::unsetenv("DERMIS_CACHE");
+        RenderTest::TearDown();
+    }
+    static ComparisonSettings quick() {
+        ComparisonSettings settings = comparison_settings(64, 64);
+        settings.shadow_map_size = 1024;
+        settings.frames = 1;
+        settings.reference.samples = 4;
+        settings.reference.probes = 8;
+        settings.reference.noise = {};
+        return settings;
+    }
+    static std::vector<Contestant> contestants(std::string_view text) {
+        auto list = parse_technique_list(text);
+        EXPECT_TRUE(list) << list.error().message;
+        return *list;
+    }
+
+    TemporaryDirectory directory_;
+};
+
+}  // namespace
+
+TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
+    Scene scene = load("builtin:spheres");
+    scene.name = "</script><b>\"spheres\"";
+    const auto list = contestants("lambert,preintegrated[diffuse=closed_form]");
+    const auto first = compare_techniques(device(), scene, list, quick());
+    ASSERT_TRUE(first) << first.error().message;
+    EXPECT_FALSE(first->reference.from_cache);
+    const auto second = compare_techniques(device(), scene, list, quick());
+    ASSERT_TRUE(second);
+    EXPECT_TRUE(second->reference.from_cache);
+    EXPECT_EQ(first->rows[1].scores.rmse, second->rows[1].scores.rmse);
+    EXPECT_EQ(first->reference.picture.variance.bytes, second->reference.picture.variance.bytes);
+    EXPECT_LT(first->rows[1].scores.terminator_rmse, first->rows[0].scores.terminator_rmse)
+        << "scattering should come closer to the truth than none";
+    EXPECT_EQ(first->rows[0].bytes(), 0u);
+    EXPECT_EQ(first->rows[0].time_ratio, 1);
+    EXPECT_GT(first->rows[1].time_ms, 0);
+
+    const auto page = report_html(scene, *first, quick());
+    ASSERT_TRUE(page) << page.error().message;
+    const std::string begin = "const data = ";
+    const size_t at = page->find(begin) + begin.size();
+    const auto data = nlohmann::json::parse(page->substr(at, page->find(";\n", at) - at), nullptr, false);
+    ASSERT_TRUE(data.is_object());
+    EXPECT_EQ(data["scene"], scene.name);
+    EXPECT_EQ(data["images"].size(), 1 + 3 * list.size());
+    for (const auto& image : data["images"])
+        EXPECT_TRUE(image["uri"].get<std::string>().starts_with("data:image/png;base64,iVBOR"));
+    EXPECT_EQ(data["rows"][1]["settings"], "diffuse=closed_form");
+    EXPECT_THAT(*page, Not(HasSubstr("</script><b>")));
+    EXPECT_THAT(*page, Not(HasSubstr("http://")));
+    EXPECT_THAT(*page, Not(HasSubstr("https://")));
+}
+
+TEST_F(Comparisons, whatever_the_truth_depends_on_changes_its_hash) {
+    const Scene scene = load("builtin:spheres");
+    const ReferenceSettings settings = quick().reference;
+    const std::string before = *reference_hash(scene, settings);
+    const auto changed = [&](auto change) {
+        Scene other = scene;
+        ReferenceSettings own = settings;
+        change(other, own);
+        return *reference_hash(other, own) != before;
+    };
+    EXPECT_TRUE(changed([](Scene& s, auto&) { s.objects[0].mesh.positions_mm[7].x += 1e-3f; }));
+    EXPECT_TRUE(changed([](Scene& s, auto&) { s.objects[0].mesh.materials[0].roughness = 0.41f; }));
+    EXPECT_TRUE(changed([](Scene& s, auto&) { s.lights[0].intensity = 1; }));
+    EXPECT_TRUE(changed([](Scene& s, auto&) { s.camera.eye_mm.x += 1; }));
+    EXPECT_TRUE(changed([](Scene& s, auto&) { s.environment.intensity = 0.1f; }));
+    EXPECT_TRUE(changed([](Scene& s, auto&) { s.skin.profile = "burley:1,.4,.2"; }));
+    EXPECT_TRUE(changed([](Scene&, ReferenceSettings& r) { r.seed = 2; }));
+    EXPECT_TRUE(changed([](Scene&, ReferenceSettings& r) { r.lighting.penumbra_mm = 3; }));
+    EXPECT_FALSE(changed([](Scene& s, auto&) { s.name = "another", s.exposure_ev = 3; }));
+}
+
+TEST_F(Comparisons, a_scene_without_skin_is_refused) {
+    Scene scene = load("builtin:spheres");
+    for (SceneObject& object : scene.objects)
+        for (MaterialClass& material_class : object.classes) material_class = MaterialClass::other;
+    const auto comparison = compare_techniques(device(), scene, contestants("lambert"), quick());
+    ASSERT_FALSE(comparison);
+    EXPECT_THAT(comparison.error().message, HasSubstr("no pixel shows skin"));
+}
+
+TEST(Base64, agrees_with_the_published_vectors) {
+    // RFC 4648, section 10.
+    const auto encoded = [](std::string_view text) { return base64(as_bytes(text)); };
+    EXPECT_EQ(encoded(""), "");
+    EXPECT_EQ(encoded("f"), "Zg==");
+    EXPECT_EQ(encoded("fo"), "Zm8=");
+    EXPECT_EQ(encoded("foo"), "Zm9v");
+    EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}

@@ -1,0 +1,59 @@
+// The report as people use it: in a browser. Needs chromium and node (tools/packages_checks.txt); passed over
+// without.
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "dermis/base/file.h"
+#include "dermis/judge/report.h"
+#include "render/render_test.h"
+#include "support/temporary_directory.h"
+
+using namespace dermis;
+
+namespace {
+
+class Page : public RenderTest {};
+
+std::string find_program(std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (std::system(("command -v " + std::string(name) + " >/dev/null 2>&1").c_str()) == 0) return name;
+    return "";
+}
+
+}  // namespace
+
+TEST_F(Page, opens_in_a_browser_and_the_picture_follows_the_slider) {
+    const std::string chromium = find_program({"chromium", "chromium-browser", "google-chrome"});
+    const std::string node = find_program({"node", "nodejs"});
+    if (chromium.empty() || node.empty()) GTEST_SKIP() << "no chromium or no node here";
+    const Scene scene = load("builtin:spheres");
+    ComparisonSettings settings = comparison_settings(96, 96);
+    settings.frames = 1;
+    settings.reference.samples = 2;
+    const auto contestants = parse_technique_list("lambert,wrap");
+    ASSERT_TRUE(contestants);
+    const auto comparison = compare_techniques(device(), scene, *contestants, settings);
+    ASSERT_TRUE(comparison) << comparison.error().message;
+    const auto page = report_html(scene, *comparison, settings);
+    ASSERT_TRUE(page) << page.error().message;
+
+    const TemporaryDirectory directory;
+    const auto path = [&](const char* name) { return (directory.path / name).string(); };
+    const auto check = [&](const std::string& text) {
+        EXPECT_TRUE(write_text_file(path("report.html"), text));
+        return std::system((node + " " DERMIS_SOURCE_DIR "/tools/checks/page.mjs " + chromium + " " +
+                            path("report.html") + " " + path("page.png") + " 2>" + path("errors.txt"))
+                               .c_str());
+    };
+    EXPECT_EQ(check(*page), 0) << *read_text_file(path("errors.txt"));
+    EXPECT_TRUE(std::filesystem::exists(path("page.png")));
+
+    // What it cannot fail on is no check: a page whose pictures ignore the slider.
+    std::string broken = *page;
+    const std::string line = "$(\"left\").style.clipPath";
+    ASSERT_NE(broken.find(line), std::string::npos);
+    broken.replace(broken.find(line), line.size(), "$(\"left\").style.order");
+    EXPECT_NE(check(broken), 0);
+    EXPECT_THAT(*read_text_file(path("errors.txt")), testing::HasSubstr("does not follow the slider"));
+}

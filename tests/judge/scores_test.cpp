@@ -1,0 +1,130 @@
+#include "dermis/judge/scores.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "dermis/judge/heat_map.h"
+
+using namespace dermis;
+using testing::HasSubstr;
+
+namespace {
+
+constexpr int kSide = 16;
+
+Image even(float value, int channels) {
+    Image image(kSide, kSide, channels);
+    for (float& v : image.floats()) v = value;
+    return image;
+}
+
+void set_pixel(Image& image, int x, int y, int channel, float value) {
+    image.set(x, y, channel, value);
+}
+
+// Skin everywhere but in the first row; n.l falls from 1 to -1 from left to right; a shadow's edge in the
+// fourth column.
+SkinMasks masks() {
+    Image light(kSide, kSide, 4), position = even(1, 4), skin = even(1, 1);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            set_pixel(light, x, y, 2, 1 - 2 * float(x) / (kSide - 1));
+            set_pixel(light, x, y, 3, x == 3 || x == 8 ? 0.5f : 1.0f);
+        }
+    for (int x = 0; x < kSide; ++x) set_pixel(skin, x, 0, 0, 0);
+    return make_masks(light, position, skin);
+}
+
+double sum(const Image& mask) {
+    double total = 0;
+    for (const float v : mask.floats()) total += v;
+    return total;
+}
+
+}  // namespace
+
+TEST(Scores, masks_are_the_skin_its_terminator_and_the_edges_of_shadows) {
+    const SkinMasks m = masks();
+    EXPECT_EQ(sum(m.skin), kSide * (kSide - 1));
+    // |1 - 2x/15| < 0.3 holds for x = 6..9.
+    EXPECT_EQ(sum(m.terminator), 4 * (kSide - 1));
+    // Column 8 has a partial shadow too, but lies in the terminator.
+    EXPECT_EQ(sum(m.penumbra), kSide - 1);
+    EXPECT_EQ(m.penumbra.at(3, 5, 0), 1);
+}
+
+TEST(Scores, pixels_that_only_one_renderer_calls_skin_do_not_count) {
+    Image position = even(1, 4);
+    set_pixel(position, 2, 2, 3, 0);
+    Image skin = even(1, 1);
+    set_pixel(skin, 3, 3, 0, 0.5f);
+    const SkinMasks m = make_masks(even(0, 4), position, skin);
+    EXPECT_EQ(m.skin.at(2, 2, 0), 0);
+    EXPECT_EQ(m.skin.at(3, 3, 0), 0);
+    EXPECT_EQ(sum(m.skin), kSide * kSide - 2);
+}
+
+TEST(Scores, an_error_counts_where_it_is_and_nowhere_else) {
+    const Image reference = even(0.25f, 4);
+    Image radiance = reference;
+    for (int y = 1; y < kSide; ++y)
+        for (int c = 0; c < 3; ++c) set_pixel(radiance, 3, y, c, 0.35f);
+    for (int x = 0; x < kSide; ++x) set_pixel(radiance, x, 0, 0, 100);  // not skin
+    const auto scores = score(radiance, reference, masks(), {});
+    ASSERT_TRUE(scores) << scores.error().message;
+    EXPECT_NEAR(*scores->penumbra_rmse, 0.1, 1e-6);
+    EXPECT_EQ(*scores->terminator_rmse, 0);
+    EXPECT_NEAR(scores->rmse, 0.1 / 4, 1e-6);
+    EXPECT_GT(scores->flip, 0);
+    EXPECT_LT(scores->ssim, 1);
+}
+
+TEST(Scores, of_the_truth_itself_are_perfect) {
+    const Image reference = even(0.25f, 4);
+    const auto scores = score(reference, reference, masks(), {});
+    ASSERT_TRUE(scores);
+    EXPECT_EQ(scores->rmse, 0);
+    EXPECT_EQ(scores->flip, 0);
+    EXPECT_EQ(scores->ssim, 1);
+    EXPECT_TRUE(std::isinf(scores->psnr_db));
+}
+
+TEST(Scores, nan_and_other_sizes_are_refused) {
+    const Image reference = even(0.25f, 4);
+    Image radiance = reference;
+    set_pixel(radiance, 5, 5, 1, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_FALSE(score(radiance, reference, masks(), {}));
+    const auto sizes = score(Image(8, 8, 4), reference, masks(), {});
+    ASSERT_FALSE(sizes);
+    EXPECT_THAT(sizes.error().message, HasSubstr("8x8"));
+}
+
+TEST(Scores, the_table_has_the_promised_columns_and_quotes_settings) {
+    ScoreRow row{
+        .scene = "head, scanned", .technique = "wrap", .settings = "wrap=0.4,specular=ggx", .bytes = 7};
+    row.scores.terminator_rmse = 0.125;
+    row.scores.psnr_db = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(
+        scores_csv({row}),
+        "scene,technique,settings,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,"
+        "time_ms,bytes\n"
+        "\"head, scanned\",wrap,\"wrap=0.4,specular=ggx\",0,0,inf,0,0,0,0.125,,0,7\n");
+}
+
+TEST(HeatMap, lightness_rises_with_the_value_and_what_is_outside_is_grey) {
+    float before = -1;
+    for (int i = 0; i <= 20; ++i) {
+        const Vec3 c = heat_color(float(i) / 20);
+        const float light = 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+        EXPECT_GT(light, before);
+        before = light;
+    }
+    Image mask = even(1, 1);
+    mask.set(0, 0, 0, 0);
+    const Image picture = heat_map(even(2, 1), 1, mask);
+    EXPECT_EQ(picture.values<uint8_t>()[0], picture.values<uint8_t>()[1]);
+    EXPECT_NEAR(picture.at(1, 0, 0), heat_color(1).x, 1.0 / 255);
+}

@@ -1,0 +1,174 @@
+// Dependencies between folders: what CMake declares for a folder of dermis/ is what its files include.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+using Layers = std::map<std::string, std::set<std::string>>;
+
+namespace {
+
+const fs::path kRoot = DERMIS_SOURCE_DIR;
+
+// layers.txt has one line a folder, written by dermis_library: "bake: base image optics plot".
+Layers declared_layers() {
+    Layers layers;
+    std::ifstream file(DERMIS_BINARY_DIR "/layers.txt");
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string folder;
+        words >> folder;
+        folder.pop_back();
+        layers[folder] = {};
+        for (std::string dependency; words >> dependency;) layers[folder].insert(dependency);
+    }
+    return layers;
+}
+
+std::string read(const fs::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool is_source(const fs::path& path) {
+    return path.extension() == ".cpp" || path.extension() == ".h";
+}
+
+bool is_shader(const fs::path& path) {
+    static const std::set<std::string> kExtensions = {".glsl", ".vert", ".frag", ".comp"};
+    return kExtensions.contains(path.extension().string());
+}
+
+std::vector<fs::path> files_under(const std::string& tree, bool (*wanted)(const fs::path&)) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree))
+        if (entry.is_regular_file() && wanted(entry.path())) files.push_back(entry.path());
+    return files;
+}
+
+std::set<std::string> included_folders(const std::string& source) {
+    static const std::regex include(R"re(#include ["<]dermis/([a-z_]+)/)re");
+    std::set<std::string> found;
+    for (std::sregex_iterator it(source.begin(), source.end(), include), end; it != end; ++it)
+        found.insert((*it)[1]);
+    return found;
+}
+
+// One sentence for each difference.
+std::vector<std::string> differences(const std::string& folder, const std::set<std::string>& declared,
+                                     const std::set<std::string>& included) {
+    std::vector<std::string> found;
+    for (const std::string& name : included)
+        if (!declared.contains(name))
+            found.push_back(folder + " includes " + name + " and does not declare it");
+    for (const std::string& name : declared)
+        if (!included.contains(name))
+            found.push_back(folder + " declares " + name + " and does not include it");
+    return found;
+}
+
+std::set<std::string> reachable(const Layers& layers, const std::string& folder) {
+    std::set<std::string> all;
+    for (const std::string& next : layers.at(folder))
+        if (all.insert(next).second) all.merge(reachable(layers, next));
+    return all;
+}
+
+bool names_vulkan(const std::string& source) {
+    static const std::regex vulkan(R"re(#include ["<](volk\.h|vulkan/)|GLFW_INCLUDE_VULKAN)re");
+    return std::regex_search(source, vulkan);
+}
+
+}  // namespace
+
+TEST(Layout, each_folder_declares_what_it_includes_and_nothing_else) {
+    const Layers layers = declared_layers();
+    ASSERT_TRUE(layers.contains("base"));
+    std::map<std::string, std::set<std::string>> included;
+    for (const fs::path& path : files_under("dermis", is_source)) {
+        const std::string folder = fs::relative(path, kRoot / "dermis").begin()->string();
+        ASSERT_TRUE(layers.contains(folder)) << folder << " has no dermis_library()";
+        included[folder].merge(included_folders(read(path)));
+    }
+    EXPECT_GT(included.size(), 10u);
+    for (auto& [folder, names] : included) {
+        names.erase(folder);
+        for (const std::string& text : differences(folder, layers.at(folder), names)) ADD_FAILURE() << text;
+    }
+}
+
+TEST(Layout, no_folder_depends_on_itself_through_others) {
+    const Layers layers = declared_layers();
+    for (const auto& [folder, declared] : layers)
+        EXPECT_FALSE(reachable(layers, folder).contains(folder)) << folder;
+}
+
+TEST(Layout, an_undeclared_and_an_unused_dependency_are_found) {
+    const std::set<std::string> included =
+        included_folders("#include \"dermis/gpu/device.h\"\n#include \"dermis/base/result.h\"\n");
+    EXPECT_EQ(differences("bake", {"base", "optics"}, included),
+              (std::vector<std::string>{"bake includes gpu and does not declare it",
+                                        "bake declares optics and does not include it"}));
+}
+
+TEST(Layout, techniques_include_no_renderer) {
+    const std::set<std::string> allowed = {"base", "image", "mesh", "optics", "bake", "technique"};
+    for (const fs::path& path : files_under("techniques", is_source)) {
+        if (path.string().ends_with("_test.cpp")) continue;
+        for (const std::string& folder : included_folders(read(path)))
+            EXPECT_TRUE(allowed.contains(folder)) << path << " includes " << folder;
+    }
+}
+
+TEST(Layout, vulkan_headers_stay_in_gpu) {
+    // The window makes the surface that the swapchain draws to.
+    const auto may = [](const fs::path& path) {
+        return path.string().find("/dermis/gpu/") != std::string::npos || path.filename() == "window.cpp";
+    };
+    for (const char* tree : {"dermis", "techniques", "apps"})
+        for (const fs::path& path : files_under(tree, is_source))
+            EXPECT_TRUE(may(path) || !names_vulkan(read(path))) << path;
+    EXPECT_TRUE(names_vulkan("#define GLFW_INCLUDE_VULKAN\n#include <GLFW/glfw3.h>"));
+    EXPECT_TRUE(names_vulkan("#include <vulkan/vulkan.h>"));
+}
+
+TEST(Layout, no_source_file_is_over_500_lines) {
+    size_t shaders = 0;
+    for (const char* tree : {"dermis", "techniques", "apps", "shaders", "tests", "bench"})
+        for (const fs::path& path :
+             files_under(tree, [](const fs::path& p) { return is_source(p) || is_shader(p); })) {
+            const std::string text = read(path);
+            EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 500) << path;
+            shaders += is_shader(path);
+        }
+    EXPECT_GT(shaders, 20u);
+}
+
+TEST(Layout, installed_headers_show_the_standard_library_and_nothing_else) {
+    static const std::regex foreign(R"re(#include (?:<(?!dermis/)[^>]*[./][^>]*>|"(?!dermis/)[^"]*"))re");
+    static const std::regex vulkan_or_throw(R"re(\bVk[A-Z]\w*|\bVK_\w+|\bthrow\b)re");
+    size_t headers = 0;
+    for (const char* folder : {"base", "image", "plot", "mesh", "optics", "bake"})
+        for (const auto& entry : fs::directory_iterator(kRoot / "dermis" / folder)) {
+            if (entry.path().extension() != ".h") continue;
+            const std::string text = read(entry.path());
+            EXPECT_FALSE(std::regex_search(text, foreign)) << entry.path();
+            EXPECT_FALSE(std::regex_search(text, vulkan_or_throw)) << entry.path();
+            // What a public header includes is installed too.
+            EXPECT_EQ(text.find("/codec/"), std::string::npos) << entry.path();
+            EXPECT_EQ(text.find("#include \"dermis/optics/preintegration/"), std::string::npos)
+                << entry.path();
+            ++headers;
+        }
+    EXPECT_GT(headers, 20u);
+    EXPECT_TRUE(std::regex_search(std::string("#include <nlohmann/json.hpp>"), foreign));
+    EXPECT_TRUE(std::regex_search(std::string("#include <png.h>"), foreign));
+    EXPECT_FALSE(
+        std::regex_search(std::string("#include <vector>\n#include \"dermis/base/result.h\""), foreign));
+}
