@@ -9,7 +9,7 @@
 //     E(t) = s sqrt(q^2 + t^2) + k0 + k1 t^2
 //
 // s, k0, k1 by least squares, q by search. Measured against the integral, GPU Gems 3 skin on the sphere, all
-// r from 1 mm: 0.0018 at most, less than half of an 8-bit code (tests/fit holds it).
+// r from 1 mm: 0.0018 at most, less than half of an 8-bit code (tests/optics holds it).
 
 #include <vector>
 

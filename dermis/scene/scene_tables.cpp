@@ -215,7 +215,7 @@ const KeyTable<Skin>& skin_keys() {
     static const KeyTable<Skin> table =
         KeyTable<Skin>()
             .text(&Skin::profile,
-                  {.name = "profile", .doc = "name of the diffusion profile; see `dermis profiles`"})
+                  {.name = "profile", .doc = "name of the diffusion profile; see `dermis profile list`"})
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})

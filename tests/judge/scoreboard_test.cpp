@@ -23,7 +23,7 @@ ScoreboardRow row(const std::string& scene, const std::string& technique, double
 }
 
 // Errors that were measured when the techniques were last right; DERMIS_UPDATE_SCORES=1 records them anew.
-constexpr const char* kRecorded = DERMIS_SOURCE_DIR "/tests/compare/recorded_scores.csv";
+constexpr const char* kRecorded = DERMIS_SOURCE_DIR "/tests/judge/recorded_scores.csv";
 // Drivers round differently from one CPU to another.
 constexpr double kTolerance = 0.03, kAbsoluteTolerance = 2e-4;
 
