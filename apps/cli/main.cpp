@@ -20,7 +20,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Human skin in real time: renders, bakes and measures every published technique.", "dermis");
+    CLI::App app("Human skin in real time: renders skin with published techniques, bakes their tables, measures them.", "dermis");
     app.set_version_flag("--version", "dermis " DERMIS_VERSION);
     app.require_subcommand(1);
     app.footer("Example:\n  dermis render scenes/spheres.toml --technique lambert -o out/spheres.png");

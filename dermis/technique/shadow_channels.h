@@ -27,8 +27,8 @@ struct ShadowChannelSettings {
 [[nodiscard]] ShadowChannels shadow_channels_of(const ShadowChannelSettings& settings,
                                                 const FrameContext& frame);
 
-/// Declares "shadow_channels" (half float) and appends its passes; nothing for `none`. Reads of the light
-/// pass: shadow_channel_reads().
+/// Declares "shadow_channels" (half float) and appends its passes; nothing for `none`. The pass
+/// that uses them calls read_shadow_channels().
 void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, const FrameContext& frame);
 
 /// For a pass whose shader includes shared/shadow_channels.glsl: its reads and constants.
