@@ -1,4 +1,4 @@
-# Every shader of shaders/ and techniques/ to SPIR-V at build time, embedded by name: "shared/fullscreen.vert",
+# Every shader of shaders/ and techniques/ to SPIR-V at build time, embedded by name: "renderer/fullscreen.vert",
 # "lambert/lambert.frag".
 include_guard()
 find_program(GLSLC glslc REQUIRED)
@@ -20,8 +20,8 @@ function(dermis_embed_shaders target)
         set(output ${out_dir}/${folder}/${file}.inc)
         file(MAKE_DIRECTORY ${out_dir}/${folder})
         add_custom_command(OUTPUT ${output} DEPENDS ${source} DEPFILE ${output}.d
-            COMMAND ${GLSLC} --target-env=vulkan1.3 -O -g -Werror -fauto-bind-uniforms -I ${PROJECT_SOURCE_DIR}/shaders
-                -I ${PROJECT_SOURCE_DIR}/techniques -MD -MF ${output}.d -MT ${output} -mfmt=c -o ${output} ${source}
+            COMMAND ${GLSLC} --target-env=vulkan1.3 -O -g -Werror -fauto-bind-uniforms -I ${PROJECT_SOURCE_DIR}
+                -MD -MF ${output}.d -MT ${output} -mfmt=c -o ${output} ${source}
             COMMENT "Shader ${folder}/${file}" VERBATIM)
         list(APPEND outputs ${output})
         string(MAKE_C_IDENTIFIER "${folder}_${file}" id)

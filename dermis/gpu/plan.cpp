@@ -8,13 +8,13 @@ namespace {
 std::string_view default_vertex_shader(PassKind kind) {
     switch (kind) {
         case PassKind::geometry_screen:
-            return "shared/mesh_screen.vert";
+            return "renderer/mesh_screen.vert";
         case PassKind::geometry_uv_atlas:
-            return "shared/mesh_uv_atlas.vert";
+            return "renderer/mesh_uv_atlas.vert";
         case PassKind::geometry_light:
-            return "shared/mesh_light.vert";
+            return "renderer/mesh_light.vert";
         default:
-            return "shared/fullscreen.vert";
+            return "renderer/fullscreen.vert";
     }
 }
 

@@ -61,8 +61,7 @@ Result<std::vector<uint32_t>> compile(const fs::path& root, std::string_view nam
     if (folder.path.empty()) return Error{"cannot make a folder in " + fs::temp_directory_path().string()};
     const fs::path output = folder.path / "shader.spv", log = folder.path / "log.txt";
     const int status = run_program({"glslc", "--target-env=vulkan1.3", "-O", "-g", "-fauto-bind-uniforms",
-                                    "-I", (root / "shaders").string(), "-I", (root / "techniques").string(),
-                                    "-o", output.string(), source->string()},
+                                    "-I", root.string(), "-o", output.string(), source->string()},
                                    log);
     // 127: what posix_spawn's child exits with when there is no such program.
     if (status == -1 || status == 127)

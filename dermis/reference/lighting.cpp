@@ -26,7 +26,7 @@ Vec3 mix(Vec3 a, Vec3 b, float t) {
     return a + (b - a) * t;
 }
 
-// shaders/shared/shadow.glsl, shadow_disk(): point `disk` of the unit disk that is round as the light sees
+// shaders/include/shadow.glsl, shadow_disk(): point `disk` of the unit disk that is round as the light sees
 // it, in the tangent plane, lifted out of hollows and, under grazing light, out of the surface.
 Vec3 tangent_disk(Vec3 n, Vec3 to_light, Vec2 disk, float radius_mm) {
     constexpr float kHollow = 0.1f, kFacetLift = 0.3f, kMostSlope = 4;

@@ -66,7 +66,7 @@ class Lighting {
     [[nodiscard]] Vec3 irradiance(const Receiver& receiver, const LightingRandom& random) const;
 
     /// An unbiased estimate of the radiance reflected by the surface itself towards the eye. Directional,
-    /// point and spot lights as shaders/shared/specular.glsl has them; the environment by the same GGX with
+    /// point and spot lights as shaders/include/specular.glsl has them; the environment by the same GGX with
     /// rays when traced (only with the ggx model), else by the split sum.
     [[nodiscard]] Vec3 specular_radiance(const ShadingPoint& point, Vec3 to_eye,
                                          const LightingRandom& random) const;

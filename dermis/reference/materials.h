@@ -1,6 +1,6 @@
 #pragma once
 // The materials of a scene with their maps decoded, and what they make of a point of a surface: the same
-// meaning as shaders/shared/surface.glsl gives them.
+// meaning as shaders/include/surface.glsl gives them.
 
 #include <map>
 #include <memory>

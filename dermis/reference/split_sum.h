@@ -1,5 +1,5 @@
 #pragma once
-// Reflections of the environment as the renderer approximates them (shaders/shared/environment.glsl): a
+// Reflections of the environment as the renderer approximates them (shaders/include/environment.glsl): a
 // prefiltered cube times the split sum's second factor, dimmed by occlusion. So that a comparison of two
 // pictures can be about something else.
 

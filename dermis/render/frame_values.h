@@ -1,5 +1,5 @@
 #pragma once
-// What the shaders know of a frame, by the names of shaders/shared/frame.glsl.
+// What the shaders know of a frame, by the names of shaders/include/frame.glsl.
 
 #include "dermis/gpu/executor.h"
 #include "dermis/scene/scene.h"

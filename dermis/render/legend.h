@@ -1,5 +1,6 @@
 #pragma once
-// The words and ticks beneath the colour bar of a debug view; shaders/shared/view.frag draws the bar itself.
+// The words and ticks beneath the colour bar of a debug view; shaders/renderer/view.frag draws the bar
+// itself.
 
 #include <string_view>
 

@@ -7,7 +7,7 @@
 
 namespace dermis {
 
-/// One texture of shaders/shared/surface.glsl: where a material names its image and what stands in when it
+/// One texture of shaders/include/surface.glsl: where a material names its image and what stands in when it
 /// has none.
 struct MaterialMap {
     std::string texture;  ///< the shader's name

@@ -14,7 +14,7 @@ Image channels_of(const Image& image, int first, int count) {
     return part;
 }
 
-// Which channels of which G-buffer image make a layer (shaders/shared/gbuffer.frag).
+// Which channels of which G-buffer image make a layer (shaders/renderer/gbuffer.frag).
 struct GbufferLayer {
     const char *layer, *image;
     int first, count;

@@ -60,7 +60,7 @@ float dielectric_f0(float ior) {
     return r * r;
 }
 
-// The block Material of shaders/shared/surface.glsl.
+// The block Material of shaders/include/surface.glsl.
 gpu::Values material_values(const Material& material, Vec3 tint) {
     const bool mapped = material.normal_map.present();
     const int32_t normal_space = !mapped ? 2 : material.normal_space == NormalSpace::object ? 1 : 0;

@@ -16,7 +16,7 @@ Pass shadow_pass() {
 Pass background_pass() {
     return {.name = "background",
             .kind = PassKind::fullscreen,
-            .shader = "shared/background.frag",
+            .shader = "renderer/background.frag",
             .colors = {{.image = "radiance", .load = LoadOp::discard}},
             .depth = DepthTarget{.image = "depth", .write = false, .compare = Compare::always}};
 }
@@ -24,7 +24,7 @@ Pass background_pass() {
 Pass other_pass() {
     return {.name = "other",
             .kind = PassKind::geometry_screen,
-            .shader = "shared/standard.frag",
+            .shader = "renderer/standard.frag",
             .reads = {"shadow_map"},
             .colors = {{.image = "radiance", .load = LoadOp::load}},
             .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
@@ -37,7 +37,7 @@ std::vector<Pass> translucent_passes() {
     const DepthTarget tested = {.image = "depth", .load = LoadOp::load, .write = false};
     Pass tint = other_pass(), gloss = other_pass();
     tint.name = "translucent tint", gloss.name = "translucent";
-    tint.shader = "shared/translucent_tint.frag";
+    tint.shader = "renderer/translucent_tint.frag";
     tint.reads.clear();
     tint.geometry = gloss.geometry = GeometryFilter::translucent;
     tint.depth = gloss.depth = tested;
@@ -49,7 +49,7 @@ std::vector<Pass> translucent_passes() {
 Pass gbuffer_pass() {
     Pass pass = {.name = "gbuffer",
                  .kind = PassKind::geometry_screen,
-                 .shader = "shared/gbuffer.frag",
+                 .shader = "renderer/gbuffer.frag",
                  .reads = {"shadow_map"},
                  .depth = DepthTarget{.image = "gbuffer_depth"},
                  .geometry = GeometryFilter::opaque};
@@ -60,7 +60,7 @@ Pass gbuffer_pass() {
 Pass tone_map_pass(const SharedPassSettings& settings) {
     return {.name = "tone map",
             .kind = PassKind::fullscreen,
-            .shader = "shared/tone_map.frag",
+            .shader = "renderer/tone_map.frag",
             .reads = {{"radiance", radiance_image(settings)}},
             .colors = {{.image = "display", .load = LoadOp::discard}},
             .constants = {{"tone_map", int32_t(settings.tone_map)}}};
@@ -69,7 +69,7 @@ Pass tone_map_pass(const SharedPassSettings& settings) {
 Pass view_pass(int32_t view) {
     Pass pass = {.name = "view",
                  .kind = PassKind::fullscreen,
-                 .shader = "shared/view.frag",
+                 .shader = "renderer/view.frag",
                  .colors = {{.image = "display", .load = LoadOp::discard}},
                  .constants = {{"shown", view}}};
     for (const std::string& image : gbuffer_images()) pass.reads.push_back(image);
@@ -85,7 +85,7 @@ const std::vector<std::string>& gbuffer_images() {
 }
 
 const std::vector<std::string>& gbuffer_views() {
-    // The order is that of shaders/shared/view.frag.
+    // The order is that of shaders/renderer/view.frag.
     static const std::vector<std::string> kNames = {
         "normal", "geometry_normal", "albedo", "roughness", "curvature", "occlusion",
         "shadow", "n_dot_l",         "depth",  "uv",        "position"};

@@ -18,7 +18,7 @@ void add_growth(PassList& list, const std::string& image, const std::string& oth
         list.passes.push_back(
             {.name = std::string(across ? "cull grow across" : "cull grow down") + suffix,
              .kind = PassKind::fullscreen,
-             .shader = "shared/atlas_tiles_grow.frag",
+             .shader = "atlas/cull_tiles_grow.frag",
              .reads = {{"tiles", across ? image : other}},
              .colors = {{.image = across ? other : image, .load = LoadOp::discard}},
              .values = {
@@ -37,7 +37,7 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings) {
     list.images.push_back({.name = "atlas_depth", .format = ImageFormat::depth32f, .size = size});
     list.passes.push_back({.name = "cull visible",
                            .kind = PassKind::geometry_uv_atlas,
-                           .shader = "shared/atlas_visible.frag",
+                           .shader = "atlas/cull_visible.frag",
                            .colors = {{.image = "atlas_visible"}},
                            .constants = {{"cull_frustum", int32_t(settings.frustum)},
                                          {"cull_back_face", int32_t(settings.back_face)}},
@@ -46,7 +46,7 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings) {
                                       {"exempt_b", circle(settings.exempt[1])}}});
     list.passes.push_back({.name = "cull tiles",
                            .kind = PassKind::fullscreen,
-                           .shader = "shared/atlas_tiles.frag",
+                           .shader = "atlas/cull_tiles.frag",
                            .reads = {"atlas_visible"},
                            .colors = {{.image = "atlas_tiles", .load = LoadOp::discard}},
                            .constants = {{"tile", kCullTile}}});
@@ -56,7 +56,7 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings) {
     if (settings.across_seams) {
         list.passes.push_back({.name = "cull seams",
                                .kind = PassKind::fullscreen,
-                               .shader = "shared/atlas_tiles_seams.frag",
+                               .shader = "atlas/cull_tiles_seams.frag",
                                .reads = {{"tiles", "atlas_tiles"}, "seam_map"},
                                .colors = {{.image = "atlas_tiles_grown", .load = LoadOp::discard}},
                                .constants = {{"tile", kCullTile}}});
@@ -64,7 +64,7 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings) {
     }
     list.passes.push_back({.name = "cull depth",
                            .kind = PassKind::fullscreen,
-                           .shader = "shared/atlas_depth.frag",
+                           .shader = "atlas/cull_depth.frag",
                            .reads = {{"tiles", settings.across_seams ? "atlas_tiles_grown" : "atlas_tiles"}},
                            .depth = DepthTarget{.image = "atlas_depth", .compare = Compare::always},
                            .constants = {{"tile", kCullTile}}});

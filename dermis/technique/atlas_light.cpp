@@ -14,8 +14,8 @@ std::array<float, 4> nothing_written(bool in_mm) {
 Pass metric_pass(const AtlasLightSettings& settings) {
     return {.name = "atlas metric",
             .kind = PassKind::geometry_uv_atlas,
-            .shader = "shared/atlas_metric.frag",
-            .vertex_shader = "shared/mesh_uv_metric.vert",
+            .shader = "atlas/metric.frag",
+            .vertex_shader = "atlas/metric.vert",
             .colors = {{.image = "atlas_metric"}},
             .values = {{"size", float(settings.size)},
                        {"kernel_scale", settings.kernel_scale_mm},
@@ -26,7 +26,7 @@ Pass metric_pass(const AtlasLightSettings& settings) {
 Pass carry_pass(const AtlasLightSettings& settings) {
     Pass pass = {.name = "carry seams",
                  .kind = PassKind::fullscreen,
-                 .shader = "shared/atlas_carry.frag",
+                 .shader = "atlas/carry.frag",
                  .colors = {{.image = "light_map_a", .load = LoadOp::discard}}};
     read_atlas_metric(pass, "light_map_b", settings);
     return pass;
@@ -47,7 +47,7 @@ void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const F
     add_atlas_cull(list, settings.cull);
     Pass light = {.name = "light map",
                   .kind = PassKind::geometry_uv_atlas,
-                  .shader = "shared/atlas_light.frag",
+                  .shader = "atlas/light.frag",
                   .colors = {{.image = settings.in_mm ? "light_map_b" : "light_map_a",
                               .clear = nothing_written(settings.in_mm)}},
                   .constants = {{"space", int32_t(settings.in_mm)}},

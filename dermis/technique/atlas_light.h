@@ -28,7 +28,7 @@ struct AtlasLightSettings {
 /// where nothing was written.
 void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const FrameContext& frame);
 
-/// For a pass whose shader includes shared/atlas_mm.glsl; its "source" is `source`.
+/// For a pass whose shader includes shaders/atlas/blur_mm.glsl; its "source" is `source`.
 void read_atlas_metric(Pass& pass, const std::string& source, const AtlasLightSettings& settings);
 
 }  // namespace dermis

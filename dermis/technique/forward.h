@@ -1,5 +1,5 @@
 #pragma once
-// What techniques that shade in one forward pass share (shaders/shared/forward.glsl is the other half).
+// What techniques that shade in one forward pass share (shaders/include/forward.glsl is the other half).
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace dermis {
 
-/// The order is that of shaders/shared/specular.glsl.
+/// The order is that of shaders/include/specular.glsl.
 enum class SpecularModel : int32_t { none, blinn_phong, ggx, two_lobe_ggx, ksk };
 
 [[nodiscard]] const std::vector<std::string>& specular_model_names();

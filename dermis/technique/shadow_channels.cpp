@@ -17,7 +17,7 @@ Pass depth_pass(const LightChannels& light, LoadOp load, bool draws_depth) {
     // first.
     return {.name = "shadow channels" + light.suffix,
             .kind = PassKind::geometry_light,
-            .shader = "shared/shadow_channels_depth.frag",
+            .shader = "atlas/shadow_channels_depth.frag",
             .vertex_shader = light.vertex_shader,
             .colors = {{.image = kMap, .load = load, .clear = {0, 0, 0, 1}, .write_mask = light.depth}},
             .depth = DepthTarget{.image = light.depth_image,
@@ -30,7 +30,7 @@ Pass depth_pass(const LightChannels& light, LoadOp load, bool draws_depth) {
 Pass tint_pass(const LightChannels& light, bool single_channel) {
     return {.name = "shadow tint" + light.suffix,
             .kind = PassKind::geometry_light,
-            .shader = "shared/shadow_channels_tint.frag",
+            .shader = "atlas/shadow_channels_tint.frag",
             .vertex_shader = light.vertex_shader,
             .colors = {{.image = kMap,
                         .load = LoadOp::load,
@@ -63,7 +63,7 @@ void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, 
     if (!two) return;
     list.passes[list.passes.size() - (tinted ? 2 : 1)].colors[0].clear = {0, 0, 1, 1};
     list.images.push_back({.name = "second_shadow_depth", .format = ImageFormat::depth32f, .size = size});
-    const LightChannels second = {" 2", "second_shadow_depth", "shared/mesh_second_light.vert", kGreenBit,
+    const LightChannels second = {" 2", "second_shadow_depth", "atlas/second_light.vert", kGreenBit,
                                   kBlueBit};
     list.passes.push_back(depth_pass(second, LoadOp::load, true));
     if (tinted) list.passes.push_back(tint_pass(second, true));

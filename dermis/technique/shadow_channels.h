@@ -6,7 +6,7 @@
 
 namespace dermis {
 
-/// The order is that of shaders/shared/shadow_channels.glsl.
+/// The order is that of shaders/atlas/shadow_channels.glsl.
 enum class ShadowChannels : int32_t {
     none,
     color,      ///< RGB the key light's optical depth, A its depth
@@ -31,7 +31,7 @@ struct ShadowChannelSettings {
 /// that uses them calls read_shadow_channels().
 void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, const FrameContext& frame);
 
-/// For a pass whose shader includes shared/shadow_channels.glsl: its reads and constants.
+/// For a pass whose shader includes shaders/atlas/shadow_channels.glsl: its reads and constants.
 void read_shadow_channels(Pass& pass, const ShadowChannelSettings& settings, const FrameContext& frame);
 
 }  // namespace dermis

@@ -18,7 +18,7 @@ PassList window_passes(const WindowFrame& frame) {
                     .colors = {{.image = "window",
                                 .clear = {kFrameColor.x, kFrameColor.y, kFrameColor.z, kFrameColor.w}}}};
     if (frame.arrangement != Arrangement::none) {  // else it only clears
-        compose.shader = "view/compose.frag";
+        compose.shader = "renderer/compose.frag";
         compose.values = {{"region_px", Vec4{region.x, region.y, region.width, region.height}},
                           {"frame_color", kFrameColor},
                           {"window_px", window_px},
@@ -30,8 +30,8 @@ PassList window_passes(const WindowFrame& frame) {
     if (frame.has_interface)
         list.passes.push_back({.name = "interface",
                                .kind = PassKind::geometry_screen,
-                               .shader = "view/interface.frag",
-                               .vertex_shader = "view/interface.vert",
+                               .shader = "renderer/interface.frag",
+                               .vertex_shader = "renderer/interface.vert",
                                .colors = {{.image = "window", .load = LoadOp::load, .blend = Blend::alpha}},
                                .geometry = GeometryFilter::all,
                                .values = {{"window_px", window_px}}});

@@ -6,7 +6,7 @@
 
 namespace dermis::view {
 
-/// In the order of shaders/view/compose.frag.
+/// In the order of shaders/renderer/compose.frag.
 enum class Arrangement { none, one, wipe, side_by_side };
 
 struct WindowFrame {

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Lambert: light leaves where it entered. No scattering at all; the baseline that every technique is held against.
-#include "shared/forward.glsl"
+#include "shaders/include/forward.glsl"
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
     return vec3(max(dot(s.n_world, to_light_world), 0.0) * visibility);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Oren, Nayar 1994, "Generalization of Lambert's reflectance model", equation 30 (the qualitative model).
-#include "shared/forward.glsl"
+#include "shaders/include/forward.glsl"
 
 layout(set = 0, binding = 1, scalar) uniform Params { float facet_sigma_rad; };
 

@@ -1,6 +1,6 @@
 #include "dermis/optics/curve_2015.h"
 #include "dermis/technique/technique.h"
-#include "preintegrated/figures.h"
+#include "techniques/preintegrated/figures.h"
 
 namespace dermis::preintegrated {
 namespace {

@@ -1,6 +1,6 @@
 #include "dermis/bake/lut.h"
-#include "preintegrated/figures.h"
-#include "preintegrated/tables.h"
+#include "techniques/preintegrated/figures.h"
+#include "techniques/preintegrated/tables.h"
 
 namespace dermis::preintegrated {
 namespace {

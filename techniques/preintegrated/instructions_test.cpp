@@ -49,7 +49,7 @@ Count compiled(const std::string& include, const std::string& expression) {
                              "layout(location = 0) out vec3 o;\nvoid main() { o = " +
                              expression + "; }\n";
     EXPECT_TRUE(write_text_file(source, text));
-    const std::string command = "glslc -O --target-env=vulkan1.3 -I " DERMIS_SOURCE_DIR "/techniques " +
+    const std::string command = "glslc -O --target-env=vulkan1.3 -I " DERMIS_SOURCE_DIR " " +
                                 source.string() + " -o " + output.string();
     EXPECT_EQ(std::system(command.c_str()), 0);
     const auto bytes = read_file(output);
@@ -61,10 +61,10 @@ Count compiled(const std::string& include, const std::string& expression) {
 
 TEST(PreintegratedInstructions, of_the_closed_form_are_fewer_than_of_the_hand_made_curves) {
     // The closed form's count includes its coordinate: curvature to the centres of 257 texels.
-    const Count closed = compiled("preintegrated/closed_form.glsl",
+    const Count closed = compiled("techniques/preintegrated/closed_form.glsl",
                                   "closed_form(read_closed_form(table, table_sampler, "
                                   "(clamp(k, 0.0, 1.0) * 256.0 + 0.5) / 257.0), t)"),
-                curves = compiled("preintegrated/curve_2015.glsl", "curve_2015_direct(t, k)");
+                curves = compiled("techniques/preintegrated/curve_2015.glsl", "curve_2015_direct(t, k)");
     RecordProperty("closed_form", closed.alu);
     RecordProperty("curve_2015", curves.alu);
     EXPECT_GE(closed.alu, 8) << "counted nothing?";

@@ -1,4 +1,4 @@
-#include "preintegrated/normal_blend.h"
+#include "techniques/preintegrated/normal_blend.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Weights of the smoother normal: the limits, and the order of the channels.
 
-#include "preintegrated/normal_blend.h"
+#include "techniques/preintegrated/normal_blend.h"
 
 #include <gtest/gtest.h>
 

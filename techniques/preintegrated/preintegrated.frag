@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Pre-integrated skin: scattering as a function of N.L and curvature, of small bumps as one normal a channel, and of
 // shadow edges as a function of where in the penumbra one is (Penner 2011).
-#include "shared/frame.glsl"
+#include "shaders/include/frame.glsl"
 
 layout(set = 0, binding = 1, scalar) uniform Params {
     float curvature_gain;
@@ -19,12 +19,12 @@ layout(constant_id = 3) const int shadow = 1;
 #define DERMIS_BECKMANN_TABLE
 #define DERMIS_OWN_VIEW
 #define DERMIS_TRANSMISSION
-#include "shared/forward.glsl"
-#include "shared/texel_centres.glsl"
-#include "preintegrated/closed_form.glsl"
-#include "preintegrated/curve_2015.glsl"
-#include "preintegrated/transmission.glsl"
-#include "preintegrated/zonal.glsl"
+#include "shaders/include/forward.glsl"
+#include "shaders/include/texel_centres.glsl"
+#include "techniques/preintegrated/closed_form.glsl"
+#include "techniques/preintegrated/curve_2015.glsl"
+#include "techniques/preintegrated/transmission.glsl"
+#include "techniques/preintegrated/zonal.glsl"
 
 const int kDiffuseLut = 0, kDiffuseCurve2015 = 1, kDiffuseClosedForm = 2;
 layout(constant_id = 2) const int diffuse = kDiffuseLut;

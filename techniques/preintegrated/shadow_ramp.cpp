@@ -1,4 +1,4 @@
-#include "preintegrated/shadow_ramp.h"
+#include "techniques/preintegrated/shadow_ramp.h"
 
 #include <algorithm>
 #include <cmath>

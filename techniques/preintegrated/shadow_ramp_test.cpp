@@ -1,6 +1,6 @@
 // The shadow table: its ends, the edge it stands for, and that skin out of the penumbra keeps its light.
 
-#include "preintegrated/shadow_ramp.h"
+#include "techniques/preintegrated/shadow_ramp.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "preintegrated/tables.h"
+#include "techniques/preintegrated/tables.h"
 
 #include <cmath>
 #include <cstring>
@@ -8,8 +8,8 @@
 #include "dermis/bake/lut.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
-#include "preintegrated/normal_blend.h"
-#include "preintegrated/shadow_ramp.h"
+#include "techniques/preintegrated/normal_blend.h"
+#include "techniques/preintegrated/shadow_ramp.h"
 
 namespace dermis::preintegrated {
 namespace {

@@ -4,8 +4,8 @@
 // published ring), the closed form from dermis/optics, the hand-made curves from Yeung 2015.
 
 #include "dermis/technique/forward.h"
-#include "preintegrated/figures.h"
-#include "preintegrated/tables.h"
+#include "techniques/preintegrated/figures.h"
+#include "techniques/preintegrated/tables.h"
 
 namespace dermis {
 namespace {

@@ -5,8 +5,8 @@
 #ifndef DERMIS_TRANSMISSION_GLSL
 #define DERMIS_TRANSMISSION_GLSL
 
-#include "shared/shadow.glsl"
-#include "shared/texel_centres.glsl"
+#include "shaders/include/shadow.glsl"
+#include "shaders/include/texel_centres.glsl"
 
 const float kMostDistanceMm = 12.0;  // tables.h has it too
 const float kWidestRingMm = 6.0;

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Step 3 of the source: one pass of the blur. Its radius varies from texel to texel with the kernel size in alpha.
-#include "shared/frame.glsl"
-#include "texture_space/taps.glsl"
+#include "shaders/include/frame.glsl"
+#include "techniques/texture_space/taps.glsl"
 
 layout(set = 0, binding = 1, scalar) uniform Params {
     float blur_scale;

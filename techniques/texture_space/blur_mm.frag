@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // One pass of the same blur with its radius in millimetres: taps lie on a disk on the surface, whatever the unwrap, and
 // follow it across seams.
-#include "shared/atlas_mm.glsl"
-#include "texture_space/taps.glsl"
+#include "shaders/atlas/blur_mm.glsl"
+#include "techniques/texture_space/taps.glsl"
 
 layout(location = 0) out vec4 light_out;
 

@@ -1,4 +1,4 @@
-#include "texture_space/figures.h"
+#include "techniques/texture_space/figures.h"
 
 namespace dermis {
 namespace {

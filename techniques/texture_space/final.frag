@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Step 4 of the source: the mesh through the camera, diffuse from the blurred light map. The specular of the light that
 // casts the shadow is dimmed by the blurred light's luminance, which has the shadow in it.
-#include "shared/atlas_light.glsl"
-#include "shared/specular.glsl"
+#include "shaders/atlas/light.glsl"
+#include "shaders/include/specular.glsl"
 
 layout(set = 0, binding = 1, scalar) uniform Params {
     float specular_shadow_scale;

@@ -8,7 +8,7 @@
 
 #include "dermis/technique/atlas_light.h"
 #include "dermis/technique/forward.h"
-#include "texture_space/figures.h"
+#include "techniques/texture_space/figures.h"
 
 namespace dermis {
 namespace {

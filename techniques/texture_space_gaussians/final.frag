@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The mesh through the camera: diffuse from the sum of blurred light maps, specular as every technique has it.
-#include "shared/atlas_light.glsl"
-#include "shared/specular.glsl"
+#include "shaders/atlas/light.glsl"
+#include "shaders/include/specular.glsl"
 
 layout(set = 0, binding = 1, scalar) uniform Params {
     float occluded;

@@ -2,7 +2,7 @@
 #ifndef DERMIS_TEXTURE_SPACE_GAUSSIAN_GLSL
 #define DERMIS_TEXTURE_SPACE_GAUSSIAN_GLSL
 
-#include "shared/atlas_mm.glsl"
+#include "shaders/atlas/blur_mm.glsl"
 
 layout(push_constant, scalar) uniform PassValues {
     float sigma_mm;

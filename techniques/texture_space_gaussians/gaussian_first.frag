@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // First half of a separable Gaussian.
-#include "texture_space_gaussians/gaussian.glsl"
+#include "techniques/texture_space_gaussians/gaussian.glsl"
 
 layout(location = 0) out vec4 light_out;
 

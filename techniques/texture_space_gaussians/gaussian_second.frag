@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Second half, which also adds its share to the profile's sum (additive blending).
-#include "texture_space_gaussians/gaussian.glsl"
+#include "techniques/texture_space_gaussians/gaussian.glsl"
 
 layout(location = 0) out vec4 light_out;
 layout(location = 1) out vec4 sum_out;

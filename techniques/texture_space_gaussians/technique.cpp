@@ -1,7 +1,7 @@
 // d'Eon, Luebke 2007, "Advanced Techniques for Realistic Real-Time Skin Rendering" (GPU Gems 3, chapter 14):
 // the light map is blurred by each Gaussian of the diffusion profile, every one from the one before, in two
 // passes along the surface, and the results are summed by the profile's weights. Changed: the steps of the
-// blur follow shear as well as stretch and agree across seams (shaders/shared/atlas_mm.glsl); gutters stand
+// blur follow shear as well as stretch and agree across seams (shaders/atlas/blur_mm.glsl); gutters stand
 // for the chart beyond the seam; the sum is accumulated by blending, so that any number of Gaussians needs
 // three images. Not here: transmission through thin parts by the modified translucent shadow map, and the
 // energy that the specular takes.

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Wrapped diffuse: light reaches past the terminator, in a colour of its own there (Green 2004, GPU Gems, chapter 16).
-#include "shared/forward.glsl"
+#include "shaders/include/forward.glsl"
 
 layout(set = 0, binding = 1, scalar) uniform Params {
     float wrap;

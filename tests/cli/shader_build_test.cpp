@@ -25,14 +25,14 @@ TEST(ShaderBuild, an_edited_include_compiles_its_shaders_again) {
           "cmake_minimum_required(VERSION 3.25)\nproject(shaders CXX)\nset(CMAKE_CXX_STANDARD 20)\n"
           "include(" DERMIS_SOURCE_DIR
           "/cmake/Shaders.cmake)\nadd_library(table STATIC)\n"
-          "target_include_directories(table PRIVATE " DERMIS_BINARY_DIR
-          "/include)\ndermis_embed_shaders(table)\n");
-    write(root / "shaders/shared/part.glsl", "const float kShade = 0.25;\n");
-    write(root / "shaders/shared/one.frag",
-          "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"shared/part.glsl\"\n"
+          "target_include_directories(table PRIVATE " DERMIS_SOURCE_DIR ")\ndermis_embed_shaders(table)\n");
+    write(root / "shaders/include/part.glsl", "const float kShade = 0.25;\n");
+    write(root / "shaders/renderer/one.frag",
+          "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include "
+          "\"shaders/include/part.glsl\"\n"
           "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(kShade); }\n");
     const auto build = [&] { return run_shell("cmake --build " + (root / "build").string(), root.string()); };
-    const std::string compiled = (root / "build/shaders/shared/one.frag.inc").string();
+    const std::string compiled = (root / "build/shaders/renderer/one.frag.inc").string();
     const ProgramResult configured =
         run_shell("cmake -G Ninja -S " + root.string() + " -B " + (root / "build").string(), root.string());
     ASSERT_EQ(configured.exit_code, 0) << configured.err;
@@ -41,11 +41,11 @@ TEST(ShaderBuild, an_edited_include_compiles_its_shaders_again) {
     const std::string before = slurp(compiled);
     ASSERT_FALSE(before.empty());
 
-    write(root / "shaders/shared/part.glsl", "const float kShade = 0.75;\n");
+    write(root / "shaders/include/part.glsl", "const float kShade = 0.75;\n");
     EXPECT_EQ(build().exit_code, 0);
     EXPECT_NE(slurp(compiled), before);
     EXPECT_NE(build().out.find("no work to do"), std::string::npos);
 
-    write(root / "shaders/shared/part.glsl", "const float kShade = true;;;\n");
+    write(root / "shaders/include/part.glsl", "const float kShade = true;;;\n");
     EXPECT_NE(build().exit_code, 0);
 }

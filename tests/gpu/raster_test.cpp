@@ -40,7 +40,7 @@ TEST_F(RasterTest, the_uv_atlas_is_drawn_at_uv_times_two_minus_one) {
     const std::string vertex = kHead + R"(
 layout(location = 0) in vec2 uv;
 void main() { gl_Position = vec4(uv * 2 - 1, 0, 1); })";
-    Executor executor = make_executor(basic_shaders({{"shared/mesh_uv_atlas.vert", vertex}}));
+    Executor executor = make_executor(basic_shaders({{"renderer/mesh_uv_atlas.vert", vertex}}));
     const std::vector<float> positions(9), uv = {0, 0, 0, 0.5f, 0.5f, 0};  // top left, v down
     const VertexStream streams[] = {{"position_mm", 3, positions}, {"uv", 2, uv}};
     const uint32_t indices[] = {0, 1, 2};

@@ -21,14 +21,14 @@ PassList one_pass() {
     return {.images = {{.name = "out", .format = ImageFormat::rgba32f}},
             .passes = {{.name = "only",
                         .shader = "demo/flat.frag",
-                        .vertex_shader = "shared/fullscreen.vert",
+                        .vertex_shader = "renderer/fullscreen.vert",
                         .colors = {{.image = "out"}}}}};
 }
 
-/// A tree as the repository has it: shaders/shared, techniques/demo.
+/// A tree as the repository has it: shaders/include, shaders/renderer, techniques/demo.
 class ShaderTree {
   public:
-    ShaderTree() { write("shaders/shared/fullscreen.vert", kFullscreen); }
+    ShaderTree() { write("shaders/renderer/fullscreen.vert", kFullscreen); }
     void write(const std::string& name, const std::string& text) {
         const Result<void> written = write_text_file(folder_.path / name, text);
         EXPECT_TRUE(written) << written.error().message;
@@ -44,14 +44,14 @@ TEST_F(ShaderSourceTest, changed_shaders_and_includes_are_read_again_when_forgot
     tree.write("techniques/demo/flat.frag",
                kHead +
                    "#extension GL_GOOGLE_include_directive : require\n"
-                   "#include \"shared/value.glsl\"\n"
+                   "#include \"shaders/include/value.glsl\"\n"
                    "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(value()); }\n");
-    tree.write("shaders/shared/value.glsl", "float value() { return 1.0; }\n");
+    tree.write("shaders/include/value.glsl", "float value() { return 1.0; }\n");
     Executor executor = make_executor(tree.source());
     run(executor, one_pass(), {.width = 1, .height = 1});
     EXPECT_THAT(texel(read(executor, "out"), 0, 0), ElementsAre(1, 1, 1, 1));
 
-    tree.write("shaders/shared/value.glsl", "float value() { return 2.0; }\n");
+    tree.write("shaders/include/value.glsl", "float value() { return 2.0; }\n");
     run(executor, one_pass(), {.width = 1, .height = 1});
     EXPECT_THAT(texel(read(executor, "out"), 0, 0), ElementsAre(1, 1, 1, 1));
     executor.forget_shaders();
@@ -91,9 +91,9 @@ TEST_F(ShaderSourceTest, words_that_are_no_spirv_are_an_error) {
 }
 
 TEST_F(ShaderSourceTest, an_unknown_embedded_shader_is_an_error) {
-    const Result<std::vector<uint32_t>> words = embedded_shaders()("shared/nonesuch.frag");
+    const Result<std::vector<uint32_t>> words = embedded_shaders()("renderer/nonesuch.frag");
     ASSERT_FALSE(words);
-    EXPECT_THAT(words.error().message, HasSubstr("unknown shader 'shared/nonesuch.frag'"));
+    EXPECT_THAT(words.error().message, HasSubstr("unknown shader 'renderer/nonesuch.frag'"));
 }
 
 }  // namespace

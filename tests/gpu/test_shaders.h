@@ -36,8 +36,8 @@ layout(location = 0) out vec4 color;
 void main() { color = texture(sampler2D(source, nearest_clamp), uv) * scale; })";
 
 inline ShaderSource basic_shaders(std::map<std::string, std::string, std::less<>> more = {}) {
-    more.emplace("shared/fullscreen.vert", kFullscreen);
-    more.emplace("shared/mesh_screen.vert", kClipMesh);
+    more.emplace("renderer/fullscreen.vert", kFullscreen);
+    more.emplace("renderer/mesh_screen.vert", kClipMesh);
     more.emplace("white.frag", kWhite);
     more.emplace("scaled.frag", kScaled);
     return glsl_shaders(std::move(more));

@@ -87,11 +87,11 @@ TEST_F(ViewWindow, a_broken_shader_is_told_and_the_last_good_one_goes_on_until_i
     ASSERT_TRUE(write_text_file(path("alien.frag"),
                                 "#version 460\nlayout(location = 0) in vec4 nobody;\n"
                                 "layout(location = 0) out vec4 c;\nvoid main() { c = nobody; }\n"));
-    Result<std::string> good = read_text_file(source + "/shaders/shared/tone_map.frag");
+    Result<std::string> good = read_text_file(source + "/shaders/renderer/tone_map.frag");
     ASSERT_TRUE(good);
     const size_t alpha = good->rfind("1.0)");
     ASSERT_NE(alpha, std::string::npos);
-    const std::string target = path("root") + "/shaders/shared/tone_map.frag";
+    const std::string target = path("root") + "/shaders/renderer/tone_map.frag";
     ASSERT_TRUE(write_text_file(path("red.frag"), good->replace(alpha, 4, "1.0) * vec4(1, 0, 0, 1)")));
     const ProgramResult result =
         view(square() + " --size 560x320 --samples 1 -t lambert --shaders " + path("root"),

@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Fills the gutters of a light map with what lies beyond the seams, so that blurs can read across.
+#include "shaders/atlas/blur_mm.glsl"
+
+layout(location = 0) out vec4 light_out;
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    light_out = texelFetch(sampler2D(source, nearest_clamp), texel, 0);
+    if (light_out.a > 0.0) return;
+    vec2 at = carried_to(texel);
+    if (at.x < 0.0) return;
+    light_out =
+        even(textureLod(sampler2D(source, linear_clamp), at / vec2(textureSize(sampler2D(source, linear_clamp), 0)), 0.0));
+}

@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The diffuse light of every point of the skin, at its place in the atlas (Gosselin, Sander, Mitchell 2004, step 2). In
+// texels alpha is the size of the blur there and the target is cleared to 1, which no written texel has; in millimetres
+// alpha is 1 where skin was written, the target is cleared to 0, and the size lies in the atlas's metric.
+#include "shaders/atlas/light.glsl"
+
+layout(set = 0, binding = 1, scalar) uniform Params {
+    float occluded;
+    float trans_shadow_alpha;
+};
+layout(set = 0, binding = 19) uniform texture2D kernel_size_map;
+
+const int kSpaceTexels = 0, kSpaceMm = 1;
+layout(constant_id = 12) const int space = kSpaceTexels;
+
+layout(push_constant, scalar) uniform PassValues {
+    float pre_scatter;  // share of the base colour, as an exponent, that the light takes here
+};
+
+layout(location = 0) out vec4 light_out;  // exitance over albedo
+
+const float kLargestWritten = 254.0 / 255.0;
+
+void main() {
+    Surface s = load_surface();
+    float kernel_size = texture(sampler2D(kernel_size_map, trilinear_repeat), s.uv).r;
+    vec3 exitance = unblurred_exitance(s, occluded, trans_shadow_alpha);
+    if (pre_scatter > 0.0) exitance *= pow(s.albedo_linear, vec3(pre_scatter));
+    light_out = vec4(exitance,
+                     space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten));
+}

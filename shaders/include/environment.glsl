@@ -1,0 +1,55 @@
+// Light from all around: irradiance as order-2 spherical harmonics, reflections as a prefiltered cube.
+#ifndef DERMIS_ENVIRONMENT_GLSL
+#define DERMIS_ENVIRONMENT_GLSL
+
+#include "shaders/include/frame.glsl"
+
+layout(set = 0, binding = 11) uniform textureCube environment_cube;
+// F0 scale and bias of the split sum: n.v from left to right, roughness from top to bottom (scene/brdf_table.h).
+layout(set = 0, binding = 40) uniform texture2D environment_brdf;
+
+// Nine radiance coefficients, order (l, m): 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22, real orthonormal basis.
+struct ShTerm {
+    vec3 radiance_linear;
+};
+layout(set = 0, binding = 4, scalar) readonly buffer EnvironmentSh { ShTerm sh_terms[]; };
+
+vec3 to_environment(vec3 d_world) {
+    float c = cos(environment_yaw_rad), s = sin(environment_yaw_rad);
+    return vec3(c * d_world.x - s * d_world.z, d_world.y, s * d_world.x + c * d_world.z);
+}
+
+// Sum of l-band weights times the bands of the environment. For irradiance the weights are the cosine lobe's
+// (pi, 2 pi / 3, pi / 4; Ramamoorthi, Hanrahan 2001); a scattering skin has its own per channel.
+vec3 environment_convolved(vec3 n_world, vec3 band_0, vec3 band_1, vec3 band_2) {
+    vec3 n = to_environment(n_world);
+    vec3 l0 = 0.282095 * sh_terms[0].radiance_linear;
+    vec3 l1 = 0.488603 * (n.y * sh_terms[1].radiance_linear + n.z * sh_terms[2].radiance_linear +
+                          n.x * sh_terms[3].radiance_linear);
+    vec3 l2 = 1.092548 * (n.x * n.y * sh_terms[4].radiance_linear + n.y * n.z * sh_terms[5].radiance_linear +
+                          n.x * n.z * sh_terms[7].radiance_linear) +
+              0.315392 * (3.0 * n.z * n.z - 1.0) * sh_terms[6].radiance_linear +
+              0.546274 * (n.x * n.x - n.y * n.y) * sh_terms[8].radiance_linear;
+    return max(band_0 * l0 + band_1 * l1 + band_2 * l2, vec3(0.0)) * environment_intensity;
+}
+
+vec3 environment_irradiance(vec3 n_world) {
+    return environment_convolved(n_world, vec3(kPi), vec3(2.0 * kPi / 3.0), vec3(kPi / 4.0));
+}
+
+// How much of a reflection cone the occlusion leaves: Lagarde, de Rousiers 2014.
+float specular_occlusion(float n_dot_v, float occlusion, float roughness) {
+    return clamp(pow(n_dot_v + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion, 0.0, 1.0);
+}
+
+vec3 environment_specular(vec3 n_world, vec3 to_eye_world, float roughness, float f0, float occlusion) {
+    float n_dot_v = clamp(dot(n_world, to_eye_world), 1e-3, 1.0);
+    vec3 r_world = reflect(-to_eye_world, n_world);
+    vec3 radiance = textureLod(samplerCube(environment_cube, trilinear_clamp), to_environment(r_world),
+                               roughness * (environment_mip_count - 1.0)).rgb;
+    vec2 brdf = textureLod(sampler2D(environment_brdf, linear_clamp), vec2(n_dot_v, roughness), 0.0).rg;
+    return radiance * environment_intensity * (f0 * brdf.x + brdf.y) *
+           specular_occlusion(n_dot_v, occlusion, roughness);
+}
+
+#endif

@@ -1,0 +1,79 @@
+// The forward pass of every technique that shades a point from its own neighbourhood alone. The technique defines
+// the two functions below; lights, shadow, specular, environment and debug views are the same for all.
+#ifndef DERMIS_FORWARD_GLSL
+#define DERMIS_FORWARD_GLSL
+
+// DERMIS_SHADOW_WIDTH_MM: the width of the key light's filtered shadow, when it is not the scene's penumbra.
+#ifndef DERMIS_SHADOW_WIDTH_MM
+#define DERMIS_SHADOW_WIDTH_MM penumbra_mm
+#endif
+
+#include "shaders/include/environment.glsl"
+#include "shaders/include/lights.glsl"
+#include "shaders/include/shadow.glsl"
+#include "shaders/include/specular.glsl"
+#include "shaders/include/surface.glsl"
+
+layout(location = 0) out vec4 radiance_out;
+
+const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
+layout(constant_id = 1) const int view = kViewFinal;
+
+// With DERMIS_PREPARE_SURFACE defined: called once before anything else, to change the surface and to compute what does
+// not depend on the light.
+#ifdef DERMIS_PREPARE_SURFACE
+void prepare_surface(inout Surface s);
+#endif
+
+// With DERMIS_OWN_VIEW defined: what the technique's own debug view shows, as radiance.
+#ifdef DERMIS_OWN_VIEW
+vec3 own_view(Surface s);
+#endif
+
+// With DERMIS_TRANSMISSION defined: the same for light of the key that comes through the skin from behind.
+#ifdef DERMIS_TRANSMISSION
+vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility);
+#endif
+
+// Radiant exitance over irradiance at normal incidence for light from one direction: n_dot_l for Lambert. Includes
+// the visibility of the light, which a technique may want to scatter too.
+vec3 direct_response(Surface s, vec3 to_light_world, float visibility);
+
+// Irradiance from the environment, as the skin answers to it.
+vec3 ambient_response(Surface s);
+
+void main() {
+    Surface s = load_surface();
+#ifdef DERMIS_PREPARE_SURFACE
+    prepare_surface(s);
+#endif
+#ifdef DERMIS_OWN_VIEW
+    if (view == kViewOwn) {
+        radiance_out = vec4(own_view(s), 1.0);
+        return;
+    }
+#endif
+    vec3 exitance = ambient_response(s) * s.occlusion;
+    vec3 specular_radiance =
+        environment_specular(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
+    for (int i = 0; i < light_count; ++i) {
+        LightSample light = sample_light(i, s.p_world_mm);
+        float visibility = 1.0;
+        if (i == key_light)
+            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world,
+                                           DERMIS_SHADOW_WIDTH_MM);
+#ifdef DERMIS_TRANSMISSION
+        if (i == key_light) exitance += light.irradiance_linear * transmitted_response(s, light.to_light_world, visibility);
+#endif
+        exitance += light.irradiance_linear * direct_response(s, light.to_light_world, visibility);
+        specular_radiance += light.irradiance_linear * visibility *
+                             specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
+    }
+    vec3 diffuse_radiance = s.albedo_linear * exitance / kPi;
+    vec3 radiance = emission_linear;
+    if (view != kViewSpecular) radiance += diffuse_radiance;
+    if (view != kViewDiffuse) radiance += specular_radiance;
+    radiance_out = vec4(radiance, 1.0);
+}
+
+#endif

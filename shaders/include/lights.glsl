@@ -1,0 +1,29 @@
+// Light that arrives at a point: irradiance at normal incidence and its direction.
+#ifndef DERMIS_LIGHTS_GLSL
+#define DERMIS_LIGHTS_GLSL
+
+#include "shaders/include/frame.glsl"
+
+struct LightSample {
+    vec3 irradiance_linear;  // on a surface that faces the light
+    vec3 to_light_world;
+};
+
+// Inverse-square falloff in metres; a spot fades between its angles as a squared smooth ramp of the cosine (glTF
+// KHR_lights_punctual).
+LightSample sample_light(int index, vec3 p_world_mm) {
+    LightSource light = lights[index];
+    if (light.kind == 0) return LightSample(light.intensity_linear, light.to_light_world);
+    vec3 offset_mm = light.position_mm - p_world_mm;
+    float distance_m = max(length(offset_mm) * 1e-3, 1e-3);
+    vec3 to_light = normalize(offset_mm);
+    float cone = 1.0;
+    if (light.kind == 2) {
+        float cos_axis = dot(to_light, light.to_light_world);
+        float ramp = clamp((cos_axis - light.cos_outer) / max(light.cos_inner - light.cos_outer, 1e-4), 0.0, 1.0);
+        cone = ramp * ramp;
+    }
+    return LightSample(light.intensity_linear * cone / (distance_m * distance_m), to_light);
+}
+
+#endif

@@ -1,0 +1,26 @@
+// The vertex of every geometry pass; the domains differ only in where they put gl_Position.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/include/frame.glsl"
+
+layout(location = 0) in vec3 position_mm;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+layout(location = 4) in float curvature_per_mm;
+layout(location = 5) in float occlusion;
+
+layout(location = 0) out vec3 p_world_mm_out;
+layout(location = 1) out vec3 n_world_out;
+layout(location = 2) out vec4 t_world_out;
+layout(location = 3) out vec2 uv_out;
+layout(location = 4) out float curvature_per_mm_out;
+layout(location = 5) out float occlusion_out;
+
+void write_varyings() {
+    p_world_mm_out = position_mm;
+    n_world_out = normal;
+    t_world_out = tangent;
+    uv_out = uv;
+    curvature_per_mm_out = curvature_per_mm;
+    occlusion_out = occlusion;
+}

@@ -1,0 +1,87 @@
+// Visibility of the key light: percentage-closer filtering over a disk whose width is given in mm.
+#ifndef DERMIS_SHADOW_GLSL
+#define DERMIS_SHADOW_GLSL
+
+#include "shaders/include/frame.glsl"
+
+layout(set = 0, binding = 10) uniform texture2D shadow_map;
+
+const int kShadowTaps = 24;
+const float kGoldenAngle = 2.39996323;
+
+// Point `index` of a Vogel spiral: even cover of the unit disk by any number of points (Vogel 1979).
+vec2 vogel_disk(int index, int count) {
+    float radius = sqrt((float(index) + 0.5) / float(count));
+    float angle = float(index) * kGoldenAngle;
+    return radius * vec2(cos(angle), sin(angle));
+}
+
+float shadow_depth_tap(vec3 p_light) {
+    return texture(sampler2DShadow(shadow_map, shadow_compare), vec3(p_light.xy, min(p_light.z, 1.0)));
+}
+
+vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
+    vec4 p = light_from_world * vec4(p_mm, 1.0);
+    return p.w > 0.0 ? vec3(p.xy / p.w * 0.5 + 0.5, p.z / p.w) : vec3(-1.0);  // behind a spot or point light
+}
+
+// What lies past the far end, as skin lifted off the far side of the scene may, still has everything before it.
+bool outside_shadow_map(vec3 p_light) {
+    return any(lessThan(p_light, vec3(0.0))) || any(greaterThan(p_light.xy, vec2(1.0)));
+}
+
+// The disk of a filtered shadow, round as the light sees it and lying in the tangent plane of the receiver: no flat or
+// bulging surface shadows itself, and no shadow moves when the filter grows, as it does when the lookup is lifted by the
+// filter's radius (Holbert 2011). That is left for grazing light alone, where the disk would be endless; past the
+// terminator it lets through what scatters there. Hollows of a radius above ten times the disk's are lifted over too.
+// dermis/reference/lighting.cpp has the same disk.
+struct ShadowDisk {
+    vec3 center, axis_x, axis_y;  // in the shadow map
+    vec3 lift;                    // a millimetre along the normal, in the shadow map
+    vec3 hollow_mm;               // lift of x^2, y^2, xy
+};
+
+const float kHollow = 0.1;      // curvature times the disk's radius
+const float kFacetLift = 0.3;   // in radii: the tangent plane of a smooth normal cuts through the facets
+const float kMostSlope = 4.0;   // of the plane against the light: 76 degrees
+
+ShadowDisk shadow_disk(mat4 light_from_world, vec3 p_mm, vec3 n_world, vec3 to_light_world, float radius_mm) {
+    vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    vec3 x = normalize(cross(up, to_light_world)), y = cross(to_light_world, x);
+    float n_dot_l = clamp(dot(n_world, to_light_world), 0.0, 1.0), sine = sqrt(1.0 - n_dot_l * n_dot_l);
+    // n lies along (slope, 1) in this frame; `lacking` is what the held slope leaves of the disk under the surface.
+    vec2 slope = vec2(dot(x, n_world), dot(y, n_world)) * min(1.0 / max(n_dot_l, 1e-3), kMostSlope / max(sine, 1e-3));
+    float lacking = max(0.0, sine - kMostSlope * n_dot_l);
+    x = radius_mm * (x - slope.x * to_light_world);
+    y = radius_mm * (y - slope.y * to_light_world);
+    ShadowDisk disk;
+    float lift_mm = max(1.5 * shadow_texel_mm, kFacetLift * radius_mm) + lacking * min(radius_mm, 0.5 * penumbra_mm);
+    vec3 origin_mm = p_mm + lift_mm * n_world;
+    disk.center = shadow_map_position(light_from_world, origin_mm);
+    disk.axis_x = shadow_map_position(light_from_world, origin_mm + x) - disk.center;
+    disk.axis_y = shadow_map_position(light_from_world, origin_mm + y) - disk.center;
+    disk.lift = shadow_map_position(light_from_world, origin_mm + n_world) - disk.center;
+    disk.hollow_mm = 0.5 * kHollow / radius_mm * vec3(dot(x, x), dot(y, y), 2.0 * dot(x, y));
+    return disk;
+}
+
+// Where tap v of the unit disk reads.
+vec3 shadow_tap_position(ShadowDisk disk, vec2 v) {
+    float lift_mm = dot(disk.hollow_mm, vec3(v * v, v.x * v.y));
+    return disk.center + v.x * disk.axis_x + v.y * disk.axis_y + lift_mm * disk.lift;
+}
+
+float filter_radius_mm(float width_mm) { return max(0.5 * width_mm, shadow_texel_mm); }
+
+// 0 in shadow, 1 lit. Outside the map everything is lit.
+float shadow_visibility(vec3 p_world_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm) {
+    ShadowDisk disk =
+        shadow_disk(light_view_projection, p_world_mm, n_geometry_world, to_light_world, filter_radius_mm(width_mm));
+    if (outside_shadow_map(disk.center)) return 1.0;
+    float lit = 0.0;
+    for (int i = 0; i < kShadowTaps; ++i)
+        lit += shadow_depth_tap(shadow_tap_position(disk, vogel_disk(i, kShadowTaps)));
+    return lit / float(kShadowTaps);
+}
+
+#endif

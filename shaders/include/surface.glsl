@@ -1,0 +1,73 @@
+// The point being shaded: geometry from the vertex shader, material from its maps and constants.
+#ifndef DERMIS_SURFACE_GLSL
+#define DERMIS_SURFACE_GLSL
+
+#include "shaders/include/frame.glsl"
+
+layout(location = 0) in vec3 p_world_mm_in;
+layout(location = 1) in vec3 n_world_in;
+layout(location = 2) in vec4 t_world_in;
+layout(location = 3) in vec2 uv_in;
+layout(location = 4) in float curvature_per_mm_in;
+layout(location = 5) in float occlusion_in;
+
+layout(set = 0, binding = 2, scalar) uniform Material {
+    vec3 albedo_linear;
+    float roughness;
+    vec3 emission_linear;
+    float specular;
+    float f0;
+    float metallic;
+    float opacity;
+    int normal_space;  // 0 tangent, 1 object, 2 no map
+    float normal_scale;
+    int opacity_from_map;
+    float curvature_scale_per_mm;  // of a value of 1 in the curvature map
+};
+
+layout(set = 0, binding = 12) uniform texture2D albedo_map;
+layout(set = 0, binding = 13) uniform texture2D normal_map;
+layout(set = 0, binding = 14) uniform texture2D specular_map;
+layout(set = 0, binding = 15) uniform texture2D roughness_map;
+layout(set = 0, binding = 16) uniform texture2D occlusion_map;
+
+struct Surface {
+    vec3 p_world_mm;
+    vec3 n_geometry_world;  // interpolated, without the normal map
+    vec3 n_world;
+    vec3 to_eye_world;
+    vec2 uv;
+    vec3 albedo_linear;
+    float roughness;        // perceptual; alpha = roughness^2
+    float f0;
+    float occlusion;
+    float curvature_per_mm;
+};
+
+// The normal map at a level of detail; a positive bias reads a smoother one (Penner 2011).
+vec3 mapped_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
+    if (normal_space == 2) return n_geometry_world;
+    vec3 n = texture(sampler2D(normal_map, trilinear_repeat), uv, lod_bias).xyz * 2.0 - 1.0;
+    if (normal_space == 1) return normalize(mix(n_geometry_world, n, normal_scale));
+    n.xy *= normal_scale;
+    vec3 t = normalize(t_world_in.xyz - n_geometry_world * dot(n_geometry_world, t_world_in.xyz));
+    vec3 b = t_world_in.w * cross(n_geometry_world, t);
+    return normalize(n.x * t + n.y * b + n.z * n_geometry_world);
+}
+
+Surface load_surface() {
+    Surface s;
+    s.p_world_mm = p_world_mm_in;
+    s.n_geometry_world = normalize(n_world_in);
+    s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
+    s.uv = uv_in;
+    s.n_world = mapped_normal_world(s.n_geometry_world, uv_in, 0.0);
+    s.albedo_linear = albedo_linear * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
+    s.roughness = clamp(roughness * texture(sampler2D(roughness_map, trilinear_repeat), uv_in).r, 0.03, 1.0);
+    s.f0 = f0 * specular * texture(sampler2D(specular_map, trilinear_repeat), uv_in).r;
+    s.occlusion = occlusion_in * texture(sampler2D(occlusion_map, trilinear_repeat), uv_in).r;
+    s.curvature_per_mm = curvature_per_mm_in;
+    return s;
+}
+
+#endif

@@ -1,0 +1,15 @@
+// What a translucent surface lets through: its opacity map's colour, or else base colour times what is not covered. The
+// ground truth has the same rule (MaterialSet::transmittance_at).
+#ifndef DERMIS_TRANSLUCENT_GLSL
+#define DERMIS_TRANSLUCENT_GLSL
+
+#include "shaders/include/surface.glsl"
+
+layout(set = 0, binding = 20) uniform texture2D opacity_map;
+
+vec3 surface_transmittance() {
+    if (opacity_from_map == 0) return albedo_linear * (1.0 - opacity);
+    return texture(sampler2D(opacity_map, trilinear_repeat), uv_in).rgb;
+}
+
+#endif

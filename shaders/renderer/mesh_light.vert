@@ -1,0 +1,11 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// From the key light, into its shadow map.
+#include "shaders/include/mesh_vertex.glsl"
+
+invariant gl_Position;  // passes that test for equal depth rely on it
+
+void main() {
+    write_varyings();
+    gl_Position = light_view_projection * vec4(position_mm, 1.0);
+}

@@ -1,0 +1,39 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What is not skin: eyes, teeth, hair, frames, glass. Metallic-roughness as glTF has it.
+#include "shaders/include/environment.glsl"
+#include "shaders/include/lights.glsl"
+#include "shaders/include/shadow.glsl"
+#include "shaders/include/specular.glsl"
+#include "shaders/include/surface.glsl"
+
+layout(set = 0, binding = 21) uniform texture2D metallic_map;
+
+layout(location = 0) out vec4 radiance_out;
+
+void main() {
+    Surface s = load_surface();
+    if (!gl_FrontFacing) {
+        s.n_world = -s.n_world;
+        s.n_geometry_world = -s.n_geometry_world;
+    }
+    // A metal's F0 is its colour; the models take one number, so its colour multiplies the result.
+    float metal = metallic * texture(sampler2D(metallic_map, trilinear_repeat), s.uv).r;
+    float f0_one = mix(s.f0, 1.0, metal);
+    vec3 specular_tint = mix(vec3(1.0), s.albedo_linear, metal);
+    vec3 exitance = environment_irradiance(s.n_world) * s.occlusion;
+    vec3 specular_radiance =
+        environment_specular(s.n_world, s.to_eye_world, s.roughness, f0_one, s.occlusion);
+    for (int i = 0; i < light_count; ++i) {
+        LightSample light = sample_light(i, s.p_world_mm);
+        float visibility = 1.0;
+        if (i == key_light)
+            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+        vec3 irradiance = light.irradiance_linear * visibility;
+        exitance += irradiance * max(dot(s.n_world, light.to_light_world), 0.0);
+        specular_radiance += irradiance * specular_reflection(s.n_world, s.to_eye_world, light.to_light_world,
+                                                              s.roughness, f0_one);
+    }
+    vec3 diffuse_radiance = s.albedo_linear * (1.0 - metal) * exitance / kPi;
+    radiance_out = vec4(emission_linear + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
+}
