@@ -52,6 +52,13 @@ TEST_F(PreintegratedDiffuse, of_the_closed_form_is_its_own_and_near_the_exact) {
               0.5 / 255);
 }
 
+// The published table integrates from -90 to 90 degrees; all that `ring` selects is that integral.
+TEST_F(PreintegratedDiffuse, of_the_ring_is_the_half_ring_by_table_and_by_closed_form) {
+    const auto half_ring = [](double t, double k) { return exact(t, k, Construction::half_ring); };
+    EXPECT_LT(largest_difference("lut", "ring", half_ring), 1e-3);
+    EXPECT_LT(largest_difference("closed_form", "ring", half_ring), 1.5 / 255);
+}
+
 TEST_F(PreintegratedDiffuse, of_the_2015_curves_is_as_published) {
     EXPECT_LT(largest_difference("curve_2015", "sphere",
                                  [](double t, double k) { return curve_2015_direct(t, k); }),

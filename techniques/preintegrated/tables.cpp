@@ -42,13 +42,11 @@ TableImage to_image(std::string name, const Table& table) {
 // A table from a file, read at our texels: whatever its own size, range and warp, its convention says where
 // it holds which value. Only what it was integrated for has to be the same.
 Result<TableImage> own_diffuse_table(const TableSettings& settings, const SkinContext& skin) {
-    const bool ring = settings.construction == Construction::ring;
-    const Result<Table> table =
-        read_table(skin.diffuse_table, {.kind = TableKind::diffuse,
-                                        .construction = ring ? Construction::half_ring : Construction::sphere,
-                                        .u_axis = "n_dot_l",
-                                        .v_axis = "curvature_per_mm",
-                                        .profile = skin.profile.name});
+    const Result<Table> table = read_table(skin.diffuse_table, {.kind = TableKind::diffuse,
+                                                                .construction = settings.construction,
+                                                                .u_axis = "n_dot_l",
+                                                                .v_axis = "curvature_per_mm",
+                                                                .profile = skin.profile.name});
     if (!table) return table.error();
     const TableAxis& curvature = table->convention.axes[1];
     if (curvature.unit != "1/mm")
@@ -66,7 +64,7 @@ Result<TableImage> own_diffuse_table(const TableSettings& settings, const SkinCo
 Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContext& skin) {
     if (!skin.diffuse_table.empty()) return own_diffuse_table(settings, skin);
     Result<LutOptions> options =
-        lut_options(settings.construction == Construction::ring ? "penner" : "dermis");
+        lut_options(settings.construction == Construction::half_ring ? "penner" : "dermis");
     if (!options) return options.error();
     options->profile = {.name = skin.profile.name, .source = skin.profile.source, .model = skin.gaussians};
     options->convention.axes[1] = curvature_axis(0, kMaxCurvaturePerMm);
@@ -154,14 +152,17 @@ Result<TableImage> beckmann_table(const TableSettings& settings, const SkinConte
     return to_image("skin_beckmann", kBeckmannWidth, kBeckmannHeight, roots, ImageFormat::r32f);
 }
 
-// R per mm^2 at even steps of distance, both ends included.
+// R per mm^2 divided by its integral, at even steps of distance, both ends included: the albedo map holds the
+// albedo, which the profile's own would multiply a second time.
 Result<TableImage> transmission_table(const TableSettings&, const SkinContext& skin) {
+    const Profile profile = {.name = "", .source = "", .model = skin.gaussians};
     std::vector<float> rgba;
     for (int i = 0; i < kRows; ++i) {
         const double distance_mm = std::max(kMostDistanceMm * i / (kRows - 1), kLeastDistanceMm);
-        for (int c = 0; c < 3; ++c)
-            rgba.push_back(float(
-                reflectance_per_mm2({.name = "", .source = "", .model = skin.gaussians}, c, distance_mm)));
+        for (int c = 0; c < 3; ++c) {
+            const double albedo = diffuse_albedo(profile, c);
+            rgba.push_back(albedo > 0 ? float(reflectance_per_mm2(profile, c, distance_mm) / albedo) : 0.0f);
+        }
         rgba.push_back(1);
     }
     return to_image("skin_transmission", kRows, 1, rgba);

@@ -16,7 +16,7 @@ inline constexpr double kMostDistanceMm = 12;
 inline constexpr double kLeastDistanceMm = 0.4;
 
 struct TableSettings {
-    Construction construction = Construction::sphere;
+    Construction construction = Construction::sphere;  ///< of every table; the published ring is half_ring
     double normal_lod_bias = 3;
     double shadow_width_mm = 3;
     bool needs_beckmann = false;  ///< otherwise one texel stands in for the table

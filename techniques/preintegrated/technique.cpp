@@ -85,7 +85,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
     const Params params = values.as<Params>();
     const bool ring = params.construction == TableConstruction::ring;
-    return preintegrated::bake_tables({.construction = ring ? Construction::ring : Construction::sphere,
+    return preintegrated::bake_tables({.construction = ring ? Construction::half_ring : Construction::sphere,
                                        .normal_lod_bias = params.normal_lod_bias,
                                        .shadow_width_mm = params.shadow_width_mm,
                                        .needs_beckmann = params.specular == SpecularModel::ksk},
