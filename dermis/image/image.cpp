@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <string>
 
 #include "dermis/base/parallel.h"
+#include "dermis/base/text.h"
 #include "dermis/image/colour.h"
 #include "dermis/image/half.h"
 
@@ -154,16 +157,28 @@ std::span<const float> Image::floats() const {
     return values<float>();
 }
 
-Result<void> check_image_size(uint64_t width, uint64_t height, int channels, PixelFormat format) {
+Result<uint64_t> max_image_bytes() {
+    constexpr uint64_t kDefaultMiB = 2048;
+    const char* stated = std::getenv("DERMIS_MAX_IMAGE_MIB");
+    if (!stated) return kDefaultMiB << 20;
+    const std::optional<double> mib = parse_number(stated);
+    if (!mib || !(*mib >= 1 && *mib <= 1 << 20))
+        return Error{"the environment's DERMIS_MAX_IMAGE_MIB is not a number of MiB from 1 to 1048576"};
+    return uint64_t(*mib) << 20;
+}
+
+Result<void> check_image_size(uint64_t width, uint64_t height, int channels) {
     const std::string size = std::to_string(width) + " x " + std::to_string(height) + " texels";
     if (width == 0 || height == 0) return Error{"holds " + size};
     if (width > uint64_t(kMaxImageSide) || height > uint64_t(kMaxImageSide))
         return Error{"holds " + size + "; the largest side is " + std::to_string(kMaxImageSide)};
-    if (width * height * uint64_t(channels) * bytes_per_channel(format) > kMaxImageBytes)
-        return Error{"holds " + size + " of " +
-                     std::to_string(uint64_t(channels) * bytes_per_channel(format)) +
-                     " bytes; an image may take " + std::to_string(kMaxImageBytes >> 30) + " GiB"};
-    return {};
+    const Result<uint64_t> limit = max_image_bytes();
+    if (!limit) return limit.error();
+    const uint64_t bytes = width * height * uint64_t(channels) * sizeof(float);
+    if (bytes <= *limit) return {};
+    return Error{"holds " + size + " of " + std::to_string(channels) + " channels, " +
+                 std::to_string(bytes >> 20) + " MiB as floats; the limit is " +
+                 std::to_string(*limit >> 20) + " (DERMIS_MAX_IMAGE_MIB)"};
 }
 
 int alpha_channel(const Image& image) {

@@ -19,9 +19,12 @@ enum class Encoding { linear, srgb };
 
 [[nodiscard]] size_t bytes_per_channel(PixelFormat format);
 
-/// Largest side of any image dermis reads or makes, and the most bytes one may take in memory.
+/// Largest side of any image dermis reads or makes.
 inline constexpr int kMaxImageSide = 16384;
-inline constexpr uint64_t kMaxImageBytes = uint64_t{2} << 30;
+
+/// Most bytes one image may take as 32-bit floats, the form in which it is worked on: 2 GiB, or the number of
+/// MiB in the environment's DERMIS_MAX_IMAGE_MIB. An error when that is no positive number.
+[[nodiscard]] Result<uint64_t> max_image_bytes();
 
 /// Value type; copies are deep. Integer formats hold 0..1 as 0..255 or 0..65535. Channels: 1 to 4 (red,
 /// green, blue, alpha; alpha is never sRGB-encoded and never premultiplied). Two channels are red and green
@@ -64,9 +67,9 @@ struct Image {
 };
 
 /// Whether an image of this size may be made: an error says which limit it breaks (no texels, a side over
-/// kMaxImageSide, more than kMaxImageBytes). For sizes that come from outside; Image() itself only asserts.
-[[nodiscard]] Result<void> check_image_size(uint64_t width, uint64_t height, int channels,
-                                            PixelFormat format);
+/// kMaxImageSide, more than max_image_bytes()). For sizes that come from outside; Image() itself only
+/// asserts.
+[[nodiscard]] Result<void> check_image_size(uint64_t width, uint64_t height, int channels);
 
 /// Which channel is alpha, or -1: the fourth of four, the second of two sRGB-encoded ones.
 [[nodiscard]] int alpha_channel(const Image& image);

@@ -179,7 +179,7 @@ Result<void> check_settings(const ReferenceSettings& s) {
                      std::string(range)};
     };
     if (Result<void> good = check_image_size(uint64_t(std::max(s.width, 0)), uint64_t(std::max(s.height, 0)),
-                                             4, PixelFormat::f32);
+                                             4);
         !good)
         return good.error();
     if (s.samples < 2 || s.samples > 65536) return out_of_range("samples a pixel", s.samples, "2..65536");

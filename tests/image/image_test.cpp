@@ -4,6 +4,7 @@
 #include <half.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "dermis/image/colour.h"
@@ -100,11 +101,27 @@ TEST(Image, a_new_image_is_zero_and_an_empty_one_converts_to_an_empty_one) {
 }
 
 TEST(Image, sizes_from_outside_are_refused_beyond_the_limits) {
-    EXPECT_TRUE(check_image_size(16384, 16384, 4, PixelFormat::u8));
-    EXPECT_TRUE(check_image_size(1, 1, 1, PixelFormat::f32));
-    EXPECT_FALSE(check_image_size(0, 5, 3, PixelFormat::u8));
-    EXPECT_NE(check_image_size(16385, 1, 3, PixelFormat::u8).error().message.find("16384"),
-              std::string::npos);
-    EXPECT_FALSE(check_image_size(uint64_t{1} << 63, 2, 4, PixelFormat::f32));
-    EXPECT_FALSE(check_image_size(16384, 16384, 4, PixelFormat::f32));
+    EXPECT_TRUE(check_image_size(16384, 16384, 2));
+    EXPECT_TRUE(check_image_size(1, 1, 1));
+    EXPECT_FALSE(check_image_size(0, 5, 3));
+    EXPECT_NE(check_image_size(16385, 1, 3).error().message.find("16384"), std::string::npos);
+    EXPECT_FALSE(check_image_size(uint64_t{1} << 63, 2, 4));
+    EXPECT_EQ(check_image_size(16384, 16384, 4).error().message,
+              "holds 16384 x 16384 texels of 4 channels, 4096 MiB as floats; the limit is 2048 "
+              "(DERMIS_MAX_IMAGE_MIB)");
+}
+
+TEST(ImageSize, the_limit_on_memory_is_adjustable) {
+    ::setenv("DERMIS_MAX_IMAGE_MIB", "4096", 1);
+    EXPECT_TRUE(check_image_size(16384, 16384, 4));
+    ::setenv("DERMIS_MAX_IMAGE_MIB", "1", 1);
+    EXPECT_TRUE(check_image_size(512, 512, 1));
+    EXPECT_FALSE(check_image_size(512, 513, 1));
+    for (const char* wrong : {"", "0", "-1", "nan", "inf", "1 GiB", "1e300"}) {
+        ::setenv("DERMIS_MAX_IMAGE_MIB", wrong, 1);
+        const Result<void> size = check_image_size(1, 1, 1);
+        ASSERT_FALSE(size) << wrong;
+        EXPECT_NE(size.error().message.find("DERMIS_MAX_IMAGE_MIB"), std::string::npos);
+    }
+    ::unsetenv("DERMIS_MAX_IMAGE_MIB");
 }

@@ -48,7 +48,7 @@ TEST(Jpeg, a_small_file_that_claims_a_huge_picture_is_refused_before_decoding) {
     // The frame header FF C0 holds the height two bytes after its length and precision.
     for (size_t i = 0; i + 9 < file.size(); ++i)
         if (file[i] == std::byte{0xff} && file[i + 1] == std::byte{0xc0}) {
-            file[i + 5] = file[i + 7] = std::byte{0x3f};
+            file[i + 5] = file[i + 7] = std::byte{0x2f};
             break;
         }
     const Result<LoadedImage> loaded = decode_image(file, "bomb.jpg", ImageUse::color);

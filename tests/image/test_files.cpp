@@ -83,7 +83,9 @@ FileBytes make_cmyk_jpeg(int width, int height) {
 
 FileBytes make_exr(int width, int height, const ExrSettings& s) {
     const Imath::Box2i window({s.offset_x, s.offset_y}, {s.offset_x + width - 1, s.offset_y + height - 1});
-    Imf::Header header(window, window, 1, {0, 0}, 1, Imf::INCREASING_Y, Imf::Compression(s.compression));
+    const auto [x0, y0, x1, y1] = s.display;
+    const Imath::Box2i display = x1 < x0 ? window : Imath::Box2i({x0, y0}, {x1, y1});
+    Imf::Header header(display, window, 1, {0, 0}, 1, Imf::INCREASING_Y, Imf::Compression(s.compression));
     const Imf::PixelType type = s.float_channels ? Imf::FLOAT : Imf::HALF;
     std::vector<std::unique_ptr<float[]>> wide;
     std::vector<std::unique_ptr<Imath::half[]>> narrow;
@@ -116,6 +118,42 @@ FileBytes make_exr(int width, int height, const ExrSettings& s) {
         file.writePixels(height);
     }
     return stream.finish();
+}
+
+FileBytes make_ktx2(const Ktx2Settings& s, const std::vector<uint8_t>& stored) {
+    codec::ByteWriter pairs, out;
+    for (const auto& [key, value] : s.pairs) {
+        pairs.u32(uint32_t(key.size() + value.size() + 2));
+        for (const std::string& text : {key, value}) pairs.text(text), pairs.put(uint8_t(0));
+        pairs.align(4);
+    }
+    const auto pairs_bytes = uint32_t(pairs.size());
+    for (const uint32_t word : {0x58544babu, 0xbb303220u, 0x0a1a0a0du}) out.u32(word);
+    for (const uint32_t word :
+         {s.vulkan, 1u, s.width, s.height, 0u, 0u, 1u, 1u, 0u, 0u, 0u, 104u, pairs_bytes})
+        out.u32(word);
+    for (const uint64_t word : {uint64_t{0}, uint64_t{0}, uint64_t{104} + pairs_bytes,
+                                uint64_t{stored.size()}, uint64_t{stored.size()}})
+        out.u64(word);
+    out.raw(pairs.finish());
+    out.raw(std::as_bytes(std::span(stored)));
+    return out.finish();
+}
+
+FileBytes make_dds(const DdsSettings& s, const std::vector<uint8_t>& stored) {
+    codec::ByteWriter out;
+    for (const uint32_t word : {0x20534444u, 124u, 0x1007u, s.height, s.width}) out.u32(word);
+    for (int i = 0; i < 14; ++i) out.u32(0);
+    out.u32(32);
+    out.u32(s.dxgi != 0 ? 4 : s.flags);
+    out.u32(s.dxgi != 0 ? 0x30315844 : 0);
+    out.u32(s.bits);
+    for (const uint32_t mask : s.masks) out.u32(mask);
+    for (const uint32_t word : {0x1000u, 0u, 0u, 0u, 0u}) out.u32(word);
+    if (s.dxgi != 0)
+        for (const uint32_t word : {s.dxgi, 3u, 0u, 1u, 0u}) out.u32(word);
+    out.raw(std::as_bytes(std::span(stored)));
+    return out.finish();
 }
 
 }  // namespace dermis

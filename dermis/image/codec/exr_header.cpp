@@ -16,8 +16,9 @@ constexpr int kMostChannels = 256;
 constexpr uint64_t kMostChunkBytes = uint64_t{512} << 20;
 
 struct Part {
-    int64_t width = 0, height = 0;
-    int64_t tile_width = 0, tile_height = 0;  // 0: scanlines
+    int64_t width = 0, height = 0;                  // of the data window
+    int64_t display_width = 1, display_height = 1;  // OpenEXR asks for the attribute
+    int64_t tile_width = 0, tile_height = 0;        // 0: scanlines
     int64_t lines_per_chunk = 1;
     uint64_t bytes_per_texel = 0;
     int channels = 0;
@@ -50,11 +51,12 @@ void read_channels(Bytes value, Part& part) {
 
 Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
     ByteReader in(value);
-    if (name == "dataWindow") {
+    if (name == "dataWindow" || name == "displayWindow") {
         const int64_t x0 = in.read<int32_t>(), y0 = in.read<int32_t>();
         const int64_t x1 = in.read<int32_t>(), y1 = in.read<int32_t>();
-        part.width = x1 - x0 + 1;
-        part.height = y1 - y0 + 1;
+        const bool data = name == "dataWindow";
+        (data ? part.width : part.display_width) = x1 - x0 + 1;
+        (data ? part.height : part.display_height) = y1 - y0 + 1;
     } else if (name == "compression") {
         const uint8_t compression = in.read<uint8_t>();
         Result<int64_t> lines = lines_of(compression);
@@ -96,8 +98,11 @@ Result<Part> read_part(ByteReader& in, std::string_view first_name) {
 Result<void> check_part(const Part& part, uint64_t file_bytes) {
     if (part.deep) return Error{"deep EXR; dermis reads flat images"};
     if (part.width <= 0 || part.height <= 0) return Error{"corrupt EXR: a data window without texels"};
-    if (Result<void> size =
-            check_image_size(uint64_t(part.width), uint64_t(part.height), 1, PixelFormat::f16);
+    if (Result<void> size = check_image_size(uint64_t(part.width), uint64_t(part.height), 1); !size)
+        return size;
+    if (part.display_width <= 0 || part.display_height <= 0)
+        return Error{"corrupt EXR: a display window without texels"};
+    if (Result<void> size = check_image_size(uint64_t(part.display_width), uint64_t(part.display_height), 1);
         !size)
         return size;
     if (part.channels == 0 || part.channels > kMostChannels)

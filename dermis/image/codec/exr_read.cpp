@@ -1,4 +1,5 @@
-// OpenEXR reading: any compression, scanlines or tiles (the largest level), the first part of several.
+// OpenEXR reading: any compression, scanlines or tiles (the largest level), the first part of several. The
+// picture is the display window: texels that the data window does not hold are 0, those outside are left out.
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -10,8 +11,10 @@
 #include <Iex.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
+#include "dermis/base/text.h"
 #include "dermis/image/codec/exr.h"
 
 namespace dermis::codec {
@@ -21,14 +24,36 @@ struct Channel {
     std::string name;        // in the file
     std::string short_name;  // after the last dot
     Imf::PixelType type;
+    int order = 0;  // see order_of
 };
 using Layers = std::map<std::string, std::vector<Channel>>;
 
-// R G B A, or Y A, come in that order; any others (X Y Z, U V) alphabetically after them.
-constexpr int kOther = 5;
+// The order within a layer: luminance or red, green, blue; then what has another name, alphabetically (X Y Z,
+// U V); then alpha.
+enum ChannelOrder { kLuminance, kRed, kGreen, kBlue, kOther, kAlpha };
 int order_of(const std::string& short_name) {
-    const size_t place = std::string_view("YRGBA").find(short_name);
-    return short_name.size() == 1 && place != std::string_view::npos ? int(place) : kOther;
+    struct Name {
+        std::string_view letter, word;
+    };
+    constexpr std::array<Name, 6> kNames = {
+        {{"y", ""}, {"r", "red"}, {"g", "green"}, {"b", "blue"}, {"", ""}, {"a", "alpha"}}};
+    const std::string lower = to_lower(short_name);
+    for (size_t i = 0; i < kNames.size(); ++i)
+        if (!lower.empty() && (lower == kNames[i].letter || lower == kNames[i].word)) return int(i);
+    return kOther;
+}
+
+bool has(const std::vector<Channel>& channels, std::string_view short_name) {
+    return std::ranges::find(channels, short_name, &Channel::short_name) != channels.end();
+}
+
+void sort_channels(std::vector<Channel>& channels) {
+    for (Channel& c : channels) {
+        c.order = order_of(c.short_name);
+        // Beside an X, a Y is a coordinate and no luminance.
+        if (c.order == kLuminance && has(channels, "X")) c.order = kOther;
+    }
+    std::ranges::stable_sort(channels, {}, &Channel::order);
 }
 
 Result<Layers> collect_layers(const Imf::ChannelList& list) {
@@ -42,23 +67,25 @@ Result<Layers> collect_layers(const Imf::ChannelList& list) {
         layers[layer].push_back(
             {name, dot == std::string::npos ? name : name.substr(dot + 1), it.channel().type});
     }
-    for (auto& [name, channels] : layers)
-        std::ranges::stable_sort(channels, {}, [](const Channel& c) { return order_of(c.short_name); });
+    for (auto& [name, channels] : layers) sort_channels(channels);
     return layers;
 }
 
 // Without a layer name: R G B A or Y A where there are any, whatever else the file holds beside them (a depth
 // Z, say); a file of a single channel or a single layer gives that one.
-Result<std::vector<Channel>> plain_channels(const Layers& layers) {
+Result<std::vector<Channel>> plain_channels(const Layers& layers, ImageUse use) {
     if (const auto it = layers.find(""); it != layers.end()) {
-        const auto is_rgb = [](const Channel& c) {
-            return order_of(c.short_name) >= 1 && order_of(c.short_name) <= 3;
-        };
+        const auto is_rgb = [](const Channel& c) { return c.order >= kRed && c.order <= kBlue; };
         const bool rgb = std::ranges::any_of(it->second, is_rgb);
+        if (!rgb && (has(it->second, "RY") || has(it->second, "BY")))
+            return Error{"EXR in luminance and chroma (Y, RY, BY); convert it to R, G, B"};
+        if (!rgb && use == ImageUse::color && has(it->second, "X") && has(it->second, "Y"))
+            return Error{"EXR with channels X, Y, Z in place of a colour; convert it to R, G, B"};
         std::vector<Channel> named;
         for (const Channel& c : it->second)
-            if (order_of(c.short_name) < kOther && !(rgb && c.short_name == "Y")) named.push_back(c);
-        if (!named.empty()) return named;
+            if (c.order != kOther && !(rgb && c.order == kLuminance)) named.push_back(c);
+        const bool color = std::ranges::any_of(named, [](const Channel& c) { return c.order < kOther; });
+        if (color) return named;
         if (it->second.size() <= 4) return it->second;
     }
     if (layers.size() == 1 && layers.begin()->second.size() <= 4) return layers.begin()->second;
@@ -79,7 +106,7 @@ Result<Target> make_target(std::vector<Channel> channels, int width, int height)
     const bool half = std::ranges::all_of(channels, [](const Channel& c) { return c.type == Imf::HALF; });
     const PixelFormat format = half ? PixelFormat::f16 : PixelFormat::f32;
     const int count = int(channels.size());
-    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), count, format); !size)
+    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), count); !size)
         return size.error();
     return Target{Image(width, height, count, format, Encoding::linear), std::move(channels)};
 }
@@ -92,6 +119,25 @@ void add_slices(Imf::FrameBuffer& buffer, Target& target, const Imath::Box2i& wi
         buffer.insert(target.channels[c].name,
                       Imf::Slice::Make(type, target.image.bytes.data() + c * value, window, texel,
                                        texel * size_t(target.image.width)));
+}
+
+Result<Image> in_display_window(Image data, const Imath::Box2i& window, const Imath::Box2i& display) {
+    if (window == display) return data;
+    const int x0 = std::max(window.min.x, display.min.x), x1 = std::min(window.max.x, display.max.x);
+    const int y0 = std::max(window.min.y, display.min.y), y1 = std::min(window.max.y, display.max.y);
+    if (x0 > x1 || y0 > y1) return Error{"EXR whose data window lies outside of its display window"};
+    const int width = display.max.x - display.min.x + 1, height = display.max.y - display.min.y + 1;
+    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), data.channels); !size)
+        return size.error();
+    Image picture(width, height, data.channels, data.format, data.encoding);
+    const size_t texel = bytes_per_channel(data.format) * size_t(data.channels);
+    for (int y = y0; y <= y1; ++y) {
+        const size_t from = size_t(y - window.min.y) * size_t(data.width) + size_t(x0 - window.min.x);
+        const size_t to = size_t(y - display.min.y) * size_t(width) + size_t(x0 - display.min.x);
+        std::memcpy(picture.bytes.data() + to * texel, data.bytes.data() + from * texel,
+                    size_t(x1 - x0 + 1) * texel);
+    }
+    return picture;
 }
 
 ImageText read_text(const Imf::Header& header) {
@@ -121,11 +167,15 @@ Result<LayeredImage> read_layers(Bytes bytes, Pick pick) {
     std::vector<Target> targets;
     Imf::FrameBuffer buffer;
     uint64_t total = 0;
+    const Result<uint64_t> limit = max_image_bytes();
+    if (!limit) return limit.error();
     for (auto& [name, channels] : *picked) {
         Result<Target> target = make_target(std::move(channels), width, height);
         if (!target) return target.error();
         total += target->image.bytes.size();
-        if (total > kMaxImageBytes) return Error{"EXR whose layers take more than 2 GiB"};
+        if (total > *limit)
+            return Error{"EXR whose layers take more than " + std::to_string(*limit >> 20) +
+                         " MiB, the limit (DERMIS_MAX_IMAGE_MIB)"};
         targets.push_back(*std::move(target));
         add_slices(buffer, targets.back(), window);
     }
@@ -135,8 +185,12 @@ Result<LayeredImage> read_layers(Bytes bytes, Pick pick) {
     LayeredImage out;
     out.text = read_text(part.header());
     size_t index = 0;
-    for (const auto& [name, channels] : *picked)
-        out.layers.push_back({name, std::move(targets[index++].image)});
+    for (const auto& [name, channels] : *picked) {
+        Result<Image> picture =
+            in_display_window(std::move(targets[index++].image), window, part.header().displayWindow());
+        if (!picture) return picture.error();
+        out.layers.push_back({name, *std::move(picture)});
+    }
     return out;
 }
 
@@ -166,9 +220,9 @@ bool is_exr(Bytes file) {
     return ByteReader(file).u32() == kMagic;
 }
 
-Result<LoadedImage> decode_exr(Bytes file, ImageUse) {
-    Result<LayeredImage> read = read_guarded(file, [](const Layers& layers) -> Result<Layers> {
-        Result<std::vector<Channel>> plain = plain_channels(layers);
+Result<LoadedImage> decode_exr(Bytes file, ImageUse use) {
+    Result<LayeredImage> read = read_guarded(file, [use](const Layers& layers) -> Result<Layers> {
+        Result<std::vector<Channel>> plain = plain_channels(layers, use);
         if (!plain) return plain.error();
         return Layers{{"", *std::move(plain)}};
     });

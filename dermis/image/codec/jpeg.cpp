@@ -17,13 +17,17 @@ struct Decompressor {
         if (handle) tjDestroy(handle);
     }
     [[nodiscard]] Error error() const { return {std::string("corrupt JPEG: ") + tjGetErrorStr2(handle)}; }
-};
 
-// libjpeg decodes on after a warning and fills in grey. Only what leaves all texels intact is let pass.
-bool is_harmless(std::string_view warning) {
-    return warning.find("extraneous bytes") != warning.npos || warning.find("Adobe") != warning.npos ||
-           warning.find("JFIF") != warning.npos;
-}
+    // libjpeg decodes on after a warning and fills in grey. Only what leaves all texels intact (junk between
+    // markers, odd application data) is let pass.
+    [[nodiscard]] bool passes(int status) const {
+        if (status == 0) return true;
+        if (tjGetErrorCode(handle) != TJERR_WARNING) return false;
+        const std::string_view warning = tjGetErrorStr2(handle);
+        return warning.find("extraneous bytes") != warning.npos || warning.find("Adobe") != warning.npos ||
+               warning.find("JFIF") != warning.npos;
+    }
+};
 
 }  // namespace
 
@@ -37,16 +41,15 @@ Result<LoadedImage> decode_jpeg(Bytes file, ImageUse use) {
     if (!decompressor.handle) return Error{"libjpeg-turbo has no memory"};
     const auto* data = reinterpret_cast<const unsigned char*>(file.data());
     int width = 0, height = 0, subsampling = 0, color_space = 0;
-    if (tjDecompressHeader3(decompressor.handle, data, file.size(), &width, &height, &subsampling,
-                            &color_space) != 0)
+    if (!decompressor.passes(tjDecompressHeader3(decompressor.handle, data, file.size(), &width, &height,
+                                                 &subsampling, &color_space)))
         return decompressor.error();
     if (color_space == TJCS_CMYK || color_space == TJCS_YCCK)
         return Error{"CMYK JPEG; dermis reads grey and RGB"};
 
     const int channels = color_space == TJCS_GRAY ? 1 : 3;
     if (width <= 0 || height <= 0) return Error{"corrupt JPEG: no texels"};
-    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), channels, PixelFormat::u8);
-        !size)
+    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), channels); !size)
         return size.error();
     const uint64_t decoded = uint64_t(width) * uint64_t(height) * uint64_t(channels);
     if (Result<void> ratio = check_ratio(decoded, file.size(), kMostJpegRatio); !ratio) return ratio.error();
@@ -57,9 +60,7 @@ Result<LoadedImage> decode_jpeg(Bytes file, ImageUse use) {
     const int status = tjDecompress2(
         decompressor.handle, data, file.size(), reinterpret_cast<unsigned char*>(loaded.image.bytes.data()),
         width, 0, height, channels == 1 ? TJPF_GRAY : TJPF_RGB, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS);
-    if (status != 0 && (tjGetErrorCode(decompressor.handle) != TJERR_WARNING ||
-                        !is_harmless(tjGetErrorStr2(decompressor.handle))))
-        return decompressor.error();
+    if (!decompressor.passes(status)) return decompressor.error();
     return loaded;
 }
 

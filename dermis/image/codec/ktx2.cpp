@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<uint8_t, 12> kIdentifier = {0xab, 'K',  'T',  'X',  ' ',  '2',
                                                  '0',  0xbb, '\r', '\n', 0x1a, '\n'};
 constexpr size_t kHeaderBytes = 80, kLevelBytes = 24;
-constexpr std::string_view kWriter = "KTXwriter", kOrientation = "KTXorientation";
+constexpr std::string_view kWriter = "KTXwriter", kOrientation = "KTXorientation", kSwizzle = "KTXswizzle";
 
 // Khronos Data Format Specification 1.3, basic descriptor block: model RGBSDA (1), primaries BT.709 (1),
 // transfer linear (1), one sample a channel: 16 bits, signed float, -1 to 1 being the nominal range.
@@ -54,6 +54,7 @@ Buffer key_values(const ImageText& text) {
     return out.finish();
 }
 
+// Of all pairs; those of the format itself are no text of the image's and are taken out by the caller.
 Result<ImageText> read_key_values(Bytes bytes) {
     const Error cut{"corrupt KTX2: the key/value data is cut short"};
     ImageText text;
@@ -69,9 +70,35 @@ Result<ImageText> read_key_values(Bytes bytes) {
         const Bytes rest = pair.subspan(fields.position());
         std::string_view value(reinterpret_cast<const char*>(rest.data()), rest.size());
         if (value.ends_with('\0')) value.remove_suffix(1);
-        if (key != kWriter && key != kOrientation) text[std::string(key)] = value;
+        text[std::string(key)] = value;
     }
     return text;
+}
+
+// Removes a pair; its value, or `fallback`.
+std::string take_value(ImageText& text, std::string_view key, std::string_view fallback) {
+    const auto found = text.find(std::string(key));
+    if (found == text.end()) return std::string(fallback);
+    std::string value = std::move(found->second);
+    text.erase(found);
+    return value;
+}
+
+// As KTXswizzle and KTXorientation say: "rd" has its first texel at the top left, "ru" at the bottom left.
+Result<Image> as_oriented(Image stored, const TexelFormat& format, ImageText& text) {
+    const std::string orientation = take_value(text, kOrientation, "rd");
+    const std::string swizzle = take_value(text, kSwizzle, "rgba");
+    (void)take_value(text, kWriter, "");
+    if (orientation.size() != 2 || std::string_view("rl").find(orientation[0]) == std::string_view::npos ||
+        std::string_view("du").find(orientation[1]) == std::string_view::npos)
+        return Error{"corrupt KTX2: the orientation '" + orientation.substr(0, 20) +
+                     "' is not rd, ru, ld or lu"};
+    Result<Image> image = apply_swizzle(std::move(stored), format.swizzle);
+    if (image) image = apply_swizzle(*std::move(image), swizzle);
+    if (!image) return Error{"KTX2: " + image.error().message};
+    if (orientation[0] == 'l') image = mirror_columns(*image);
+    if (orientation[1] == 'u') image = mirror_rows(*image);
+    return image;
 }
 
 struct Header {
@@ -103,6 +130,14 @@ Result<Header> read_header(Bytes file) {
     return header;
 }
 
+Error unread_format(uint32_t vulkan) {
+    // VK_FORMAT_BC1_RGB_UNORM_BLOCK to VK_FORMAT_ASTC_12x12_SRGB_BLOCK; VK_FORMAT_UNDEFINED is Basis
+    // Universal.
+    const bool compressed = vulkan == 0 || (vulkan >= 131 && vulkan <= 184);
+    return Error{(compressed ? "block-compressed KTX2 (VkFormat " : "KTX2 of VkFormat ") +
+                 std::to_string(vulkan) + (compressed ? "); " : "; ") + kReadTexelFormats};
+}
+
 }  // namespace
 
 bool is_ktx2(Bytes file) {
@@ -114,11 +149,8 @@ Result<LoadedImage> decode_ktx2(Bytes file, ImageUse) {
     Result<Header> header = read_header(file);
     if (!header) return header.error();
     const TexelFormat* format = find_vulkan(header->format);
-    if (!format)
-        return Error{"KTX2 of VkFormat " + std::to_string(header->format) +
-                     "; dermis reads uncompressed ones"};
-    if (Result<void> size = check_image_size(header->width, header->height, format->channels, format->format);
-        !size)
+    if (!format) return unread_format(header->format);
+    if (Result<void> size = check_image_size(header->width, header->height, format->channels); !size)
         return size.error();
     const uint64_t count = uint64_t(header->width) * header->height * uint64_t(format->channels) *
                            bytes_per_channel(format->format);
@@ -131,9 +163,11 @@ Result<LoadedImage> decode_ktx2(Bytes file, ImageUse) {
     Result<ImageText> read = read_key_values(text);
     if (!read) return read.error();
     loaded.text = *std::move(read);
-    loaded.image =
-        Image(int(header->width), int(header->height), format->channels, format->format, format->encoding);
-    std::memcpy(loaded.image.bytes.data(), texels.data(), texels.size());
+    Image stored(int(header->width), int(header->height), format->channels, format->format, format->encoding);
+    std::memcpy(stored.bytes.data(), texels.data(), texels.size());
+    Result<Image> image = as_oriented(std::move(stored), *format, loaded.text);
+    if (!image) return image.error();
+    loaded.image = *std::move(image);
     return loaded;
 }
 

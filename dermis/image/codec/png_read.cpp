@@ -40,6 +40,7 @@ struct Reader {
     Source source;
     png_structp png = nullptr;
     png_infop info = nullptr;
+    bool srgb = true;
     ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
@@ -50,7 +51,14 @@ bool guarded(png_structp png, Step step, Arguments... arguments) {
     return true;
 }
 
-void read_header(Reader* r) {
+// Whether the file states linear light: an explicit gamma of 1 without an sRGB chunk.
+bool says_linear(png_structp png, png_infop info) {
+    png_fixed_point gamma = 0;
+    return !png_get_valid(png, info, PNG_INFO_sRGB) && png_get_gAMA_fixed(png, info, &gamma) != 0 &&
+           gamma == PNG_FP_1;
+}
+
+void read_header(Reader* r, ImageUse use) {
     png_set_read_fn(r->png, &r->source, on_read);
     png_set_user_limits(r->png, kMaxImageSide, kMaxImageSide);
     png_set_chunk_malloc_max(r->png, kMostTextBytes);
@@ -58,19 +66,18 @@ void read_header(Reader* r) {
     png_set_expand(r->png);  // palettes to RGB, 1 to 4 bits to 8, tRNS to alpha
     if (png_get_bit_depth(r->png, r->info) == 16) png_set_swap(r->png);
     png_set_interlace_handling(r->png);
+    r->srgb = use == ImageUse::color && !says_linear(r->png, r->info);
+    // Two linear channels would be red and green.
+    const bool grey = (png_get_color_type(r->png, r->info) & PNG_COLOR_MASK_COLOR) == 0;
+    const bool alpha = (png_get_color_type(r->png, r->info) & PNG_COLOR_MASK_ALPHA) != 0 ||
+                       png_get_valid(r->png, r->info, PNG_INFO_tRNS) != 0;
+    if (grey && alpha && !r->srgb) png_set_gray_to_rgb(r->png);
     png_read_update_info(r->png, r->info);
 }
 
 void read_rows(Reader* r, png_bytepp rows) {
     png_read_image(r->png, rows);
     png_read_end(r->png, r->info);
-}
-
-// An explicit gamma of 1 without an sRGB chunk marks linear light.
-bool says_linear(Reader& r) {
-    png_fixed_point gamma = 0;
-    return !png_get_valid(r.png, r.info, PNG_INFO_sRGB) && png_get_gAMA_fixed(r.png, r.info, &gamma) != 0 &&
-           gamma == PNG_FP_1;
 }
 
 ImageText read_text(Reader& r) {
@@ -86,6 +93,23 @@ ImageText read_text(Reader& r) {
     return text;
 }
 
+// libpng allocates what a chunk says it holds before it reads. Every chunk must end within the file.
+Result<void> check_chunks(Bytes file) {
+    ByteReader in(file, 8);
+    for (;;) {
+        const Bytes length = in.take(4), type = in.take(4);
+        if (!in.ok()) return {};  // libpng says what is missing
+        uint64_t bytes = 0;
+        for (const std::byte b : length) bytes = bytes << 8 | uint64_t(b);
+        const std::string_view name(reinterpret_cast<const char*>(type.data()), 4);
+        if (bytes + 4 > file.size() - in.position())
+            return Error{"corrupt PNG: the file ends early: a chunk of " + std::to_string(bytes) +
+                         " bytes with " + std::to_string(file.size() - in.position()) + " left"};
+        in.take(bytes + 4);
+        if (name == "IEND") return {};
+    }
+}
+
 Error corrupt(const Reader& r) {
     return Error{std::string("corrupt PNG: ") + r.source.message};
 }
@@ -97,24 +121,25 @@ bool is_png(Bytes file) {
 }
 
 Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
+    if (Result<void> whole = check_chunks(file); !whole) return whole.error();
     Reader r;
     r.source.rest = file;
     r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r.source, on_error, on_warning);
     r.info = r.png ? png_create_info_struct(r.png) : nullptr;
     if (!r.info) return Error{"libpng has no memory"};
-    if (!guarded(r.png, read_header, &r)) return corrupt(r);
+    if (!guarded(r.png, read_header, &r, use)) return corrupt(r);
 
     const uint32_t width = png_get_image_width(r.png, r.info), height = png_get_image_height(r.png, r.info);
     const int channels = png_get_channels(r.png, r.info);
     const PixelFormat format = png_get_bit_depth(r.png, r.info) == 16 ? PixelFormat::u16 : PixelFormat::u8;
-    if (Result<void> size = check_image_size(width, height, channels, format); !size) return size.error();
+    if (Result<void> size = check_image_size(width, height, channels); !size) return size.error();
     const uint64_t stored_row = png_get_rowbytes(r.png, r.info);
     if (Result<void> ratio = check_ratio(stored_row * height, file.size(), kMostPngRatio); !ratio)
         return ratio.error();
 
-    const bool srgb = use == ImageUse::color && !says_linear(r);
     LoadedImage loaded;
-    loaded.image = Image(int(width), int(height), channels, format, srgb ? Encoding::srgb : Encoding::linear);
+    loaded.image =
+        Image(int(width), int(height), channels, format, r.srgb ? Encoding::srgb : Encoding::linear);
     std::vector<png_bytep> rows(height);
     for (size_t y = 0; y < height; ++y)
         rows[y] = reinterpret_cast<png_bytep>(loaded.image.bytes.data()) + y * stored_row;

@@ -15,8 +15,9 @@ namespace {
 
 // New-style scanlines: a marker of four bytes, then the four components, each run-length coded by itself.
 constexpr int kShortestCodedRow = 8, kLongestCodedRow = 32767;
-// The oldest coding stores a row of equal texels in 12 bytes, at 12 decoded bytes a texel.
-constexpr uint64_t kMostRunRatio = kMaxImageSide;
+// The oldest coding stores a row like the last texel of the row before in 8 bytes (two repeat codes), at 12
+// decoded bytes a texel.
+constexpr uint64_t kMostRunRatio = kMaxImageSide * 12 / 8;
 
 struct Header {
     int width = 0, height = 0;
@@ -48,8 +49,7 @@ Result<Header> parse_resolution(std::string_view line) {
         *width != std::floor(*width))
         return wrong;
     const auto side = [](double value) { return uint64_t(std::min(value, 1e9)); };
-    if (Result<void> size = check_image_size(side(*width), side(*height), 3, PixelFormat::f32); !size)
-        return size.error();
+    if (Result<void> size = check_image_size(side(*width), side(*height), 3); !size) return size.error();
     return Header{int(*width), int(*height), words[0][0] == '+', words[2][0] == '-'};
 }
 
@@ -88,28 +88,30 @@ bool read_runs(ByteReader& in, uint8_t* component, int width) {
     return in.ok();
 }
 
-// Uncoded texels; in the oldest files (1,1,1,n) repeats the texel before it, and successive ones count in
-// higher bytes.
-bool read_flat(ByteReader& in, uint8_t* row, int width) {
+// Uncoded texels; in the oldest files (1,1,1,n) repeats the texel before it (at the start of a row the last
+// of the row before, if there is one), and successive ones count in higher bytes, of which the lower may be
+// 0.
+bool read_flat(ByteReader& in, uint8_t* row, int width, bool first_row) {
+    uint8_t before[4] = {row[4 * width - 4], row[4 * width - 3], row[4 * width - 2], row[4 * width - 1]};
     unsigned shift = 0;
     for (int x = 0; x < width;) {
         const Bytes raw = in.take(4);
         if (raw.empty()) return false;
-        std::memcpy(row + 4 * x, raw.data(), 4);
-        if (row[4 * x] != 1 || row[4 * x + 1] != 1 || row[4 * x + 2] != 1) {
-            ++x;
-            shift = 0;
-            continue;
-        }
-        const uint64_t run = shift < 32 ? uint64_t(row[4 * x + 3]) << shift : 0;
-        if (x == 0 || run == 0 || run > uint64_t(width - x)) return false;
-        for (uint64_t i = 0; i < run; ++i, ++x) std::memcpy(row + 4 * x, row + 4 * x - 4, 4);
-        shift += 8;
+        uint8_t texel[4];
+        std::memcpy(texel, raw.data(), 4);
+        const bool repeats = texel[0] == 1 && texel[1] == 1 && texel[2] == 1;
+        const uint64_t run = !repeats ? 1 : shift < 32 ? uint64_t(texel[3]) << shift : 0;
+        if (repeats && ((x == 0 && first_row) || shift >= 32)) return false;
+        if (run > uint64_t(width - x)) return false;
+        if (!repeats) std::memcpy(before, texel, 4);
+        for (uint64_t i = 0; i < run; ++i, ++x) std::memcpy(row + 4 * x, before, 4);
+        shift = repeats ? shift + 8 : 0;
     }
     return true;
 }
 
-bool read_row(ByteReader& in, uint8_t* row, int width) {
+// `row` holds the row before, unless this is the first.
+bool read_row(ByteReader& in, uint8_t* row, int width, bool first_row) {
     const size_t start = in.position();
     const uint8_t a = in.read<uint8_t>(), b = in.read<uint8_t>(), high = in.read<uint8_t>(),
                   low = in.read<uint8_t>();
@@ -118,7 +120,7 @@ bool read_row(ByteReader& in, uint8_t* row, int width) {
         width >= kShortestCodedRow && width <= kLongestCodedRow && a == 2 && b == 2 && high < 128;
     if (!coded) {
         in.seek(start);
-        return read_flat(in, row, width);
+        return read_flat(in, row, width, first_row);
     }
     if ((high << 8 | low) != width) return false;
     for (int component = 0; component < 4; ++component)
@@ -187,7 +189,7 @@ Result<LoadedImage> decode_radiance(Bytes file, ImageUse) {
     ByteReader in(rest);
     std::vector<uint8_t> row(size_t(width) * 4);
     for (int y = 0; y < height; ++y) {
-        if (!read_row(in, row.data(), width))
+        if (!read_row(in, row.data(), width, y == 0))
             return Error{"corrupt HDR: row " + std::to_string(y) + " of " + std::to_string(height) +
                          (in.ok() ? " is damaged" : ": the file ends early")};
         float* to = loaded.image.floats().data() + size_t(bottom_up ? height - 1 - y : y) * size_t(width) * 3;
