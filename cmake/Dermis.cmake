@@ -49,9 +49,7 @@ function(dermis_test_folder folder)
         target_link_libraries(test_${folder} PRIVATE dermis_${library})
     endforeach()
     target_link_libraries(test_${folder} PRIVATE GTest::gtest GTest::gtest_main GTest::gmock)
-    target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-    target_compile_definitions(test_${folder} PRIVATE
-        DERMIS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" DERMIS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+    target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_BINARY_DIR}/tests/include)
     # Compiling is most of a test run's time: no heavy optimisation, and GoogleTest's headers parsed once for all.
     target_compile_options(test_${folder} PRIVATE ${DERMIS_WARNINGS} -O1)
     target_precompile_headers(test_${folder} REUSE_FROM test_headers)

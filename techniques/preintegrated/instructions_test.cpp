@@ -8,6 +8,7 @@
 
 #include "dermis/base/file.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 

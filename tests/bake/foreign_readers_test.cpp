@@ -11,6 +11,7 @@
 #include "dermis/base/file.h"
 #include "dermis/image/half.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 

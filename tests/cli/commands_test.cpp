@@ -7,6 +7,7 @@
 #include "cli/run_program.h"
 #include "dermis/image/io.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 using testing::HasSubstr;

@@ -11,6 +11,7 @@
 
 #include "cli/run_program.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 namespace fs = std::filesystem;
 using namespace dermis;

@@ -6,6 +6,7 @@
 
 #include "cli/run_program.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 

@@ -8,6 +8,7 @@
 #include "image/test_files.h"
 #include "image/test_images.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 namespace fs = std::filesystem;
 using namespace dermis;

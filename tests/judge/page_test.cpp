@@ -8,6 +8,7 @@
 #include "dermis/judge/report.h"
 #include "render/render_test.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 

@@ -6,6 +6,7 @@
 
 #include "dermis/base/file.h"
 #include "render/render_test.h"
+#include "test_paths.h"
 
 using namespace dermis;
 using testing::HasSubstr;

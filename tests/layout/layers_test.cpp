@@ -9,6 +9,8 @@
 #include <set>
 #include <sstream>
 
+#include "test_paths.h"
+
 namespace fs = std::filesystem;
 using Layers = std::map<std::string, std::set<std::string>>;
 

@@ -8,6 +8,8 @@
 #include <regex>
 #include <set>
 
+#include "test_paths.h"
+
 namespace fs = std::filesystem;
 
 namespace {

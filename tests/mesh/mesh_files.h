@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dermis/mesh/read_mesh.h"
+#include "test_paths.h"
 
 namespace dermis::test {
 

@@ -12,6 +12,7 @@
 #include "dermis/base/file.h"
 #include "dermis/optics/burley_scaling.h"
 #include "dermis/optics/presets.h"
+#include "test_paths.h"
 
 using namespace dermis;
 using testing::HasSubstr;

@@ -12,6 +12,7 @@
 #include "dermis/base/file.h"
 #include "dermis/scene/scene_paths.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 namespace fs = std::filesystem;

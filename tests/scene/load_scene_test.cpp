@@ -11,6 +11,7 @@
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_paths.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 namespace fs = std::filesystem;

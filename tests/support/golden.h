@@ -12,6 +12,7 @@
 #include <string>
 
 #include "dermis/image/io.h"
+#include "test_paths.h"
 
 namespace dermis {
 

@@ -4,6 +4,7 @@
 
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/write_mesh.h"
+#include "test_paths.h"
 #include "view/window_fixture.h"
 
 namespace dermis {
