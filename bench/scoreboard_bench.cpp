@@ -37,30 +37,26 @@ int fail(const std::string& message) {
 
 Result<Comparison> compare(gpu::Device& device, const Scene& scene, int size) {
     ComparisonSettings settings = comparison_settings(size, size);
-    settings.reference.noise = 0.005;
-    Progress line("ground truth of " + scene.name, 1000);
-    size_t shown = 0;
-    return compare_techniques(device, scene, scoreboard_contestants(), settings,
-                              {.reference = [&](double done) {
-                                  const auto now = size_t(done * 1000);
-                                  if (now > shown) line.advance(now - shown);
-                                  shown = std::max(shown, now);
-                              }});
+    Progress line("ground truth of " + scene.name, 0);
+    return compare_techniques(
+        device, scene, scoreboard_contestants(), settings,
+        {.reference = [&](double done) { line.set(done); },
+         .techniques = [&](double done, const std::string& name) { line.set(done, name); }});
 }
 
-Result<std::vector<ScoreboardRow>> kept_rows(const std::filesystem::path& csv) {
+Result<std::vector<ScoreRow>> kept_rows(const std::filesystem::path& csv) {
     std::error_code ec;
-    if (!std::filesystem::exists(csv, ec)) return std::vector<ScoreboardRow>();
+    if (!std::filesystem::exists(csv, ec)) return std::vector<ScoreRow>();
     const Result<std::string> text = read_text_file(csv);
     if (!text) return text.error();
-    return parse_scoreboard(*text);
+    return parse_scores(*text);
 }
 
-Result<void> write(const std::filesystem::path& directory, const std::vector<ScoreboardRow>& rows,
+Result<void> write(const std::filesystem::path& directory, const std::vector<ScoreRow>& rows,
                    const std::string& device, int size) {
     char heading[2048];
     std::snprintf(heading, sizeof heading, kText, device.c_str(), size, size);
-    if (auto done = write_text_file(directory / "scoreboard.csv", scoreboard_csv(rows)); !done) return done;
+    if (auto done = write_text_file(directory / "scoreboard.csv", scores_csv(rows)); !done) return done;
     if (auto done = write_plot(directory / "scoreboard.svg", scoreboard_plot(rows)); !done) return done;
     return write_text_file(directory / "scoreboard.md", heading + scoreboard_markdown(rows));
 }
@@ -74,7 +70,7 @@ int main(int argc, char** argv) {
     if (size < 16 || size > 4096) return fail("a size of 16 to 4096");
     std::vector<std::string> names(argv + std::min(argc, 3), argv + argc);
     if (names.empty()) names = {"spheres", "bust", "head_scan"};
-    Result<std::vector<ScoreboardRow>> rows = kept_rows(directory / "scoreboard.csv");
+    Result<std::vector<ScoreRow>> rows = kept_rows(directory / "scoreboard.csv");
     if (!rows) return fail(rows.error().message);
     Result<gpu::Device> device = gpu::Device::create({});
     if (!device) return fail(device.error().message);
@@ -88,10 +84,9 @@ int main(int argc, char** argv) {
         }
         const Result<Comparison> comparison = compare(*device, *scene, size);
         if (!comparison) return fail(name + ": " + comparison.error().message);
-        rows = merged(std::move(*rows), scoreboard_rows(name, *comparison));
-        std::printf("%s: ground truth %.1f s%s, noise %.5f\n", name.c_str(),
-                    comparison->reference.picture.time_ms / 1000,
-                    comparison->reference.from_cache ? " (from the cache)" : "", comparison->reference_rmse);
+        rows = merged(std::move(*rows), score_rows(name, *comparison));
+        std::printf("%s: ground truth %.1f s%s, noise %.5f\n", name.c_str(), comparison->truth.time_ms / 1000,
+                    comparison->truth.from_cache ? " (from the cache)" : "", comparison->reference_rmse);
         if (auto written = write(directory, *rows, device->info().name, size); !written)
             return fail(written.error().message);
     }

@@ -23,18 +23,30 @@ void Progress::advance(size_t items) {
     const size_t done = done_.fetch_add(items) + items;
     if (!terminal_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock) return;
+    if (lock) draw_if_due(total_ == 0 ? 1.0 : double(done) / double(total_));
+}
+
+void Progress::set(double fraction, std::string_view what) {
+    if (!terminal_) return;
+    const std::lock_guard lock(mutex_);
+    if (!begun_) first_fraction_ = fraction;
+    begun_ = true;
+    if (!what.empty()) what_ = what;
+    draw_if_due(fraction);
+}
+
+void Progress::draw_if_due(double fraction) {
     const auto now = Clock::now();
     if (now - start_ < 1s || now - last_ < 100ms) return;
     last_ = now;
-    draw(done);
+    draw(fraction);
 }
 
-void Progress::draw(size_t done) {
+void Progress::draw(double fraction) {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    const double fraction = total_ == 0 ? 1.0 : double(done) / double(total_);
-    const double left_s = fraction > 0 ? elapsed_s * (1 - fraction) / fraction : 0;
-    std::fprintf(stderr, "\r\x1b[K%s %3.0f %%, %.0f s left", what_.c_str(), 100 * fraction, left_s);
+    std::fprintf(stderr, "\r\x1b[K%s %3.0f %%", what_.c_str(), 100 * fraction);
+    const double made = fraction - first_fraction_;
+    if (made > 0) std::fprintf(stderr, ", %.0f s left", elapsed_s * (1 - fraction) / made);
     std::fflush(stderr);
     drawn_ = true;
 }

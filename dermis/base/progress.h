@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 namespace dermis {
 
@@ -19,10 +20,17 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
 
     void advance(size_t items = 1);
+    /// For work whose amount is an estimate: what share of it is done, 0 to 1; it may fall. `what` replaces
+    /// the line's text unless it is empty. From one thread.
+    void set(double fraction, std::string_view what = {});
 
   private:
     using Clock = std::chrono::steady_clock;
-    void draw(size_t done);
+    void draw_if_due(double fraction);
+    void draw(double fraction);
+
+    double first_fraction_ = 0;  ///< where set() began: work that was done before is no measure of speed
+    bool begun_ = false;
 
     std::string what_;
     size_t total_;

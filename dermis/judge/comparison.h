@@ -1,20 +1,21 @@
 #pragma once
-// Techniques held against the ground truth of the same scene: pictures, errors, times, bytes.
+// Techniques held against the ground truth of the same scene: captured share, pictures, errors, times, bytes.
 //
 // All show the same: skin's diffuse transport, direct lights with the key light's shadow, specular reflection
 // by GGX, the environment as the renderer approximates it (order-2 harmonics, split sum, occlusion). The
 // ground truth takes these over as they are, so that what differs is the transport within the skin; with
 // AmbientModel::traced the environment is traced instead, and its approximation counts as error of every
-// technique. Pixels that are not skin do not count. Pixels are sampled in their middle on both sides; maps
-// are read at the same level of detail.
+// technique. Pixels that are not wholly skin do not count. Both sides average the same grid of points in a
+// pixel; maps are read at the same level of detail.
 
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "dermis/gpu/device.h"
-#include "dermis/judge/reference_cache.h"
+#include "dermis/judge/effect_truth.h"
 #include "dermis/judge/scores.h"
+#include "dermis/judge/technique_cost.h"
 #include "dermis/judge/technique_list.h"
 
 namespace dermis {
@@ -24,7 +25,12 @@ struct ComparisonSettings {
     /// The picture is made with this shadow map, so that a technique is not charged for the coarser one's
     /// bias; frames are timed with the renderer's own.
     int shadow_map_size = 4096;
-    int frames = 5;  ///< timed ones, after one that compiles; 0: none are
+    int grid = 4;        ///< both sides take grid x grid points of a pixel
+    double noise = 0.2;  ///< of the effect's RMS at which the truth is fine enough
+    int samples = 2048;  ///< of the truth a pixel, at most
+    int frames = 5;      ///< timed ones, after one that compiles; 0: none are
+    /// Integrator, lighting, probes and seed of the truth. Its size is the comparison's. As it is, a truth
+    /// that is looked at beside one frame, pixel middle against pixel middle.
     ReferenceSettings reference;
 };
 
@@ -34,18 +40,17 @@ struct ComparisonSettings {
 struct Compared {
     Contestant contestant;
     Image radiance;  ///< linear, RGBA; beyond the skin as drawn
+    Image effect;    ///< RGB: radiance less lambert's
     Image flip,
         distance;  ///< one channel: FLIP of the tone-mapped pictures, largest difference of linear channels
+    Captured captured;
     Scores scores;
-    double time_ms = 0;      ///< median of whole frames
-    double time_ratio = 0;   ///< median over frames of time / lambert's in the same round; 0 without lambert
-    size_t table_bytes = 0;  ///< tables baked for it
-    size_t image_bytes = 0;  ///< images that only its own passes use
-    [[nodiscard]] size_t bytes() const { return table_bytes + image_bytes; }
+    TechniqueCost cost;
 };
 
 struct Comparison {
-    CachedReference reference;
+    EffectTruth truth;
+    Image truth_radiance;  ///< mean of its halves
     SkinMasks masks;
     double reference_rmse = 0;  ///< standard error of the ground truth over the skin: no rmse is known better
     std::vector<Compared> rows;
@@ -53,13 +58,13 @@ struct Comparison {
 };
 
 struct ComparisonHooks {
-    ReferenceProgress reference;
-    std::function<void(const std::string& name)> technique;  ///< before each is drawn
+    ReferenceDone reference;
+    std::function<void(double done, const std::string& name)> techniques;  ///< before each is drawn or timed
     const std::atomic<bool>* stop = nullptr;
 };
 
-/// The scene must be complete (complete_scene). Errors: whatever render_reference and Renderer say, no skin
-/// in sight.
+/// The scene must be complete (complete_scene). `lambert` is the technique without scattering, which every
+/// effect is measured from. Errors: whatever make_effect_truth and Renderer say, no skin in sight.
 [[nodiscard]] Result<Comparison> compare_techniques(gpu::Device& device, const Scene& scene,
                                                     const std::vector<Contestant>& contestants,
                                                     const ComparisonSettings& settings,

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The error maps' brightest colour stands for this share of the largest value, so that one wild pixel does
+// The maps' last colour is this share of the largest value, so that one wild pixel does
 // not darken all others.
 constexpr double kFullQuantile = 0.995;
 
@@ -43,14 +43,34 @@ double quantile(const Image& values, const Image& mask, double share) {
     return *at;
 }
 
-// One scale for all techniques, so that maps can be compared; two figures, so that people can read it.
-double common_full(const Comparison& comparison, Image Compared::*map) {
-    double full = 1e-6;
-    for (const Compared& row : comparison.rows)
-        full = std::max(full, quantile(row.*map, comparison.masks.skin, kFullQuantile));
+// Two figures, so that people can read it, and never 0.
+double rounded_up(double full) {
+    full = std::max(full, 1e-6);
     const double unit = std::pow(10.0, std::floor(std::log10(full)) - 1);
     return std::ceil(full / unit) * unit;
 }
+
+// One scale for all techniques, so that maps can be compared.
+double common_full(const Comparison& comparison, Image Compared::*map) {
+    double full = 0;
+    for (const Compared& row : comparison.rows)
+        full = std::max(full, quantile(row.*map, comparison.masks.skin, kFullQuantile));
+    return rounded_up(full);
+}
+
+// Of the effect of scattering: what a technique makes of it is shown on the truth's own scale.
+double effect_full(const Comparison& comparison, const Image& effect) {
+    Image size(effect.width, effect.height, 1);
+    for (size_t i = 0; i < size.pixel_count(); ++i) {
+        const float* at = &effect.floats()[3 * i];
+        size.floats()[i] = std::abs(at[0] + at[1] + at[2]) / 3;
+    }
+    return rounded_up(quantile(size, comparison.masks.skin, kFullQuantile));
+}
+
+struct Scales {
+    double flip = 0, distance = 0, effect = 0;
+};
 
 Result<void> add_image(Json& images, std::string_view group, const std::string& label,
                        Result<std::string> uri) {
@@ -59,53 +79,45 @@ Result<void> add_image(Json& images, std::string_view group, const std::string& 
     return {};
 }
 
-Result<Json> images_of(const Scene& scene, const Comparison& comparison, double flip_full,
-                       double distance_full) {
+Result<Json> images_of(const Scene& scene, const Comparison& comparison, const Image& effect,
+                       const Scales& scales) {
     Json images = Json::array();
-    const ReferencePicture& truth = comparison.reference.picture;
-    if (auto added = add_image(images, "picture", "ground truth", picture_uri(truth.radiance, scene)); !added)
-        return added.error();
+    Result<void> good;
+    const auto add = [&](std::string_view group, const std::string& label, Result<std::string> uri) {
+        if (good) good = add_image(images, group, label, std::move(uri));
+    };
+    const Image& skin = comparison.masks.skin;
+    const auto signed_uri = [&](const Image& map) { return data_uri(signed_map(map, scales.effect, skin)); };
+    add("picture", "ground truth", picture_uri(comparison.truth_radiance, scene));
     for (const Compared& row : comparison.rows)
-        if (auto added =
-                add_image(images, "picture", row.contestant.name(), picture_uri(row.radiance, scene));
-            !added)
-            return added.error();
+        add("picture", row.contestant.name(), picture_uri(row.radiance, scene));
+    add("effect", "ground truth", signed_uri(effect));
+    for (const Compared& row : comparison.rows) add("effect", row.contestant.name(), signed_uri(row.effect));
     for (const Compared& row : comparison.rows)
-        if (auto added = add_image(images, "FLIP", row.contestant.name(),
-                                   data_uri(heat_map(row.flip, flip_full, comparison.masks.skin)));
-            !added)
-            return added.error();
+        add("left over", row.contestant.name(), signed_uri(difference(row.effect, effect)));
     for (const Compared& row : comparison.rows)
-        if (auto added = add_image(images, "linear error", row.contestant.name(),
-                                   data_uri(heat_map(row.distance, distance_full, comparison.masks.skin)));
-            !added)
-            return added.error();
+        add("FLIP", row.contestant.name(), data_uri(heat_map(row.flip, scales.flip, skin)));
+    for (const Compared& row : comparison.rows)
+        add("linear error", row.contestant.name(), data_uri(heat_map(row.distance, scales.distance, skin)));
+    if (!good) return good.error();
     return images;
 }
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
+Json number(std::optional<double> value) {
+    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
 
 Json rows_of(const Comparison& comparison) {
     Json rows = Json::array();
-    for (const Compared& row : comparison.rows) {
-        const Scores& s = row.scores;
-        const auto part = [](const std::optional<double>& v) { return v ? number(*v) : Json(nullptr); };
-        rows.push_back({{"technique", row.contestant.technique->id},
-                        {"settings", row.contestant.settings},
-                        {"summary", row.contestant.technique->summary},
-                        {"rmse", number(s.rmse)},
-                        {"rel_mse", number(s.rel_mse)},
-                        {"psnr_db", number(s.psnr_db)},
-                        {"ssim", number(s.ssim)},
-                        {"delta_e_2000", number(s.delta_e_2000)},
-                        {"flip", number(s.flip)},
-                        {"terminator_rmse", part(s.terminator_rmse)},
-                        {"penumbra_rmse", part(s.penumbra_rmse)},
-                        {"time_ms", number(row.time_ms)},
-                        {"time_ratio", row.time_ratio > 0 ? number(row.time_ratio) : Json(nullptr)},
-                        {"bytes", row.bytes()}});
+    const std::vector<ScoreRow> scores = score_rows("", comparison);
+    for (size_t i = 0; i < scores.size(); ++i) {
+        Json row = {{"technique", scores[i].technique},
+                    {"settings", scores[i].settings},
+                    {"summary", comparison.rows[i].contestant.technique->summary}};
+        for (const ScoreColumn& column : score_columns())
+            row[std::string(column.name)] = number(column.get(scores[i]));
+        if (scores[i].time_ratio <= 0) row["time_ratio"] = nullptr;
+        rows.push_back(std::move(row));
     }
     return rows;
 }
@@ -128,9 +140,11 @@ Json facts_of(const Scene& scene, const Comparison& comparison, const Comparison
             {"profile", scene.skin.profile},
             {"integrator", integrator_text(reference.integrator)},
             {"ambient", traced ? "traced" : "as the renderer approximates it, on both sides"},
-            {"passes", comparison.reference.picture.passes},
+            {"samples", comparison.truth.samples},
+            {"grid", settings.grid},
             {"probes", reference.probes},
-            {"relative_error", comparison.reference.picture.relative_error},
+            {"effect_rms", comparison.truth.noise.effect_rms},
+            {"truth_noise", comparison.truth.noise.noise_rms},
             {"reference_rmse", comparison.reference_rmse},
             {"camera", camera_text(scene.camera)},
             {"light", light_text(scene.key_light())},
@@ -144,13 +158,28 @@ Json facts_of(const Scene& scene, const Comparison& comparison, const Comparison
             {"penumbra_mm", kPenumbraBandMm}};
 }
 
-Json heat_stops() {
+Json color_stops(Vec3 (*color)(float), float first) {
+    constexpr int kCount = 20;
     Json stops = Json::array();
-    for (int i = 0; i <= 10; ++i) {
-        const Vec3 c = heat_color(float(i) / 10) * 255;
+    for (int i = 0; i <= kCount; ++i) {
+        const Vec3 c = color(first + (1 - first) * float(i) / kCount) * 255;
         stops.push_back({std::lround(c.x), std::lround(c.y), std::lround(c.z)});
     }
     return stops;
+}
+
+Json scales_json(const Scales& scales) {
+    const Json heat = color_stops(heat_color, 0), both = color_stops(signed_color, -1);
+    return Json::array(
+        {{{"label", "effect of scattering: darker or brighter than without, mean of the channels"},
+          {"stops", both},
+          {"from", -scales.effect},
+          {"to", scales.effect}},
+         {{"label", "FLIP"}, {"stops", heat}, {"from", 0}, {"to", scales.flip}},
+         {{"label", "linear error, largest channel"},
+          {"stops", heat},
+          {"from", 0},
+          {"to", scales.distance}}});
 }
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {
@@ -175,18 +204,16 @@ std::string base64(std::span<const std::byte> bytes) {
 
 Result<std::string> report_html(const Scene& scene, const Comparison& comparison,
                                 const ComparisonSettings& settings) {
-    const double flip_full = common_full(comparison, &Compared::flip),
-                 distance_full = common_full(comparison, &Compared::distance);
-    Result<Json> images = images_of(scene, comparison, flip_full, distance_full);
+    const Image effect = mean_effect(comparison.truth.effect);
+    const Scales scales{.flip = common_full(comparison, &Compared::flip),
+                        .distance = common_full(comparison, &Compared::distance),
+                        .effect = effect_full(comparison, effect)};
+    Result<Json> images = images_of(scene, comparison, effect, scales);
     if (!images) return images.error();
-    const Json data = {
-        {"scene", scene.name},
-        {"credit", scene.credit},
-        {"warnings", scene.warnings},
-        {"images", std::move(*images)},
-        {"rows", rows_of(comparison)},
-        {"facts", facts_of(scene, comparison, settings)},
-        {"heat", {{"stops", heat_stops()}, {"flip", flip_full}, {"linear error", distance_full}}}};
+    const Json data = {{"scene", scene.name},          {"credit", scene.credit},
+                       {"warnings", scene.warnings},   {"images", std::move(*images)},
+                       {"rows", rows_of(comparison)},  {"facts", facts_of(scene, comparison, settings)},
+                       {"scales", scales_json(scales)}};
     // No text of the data may end the script element or start another.
     std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);
     replace_all(json, "<", "\\u003c");

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "dermis/base/text.h"
 #include "dermis/image/metrics.h"
 
 namespace dermis {
@@ -21,31 +19,13 @@ Result<std::optional<double>> rmse_over(const Image& radiance, const Image& refe
     return std::optional<double>(*value);
 }
 
-std::string csv_field(std::string text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    for (size_t i = 0; (i = text.find('"', i)) != std::string::npos; i += 2) text.insert(i, 1, '"');
-    return '"' + text + '"';
-}
-
-// Four figures are more than any of the errors deserves.
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
-
-std::string number(const std::optional<double>& value) {
-    return value ? number(*value) : "";
-}
-
 }  // namespace
 
-SkinMasks make_masks(const Image& light, const Image& position, const Image& skin) {
+SkinMasks make_masks(const Image& light, const Image& drawn, const Image& skin) {
     SkinMasks masks{Image(skin.width, skin.height, 1), Image(skin.width, skin.height, 1),
                     Image(skin.width, skin.height, 1)};
     for (size_t i = 0; i < skin.pixel_count(); ++i) {
-        const bool drawn = position.floats()[4 * i + 3] > 0;
-        if (!drawn || skin.floats()[i] < 1) continue;
+        if (drawn.floats()[i] < 1 || skin.floats()[i] < 1) continue;
         masks.skin.floats()[i] = 1;
         const float n_dot_l = light.floats()[4 * i + 2], visibility = light.floats()[4 * i + 3];
         if (std::abs(n_dot_l) < kTerminatorCosine) masks.terminator.floats()[i] = 1;
@@ -94,24 +74,6 @@ Result<Scores> score(const Image& radiance, const Image& reference, const SkinMa
     scores.terminator_rmse = *terminator;
     scores.penumbra_rmse = *penumbra;
     return scores;
-}
-
-std::string scores_csv(const std::vector<ScoreRow>& rows) {
-    std::string text =
-        "scene,technique,settings,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,"
-        "time_ms,bytes\n";
-    for (const ScoreRow& row : rows) {
-        const Scores& s = row.scores;
-        const std::string fields[] = {csv_field(row.scene),     csv_field(row.technique),
-                                      csv_field(row.settings),  number(s.rmse),
-                                      number(s.rel_mse),        number(s.psnr_db),
-                                      number(s.ssim),           number(s.delta_e_2000),
-                                      number(s.flip),           number(s.terminator_rmse),
-                                      number(s.penumbra_rmse),  number(row.time_ms),
-                                      std::to_string(row.bytes)};
-        text += join(fields, ",") + "\n";
-    }
-    return text;
 }
 
 }  // namespace dermis

@@ -1,14 +1,16 @@
 #pragma once
-// The error of one picture of skin against the ground truth, in numbers: over all skin, and where scattering
-// shows.
+// One picture of skin against the ground truth in numbers: the captured share and the raw errors, over all
+// skin and where scattering shows.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "dermis/base/result.h"
 #include "dermis/image/image.h"
 #include "dermis/image/tone_map.h"
+#include "dermis/judge/captured.h"
 
 namespace dermis {
 
@@ -24,9 +26,9 @@ struct SkinMasks {
 };
 
 /// What the masks are cut from. `light`: uv, n.l and visibility through a filter kPenumbraBandMm wide (the
-/// G-buffer's gbuffer_light); `position`: world position and distance (gbuffer_position; 0 where nothing was
-/// drawn); `skin`: the ground truth's share of skin.
-[[nodiscard]] SkinMasks make_masks(const Image& light, const Image& position, const Image& skin);
+/// G-buffer's gbuffer_light); `drawn`: the share of the pixel where the renderer drew a surface, one channel;
+/// `skin`: the ground truth's share of skin. Only pixels that are wholly skin in both count.
+[[nodiscard]] SkinMasks make_masks(const Image& light, const Image& drawn, const Image& skin);
 
 /// rmse and rel_mse on linear radiance; the rest on the tone-mapped picture. The parts are missing where a
 /// scene has no such pixel. Units as metrics.h has them.
@@ -51,14 +53,32 @@ struct Display {
 /// One row of scores.csv.
 struct ScoreRow {
     std::string scene, technique, settings;
+    Captured captured;
     Scores scores;
     double time_ms = 0;
     size_t bytes = 0;
+    double time_ratio = 0;      ///< frame time over lambert's in the same rounds; 0: not known
+    double reference_rmse = 0;  ///< noise of the ground truth that the raw errors are held against
 };
 
-/// Columns
-/// scene,technique,settings,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,time_ms,bytes;
-/// fields with commas are quoted; a missing part is empty.
+/// A numeric column of scores.csv. A missing value is a share whose truth is too noisy, or a part that the
+/// scene has not.
+struct ScoreColumn {
+    std::string_view name;
+    std::optional<double> (*get)(const ScoreRow& row);
+    void (*set)(ScoreRow& row, std::optional<double> value);
+    bool may_be_missing = false;
+};
+
+/// In order: captured, captured_r, captured_g, captured_b, captured_error (half of the 95 % interval of
+/// captured), effect_rms, truth_noise, rmse, rel_mse, psnr_db, ssim, delta_e_2000, flip, terminator_rmse,
+/// penumbra_rmse, time_ms, bytes, time_ratio, reference_rmse.
+[[nodiscard]] std::span<const ScoreColumn> score_columns();
+
+/// scene,technique,settings and score_columns(); fields with commas are quoted, a missing value is empty.
 [[nodiscard]] std::string scores_csv(const std::vector<ScoreRow>& rows);
+
+/// The inverse. Errors name line and column: another heading, too few columns, no number.
+[[nodiscard]] Result<std::vector<ScoreRow>> parse_scores(std::string_view text);
 
 }  // namespace dermis

@@ -189,6 +189,13 @@ Result<void> check_settings(const ReferenceSettings& s) {
         return out_of_range("width scale", s.width_scale, "0..1000");
     if (s.noise && !(*s.noise > 0 && *s.noise < 1))
         return out_of_range("noise", *s.noise, "0..1, both excluded");
+    if (s.filter == PixelFilter::grid) {
+        if (s.grid < 1 || s.grid > 16) return out_of_range("grid", s.grid, "1..16");
+        if (s.samples % (s.grid * s.grid) != 0 || s.noise)
+            return Error{"a grid of " + std::to_string(s.grid) + "x" + std::to_string(s.grid) +
+                         " cells needs every cell equally often: a multiple of " +
+                         std::to_string(s.grid * s.grid) + " samples, and no noise to stop at"};
+    }
     if (!(s.lighting.penumbra_mm >= 0 && s.lighting.penumbra_mm <= 1000))
         return out_of_range("penumbra_mm", s.lighting.penumbra_mm, "0..1000");
     return {};

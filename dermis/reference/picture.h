@@ -24,8 +24,9 @@ namespace dermis {
 enum class Integrator { surface, walk, lambert };
 
 /// A pixel is the mean over its square, or what lies behind its middle (as a renderer without multisampling
-/// draws it).
-enum class PixelFilter { box, center };
+/// draws it), or the mean of what lies behind the middles of grid x grid equal cells, maps read as finely as
+/// a cell (as a renderer that draws `grid` times the size and averages has it).
+enum class PixelFilter { box, center, grid };
 
 struct ReferenceSettings {
     Integrator integrator = Integrator::surface;
@@ -37,6 +38,7 @@ struct ReferenceSettings {
     double width_scale = 1;  ///< stretches the profile; 0 is lambert
     Normalisation normalisation = Normalisation::by_area;
     PixelFilter filter = PixelFilter::box;
+    int grid = 4;  ///< PixelFilter::grid: cells on a side, 1..16; samples are a multiple of its square
     LightingSettings lighting;               ///< entry_eta is set from the medium
     std::optional<ScatteringMedium> medium;  ///< walk: else the dipole of the scene's profile
 };

@@ -28,6 +28,14 @@ void face_the_eye(ShadingPoint& point, Vec3 to_eye) {
     point.p_smooth_mm = point.p_mm;
 }
 
+Vec2 place_in_pixel(const ReferenceSettings& settings, uint32_t index, OwenSequence& random) {
+    if (settings.filter == PixelFilter::box) return random.next_2d();
+    if (settings.filter == PixelFilter::center) return {0.5f, 0.5f};
+    const auto side = uint32_t(settings.grid);
+    const uint32_t cell = index % (side * side);
+    return Vec2{float(cell % side) + 0.5f, float(cell / side) + 0.5f} * (1 / float(side));
+}
+
 }  // namespace
 
 PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays,
@@ -104,18 +112,19 @@ Ray PixelSampler::camera_ray(int x, int y, Vec2 within) const {
         .origin_mm = near_mm, .direction = normalize(far_mm - near_mm), .max_mm = length(far_mm - near_mm)};
 }
 
-// Igehy 1999, "Tracing Ray Differentials": where the rays of the neighbouring pixels meet the plane of the
-// triangle.
-UvFootprint PixelSampler::footprint(int x, int y, const RayHit& hit, Vec3 p_mm) const {
-    if (settings_.filter != PixelFilter::center) return {};
-    const auto step = [&](int dx, int dy) -> Vec2 {
-        const Ray ray = camera_ray(x + dx, y + dy, {0.5f, 0.5f});
-        const float along = dot(ray.direction, hit.n_face);
+// Igehy 1999, "Tracing Ray Differentials": where the rays of the neighbouring pixels, or cells, meet the
+// plane of the triangle.
+UvFootprint PixelSampler::footprint(const Seen& seen, Vec3 p_mm) const {
+    if (settings_.filter == PixelFilter::box) return {};
+    const float side = settings_.filter == PixelFilter::grid ? 1 / float(settings_.grid) : 1;
+    const auto step = [&](float dx, float dy) -> Vec2 {
+        const Ray ray = camera_ray(seen.x, seen.y, {seen.within.x + dx, seen.within.y + dy});
+        const float along = dot(ray.direction, seen.hit.n_face);
         if (std::abs(along) < 1e-6f) return {};
-        const float distance_mm = dot(p_mm - ray.origin_mm, hit.n_face) / along;
-        return rays_.uv_step(hit, ray.origin_mm + ray.direction * distance_mm - p_mm);
+        const float distance_mm = dot(p_mm - ray.origin_mm, seen.hit.n_face) / along;
+        return rays_.uv_step(seen.hit, ray.origin_mm + ray.direction * distance_mm - p_mm);
     };
-    return {step(1, 0), step(0, 1)};
+    return {step(side, 0), step(0, side)};
 }
 
 Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footprint,
@@ -136,7 +145,7 @@ MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t 
                                         PixelSample& sample) const {
     const Vec3 to_eye = -seen.ray.direction;
     SurfaceAttributes surface = rays_.surface_at(seen.hit);
-    surface.footprint = footprint(seen.x, seen.y, seen.hit, surface.p_world_mm);
+    surface.footprint = footprint(seen, surface.p_world_mm);
     ShadingPoint point = materials_.shade(surface, seen.hit);
     face_the_eye(point, to_eye);
     OwenSequence uniform(seed, 0);
@@ -151,7 +160,7 @@ MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t 
 PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
     const uint32_t pixel = hash_u32(settings_.seed, uint32_t(x), uint32_t(y));
     OwenSequence camera(pixel, index);
-    const Vec2 within = settings_.filter == PixelFilter::center ? Vec2{0.5f, 0.5f} : camera.next_2d();
+    const Vec2 within = place_in_pixel(settings_, index, camera);
     Ray ray = camera_ray(x, y, within);
     PixelSample result;
     float through = 1;
@@ -164,14 +173,14 @@ PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
         if (!glass) break;
         const SurfaceAttributes surface = rays_.surface_at(*glass);
         const float opacity = scene_.objects[glass->object].mesh.materials[surface.material].opacity;
-        add_surface({*glass, ray, x, y}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
+        add_surface({*glass, ray, x, y, within}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
         result.coverage += through * opacity;
         through *= 1 - opacity;
         ray.min_mm = glass->distance_mm + 4 * rays_.epsilon_mm();
     }
     if (solid) {
         const MaterialClass seen =
-            add_surface({*solid, ray, x, y}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
+            add_surface({*solid, ray, x, y, within}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
         result.coverage += through;
         if (seen == MaterialClass::skin) result.skin = through;
         return result;

@@ -33,13 +33,14 @@ class PixelSampler {
     void use_medium(const ScatteringMedium& medium);
 
     [[nodiscard]] Ray camera_ray(int x, int y, Vec2 within) const;
-    [[nodiscard]] UvFootprint footprint(int x, int y, const RayHit& hit, Vec3 p_mm) const;
-    /// A surface with the ray that sees it and the pixel it is seen in.
+    /// A surface with the ray that sees it, the pixel it is seen in and where in the pixel.
     struct Seen {
         RayHit hit;
         Ray ray;
         int x, y;
+        Vec2 within;
     };
+    [[nodiscard]] UvFootprint footprint(const Seen& seen, Vec3 p_mm) const;
     MaterialClass add_surface(const Seen& seen, Vec3 weight, uint32_t seed, PixelSample& sample) const;
     [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const UvFootprint& footprint,
                                 const LightingRandom& random, uint32_t seed, PixelSample& sample) const;

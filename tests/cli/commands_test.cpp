@@ -68,7 +68,7 @@ TEST_F(Commands, sixteen_bit_png_and_layered_exr_come_out) {
 TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_truth_once) {
     const std::string command =
         "compare builtin:spheres --techniques 'lambert,preintegrated[diffuse=closed_form]' "
-        "--size 32x32 --samples 2 --frames 1 --json -o " +
+        "--size 32x32 --samples-per-pixel 4 --samples 16 --frames 1 --json -o " +
         path("report");
     const std::string own_cache = "DERMIS_CACHE=" + path("cache") + " " + DERMIS_PROGRAM + " ";
     const ProgramResult first = shell(own_cache + command);
@@ -79,6 +79,9 @@ TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_truth_once) {
     EXPECT_EQ(nlohmann::json::parse(first.out)["reference_from_cache"], false);
     EXPECT_EQ(json["reference_from_cache"], true);
     EXPECT_EQ(json["rows"].size(), 2u);
+    EXPECT_EQ(json["rows"][0]["captured"], 0) << "lambert";
+    EXPECT_EQ(json["truth_samples"], 16);
+    EXPECT_THAT(first.err, HasSubstr("the ground truth stopped at its limit of 16 samples a pixel"));
     EXPECT_THAT(slurp(path("report/report.html")), HasSubstr("Content-Security-Policy"));
     EXPECT_THAT(slurp(path("report/scores.csv")),
                 HasSubstr("\nbuiltin:spheres,preintegrated,diffuse=closed_form,"));

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "dermis/judge/reference_cache.h"
 #include "dermis/judge/report.h"
 #include "render/render_test.h"
 #include "support/temporary_directory.h"
@@ -32,9 +33,10 @@ class Comparisons : public RenderTest {
         ComparisonSettings settings = comparison_settings(64, 64);
         settings.shadow_map_size = 1024;
         settings.frames = 1;
-        settings.reference.samples = 4;
+        settings.grid = 2;
+        settings.samples = 16;
+        settings.noise = 1;
         settings.reference.probes = 8;
-        settings.reference.noise = {};
         return settings;
     }
     static std::vector<Contestant> contestants(std::string_view text) {
@@ -54,17 +56,19 @@ TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
     const auto list = contestants("lambert,preintegrated[diffuse=closed_form]");
     const auto first = compare_techniques(device(), scene, list, quick());
     ASSERT_TRUE(first) << first.error().message;
-    EXPECT_FALSE(first->reference.from_cache);
+    EXPECT_FALSE(first->truth.from_cache);
     const auto second = compare_techniques(device(), scene, list, quick());
     ASSERT_TRUE(second);
-    EXPECT_TRUE(second->reference.from_cache);
+    EXPECT_TRUE(second->truth.from_cache);
     EXPECT_EQ(first->rows[1].scores.rmse, second->rows[1].scores.rmse);
-    EXPECT_EQ(first->reference.picture.variance.bytes, second->reference.picture.variance.bytes);
+    EXPECT_EQ(first->truth.effect.b.bytes, second->truth.effect.b.bytes);
+    EXPECT_EQ(first->rows[0].captured.all.share, 0) << "lambert is where the share begins";
+    EXPECT_GT(first->rows[1].captured.all.share, 0.3);
     EXPECT_LT(first->rows[1].scores.terminator_rmse, first->rows[0].scores.terminator_rmse)
         << "scattering should come closer to the truth than none";
-    EXPECT_EQ(first->rows[0].bytes(), 0u);
-    EXPECT_EQ(first->rows[0].time_ratio, 1);
-    EXPECT_GT(first->rows[1].time_ms, 0);
+    EXPECT_EQ(first->rows[0].cost.bytes(), 0u);
+    EXPECT_EQ(first->rows[0].cost.time_ratio, 1);
+    EXPECT_GT(first->rows[1].cost.time_ms, 0);
 
     const auto page = report_html(scene, *first, quick());
     ASSERT_TRUE(page) << page.error().message;
@@ -73,7 +77,7 @@ TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
     const auto data = nlohmann::json::parse(page->substr(at, page->find(";\n", at) - at), nullptr, false);
     ASSERT_TRUE(data.is_object());
     EXPECT_EQ(data["scene"], scene.name);
-    EXPECT_EQ(data["images"].size(), 1 + 3 * list.size());
+    EXPECT_EQ(data["images"].size(), 2 + 5 * list.size());
     for (const auto& image : data["images"])
         EXPECT_TRUE(image["uri"].get<std::string>().starts_with("data:image/png;base64,iVBOR"));
     EXPECT_EQ(data["rows"][1]["settings"], "diffuse=closed_form");

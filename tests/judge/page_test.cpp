@@ -31,7 +31,8 @@ TEST_F(Page, opens_in_a_browser_and_the_picture_follows_the_slider) {
     const Scene scene = load("builtin:spheres");
     ComparisonSettings settings = comparison_settings(96, 96);
     settings.frames = 1;
-    settings.reference.samples = 2;
+    settings.grid = 2;
+    settings.samples = 8;
     const auto contestants = parse_technique_list("lambert,wrap");
     ASSERT_TRUE(contestants);
     const auto comparison = compare_techniques(device(), scene, *contestants, settings);

@@ -28,14 +28,14 @@ void set_pixel(Image& image, int x, int y, int channel, float value) {
 // Skin everywhere but in the first row; n.l falls from 1 to -1 from left to right; a shadow's edge in the
 // fourth column.
 SkinMasks masks() {
-    Image light(kSide, kSide, 4), position = even(1, 4), skin = even(1, 1);
+    Image light(kSide, kSide, 4), drawn = even(1, 1), skin = even(1, 1);
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             set_pixel(light, x, y, 2, 1 - 2 * float(x) / (kSide - 1));
             set_pixel(light, x, y, 3, x == 3 || x == 8 ? 0.5f : 1.0f);
         }
     for (int x = 0; x < kSide; ++x) set_pixel(skin, x, 0, 0, 0);
-    return make_masks(light, position, skin);
+    return make_masks(light, drawn, skin);
 }
 
 double sum(const Image& mask) {
@@ -57,11 +57,11 @@ TEST(Scores, masks_are_the_skin_its_terminator_and_the_edges_of_shadows) {
 }
 
 TEST(Scores, pixels_that_only_one_renderer_calls_skin_do_not_count) {
-    Image position = even(1, 4);
-    set_pixel(position, 2, 2, 3, 0);
+    Image drawn = even(1, 1);
+    set_pixel(drawn, 2, 2, 0, 0.75f);
     Image skin = even(1, 1);
     set_pixel(skin, 3, 3, 0, 0.5f);
-    const SkinMasks m = make_masks(even(0, 4), position, skin);
+    const SkinMasks m = make_masks(even(0, 4), drawn, skin);
     EXPECT_EQ(m.skin.at(2, 2, 0), 0);
     EXPECT_EQ(m.skin.at(3, 3, 0), 0);
     EXPECT_EQ(sum(m.skin), kSide * kSide - 2);
@@ -105,13 +105,16 @@ TEST(Scores, nan_and_other_sizes_are_refused) {
 TEST(Scores, the_table_has_the_promised_columns_and_quotes_settings) {
     ScoreRow row{
         .scene = "head, scanned", .technique = "wrap", .settings = "wrap=0.4,specular=ggx", .bytes = 7};
+    row.captured.all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .truth_noise = 0.125};
+    row.captured.channels[1].error = 1;  // too noisy to tell
     row.scores.terminator_rmse = 0.125;
     row.scores.psnr_db = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(
-        scores_csv({row}),
-        "scene,technique,settings,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,"
-        "time_ms,bytes\n"
-        "\"head, scanned\",wrap,\"wrap=0.4,specular=ggx\",0,0,inf,0,0,0,0.125,,0,7\n");
+    EXPECT_EQ(scores_csv({row}),
+              "scene,technique,settings,captured,captured_r,captured_g,captured_b,captured_error,effect_rms,"
+              "truth_noise,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,time_ms,"
+              "bytes,time_ratio,reference_rmse\n"
+              "\"head, scanned\",wrap,\"wrap=0.4,specular=ggx\",0.25,0,,0,0.01,0.5,0.125,0,0,inf,0,0,0,0.125,"
+              ",0,7,0,0\n");
 }
 
 TEST(HeatMap, lightness_rises_with_the_value_and_what_is_outside_is_grey) {

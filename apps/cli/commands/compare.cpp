@@ -1,6 +1,7 @@
 // dermis compare: techniques held against the ground truth, as a page and a table.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -18,11 +19,15 @@
 namespace dermis::cli {
 namespace {
 
+constexpr int kMostGrid = 16;
+
 struct Options {
     std::string scene, techniques, output, size = "512x512", camera, light, device;
     std::string integrator = "surface", ambient = "renderer";
-    double noise = 0.01;
-    int samples = 256, frames = 5;
+    ComparisonSettings defaults;
+    double noise = defaults.noise;
+    int samples = defaults.samples, samples_per_pixel = defaults.grid * defaults.grid,
+        frames = defaults.frames;
     bool json = false;
 };
 
@@ -31,10 +36,21 @@ Result<ComparisonSettings> settings_of(const Options& options) {
     if (!size) return size.error();
     ComparisonSettings settings = comparison_settings(size->first, size->second);
     settings.frames = options.frames;
-    settings.reference.noise = options.noise;
-    settings.reference.samples = options.samples;
+    settings.noise = options.noise;
+    settings.samples = options.samples;
+    settings.grid = int(std::lround(std::sqrt(double(std::max(options.samples_per_pixel, 0)))));
     if (options.frames < 1 || options.frames > 1000)
         return Error{"--frames " + std::to_string(options.frames) + ": 1 to 1000"};
+    if (settings.grid < 1 || settings.grid > kMostGrid ||
+        settings.grid * settings.grid != options.samples_per_pixel)
+        return Error{"--samples-per-pixel " + std::to_string(options.samples_per_pixel) +
+                     ": a square number, 1, 4, 9, 16 ... " + std::to_string(kMostGrid * kMostGrid)};
+    if (!(options.noise > 0 && options.noise <= 1))
+        return Error{"--noise " + to_text(options.noise) + ": above 0, at most 1"};
+    if (options.samples < 2 * options.samples_per_pixel || options.samples > 1 << 20)
+        return Error{"--samples " + std::to_string(options.samples) +
+                     ": at least twice --samples-per-pixel (" +
+                     std::to_string(2 * options.samples_per_pixel) + "), at most " + std::to_string(1 << 20)};
     const std::vector<std::string> integrators = {"surface", "walk"}, ambients = {"renderer", "traced"};
     if (std::ranges::find(integrators, options.integrator) == integrators.end())
         return Error{unknown_name("integrator", options.integrator, integrators)};
@@ -45,12 +61,15 @@ Result<ComparisonSettings> settings_of(const Options& options) {
     return settings;
 }
 
-// Found before minutes of work rather than after.
-Result<void> check_directory(const std::string& directory) {
+// Tried before minutes of work rather than after: makes the directory and a file in it.
+Result<void> try_directory(const std::filesystem::path& directory) {
     std::error_code ec;
-    const std::filesystem::path path(directory);
-    if (std::filesystem::exists(path, ec) && !std::filesystem::is_directory(path, ec))
-        return Error{"-o " + directory + ": is a file; name a directory for report.html and scores.csv"};
+    if (std::filesystem::exists(directory, ec) && !std::filesystem::is_directory(directory, ec))
+        return Error{"-o " + directory.string() + ": is a file; name a directory for the report"};
+    const std::filesystem::path trial = directory / ".dermis_compare_trial";
+    const Result<void> written = write_text_file(trial, "");
+    if (!written) return Error{"-o " + directory.string() + ": " + written.error().message};
+    std::filesystem::remove(trial, ec);
     return {};
 }
 
@@ -67,44 +86,72 @@ Result<Comparison> compare(const Options& options, const Scene& scene,
                            const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
     Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
     if (!device) return device.error();
-    constexpr double kSteps = 1000;
-    Progress line("ground truth", size_t(kSteps));
-    size_t shown = 0;
-    return compare_techniques(*device, scene, contestants, settings, {.reference = [&](double done) {
-        const auto now = size_t(done * kSteps);
-        if (now > shown) line.advance(now - shown);
-        shown = std::max(shown, now);
-    }});
+    Progress line("ground truth", 0);
+    std::optional<Progress> techniques;
+    return compare_techniques(*device, scene, contestants, settings,
+                              {.reference = [&](double done) { line.set(done); },
+                               .techniques =
+                                   [&](double done, const std::string& name) {
+                                       if (!techniques) techniques.emplace("techniques", 0);
+                                       techniques->set(done, name);
+                                   }});
+}
+
+std::string share_text(const CapturedShare& share) {
+    char text[16] = "noise";
+    if (share.known()) std::snprintf(text, sizeof text, "%.3f", share.share);
+    return text;
 }
 
 void print_table(const Comparison& comparison) {
-    std::printf("%-48s %9s %9s %9s %7s %7s %9s\n", "technique", "rmse", "terminat.", "penumbra", "flip",
-                "dE2000", "ms");
+    std::printf("%-48s %8s %6s %7s %7s %7s %9s %7s %7s %9s\n", "technique", "captured", "+-", "R", "G", "B",
+                "rmse", "flip", "dE2000", "ms");
     for (const Compared& row : comparison.rows) {
-        const Scores& s = row.scores;
-        std::printf("%-48s %9.5f %9.5f %9.5f %7.4f %7.3f %9.2f\n", row.contestant.name().c_str(), s.rmse,
-                    s.terminator_rmse.value_or(0), s.penumbra_rmse.value_or(0), s.flip, s.delta_e_2000,
-                    row.time_ms);
+        const Captured& c = row.captured;
+        std::printf("%-48s %8s %6.3f %7s %7s %7s %9.5f %7.4f %7.3f %9.2f\n", row.contestant.name().c_str(),
+                    share_text(c.all).c_str(), c.all.error, share_text(c.channels[0]).c_str(),
+                    share_text(c.channels[1]).c_str(), share_text(c.channels[2]).c_str(), row.scores.rmse,
+                    row.scores.flip, row.scores.delta_e_2000, row.cost.time_ms);
     }
-    std::printf("the ground truth's own noise: rmse %.5f, %s\n", comparison.reference_rmse,
-                comparison.reference.from_cache ? "from the cache" : "made now");
+    const CapturedShare& all = comparison.rows.front().captured.all;
+    std::printf("effect of scattering: rms %.5f (R %.5f, G %.5f, B %.5f)\n", all.effect_rms,
+                comparison.rows.front().captured.channels[0].effect_rms,
+                comparison.rows.front().captured.channels[1].effect_rms,
+                comparison.rows.front().captured.channels[2].effect_rms);
+    std::printf("the ground truth's noise: %.5f of the effect, %.5f of the picture; %d samples a pixel, %s\n",
+                all.truth_noise, comparison.reference_rmse, comparison.truth.samples,
+                comparison.truth.from_cache ? "from the cache" : "made now");
+}
+
+// What a person must know before believing the numbers.
+std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {
+    std::vector<std::string> warnings = comparison.truth.warnings;
+    const EffectNoise& noise = comparison.truth.noise;
+    if (!comparison.truth.reached)
+        warnings.push_back("the ground truth stopped at its limit of " + std::to_string(settings.samples) +
+                           " samples a pixel with a noise of " +
+                           to_text(float(std::round(1000 * noise.noise_rms / noise.effect_rms) / 1000)) +
+                           " of the effect, not " + to_text(settings.noise) + "; raise --samples");
+    return warnings;
 }
 
 nlohmann::ordered_json to_json(const Options& options, const Scene& scene, const Comparison& comparison) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const Compared& row : comparison.rows)
-        rows.push_back({{"technique", row.contestant.technique->id},
-                        {"settings", row.contestant.settings},
-                        {"rmse", row.scores.rmse},
-                        {"flip", row.scores.flip},
-                        {"time_ms", row.time_ms},
-                        {"time_ratio", row.time_ratio},
-                        {"bytes", row.bytes()}});
+    for (const ScoreRow& row : score_rows(options.scene, comparison)) {
+        nlohmann::ordered_json entry = {{"technique", row.technique}, {"settings", row.settings}};
+        for (const ScoreColumn& column : score_columns()) {
+            const std::optional<double> value = column.get(row);
+            entry[std::string(column.name)] =
+                value && std::isfinite(*value) ? nlohmann::ordered_json(*value) : nullptr;
+        }
+        rows.push_back(std::move(entry));
+    }
     return {{"scene", scene.name},
             {"output", options.output},
-            {"reference_rmse", comparison.reference_rmse},
-            {"reference_from_cache", comparison.reference.from_cache},
-            {"reference_time_ms", comparison.reference.picture.time_ms},
+            {"truth_samples", comparison.truth.samples},
+            {"truth_reached", comparison.truth.reached},
+            {"reference_from_cache", comparison.truth.from_cache},
+            {"reference_time_ms", comparison.truth.time_ms},
             {"rows", rows},
             {"credit", scene.credit}};
 }
@@ -115,13 +162,15 @@ Result<int> run(const Options& options) {
     const Result<std::vector<Contestant>> contestants =
         options.techniques.empty() ? default_contestants() : parse_technique_list(options.techniques);
     if (!contestants) return contestants.error();
-    if (Result<void> good = check_directory(options.output); !good) return good.error();
+    if (Result<void> good = try_directory(options.output); !good) return good.error();
     const Result<Scene> scene = scene_of(options);
     if (!scene) return scene.error();
     for (const std::string& warning : scene->warnings)
         std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
     const Result<Comparison> comparison = compare(options, *scene, *contestants, *settings);
     if (!comparison) return comparison.error();
+    for (const std::string& warning : warnings_of(*comparison, *settings))
+        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
     const Result<std::string> page = report_html(*scene, *comparison, *settings);
     if (!page) return page.error();
     const std::filesystem::path directory(options.output);
@@ -164,7 +213,13 @@ void add_compare_command(CommandLine& line) {
         ->add_option("--ambient", options->ambient,
                      "of the ground truth: renderer (the same approximation on both sides) or traced")
         ->capture_default_str();
-    command->add_option("--noise", options->noise, "relative error at which the ground truth stops")
+    command
+        ->add_option("--samples-per-pixel", options->samples_per_pixel,
+                     "points of a pixel that both sides average, a square number")
+        ->capture_default_str();
+    command
+        ->add_option("--noise", options->noise,
+                     "of the effect of scattering at which the ground truth is fine enough")
         ->capture_default_str();
     command->add_option("--samples,--spp", options->samples, "samples a pixel of the ground truth, at most")
         ->capture_default_str();

@@ -1,0 +1,188 @@
+#include "dermis/judge/effect_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
+#include "dermis/judge/reference_cache.h"
+#include "dermis/rays/random.h"
+
+namespace dermis {
+namespace {
+
+// Raised when what is stored changes.
+constexpr std::string_view kVersion = "effect 1";
+// Rounds over the grid in one batch at most: what a run that is stopped loses.
+constexpr int kMostRounds = 8;
+// The estimate of what is left is exceeded by this, so that it is not missed by a hair.
+constexpr double kMargin = 1.05;
+
+// What is stored: the header, then the floats of every image in the order of images().
+struct Header {
+    int32_t width = 0, height = 0;
+    int32_t passes = 0;  // a half
+    uint32_t batches = 0;
+    double time_ms = 0;
+};
+
+struct State {
+    Header header;
+    EffectTruth truth;
+
+    explicit State(const ReferenceSettings& s) {
+        header.width = s.width;
+        header.height = s.height;
+        truth.effect = {Image(s.width, s.height, 3), Image(s.width, s.height, 3)};
+        truth.halves = {Image(s.width, s.height, 4), Image(s.width, s.height, 4)};
+        truth.skin = Image(s.width, s.height, 1);
+    }
+    [[nodiscard]] std::array<Image*, 5> images() {
+        return {&truth.effect.a, &truth.effect.b, &truth.halves[0], &truth.halves[1], &truth.skin};
+    }
+};
+
+Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& settings) {
+    ReferenceSettings plain = settings;
+    plain.samples = settings.grid * settings.grid;
+    const Result<std::string> hash = reference_hash(scene, plain);
+    if (!hash) return hash.error();
+    return Hasher().add(kVersion).add(*hash).hex();
+}
+
+std::vector<std::byte> pack(State& state) {
+    std::vector<std::byte> bytes(sizeof(Header));
+    std::memcpy(bytes.data(), &state.header, sizeof(Header));
+    for (const Image* image : state.images())
+        bytes.insert(bytes.end(), image->bytes.begin(), image->bytes.end());
+    return bytes;
+}
+
+// False, and the state as new, when the bytes are of something else.
+bool unpack(const std::vector<std::byte>& bytes, State& state) {
+    size_t expected = sizeof(Header);
+    for (const Image* image : state.images()) expected += image->bytes.size();
+    Header header;
+    if (bytes.size() != expected) return false;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    if (header.width != state.header.width || header.height != state.header.height) return false;
+    state.header = header;
+    size_t at = sizeof header;
+    for (Image* image : state.images()) {
+        std::memcpy(image->bytes.data(), bytes.data() + at, image->bytes.size());
+        at += image->bytes.size();
+    }
+    return true;
+}
+
+void add_weighted(Image& mean, const Image& value, float share) {
+    for (size_t i = 0; i < mean.floats().size(); ++i)
+        mean.floats()[i] += (value.floats()[i] - mean.floats()[i]) * share;
+}
+
+// One batch of both widths goes to one half.
+Result<void> add_batch(const Scene& scene, ReferenceSettings settings, int half, State& state,
+                       const ReferenceDone& progress, const std::atomic<bool>* stop) {
+    settings.seed = hash_u32(settings.seed, state.header.batches);
+    // Width 0 takes a small part of the time.
+    const Result<ReferencePicture> skin = render_reference(scene, settings, progress, stop);
+    if (!skin) return skin.error();
+    settings.integrator = Integrator::lambert;
+    const Result<ReferencePicture> none = render_reference(scene, settings, {}, stop);
+    if (!none) return none.error();
+    if (stop && stop->load()) return Error{"stopped"};
+    const float share = float(settings.samples) / float(state.header.passes + settings.samples);
+    add_weighted(half == 0 ? state.truth.effect.a : state.truth.effect.b,
+                 difference(skin->diffuse, none->diffuse), share);
+    add_weighted(state.truth.halves[size_t(half)], skin->radiance, share);
+    state.truth.skin = skin->skin;
+    state.header.time_ms += skin->time_ms + none->time_ms;
+    ++state.header.batches;
+    for (const std::string& warning : skin->warnings)
+        if (std::ranges::find(state.truth.warnings, warning) == state.truth.warnings.end())
+            state.truth.warnings.push_back(warning);
+    return {};
+}
+
+Image whole_skin(const Image& skin) {
+    Image mask = skin;
+    for (float& v : mask.floats()) v = v >= 1 ? 1 : 0;
+    return mask;
+}
+
+// Passes a half that the wanted noise takes, by what it is now: the square falls as one over the work.
+double passes_wanted(const State& state, const EffectTruthSettings& settings) {
+    const EffectNoise& now = state.truth.noise;
+    const double most = settings.samples / 2.0;
+    if (now.effect_rms <= 0) return most;
+    const double ratio = now.noise_rms / (settings.noise * now.effect_rms);
+    return std::min(most, state.header.passes * ratio * ratio * (ratio > 1 ? kMargin : 1));
+}
+
+bool fine_enough(const State& state, const EffectTruthSettings& settings) {
+    return state.header.passes > 0 &&
+           state.truth.noise.noise_rms <= settings.noise * state.truth.noise.effect_rms;
+}
+
+// The next batch of a half, in passes: whole rounds over the grid; 0 when the limit leaves none.
+int next_passes(const State& state, const EffectTruthSettings& settings) {
+    const int cells = settings.reference.grid * settings.reference.grid;
+    const int left = (settings.samples / 2 - state.header.passes) / cells;
+    if (state.header.passes == 0) return cells * std::min(left, 1);
+    const double wanted = (passes_wanted(state, settings) - state.header.passes) / cells;
+    return cells * std::min({left, kMostRounds, std::max(1, int(std::ceil(wanted)))});
+}
+
+}  // namespace
+
+Image EffectTruth::radiance() const {
+    Image mean = halves[0];
+    for (size_t i = 0; i < mean.floats().size(); ++i)
+        mean.floats()[i] = 0.5f * (halves[0].floats()[i] + halves[1].floats()[i]);
+    return mean;
+}
+
+Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSettings& settings,
+                                      const ReferenceDone& progress, const std::atomic<bool>* stop) {
+    ReferenceSettings reference = settings.reference;
+    reference.filter = PixelFilter::grid;
+    reference.noise = {};
+    const int cells = reference.grid * reference.grid;
+    if (settings.samples < 2 * cells)
+        return Error{"at most " + std::to_string(settings.samples) +
+                     " samples a pixel: both halves of the truth need " + std::to_string(2 * cells)};
+    const Result<std::string> hash = state_hash(scene, reference);
+    if (!hash) return hash.error();
+    State state(reference);
+    if (const auto bytes = cache_load("effect", *hash); bytes && unpack(*bytes, state))
+        state.truth.noise = effect_noise(state.truth.effect, whole_skin(state.truth.skin));
+    state.truth.from_cache = true;
+    while (!fine_enough(state, settings)) {
+        reference.samples = next_passes(state, settings);
+        if (reference.samples == 0) break;
+        state.truth.from_cache = false;
+        for (int half = 0; half < 2; ++half) {
+            const auto done = [&](double share) {
+                const double passes = state.header.passes + (half + share) / 2 * reference.samples;
+                const double wanted =
+                    state.header.passes > 0 ? passes_wanted(state, settings) : settings.samples / 2.0;
+                if (progress) progress(std::min(1.0, passes / std::max(wanted, 1.0)));
+            };
+            if (Result<void> added = add_batch(scene, reference, half, state, done, stop); !added)
+                return added.error();
+        }
+        state.header.passes += reference.samples;
+        const Image mask = whole_skin(state.truth.skin);
+        if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
+            return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
+        state.truth.noise = effect_noise(state.truth.effect, mask);
+        cache_store("effect", *hash, pack(state));
+    }
+    state.truth.reached = fine_enough(state, settings);
+    state.truth.samples = 2 * state.header.passes;
+    state.truth.time_ms = state.header.time_ms;
+    return std::move(state.truth);
+}
+
+}  // namespace dermis

@@ -1,0 +1,48 @@
+#pragma once
+// The ground truth of a scene and of the same scene without scattering, in two independent halves, made until
+// its noise is small beside the effect. Kept in the disk cache and refined there.
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dermis/judge/captured.h"
+#include "dermis/reference/picture.h"
+
+namespace dermis {
+
+struct EffectTruthSettings {
+    /// Its size, grid, integrator, lighting, probes and seed; `samples`, `noise` and `filter` are not read.
+    ReferenceSettings reference;
+    double noise = 0.2;  ///< of the effect's RMS at which the truth is fine enough; above 0
+    int samples = 2048;  ///< a pixel at most, of both halves together; at least twice the grid's cells
+};
+
+struct EffectTruth {
+    EffectHalves effect;
+    std::array<Image, 2> halves;  ///< linear radiance, RGBA, of the skin as it is; alpha is coverage
+    Image skin;                   ///< the share of the pixel that is skin
+    int samples = 0;              ///< a pixel, of both halves together
+    EffectNoise noise;            ///< over whole pixels of skin
+    bool reached = false;         ///< the noise that was asked for
+    bool from_cache = false;      ///< nothing had to be made
+    double time_ms = 0;           ///< of everything that was ever made for it
+    std::vector<std::string> warnings;
+
+    /// The mean of both halves.
+    [[nodiscard]] Image radiance() const;
+};
+
+/// What is done of what is left, 0 to 1; never falls by more than the estimate of what is left grows.
+using ReferenceDone = std::function<void(double done)>;
+
+/// A state in the cache that is finer than asked for is taken as it is, a coarser one is gone on with, so
+/// that a run that was stopped loses little. Width 0 takes the same places in the pixels and the same
+/// reflections as the skin's width, so that their noise cancels. Errors: as render_reference; stopped; no
+/// skin in sight.
+[[nodiscard]] Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSettings& settings,
+                                                    const ReferenceDone& progress = {},
+                                                    const std::atomic<bool>* stop = nullptr);
+
+}  // namespace dermis

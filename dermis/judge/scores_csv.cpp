@@ -1,0 +1,181 @@
+// scores.csv: one table of columns for writing, reading and JSON.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "dermis/base/text.h"
+#include "dermis/judge/scores.h"
+
+namespace dermis {
+namespace {
+
+using Value = std::optional<double>;
+
+template <double Scores::*member>
+constexpr ScoreColumn error_column(std::string_view name) {
+    return {name, [](const ScoreRow& row) { return Value(row.scores.*member); },
+            [](ScoreRow& row, Value value) { row.scores.*member = *value; }};
+}
+
+template <Value Scores::*member>
+constexpr ScoreColumn part_column(std::string_view name) {
+    return {name, [](const ScoreRow& row) { return row.scores.*member; },
+            [](ScoreRow& row, Value value) { row.scores.*member = value; }, true};
+}
+
+template <double ScoreRow::*member>
+constexpr ScoreColumn row_column(std::string_view name) {
+    return {name, [](const ScoreRow& row) { return Value(row.*member); },
+            [](ScoreRow& row, Value value) { row.*member = *value; }};
+}
+
+template <double CapturedShare::*member>
+constexpr ScoreColumn effect_column(std::string_view name) {
+    return {name, [](const ScoreRow& row) { return Value(row.captured.all.*member); },
+            [](ScoreRow& row, Value value) { row.captured.all.*member = *value; }};
+}
+
+// A share that was too noisy when it was written stays so when it is read.
+void set_share(CapturedShare& share, Value value) {
+    share.share = value.value_or(std::nan(""));
+}
+
+Value told(const CapturedShare& share, double value) {
+    return share.known() ? Value(value) : Value();
+}
+
+template <size_t channel>
+constexpr ScoreColumn channel_column(std::string_view name) {
+    return {name,
+            [](const ScoreRow& row) {
+                const CapturedShare& share = row.captured.channels[channel];
+                return told(share, share.share);
+            },
+            [](ScoreRow& row, Value value) { set_share(row.captured.channels[channel], value); }, true};
+}
+
+constexpr ScoreColumn kColumns[] = {
+    {"captured", [](const ScoreRow& row) { return told(row.captured.all, row.captured.all.share); },
+     [](ScoreRow& row, Value value) { set_share(row.captured.all, value); }, true},
+    channel_column<0>("captured_r"),
+    channel_column<1>("captured_g"),
+    channel_column<2>("captured_b"),
+    {"captured_error", [](const ScoreRow& row) { return told(row.captured.all, row.captured.all.error); },
+     [](ScoreRow& row, Value value) { row.captured.all.error = value.value_or(0); }, true},
+    effect_column<&CapturedShare::effect_rms>("effect_rms"),
+    effect_column<&CapturedShare::truth_noise>("truth_noise"),
+    error_column<&Scores::rmse>("rmse"),
+    error_column<&Scores::rel_mse>("rel_mse"),
+    error_column<&Scores::psnr_db>("psnr_db"),
+    error_column<&Scores::ssim>("ssim"),
+    error_column<&Scores::delta_e_2000>("delta_e_2000"),
+    error_column<&Scores::flip>("flip"),
+    part_column<&Scores::terminator_rmse>("terminator_rmse"),
+    part_column<&Scores::penumbra_rmse>("penumbra_rmse"),
+    row_column<&ScoreRow::time_ms>("time_ms"),
+    {"bytes", [](const ScoreRow& row) { return Value(double(row.bytes)); },
+     [](ScoreRow& row, Value value) {
+         constexpr double kMostBytes = 1e15;
+         row.bytes = size_t(std::clamp(*value, 0.0, kMostBytes));
+     }},
+    row_column<&ScoreRow::time_ratio>("time_ratio"),
+    row_column<&ScoreRow::reference_rmse>("reference_rmse")};
+
+constexpr std::string_view kNames[] = {"scene", "technique", "settings"};
+
+std::string heading() {
+    std::vector<std::string> names(std::begin(kNames), std::end(kNames));
+    for (const ScoreColumn& column : kColumns) names.emplace_back(column.name);
+    return join(names, ",");
+}
+
+std::string csv_field(std::string text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    for (size_t i = 0; (i = text.find('"', i)) != std::string::npos; i += 2) text.insert(i, 1, '"');
+    return '"' + text + '"';
+}
+
+// Four figures are more than any of the numbers deserves; bytes are whole.
+std::string number(Value value) {
+    if (!value) return "";
+    char text[32];
+    const bool whole = std::abs(*value) >= 1e4 && *value == std::floor(*value);
+    std::snprintf(text, sizeof text, whole ? "%.0f" : "%.4g", *value);
+    return text;
+}
+
+// Fields of one line; quotes as RFC 4180 has them.
+std::vector<std::string> csv_fields(std::string_view line) {
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
+            fields.back() += line[++i];
+        else if (c == '"')
+            quoted = !quoted;
+        else if (c == ',' && !quoted)
+            fields.emplace_back();
+        else
+            fields.back() += c;
+    }
+    return fields;
+}
+
+Result<ScoreRow> parse_row(std::string_view line, size_t line_number) {
+    const std::vector<std::string> fields = csv_fields(line);
+    const auto wrong = [&](const std::string& what) {
+        return Error{"scores line " + std::to_string(line_number) + ": " + what};
+    };
+    const size_t expected = std::size(kNames) + std::size(kColumns);
+    if (fields.size() != expected)
+        return wrong("has " + std::to_string(fields.size()) + " columns, not " + std::to_string(expected));
+    ScoreRow row{.scene = fields[0], .technique = fields[1], .settings = fields[2]};
+    for (size_t i = 0; i < std::size(kColumns); ++i) {
+        const ScoreColumn& column = kColumns[i];
+        const std::string& field = fields[std::size(kNames) + i];
+        const Value value = parse_number(field);
+        const auto place = "'" + field + "' under " + std::string(column.name);
+        if (!value && !(column.may_be_missing && field.empty())) return wrong(place + " is no number");
+        // Rows are sorted and plotted by these. Equal pictures have an infinite PSNR.
+        const bool sound = !value || std::isfinite(*value) || (column.name == "psnr_db" && *value > 0);
+        if (!sound) return wrong(place + " is not finite");
+        column.set(row, value);
+    }
+    return row;
+}
+
+}  // namespace
+
+std::span<const ScoreColumn> score_columns() {
+    return kColumns;
+}
+
+std::string scores_csv(const std::vector<ScoreRow>& rows) {
+    std::string text = heading() + "\n";
+    for (const ScoreRow& row : rows) {
+        std::vector<std::string> fields = {csv_field(row.scene), csv_field(row.technique),
+                                           csv_field(row.settings)};
+        for (const ScoreColumn& column : kColumns) fields.push_back(number(column.get(row)));
+        text += join(fields, ",") + "\n";
+    }
+    return text;
+}
+
+Result<std::vector<ScoreRow>> parse_scores(std::string_view text) {
+    std::vector<ScoreRow> rows;
+    size_t line_number = 0;
+    for (const std::string_view line : split(text, '\n')) {
+        ++line_number;
+        if (line_number == 1 && trim(line) != heading())
+            return Error{"scores line 1: the heading is not " + heading()};
+        if (line_number == 1 || trim(line).empty()) continue;
+        Result<ScoreRow> row = parse_row(trim(line), line_number);
+        if (!row) return row.error();
+        rows.push_back(std::move(*row));
+    }
+    return rows;
+}
+
+}  // namespace dermis

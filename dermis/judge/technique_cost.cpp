@@ -1,0 +1,83 @@
+#include "dermis/judge/technique_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/presets.h"
+
+namespace dermis {
+namespace {
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+// Of all mips; images without a size of their own have the frame's.
+size_t image_bytes(const ImageDeclaration& image, int width, int height) {
+    const bool own = image.size.width > 0;
+    const auto side = [&](int fixed, int frame) {
+        return size_t(std::max(own ? fixed : int(std::lround(float(frame) * image.size.frame_scale)), 1));
+    };
+    size_t w = side(image.size.width, width), h = side(image.size.height, height), texels = 0;
+    for (int mip = 0; image.mips == 0 || mip < image.mips; ++mip) {
+        texels += w * h;
+        if (w == 1 && h == 1) break;
+        w = std::max<size_t>(w / 2, 1);
+        h = std::max<size_t>(h / 2, 1);
+    }
+    return texels * bytes_per_texel(image.format) * size_t(image.samples);
+}
+
+Result<void> measure_bytes(const Scene& scene, const Contestant& contestant, int width, int height,
+                           TechniqueCost& cost) {
+    const Technique& technique = *contestant.technique;
+    const PassList list = technique.build(contestant.values, {.width = width, .height = height});
+    for (const ImageDeclaration& image : list.images) cost.image_bytes += image_bytes(image, width, height);
+    if (!technique.tables) return {};
+    const Result<Profile> profile = find_profile(scene.skin.profile);
+    if (!profile) return profile.error();
+    const auto tables = technique.tables(contestant.values, {.profile = *profile,
+                                                             .gaussians = to_gaussian_sum(*profile).sum,
+                                                             .diffuse_table = scene.skin.diffuse_table});
+    if (!tables) return tables.error();
+    for (const TableImage& table : *tables) cost.table_bytes += table.bytes.size();
+    return {};
+}
+
+}  // namespace
+
+Result<std::vector<TechniqueCost>> measure_costs(Renderer& renderer, const Scene& scene,
+                                                 const std::vector<Contestant>& contestants, int width,
+                                                 int height, int frames) {
+    std::vector<TechniqueCost> costs(contestants.size());
+    for (size_t i = 0; i < costs.size(); ++i)
+        if (Result<void> done = measure_bytes(scene, contestants[i], width, height, costs[i]); !done)
+            return done.error();
+    if (frames == 0) return costs;
+    std::vector<std::vector<double>> times(costs.size());
+    for (int frame = 0; frame <= frames; ++frame)
+        for (size_t i = 0; i < costs.size(); ++i) {
+            const Contestant& contestant = contestants[i];
+            const auto drawn =
+                renderer.draw(*contestant.technique, contestant.values, {.width = width, .height = height});
+            if (!drawn) return Error{contestant.name() + ": " + drawn.error().message};
+            if (frame > 0) times[i].push_back(drawn->frame_ms);
+        }
+    const auto lambert = std::ranges::find_if(
+        contestants, [](const Contestant& contestant) { return contestant.technique->id == "lambert"; });
+    for (size_t i = 0; i < costs.size(); ++i) {
+        costs[i].time_ms = median(times[i]);
+        if (lambert == contestants.end()) continue;
+        std::vector<double> ratios;
+        const std::vector<double>& base = times[size_t(lambert - contestants.begin())];
+        for (size_t frame = 0; frame < base.size(); ++frame) ratios.push_back(times[i][frame] / base[frame]);
+        costs[i].time_ratio = median(ratios);
+    }
+    return costs;
+}
+
+}  // namespace dermis

@@ -1,0 +1,27 @@
+#pragma once
+// What a technique costs: bytes of its tables and images, frame times.
+
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/judge/technique_list.h"
+#include "dermis/render/renderer.h"
+
+namespace dermis {
+
+struct TechniqueCost {
+    double time_ms = 0;      ///< median of whole frames
+    double time_ratio = 0;   ///< median over frames of time / lambert's in the same round; 0 without lambert
+    size_t table_bytes = 0;  ///< tables baked for it
+    size_t image_bytes = 0;  ///< images that only its own passes use
+    [[nodiscard]] size_t bytes() const { return table_bytes + image_bytes; }
+};
+
+/// One entry a contestant, at this size. `frames` timed ones after one that compiles; 0: none are. Rounds go
+/// over all contestants, so that a machine that is busy for a while is so for all of them. Errors name the
+/// contestant.
+[[nodiscard]] Result<std::vector<TechniqueCost>> measure_costs(Renderer& renderer, const Scene& scene,
+                                                               const std::vector<Contestant>& contestants,
+                                                               int width, int height, int frames);
+
+}  // namespace dermis
