@@ -19,6 +19,8 @@
 namespace dermis::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int kMostGrid = 16;
 
 struct Options {
@@ -61,15 +63,20 @@ Result<ComparisonSettings> settings_of(const Options& options) {
     return settings;
 }
 
-// Tried before minutes of work rather than after: makes the directory and a file in it.
-Result<void> try_directory(const std::filesystem::path& directory) {
+// Tried before minutes of work rather than after, by a file that is removed again with every directory that
+// it needed: a comparison that cannot be made leaves nothing.
+Result<void> try_directory(const fs::path& directory) {
     std::error_code ec;
-    if (std::filesystem::exists(directory, ec) && !std::filesystem::is_directory(directory, ec))
+    if (fs::exists(directory, ec) && !fs::is_directory(directory, ec))
         return Error{"-o " + directory.string() + ": is a file; name a directory for the report"};
-    const std::filesystem::path trial = directory / ".dermis_compare_trial";
+    std::vector<fs::path> missing;
+    for (fs::path at = fs::absolute(directory, ec); !at.empty() && !fs::exists(at, ec); at = at.parent_path())
+        missing.push_back(at);
+    const fs::path trial = directory / ".dermis_compare_trial";
     const Result<void> written = write_text_file(trial, "");
+    fs::remove(trial, ec);
+    for (const fs::path& made : missing) fs::remove(made, ec);
     if (!written) return Error{"-o " + directory.string() + ": " + written.error().message};
-    std::filesystem::remove(trial, ec);
     return {};
 }
 
@@ -173,7 +180,7 @@ Result<int> run(const Options& options) {
         std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
     const Result<std::string> page = report_html(*scene, *comparison, *settings);
     if (!page) return page.error();
-    const std::filesystem::path directory(options.output);
+    const fs::path directory(options.output);
     if (Result<void> written = write_text_file(directory / "report.html", *page); !written)
         return written.error();
     if (Result<void> written =
