@@ -1,5 +1,5 @@
 #pragma once
-// Corners around a position, and which of them hang together. Internal to dermis/mesh.
+// Corners around a position, and which of them hang together.
 
 #include <cstdint>
 #include <span>

@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <numeric>
 
 namespace dermis {
 namespace {
@@ -32,8 +33,14 @@ struct TriangleSet {
 
 bool belongs(RaySet set, MaterialClass material_class) {
     if (set == RaySet::translucent) return material_class == MaterialClass::translucent;
-    if (set == RaySet::skin) return material_class == MaterialClass::skin;
+    if (set == RaySet::skin || set == RaySet::flesh) return material_class == MaterialClass::skin;
     return material_class != MaterialClass::translucent;
+}
+
+// What is drawn stays whole.
+bool left_out(RaySet set, SkinFace face) {
+    return (set == RaySet::skin && face != SkinFace::visible) ||
+           (set == RaySet::flesh && face == SkinFace::cavity);
 }
 
 MaterialClass class_of(std::span<const MaterialClass> classes, uint32_t material) {
@@ -53,22 +60,36 @@ Part select_triangles(const Mesh& mesh, std::span<const MaterialClass> classes, 
 }
 
 // False when Embree has no memory for it.
-bool attach(RTCDevice device, RTCScene scene, const Mesh& mesh, const Part& part) {
+bool attach(RTCDevice device, RTCScene scene, std::span<const Vec3> positions_mm,
+            std::span<const uint32_t> corners) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                              sizeof(Vec3), mesh.positions_mm.size());
-    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), part.triangles.size()));
+                                              sizeof(Vec3), positions_mm.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            3 * sizeof(uint32_t), corners.size() / 3);
     const bool allocated = positions && indices;
     if (allocated) {
-        std::memcpy(positions, mesh.positions_mm.data(), mesh.positions_mm.size() * sizeof(Vec3));
-        for (const uint32_t triangle : part.triangles)
-            for (int corner = 0; corner < 3; ++corner) *indices++ = mesh.indices[3 * triangle + corner];
+        std::memcpy(positions, positions_mm.data(), positions_mm.size_bytes());
+        std::memcpy(indices, corners.data(), corners.size_bytes());
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
     }
     rtcReleaseGeometry(geometry);
     return allocated;
+}
+
+std::vector<uint32_t> corners_of(const Mesh& mesh, const Part& part) {
+    std::vector<uint32_t> corners;
+    for (const uint32_t triangle : part.triangles)
+        for (int corner = 0; corner < 3; ++corner) corners.push_back(mesh.indices[3 * triangle + corner]);
+    return corners;
+}
+
+std::vector<Vec3> cap_corners(std::span<const Flesh> flesh) {
+    std::vector<Vec3> corners;
+    for (const Flesh& one : flesh)
+        for (const std::array<Vec3, 3>& cap : one.caps) corners.insert(corners.end(), cap.begin(), cap.end());
+    return corners;
 }
 
 RTCRayHit embree_ray(const Ray& ray) {
@@ -124,18 +145,22 @@ void collect(const RTCFilterFunctionNArguments* arguments) {
 
 struct RayScene::Impl {
     DevicePointer device;
-    std::array<TriangleSet, 3> sets;
+    std::array<TriangleSet, 4> sets;
     std::vector<const Mesh*> meshes;
     float epsilon_mm = 1e-6f;
 
     [[nodiscard]] const TriangleSet& set(RaySet which) const { return sets[size_t(which)]; }
 
     // False when the ray library failed.
-    bool add_set(RaySet which, std::span<const std::span<const MaterialClass>> classes) {
+    bool add_set(RaySet which, std::span<const std::span<const MaterialClass>> classes,
+                 std::span<const Flesh> flesh) {
         TriangleSet& set = sets[size_t(which)];
         for (uint32_t object = 0; object < meshes.size(); ++object) {
             Part part = select_triangles(*meshes[object], classes[object], which);
             part.object = object;
+            if (!flesh.empty())
+                std::erase_if(part.triangles,
+                              [&](uint32_t t) { return left_out(which, flesh[object].faces[t]); });
             if (!part.triangles.empty()) set.parts.push_back(std::move(part));
         }
         if (set.parts.empty()) return true;
@@ -143,13 +168,30 @@ struct RayScene::Impl {
         rtcSetSceneFlags(set.scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
         // Not the high quality: its spatial splits would report a triangle twice to all_hits.
         rtcSetSceneBuildQuality(set.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
-        for (const Part& part : set.parts)
-            if (!attach(device.get(), set.scene.get(), *meshes[part.object], part)) return false;
+        for (const Part& part : set.parts) {
+            const Mesh& mesh = *meshes[part.object];
+            if (!attach(device.get(), set.scene.get(), mesh.positions_mm, corners_of(mesh, part)))
+                return false;
+        }
+        if (which == RaySet::flesh && !add_caps(set, flesh)) return false;
         rtcCommitScene(set.scene.get());
         return rtcGetDeviceError(device.get()) == RTC_ERROR_NONE;
     }
 
-    Result<void> build(std::span<const std::span<const MaterialClass>> classes) {
+    bool add_caps(TriangleSet& set, std::span<const Flesh> flesh) {
+        const std::vector<Vec3> corners = cap_corners(flesh);
+        if (corners.empty()) return true;
+        std::vector<uint32_t> indices(corners.size());
+        std::iota(indices.begin(), indices.end(), 0u);
+        Part part{.object = kCapObject, .triangles = std::vector<uint32_t>(corners.size() / 3)};
+        std::iota(part.triangles.begin(), part.triangles.end(), 0u);
+        set.parts.push_back(std::move(part));
+        return attach(device.get(), set.scene.get(), corners, indices);
+    }
+
+    Result<void> build(std::span<const std::span<const MaterialClass>> classes,
+                       std::span<const Flesh> flesh) {
+        assert(flesh.empty() || flesh.size() == meshes.size());
         size_t triangles = 0;
         float extent_mm = 0;
         for (const Mesh* mesh : meshes) {
@@ -161,8 +203,8 @@ struct RayScene::Impl {
         epsilon_mm = 2e-6f * extent_mm;
         device.reset(rtcNewDevice(nullptr));
         if (!device) return Error{"the ray library (Embree) does not start on this machine"};
-        for (const RaySet which : {RaySet::opaque, RaySet::skin, RaySet::translucent})
-            if (!add_set(which, classes))
+        for (const RaySet which : {RaySet::opaque, RaySet::skin, RaySet::translucent, RaySet::flesh})
+            if ((which != RaySet::flesh || !flesh.empty()) && !add_set(which, classes, flesh))
                 return Error{"the ray library (Embree) has not enough memory for this scene"};
         return {};
     }
@@ -173,14 +215,14 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-Result<RayScene> RayScene::build(std::span<const SceneObject> objects) {
+Result<RayScene> RayScene::build(std::span<const SceneObject> objects, std::span<const Flesh> flesh) {
     auto impl = std::make_unique<Impl>();
     std::vector<std::span<const MaterialClass>> classes;
     for (const SceneObject& object : objects) {
         impl->meshes.push_back(&object.mesh);
         classes.push_back(object.classes);
     }
-    if (Result<void> built = impl->build(classes); !built) return built.error();
+    if (Result<void> built = impl->build(classes, flesh); !built) return built.error();
     return RayScene(std::move(impl));
 }
 
@@ -188,7 +230,7 @@ Result<RayScene> RayScene::build(const Mesh& mesh) {
     auto impl = std::make_unique<Impl>();
     impl->meshes.push_back(&mesh);
     const std::span<const MaterialClass> all_skin;
-    if (Result<void> built = impl->build(std::span(&all_skin, 1)); !built) return built.error();
+    if (Result<void> built = impl->build(std::span(&all_skin, 1), {}); !built) return built.error();
     return RayScene(std::move(impl));
 }
 

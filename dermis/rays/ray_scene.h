@@ -1,8 +1,8 @@
 #pragma once
 // Rays against triangle meshes: closest hit with interpolated attributes, occlusion, all hits of a segment.
 //
-// The scene is kept as three sets, so that a query sees only what it is about: opaque surfaces (skin and
-// other), skin alone (probes and walks inside it), and translucent objects (coloured shadows).
+// The scene is kept as sets, so that a query sees only what it is about: opaque surfaces (skin and other),
+// skin alone (probes), what bounds the flesh (walks inside it), and translucent objects (coloured shadows).
 
 #include <cstdint>
 #include <memory>
@@ -13,13 +13,18 @@
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
 #include "dermis/mesh/mesh.h"
+#include "dermis/rays/flesh.h"
 #include "dermis/rays/texture.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
 
-/// Skin and other | skin | translucent.
-enum class RaySet { opaque, skin, translucent };
+/// Skin and other | skin that is not hidden | translucent | skin that is not hidden and the caps of its
+/// openings.
+enum class RaySet { opaque, skin, translucent, flesh };
+
+/// RayHit::object of a cap, which is no mesh's triangle.
+inline constexpr uint32_t kCapObject = ~0u;
 
 struct Ray {
     Vec3 origin_mm;
@@ -31,7 +36,7 @@ struct Ray {
 /// Where a ray met a triangle; attributes come from RayScene::surface_at.
 struct RayHit {
     float distance_mm = 0;
-    uint32_t object = 0;    ///< index of the mesh given to build()
+    uint32_t object = 0;    ///< index of the mesh given to build(), or kCapObject
     uint32_t triangle = 0;  ///< of that mesh
     float u = 0, v = 0;     ///< barycentric weights of the second and third corner
     Vec3 n_face;            ///< unit, by winding
@@ -56,7 +61,10 @@ struct SurfaceAttributes {
 class RayScene {
   public:
     /// Errors: no triangle at all, or the ray library cannot start.
-    [[nodiscard]] static Result<RayScene> build(std::span<const SceneObject> objects);
+    /// With `flesh` (one an object, of find_flesh) hidden skin is no skin, and the set `flesh` exists;
+    /// without it all skin is.
+    [[nodiscard]] static Result<RayScene> build(std::span<const SceneObject> objects,
+                                                std::span<const Flesh> flesh = {});
     /// One mesh, all of it skin.
     [[nodiscard]] static Result<RayScene> build(const Mesh& mesh);
     ~RayScene();

@@ -14,6 +14,7 @@
 #include "dermis/base/result.h"
 #include "dermis/image/image.h"
 #include "dermis/optics/medium.h"
+#include "dermis/rays/flesh.h"
 #include "dermis/reference/lighting.h"
 #include "dermis/reference/surface_integrator.h"
 #include "dermis/scene/scene.h"
@@ -37,6 +38,7 @@ struct ReferenceSettings {
     int probes = 16;         ///< probes or walks a sample
     double width_scale = 1;  ///< stretches the profile; 0 is lambert
     Normalisation normalisation = Normalisation::by_area;
+    Cavities cavities = Cavities::flesh;
     PixelFilter filter = PixelFilter::box;
     int grid = 4;  ///< PixelFilter::grid: cells on a side, 1..16; samples are a multiple of its square
     LightingSettings lighting;               ///< entry_eta is set from the medium

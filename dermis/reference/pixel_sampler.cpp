@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "dermis/optics/presets.h"
+#include "dermis/rays/flesh.h"
 #include "dermis/rays/random.h"
 #include "dermis/reference/random_walk.h"
 
@@ -70,7 +71,9 @@ void PixelSampler::use_medium(const ScatteringMedium& medium) {
 
 Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
                                                            const ReferenceSettings& settings) {
-    Result<RayScene> rays = RayScene::build(scene.objects);
+    Result<std::vector<Flesh>> flesh = find_flesh(scene.objects, settings.cavities);
+    if (!flesh) return flesh.error();
+    Result<RayScene> rays = RayScene::build(scene.objects, *flesh);
     if (!rays) return rays.error();
     Result<MaterialSet> materials = MaterialSet::load(scene);
     if (!materials) return materials.error();

@@ -82,7 +82,7 @@ std::optional<Vec3> internal_reflection(Vec3 direction, Vec3 n_out, float eta, P
     if (eta == 1) return std::nullopt;
     const float cosine = dot(direction, n_out);
     if (random.next_1d() >= fresnel_from_inside(cosine, eta)) return std::nullopt;
-    return normalize(direction - n_out * (2 * cosine));
+    return mirrored(direction, n_out);
 }
 
 HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<Vec3> start, int walks,

@@ -22,7 +22,8 @@ namespace dermis {
 /// Where a straight line inside the medium meets its boundary.
 struct BoundaryHit {
     float distance_mm = 0;
-    Vec3 n_out;  ///< unit, out of the medium
+    Vec3 n_out;           ///< unit, out of the medium
+    bool mirror = false;  ///< the medium goes on behind it as before it: every path is reflected
 };
 
 /// A path's end. Nothing came back: absorbed, or lost through a hole of the mesh.
@@ -61,14 +62,17 @@ struct Flight {
 [[nodiscard]] Vec3 scatter_weight(const WalkMedium& medium, Vec3 throughput, float distance_mm);
 /// False when the path ends; else the throughput is raised by what ending ones lose.
 [[nodiscard]] bool survives_roulette(Vec3& throughput, Pcg32& random);
+[[nodiscard]] inline std::optional<Vec3> mirrored(Vec3 direction, Vec3 n) {
+    return normalize(direction - n * (2 * dot(direction, n)));
+}
 /// Where a smooth boundary sends a path that arrives with `direction`: out, or the reflected direction.
 [[nodiscard]] std::optional<Vec3> internal_reflection(Vec3 direction, Vec3 n_out, float eta, Pcg32& random);
 
-/// Boundary: std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) const; nothing
+/// Boundary: std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm); nothing
 /// means that the flight of max_mm stays inside, or for an infinite one that the line never leaves.
 template <class Boundary>
-[[nodiscard]] WalkEnd random_walk(const WalkMedium& medium, const Boundary& boundary, Vec3 p_mm,
-                                  Vec3 direction, Pcg32& random) {
+[[nodiscard]] WalkEnd random_walk(const WalkMedium& medium, Boundary&& boundary, Vec3 p_mm, Vec3 direction,
+                                  Pcg32& random) {
     WalkEnd path{.throughput = {1, 1, 1}, .p_mm = p_mm, .direction = direction};
     const WalkEnd absorbed{};
     while (path.collisions < kMostCollisions) {
@@ -85,7 +89,9 @@ template <class Boundary>
         if (dot(hit->n_out, path.direction) <= 0) return {.lost = true};
         path.throughput = pass_weight(medium, path.throughput, hit->distance_mm);
         path.p_mm += path.direction * hit->distance_mm;
-        const auto reflected = internal_reflection(path.direction, hit->n_out, medium.eta, random);
+        const auto reflected = hit->mirror
+                                   ? mirrored(path.direction, hit->n_out)
+                                   : internal_reflection(path.direction, hit->n_out, medium.eta, random);
         if (!reflected) return path;
         path.direction = *reflected;
     }

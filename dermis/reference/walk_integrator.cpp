@@ -1,24 +1,39 @@
 #include "dermis/reference/walk_integrator.h"
 
+#include <cmath>
+
 #include "dermis/rays/sampling.h"
 
 namespace dermis {
 namespace {
 
-// The skin's triangles as a boundary; remembers the last one met, for its attributes.
-class SkinBoundary {
+// The triangles that bound the flesh. Where parts of it overlap (lids that cross, a nose set into a face) all
+// of them are one body: only a face that leads out of the last one is its boundary. Remembers the last face
+// met, for its attributes, and whether the path is at a face; one path uses one boundary.
+class FleshBoundary {
   public:
-    explicit SkinBoundary(const RayScene& rays)
-        : rays_(rays), box_(rays.bounds(RaySet::skin)), least_mm_(4 * rays.epsilon_mm()) {}
+    explicit FleshBoundary(const RayScene& rays)
+        : rays_(rays), box_(rays.bounds(RaySet::flesh)), rounding_mm_(0.25f * rays.epsilon_mm()) {}
 
-    std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) const {
-        const auto hit = rays_.closest_hit(
-            RaySet::skin, {.origin_mm = p_mm, .direction = direction, .min_mm = least_mm_, .max_mm = max_mm});
-        // Past the box the path came out through a hole: a boundary met from its back, which ends it as lost.
-        if (!hit && !inside_box(p_mm + direction * max_mm)) return BoundaryHit{max_mm, -direction};
-        if (!hit) return std::nullopt;
-        last_ = *hit;
-        return BoundaryHit{hit->distance_mm, hit->n_face};
+    std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) {
+        float from_mm = 0;
+        while (const auto hit = rays_.closest_hit(
+                   RaySet::flesh,
+                   {.origin_mm = p_mm, .direction = direction, .min_mm = from_mm, .max_mm = max_mm})) {
+            const float cosine = dot(hit->n_face, direction);
+            if (cosine > 0 && bodies_ == 1) {
+                last_ = *hit;
+                return BoundaryHit{hit->distance_mm, hit->n_face, hit->object == kCapObject};
+            }
+            // A path that starts at a face may by rounding start just before it: that is no way in.
+            const bool rounding = cosine <= 0 && -cosine * hit->distance_mm < rounding_mm_;
+            if (!rounding) bodies_ += cosine > 0 ? -1 : 1;
+            from_mm = std::nextafter(hit->distance_mm, max_mm);
+        }
+        // Past the box the path came out where no face was: a boundary met from its back, which ends it as
+        // lost.
+        if (!inside_box(p_mm + direction * max_mm)) return BoundaryHit{max_mm, -direction};
+        return std::nullopt;
     }
     [[nodiscard]] const RayHit& last() const { return last_; }
 
@@ -30,8 +45,9 @@ class SkinBoundary {
 
     const RayScene& rays_;
     RayScene::Bounds box_;
-    float least_mm_;
-    mutable RayHit last_;
+    float rounding_mm_;
+    int bodies_ = 1;
+    RayHit last_;
 };
 
 }  // namespace
@@ -39,8 +55,8 @@ class SkinBoundary {
 WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, Vec3 n_face, uint32_t seed) const {
     Result result;
     Vec3 sum;
-    const SkinBoundary boundary(rays_);
     for (int i = 0; i < settings_.walks; ++i) {
+        FleshBoundary boundary(rays_);
         Pcg32 random(seed, uint32_t(i));
         const Vec3 direction = sample_entry_direction(n_face, medium_.eta, random);
         const WalkEnd end = random_walk(medium_, boundary, point.p_mm, direction, random);

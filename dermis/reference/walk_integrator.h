@@ -14,7 +14,7 @@ struct WalkIntegratorSettings {
 };
 
 /// M(x) = mean over walks of throughput * E(y) / normalisation, E with Lighting's entry_eta, which must be
-/// the medium's. Skin must be closed: what leaves through a hole is lost, and counted. Safe from any thread.
+/// the medium's. The rays were built with find_flesh(), which closes the skin. Safe from any thread.
 class WalkIntegrator {
   public:
     WalkIntegrator(const RayScene& rays, const MaterialSet& materials, const Lighting& lighting,

@@ -99,12 +99,16 @@ inline Mesh plane(float side_mm, float height_mm, int cells = 1) {
     });
 }
 
-/// The same square facing -z.
-inline Mesh ceiling(float side_mm, float height_mm) {
-    Mesh mesh = plane(side_mm, height_mm);
+/// Every triangle turned around.
+inline Mesh inside_out(Mesh mesh) {
     for (size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     for (Vec3& n : mesh.normals) n = -n;
     return mesh;
+}
+
+/// The same square facing -z.
+inline Mesh ceiling(float side_mm, float height_mm) {
+    return inside_out(plane(side_mm, height_mm));
 }
 
 /// Both in one mesh; `b` keeps its material numbers after those of `a`.

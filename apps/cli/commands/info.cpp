@@ -11,6 +11,7 @@
 #include "command.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/uv_report.h"
+#include "dermis/rays/flesh.h"
 #include "dermis/scene/builtin.h"
 
 namespace dermis::cli {
@@ -87,12 +88,19 @@ Json uv_json(const UvReport& uv) {
             {"anisotropy", percentiles_json(uv.anisotropy)}};
 }
 
-Json to_json(const LoadedMesh& loaded) {
+Json to_json(const LoadedMesh& loaded, const Flesh& flesh) {
     const Mesh& mesh = loaded.mesh;
     const auto [low, high] = bounding_box(mesh);
-    Json json = {{"vertices", mesh.positions_mm.size()}, {"triangles", mesh.triangle_count()},
-                 {"low_mm", {low.x, low.y, low.z}},      {"high_mm", {high.x, high.y, high.z}},
-                 {"materials", Json::array()},           {"warnings", loaded.warnings}};
+    Json json = {{"vertices", mesh.positions_mm.size()},
+                 {"triangles", mesh.triangle_count()},
+                 {"low_mm", {low.x, low.y, low.z}},
+                 {"high_mm", {high.x, high.y, high.z}},
+                 {"area_mm2", flesh.skin_area_mm2},
+                 {"hidden_triangles", flesh.hidden_triangles},
+                 {"hidden_area_mm2", flesh.hidden_area_mm2},
+                 {"openings", flesh.mesh_openings},
+                 {"materials", Json::array()},
+                 {"warnings", loaded.warnings}};
     for (uint32_t i = 0; i < mesh.materials.size(); ++i) {
         Json row = {
             {"name", mesh.materials[i].name}, {"triangles", triangles_of(mesh, i)}, {"maps", Json::array()}};
@@ -124,7 +132,20 @@ void print_uv(const UvReport& uv) {
         fmt::print("    degenerate    {} triangles without UV area\n", uv.degenerate_triangles);
 }
 
-void print_text(const std::string& path, const LoadedMesh& loaded) {
+// What the ground truth closes and leaves out.
+void print_flesh(const Flesh& flesh) {
+    if (flesh.hidden_triangles > 0)
+        fmt::print(
+            "  hidden skin: {} triangles, {:.1f} of {:.1f} cm2, that the outside cannot see; the ground "
+            "truth takes "
+            "the cavities behind them for flesh\n",
+            flesh.hidden_triangles, flesh.hidden_area_mm2 / 100, flesh.skin_area_mm2 / 100);
+    if (flesh.mesh_openings > 0)
+        fmt::print("  {} opening{} in the surface; the walks of the ground truth are reflected there\n",
+                   flesh.mesh_openings, flesh.mesh_openings == 1 ? "" : "s");
+}
+
+void print_text(const std::string& path, const LoadedMesh& loaded, const Flesh& flesh) {
     const Mesh& mesh = loaded.mesh;
     const auto [low, high] = bounding_box(mesh);
     const Vec3 size = high - low;
@@ -132,6 +153,7 @@ void print_text(const std::string& path, const LoadedMesh& loaded) {
     fmt::print(
         "  box {:.1f} x {:.1f} x {:.1f} mm, from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n",
         size.x, size.y, size.z, low.x, low.y, low.z, high.x, high.y, high.z);
+    print_flesh(flesh);
     for (uint32_t i = 0; i < mesh.materials.size(); ++i) {
         const size_t triangles = triangles_of(mesh, i);
         if (triangles == 0) continue;
@@ -146,6 +168,7 @@ void print_text(const std::string& path, const LoadedMesh& loaded) {
 struct NamedMesh {
     std::string name;
     LoadedMesh loaded;
+    Flesh flesh = {};  ///< all of the mesh taken for skin
 };
 
 Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
@@ -166,15 +189,25 @@ Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
     return meshes;
 }
 
+Result<void> add_flesh(NamedMesh& mesh) {
+    const SceneObject object{.name = mesh.name, .mesh = mesh.loaded.mesh, .classes = {}};
+    Result<std::vector<Flesh>> flesh = find_flesh(std::span(&object, 1));
+    if (!flesh) return flesh.error();
+    mesh.flesh = std::move(flesh->front());
+    return {};
+}
+
 Result<int> run_info(const InfoArguments& arguments) {
-    const Result<std::vector<NamedMesh>> meshes = load_meshes(arguments);
+    Result<std::vector<NamedMesh>> meshes = load_meshes(arguments);
     if (!meshes) return meshes.error();
+    for (NamedMesh& mesh : *meshes)
+        if (Result<void> added = add_flesh(mesh); !added) return added.error();
     Json list = Json::array();
     for (const NamedMesh& mesh : *meshes)
         if (arguments.json)
-            list.push_back(to_json(mesh.loaded));
+            list.push_back(to_json(mesh.loaded, mesh.flesh));
         else
-            print_text(mesh.name, mesh.loaded);
+            print_text(mesh.name, mesh.loaded, mesh.flesh);
     // One mesh is one object; the four spheres are a list of four.
     if (arguments.json)
         fmt::print("{}\n",

@@ -24,7 +24,7 @@ namespace {
 struct Options {
     std::string scene, output, preview, size = "512x512", camera, light, profile;
     std::string integrator = "surface", filter = "box", shadows = "key", ambient = "traced", specular = "ggx";
-    std::string normalisation = "area", medium;
+    std::string normalisation = "area", cavities = "flesh", medium;
     int samples = 64, probes = 16;
     uint32_t seed = 1;
     double noise = 0, width_scale = 1;
@@ -67,6 +67,7 @@ constexpr Named<SpecularReflection> kSpecular[] = {{"none", SpecularReflection::
                                                    {"ggx", SpecularReflection::ggx}};
 constexpr Named<Normalisation> kNormalisations[] = {{"area", Normalisation::by_area},
                                                     {"none", Normalisation::none}};
+constexpr Named<Cavities> kCavities[] = {{"flesh", Cavities::flesh}, {"open", Cavities::open}};
 
 template <class Enum, size_t N>
 Result<void> set(Enum& target, std::string_view what, const std::string& text, const Named<Enum> (&all)[N]) {
@@ -127,6 +128,7 @@ Result<ReferenceSettings> settings_of(const Options& options) {
          {set(settings.integrator, "integrator", options.integrator, kIntegrators),
           set(settings.filter, "pixel filter", options.filter, kFilters),
           set(settings.normalisation, "normalisation", options.normalisation, kNormalisations),
+          set(settings.cavities, "cavities", options.cavities, kCavities),
           set(settings.lighting.shadows, "choice of shadows", options.shadows, kShadows),
           set(settings.lighting.ambient, "ambient model", options.ambient, kAmbient),
           set(settings.lighting.specular, "specular model", options.specular, kSpecular)})
@@ -165,6 +167,7 @@ nlohmann::ordered_json description(const Options& options, const ReferenceSettin
             {"ambient", options.ambient},
             {"specular", options.specular},
             {"normalisation", options.normalisation},
+            {"cavities", options.cavities},
             {"width_scale", settings.width_scale},
             {"penumbra_mm", options.penumbra_mm},
             {"relative_error", picture.relative_error},
@@ -264,6 +267,10 @@ void add_reference_command(CommandLine& line) {
     command->add_option("--width-scale", options->width_scale, "stretches the profile; 0 is Lambert")
         ->capture_default_str();
     command->add_option("--normalisation", options->normalisation, "area, or none")->capture_default_str();
+    command
+        ->add_option("--cavities", options->cavities,
+                     "flesh behind skin that the outside cannot see, or open as the mesh has it")
+        ->capture_default_str();
     command->add_option("--filter", options->filter, "box, or center as without multisampling")
         ->capture_default_str();
     command->add_option("--shadows", options->shadows, "key, or all lights")->capture_default_str();

@@ -1,0 +1,125 @@
+#include "dermis/mesh/hole_caps.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "dermis/mesh/weld.h"
+
+namespace dermis {
+namespace {
+
+constexpr size_t kLargestExact = 400;
+
+struct Edge {
+    uint32_t from, to;
+    friend auto operator<=>(const Edge&, const Edge&) = default;
+};
+
+double area_of(Vec3 a, Vec3 b, Vec3 c) {
+    return 0.5 * double(length(cross(b - a, c - a)));
+}
+
+// Edges without a partner that runs the other way, by where they start.
+std::vector<Edge> border_edges(std::vector<Edge> edges) {
+    std::ranges::sort(edges);
+    std::vector<Edge> border;
+    for (size_t i = 0; i < edges.size(); ++i) {
+        const Edge back{edges[i].to, edges[i].from};
+        const auto same = std::ranges::equal_range(edges, edges[i]);
+        const auto partners = std::ranges::equal_range(edges, back);
+        // Of several equal edges as many are open as have no partner.
+        const auto number = edges.begin() + std::ptrdiff_t(i) - same.begin();
+        if (number >= std::ptrdiff_t(partners.size())) border.push_back(edges[i]);
+    }
+    return border;
+}
+
+// Smallest areas of the polygons from vertex i to vertex k, and the vertex between them that gives it.
+struct Table {
+    size_t count;
+    std::vector<double> area;
+    std::vector<uint32_t> between;
+    explicit Table(size_t n) : count(n), area(n * n), between(n * n) {}
+    [[nodiscard]] size_t at(size_t i, size_t k) const { return i * count + k; }
+};
+
+std::vector<std::array<Vec3, 3>> smallest_cap(const BorderLoop& loop) {
+    const size_t n = loop.size();
+    Table table(n);
+    for (size_t span = 2; span < n; ++span)
+        for (size_t i = 0; i + span < n; ++i) {
+            const size_t k = i + span;
+            double best = std::numeric_limits<double>::infinity();
+            for (size_t m = i + 1; m < k; ++m) {
+                const double area = table.area[table.at(i, m)] + table.area[table.at(m, k)] +
+                                    area_of(loop[i], loop[m], loop[k]);
+                if (area < best) best = area, table.between[table.at(i, k)] = uint32_t(m);
+            }
+            table.area[table.at(i, k)] = best;
+        }
+    std::vector<std::array<Vec3, 3>> triangles;
+    std::vector<std::array<size_t, 2>> open = {{0, n - 1}};
+    while (!open.empty()) {
+        const auto [i, k] = open.back();
+        open.pop_back();
+        if (k < i + 2) continue;
+        const size_t m = table.between[table.at(i, k)];
+        // The border turns with its own triangles; what continues them turns the other way.
+        triangles.push_back({loop[i], loop[k], loop[m]});
+        open.push_back({i, m});
+        open.push_back({m, k});
+    }
+    return triangles;
+}
+
+}  // namespace
+
+std::vector<BorderLoop> border_loops(std::span<const Vec3> positions_mm, std::span<const uint32_t> indices,
+                                     std::span<const uint32_t> triangles) {
+    const Weld weld = weld_positions(positions_mm);
+    std::vector<Edge> edges;
+    for (const uint32_t triangle : triangles)
+        for (uint32_t i = 0; i < 3; ++i) {
+            const Edge edge{weld.ids[indices[3 * triangle + i]],
+                            weld.ids[indices[3 * triangle + (i + 1) % 3]]};
+            if (edge.from != edge.to) edges.push_back(edge);
+        }
+    const std::vector<Edge> border = border_edges(std::move(edges));
+    std::vector<uint8_t> taken(border.size());
+    std::vector<BorderLoop> loops;
+    for (size_t first = 0; first < border.size(); ++first) {
+        BorderLoop loop;
+        size_t edge = first;
+        while (edge < border.size() && !taken[edge]) {
+            taken[edge] = 1;
+            loop.push_back(positions_mm[weld.first[border[edge].from]]);
+            const uint32_t next = border[edge].to;
+            if (next == border[first].from) break;
+            edge = size_t(std::ranges::lower_bound(border, Edge{next, 0}) - border.begin());
+            while (edge < border.size() && border[edge].from == next && taken[edge]) ++edge;
+            if (edge == border.size() || border[edge].from != next) loop.clear(), edge = border.size();
+        }
+        if (loop.size() >= 3) loops.push_back(std::move(loop));
+    }
+    return loops;
+}
+
+std::vector<std::array<Vec3, 3>> cap_of(const BorderLoop& loop) {
+    BorderLoop rest = loop;
+    std::vector<std::array<Vec3, 3>> triangles;
+    while (rest.size() > kLargestExact) {
+        BorderLoop kept;
+        for (size_t i = 0; i < rest.size(); ++i) {
+            if (i % 2 == 0 || i + 1 == rest.size())
+                kept.push_back(rest[i]);
+            else
+                triangles.push_back({rest[i - 1], rest[i + 1], rest[i]});
+        }
+        rest = std::move(kept);
+    }
+    const std::vector<std::array<Vec3, 3>> inner = smallest_cap(rest);
+    triangles.insert(triangles.end(), inner.begin(), inner.end());
+    return triangles;
+}
+
+}  // namespace dermis

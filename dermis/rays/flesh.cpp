@@ -1,0 +1,307 @@
+#include "dermis/rays/flesh.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
+#include "dermis/base/parallel.h"
+#include "dermis/mesh/hole_caps.h"
+#include "dermis/mesh/topology.h"
+#include "dermis/mesh/weld.h"
+#include "dermis/rays/random.h"
+#include "dermis/rays/ray_scene.h"
+#include "dermis/rays/sampling.h"
+
+namespace dermis {
+namespace {
+
+// Raised when the result changes, so that old cache entries are not taken for new ones.
+constexpr int kAlgorithmVersion = 1;
+
+constexpr int kRays = 256;
+// Of kRays: what hidden parts grow over (2 %), and what a part enclosed by them may see at most (5 %).
+constexpr int kGrowRays = 5, kEnclosedRays = 12;
+// By which most of a hidden face's rays are told.
+constexpr int kBuriedRays = 31;
+// A hidden patch smaller than this share of the skin is the bottom of a crease, not a cavity.
+constexpr double kLeastCavityShare = 1e-4;
+
+// Triangles of one mesh, across whose edges one can step; UV seams do not separate.
+class Neighbours {
+  public:
+    explicit Neighbours(const Mesh& mesh) {
+        const Weld weld = weld_positions(mesh.positions_mm);
+        for (uint32_t corner = 0; corner < mesh.indices.size(); ++corner) {
+            const uint32_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+            const auto [a, b] = std::minmax(weld.ids[mesh.indices[corner]], weld.ids[mesh.indices[next]]);
+            sides_.push_back({a, b, corner / 3});
+        }
+        std::ranges::sort(sides_);
+    }
+    // Calls visit(t, u) for the triangles of every edge that several share.
+    template <class Visit>
+    void each_pair(const Visit& visit) const {
+        for (size_t i = 1; i < sides_.size(); ++i)
+            if (sides_[i - 1].a == sides_[i].a && sides_[i - 1].b == sides_[i].b)
+                visit(sides_[i - 1].triangle, sides_[i].triangle);
+    }
+
+  private:
+    struct Side {
+        uint32_t a, b, triangle;
+        friend auto operator<=>(const Side&, const Side&) = default;
+    };
+    std::vector<Side> sides_;
+};
+
+// What a patch of connected triangles adds up to; patches are named by their lowest triangle.
+struct Patches {
+    std::vector<uint32_t> leader;
+    std::vector<double> area_mm2;
+    std::vector<int> most_rays;
+};
+
+struct Triangles {
+    std::vector<uint8_t> skin, hidden;
+    std::vector<int> open;
+    std::vector<double> area_mm2;
+    [[nodiscard]] size_t count() const { return skin.size(); }
+};
+
+// Patches of skin that is hidden alike.
+Patches patches_of(const Triangles& triangles, const Neighbours& neighbours) {
+    Patches patches{std::vector<uint32_t>(triangles.count()), std::vector<double>(triangles.count()),
+                    std::vector<int>(triangles.count())};
+    DisjointSets sets(triangles.count());
+    neighbours.each_pair([&](uint32_t t, uint32_t u) {
+        if (triangles.skin[t] && triangles.skin[u] && triangles.hidden[t] == triangles.hidden[u])
+            sets.join(t, u);
+    });
+    for (uint32_t t = 0; t < triangles.count(); ++t) {
+        const uint32_t leader = patches.leader[t] = sets.find(t);
+        patches.area_mm2[leader] += triangles.area_mm2[t];
+        patches.most_rays[leader] = std::max(patches.most_rays[leader], triangles.open[t]);
+    }
+    return patches;
+}
+
+void grow(Triangles& triangles, const Neighbours& neighbours) {
+    for (bool grown = true; grown;) {
+        grown = false;
+        neighbours.each_pair([&](uint32_t t, uint32_t u) {
+            if (!triangles.skin[t] || !triangles.skin[u] || triangles.hidden[t] == triangles.hidden[u])
+                return;
+            const uint32_t candidate = triangles.hidden[t] ? u : t;
+            if (triangles.open[candidate] > kGrowRays) return;
+            triangles.hidden[candidate] = 1;
+            grown = true;
+        });
+    }
+}
+
+// Rays from places all over a triangle, cosine-weighted.
+class FaceRays {
+  public:
+    FaceRays(const RayScene& scene, uint32_t triangle) : seed_(triangle), lift_mm_(2 * scene.epsilon_mm()) {
+        const Mesh& mesh = scene.mesh(0);
+        const uint32_t* corner = &mesh.indices[3 * size_t(triangle)];
+        origin_mm_ = mesh.positions_mm[corner[0]];
+        first_mm_ = mesh.positions_mm[corner[1]] - origin_mm_;
+        second_mm_ = mesh.positions_mm[corner[2]] - origin_mm_;
+        const Vec3 facing = cross(first_mm_, second_mm_);
+        has_area_ = dot(facing, facing) > 0;
+        frame_ = frame_of(has_area_ ? normalize(facing) : Vec3{0, 0, 1});
+    }
+    [[nodiscard]] bool has_area() const { return has_area_; }
+    [[nodiscard]] Ray operator[](int index) const {
+        OwenSequence random(seed_, uint32_t(index));
+        const Vec2 place = random.next_2d();
+        const Vec3 direction = frame_.to_world(sample_cosine_hemisphere(random.next_2d()));
+        const float root = std::sqrt(place.x);
+        return {.origin_mm = origin_mm_ + first_mm_ * (root * (1 - place.y)) + second_mm_ * (root * place.y) +
+                             frame_.normal * lift_mm_,
+                .direction = direction};
+    }
+
+  private:
+    uint32_t seed_;
+    float lift_mm_;
+    bool has_area_;
+    Vec3 origin_mm_, first_mm_, second_mm_;
+    LocalFrame frame_;
+};
+
+// How many of kRays rays reach the outside. Stops once more than kEnclosedRays have: no more is asked.
+int open_rays(const RayScene& scene, uint32_t triangle) {
+    const FaceRays rays(scene, triangle);
+    int open = 0;
+    for (int i = 0; i < kRays && open <= kEnclosedRays && rays.has_area(); ++i)
+        open += !scene.occluded(RaySet::opaque, rays[i]);
+    return open;
+}
+
+// Whether most rays meet a face from its back: they run in flesh.
+bool is_buried(const RayScene& scene, uint32_t triangle) {
+    const FaceRays rays(scene, triangle);
+    int backs = 0;
+    for (int i = 0; i < kBuriedRays && rays.has_area(); ++i) {
+        const Ray ray = rays[i];
+        const std::optional<RayHit> hit = scene.closest_hit(RaySet::opaque, ray);
+        backs += hit && dot(hit->n_face, ray.direction) > 0;
+    }
+    return 2 * backs > kBuriedRays;
+}
+
+Triangles measure(const SceneObject& object) {
+    const Mesh& mesh = object.mesh;
+    const size_t count = mesh.triangle_count();
+    Triangles triangles{std::vector<uint8_t>(count), std::vector<uint8_t>(count), std::vector<int>(count),
+                        std::vector<double>(count)};
+    for (uint32_t t = 0; t < count; ++t) {
+        const uint32_t material = material_of_triangle(mesh, t);
+        triangles.skin[t] =
+            material >= object.classes.size() || object.classes[material] == MaterialClass::skin;
+        const Vec3 a = mesh.positions_mm[mesh.indices[3 * t]], b = mesh.positions_mm[mesh.indices[3 * t + 1]],
+                   c = mesh.positions_mm[mesh.indices[3 * t + 2]];
+        triangles.area_mm2[t] = 0.5 * double(length(cross(b - a, c - a)));
+    }
+    return triangles;
+}
+
+// Closes what `flesh.faces` leave open and adds up the areas.
+void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
+    std::vector<uint32_t> skin, boundary;
+    for (uint32_t t = 0; t < triangles.count(); ++t) {
+        if (!triangles.skin[t]) continue;
+        flesh.skin_area_mm2 += triangles.area_mm2[t];
+        skin.push_back(t);
+        if (flesh.faces[t] != SkinFace::cavity) boundary.push_back(t);
+        if (flesh.faces[t] == SkinFace::visible) continue;
+        ++flesh.hidden_triangles;
+        flesh.hidden_area_mm2 += triangles.area_mm2[t];
+    }
+    flesh.mesh_openings = border_loops(mesh.positions_mm, mesh.indices, skin).size();
+    for (const BorderLoop& loop : border_loops(mesh.positions_mm, mesh.indices, boundary)) {
+        const std::vector<std::array<Vec3, 3>> cap = cap_of(loop);
+        flesh.caps.insert(flesh.caps.end(), cap.begin(), cap.end());
+    }
+}
+
+// Hides what the outside cannot see; steps of flesh.h in their order.
+void hide(const Mesh& mesh, Triangles& triangles, const RayScene& rays) {
+    parallel_for(triangles.count(), 64, [&](size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t)
+            if (triangles.skin[t]) {
+                triangles.open[t] = open_rays(rays, uint32_t(t));
+                triangles.hidden[t] = triangles.open[t] == 0;
+            }
+    });
+    const Neighbours neighbours(mesh);
+    grow(triangles, neighbours);
+    const Patches patches = patches_of(triangles, neighbours);
+    for (size_t t = 0; t < triangles.count(); ++t)
+        if (triangles.skin[t] && !triangles.hidden[t])
+            triangles.hidden[t] = patches.most_rays[patches.leader[t]] <= kEnclosedRays;
+    double skin_mm2 = 0;
+    for (size_t t = 0; t < triangles.count(); ++t) skin_mm2 += triangles.skin[t] * triangles.area_mm2[t];
+    const Patches closed = patches_of(triangles, neighbours);
+    for (size_t t = 0; t < triangles.count(); ++t)
+        if (triangles.hidden[t])
+            triangles.hidden[t] = closed.area_mm2[closed.leader[t]] >= kLeastCavityShare * skin_mm2;
+    // All of it: the triangles turn the wrong way, which no cavity explains.
+    if (triangles.hidden == triangles.skin) std::ranges::fill(triangles.hidden, 0);
+}
+
+std::vector<SkinFace> faces_of(const Triangles& triangles, const RayScene& rays) {
+    std::vector<SkinFace> faces(triangles.count(), SkinFace::visible);
+    parallel_for(triangles.count(), 64, [&](size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t)
+            if (triangles.hidden[t])
+                faces[t] = is_buried(rays, uint32_t(t)) ? SkinFace::buried : SkinFace::cavity;
+    });
+    return faces;
+}
+
+Result<Flesh> make_flesh(const SceneObject& object, Cavities cavities) {
+    Triangles triangles = measure(object);
+    Flesh flesh{.faces = std::vector<SkinFace>(triangles.count(), SkinFace::visible)};
+    if (cavities == Cavities::flesh && std::ranges::count(triangles.skin, 1) > 0) {
+        Result<RayScene> rays = RayScene::build(std::span(&object, 1));
+        if (!rays) return rays.error();
+        hide(object.mesh, triangles, *rays);
+        flesh.faces = faces_of(triangles, *rays);
+    }
+    finish(object.mesh, triangles, flesh);
+    return flesh;
+}
+
+std::string content_hash(const SceneObject& object, Cavities cavities) {
+    const Mesh& mesh = object.mesh;
+    Hasher hasher;
+    hasher.add(kAlgorithmVersion).add(cavities);
+    hasher.add(std::as_bytes(std::span(mesh.positions_mm))).add(std::as_bytes(std::span(mesh.indices)));
+    for (const Submesh& part : mesh.submeshes)
+        hasher.add(part.first_index).add(part.index_count).add(part.material);
+    hasher.add(std::as_bytes(std::span(object.classes)));
+    return hasher.hex();
+}
+
+// The stored form: the numbers, one byte a triangle, then the caps.
+struct Header {
+    uint64_t triangles = 0, hidden = 0, caps = 0, openings = 0;
+    double hidden_area_mm2 = 0, skin_area_mm2 = 0;
+};
+
+std::vector<std::byte> pack(const Flesh& flesh) {
+    const Header header{flesh.faces.size(),  flesh.hidden_triangles, flesh.caps.size(),
+                        flesh.mesh_openings, flesh.hidden_area_mm2,  flesh.skin_area_mm2};
+    std::vector<std::byte> bytes(sizeof header);
+    std::memcpy(bytes.data(), &header, sizeof header);
+    const auto faces = std::as_bytes(std::span(flesh.faces)), caps = std::as_bytes(std::span(flesh.caps));
+    bytes.insert(bytes.end(), faces.begin(), faces.end());
+    bytes.insert(bytes.end(), caps.begin(), caps.end());
+    return bytes;
+}
+
+std::optional<Flesh> unpack(std::span<const std::byte> bytes, size_t triangles) {
+    Header header;
+    if (bytes.size() < sizeof header) return std::nullopt;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    using Cap = std::array<Vec3, 3>;
+    const size_t rest = bytes.size() - sizeof header;
+    if (header.triangles != triangles || rest < triangles || (rest - triangles) % sizeof(Cap) != 0 ||
+        (rest - triangles) / sizeof(Cap) != header.caps)
+        return std::nullopt;
+    Flesh flesh{.faces = std::vector<SkinFace>(triangles),
+                .caps = std::vector<Cap>(header.caps),
+                .hidden_triangles = header.hidden,
+                .hidden_area_mm2 = header.hidden_area_mm2,
+                .skin_area_mm2 = header.skin_area_mm2,
+                .mesh_openings = header.openings};
+    if (triangles > 0) std::memcpy(flesh.faces.data(), &bytes[sizeof header], triangles);
+    if (header.caps > 0) std::memcpy(flesh.caps.data(), &bytes[sizeof header + triangles], rest - triangles);
+    return flesh;
+}
+
+}  // namespace
+
+Result<std::vector<Flesh>> find_flesh(std::span<const SceneObject> objects, Cavities cavities) {
+    std::vector<Flesh> all;
+    for (const SceneObject& object : objects) {
+        const std::string hash = content_hash(object, cavities);
+        std::optional<Flesh> stored;
+        if (const auto bytes = cache_load("flesh", hash))
+            stored = unpack(*bytes, object.mesh.triangle_count());
+        if (!stored) {
+            Result<Flesh> made = make_flesh(object, cavities);
+            if (!made) return made.error();
+            cache_store("flesh", hash, pack(*made));
+            stored = std::move(*made);
+        }
+        all.push_back(std::move(*stored));
+    }
+    return all;
+}
+
+}  // namespace dermis
