@@ -6,6 +6,7 @@
 
 #include "dermis/image/io.h"
 #include "dermis/judge/heat_map.h"
+#include "dermis/scene/scene_words.h"
 
 namespace dermis {
 

@@ -4,8 +4,9 @@
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/scene/builtin.h"
-#include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_words.h"
 
 namespace dermis {
 namespace fs = std::filesystem;
@@ -21,21 +22,35 @@ Result<Scene> load_builtin(std::string_view name) {
     return scene;
 }
 
-Result<SceneDescription> read_description(const fs::path& path) {
+Result<SceneDescription> read_description(const fs::path& path, std::span<const SceneWord> words) {
     const Result<std::string> text = read_text_file(path);
     if (!text) return text.error();
-    return parse_scene(*text, path);
+    Result<SceneDescription> description = parse_scene(*text, path);
+    if (!description || words.empty()) return description;
+    for (const SceneWord& word : words)
+        if (Result<void> set = set_word(*description, word); !set) return set.error();
+    if (Result<void> checked = check_scene(*description); !checked) return checked.error();
+    return description;
 }
 
-Result<Scene> load_scene_file(const fs::path& path) {
-    const Result<SceneDescription> description = read_description(path);
+// Only a scene file has these keys; a wrong one is told all the same.
+Result<void> refuse_words(const std::string& name, std::span<const SceneWord> words) {
+    if (words.empty()) return {};
+    SceneDescription any{.meshes = {{}}};
+    if (Result<void> set = set_word(any, words[0]); !set) return set;
+    return Error{words[0].key + ": read while a scene file is loaded, and " + name +
+                 " is none; write a scene file with [[mesh]] file = \"" + name + "\""};
+}
+
+Result<Scene> load_scene_file(const fs::path& path, std::span<const SceneWord> words) {
+    const Result<SceneDescription> description = read_description(path, words);
     if (!description) return description.error();
     Result<Scene> scene = build_scene(*description);
     if (scene) scene->files.push_back(path);
     if (scene || description->head.without_assets.empty() || !lacks_asset(*description)) return scene;
 
     const Result<SceneDescription> other =
-        read_description(path.parent_path() / (description->head.without_assets + ".toml"));
+        read_description(path.parent_path() / (description->head.without_assets + ".toml"), words);
     Result<Scene> instead = other ? build_scene(*other) : other.error();
     if (!instead) return scene;
     instead->files.push_back(path);
@@ -70,6 +85,11 @@ Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) 
     return scene;
 }
 
+bool is_mesh(const fs::path& path) {
+    const std::string extension = to_lower(path.extension().string());
+    return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+}
+
 bool looks_like_a_name(std::string_view text) {
     return text.find('/') == std::string_view::npos && text.find('.') == std::string_view::npos;
 }
@@ -77,19 +97,22 @@ bool looks_like_a_name(std::string_view text) {
 }  // namespace
 
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
+    const bool is_mesh_file = is_mesh(path_or_name);
+    if (path_or_name.starts_with(kBuiltin) || is_mesh_file)
+        if (Result<void> refused = refuse_words(path_or_name, options.words); !refused)
+            return refused.error();
     if (path_or_name.starts_with(kBuiltin))
         return load_builtin(std::string_view(path_or_name).substr(kBuiltin.size()));
     const fs::path path = path_or_name;
     std::error_code ec;
     if (looks_like_a_name(path_or_name) && !fs::is_regular_file(path, ec)) {
-        if (const fs::path file = find_scene(path_or_name); !file.empty()) return load_scene_file(file);
+        if (const fs::path file = find_scene(path_or_name); !file.empty())
+            return load_scene_file(file, options.words);
         return Error{unknown_name("scene", path_or_name, scene_names()) +
                      ", or a .toml, .obj, .gltf or .glb file"};
     }
-    const std::string extension = to_lower(path.extension().string());
-    if (extension == ".toml") return load_scene_file(path);
-    if (extension == ".obj" || extension == ".gltf" || extension == ".glb")
-        return load_mesh_file(path, options);
+    if (is_mesh_file) return load_mesh_file(path, options);
+    if (to_lower(path.extension().string()) == ".toml") return load_scene_file(path, options.words);
     return Error{path_or_name + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)"};
 }
 

@@ -6,6 +6,7 @@ namespace dermis {
 namespace {
 
 Error error_at(const SceneDescription& scene, int line, std::string message) {
+    if (scene.file.empty()) return Error{std::move(message)};
     return Error{scene.file.string() + ":" + std::to_string(std::max(line, 1)) + ": " + std::move(message)};
 }
 
@@ -32,7 +33,7 @@ Result<void> check_light(const SceneDescription& scene, const LightDescription& 
 
 // What only a built-in mesh has, and what it is made with already.
 Result<void> check_mesh(const SceneDescription& scene, const MeshDescription& mesh) {
-    if (mesh.bust_line > 0 && mesh.file.text != "builtin:bust")
+    if (!mesh.bust_key.empty() && mesh.file.text != "builtin:bust")
         return error_at(
             scene, mesh.bust_line,
             mesh.bust_key + ": only builtin:bust has it, not " + mesh.file.text + "; leave it out");
@@ -94,6 +95,10 @@ Result<void> check_scene(SceneDescription& scene) {
                             "mesh.file is missing; give file = \"HEAD.obj\" or \"builtin:spheres\"");
     for (const MeshDescription& mesh : scene.meshes)
         if (const Result<void> checked = check_mesh(scene, mesh); !checked) return checked;
+    return check_views(scene);
+}
+
+Result<void> check_views(SceneDescription& scene) {
     for (const LightDescription& light : scene.lights)
         if (const Result<void> checked = check_light(scene, light); !checked) return checked;
     Result<void> checked = check_key_light(scene);

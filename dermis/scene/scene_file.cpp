@@ -16,21 +16,11 @@ namespace {
 template <class Target>
 Result<void> read_section(const TomlNode& section, const std::string& path, const KeyTable<Target>& table,
                           Target& target, const TomlPlace& place, const std::set<std::string>& nested = {}) {
-    std::vector<std::string> names(nested.begin(), nested.end());
-    for (const Key<Target>& key : table.keys()) names.push_back(key.info.name);
     for (const TomlEntry& entry : section.entries) {
         if (nested.contains(entry.key)) continue;
-        const auto key = std::ranges::find_if(table.keys(),
-                                              [&](const Key<Target>& k) { return k.info.name == entry.key; });
-        const TomlPlace here = place.at(entry.line);
-        if (key == table.keys().end())
-            return here.error(
-                unknown_name(path.empty() ? "key" : "key in [" + path + "]:", entry.key, names));
-        KeyValue value{.full_name = path.empty() ? entry.key : path + "." + entry.key, .line = entry.line};
-        if (!read_toml_value(entry.value, key->info, value))
-            return here.error(value.full_name + " = " + toml_text(entry.value) + ": " + entry.key + " " +
-                              wanted_text(key->info));
-        key->set(target, value);
+        const auto value = [&](const KeyInfo&) -> const TomlNode& { return entry.value; };
+        const Result<void> set = set_key(table, target, path, entry.key, place.at(entry.line), value, nested);
+        if (!set) return set;
     }
     return {};
 }

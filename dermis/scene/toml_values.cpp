@@ -59,6 +59,15 @@ std::string toml_kind(const TomlNode& node) {
     return "a date or time";
 }
 
+std::string toml_string(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result + "\"";
+}
+
 std::string toml_text(const TomlNode& node) {
     constexpr size_t kShort = 40;
     switch (node.kind) {

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 constexpr int kMostGrid = 16;
 
 struct Options {
-    std::string scene, techniques, output, size = "512x512", camera, light, device;
+    SceneChoice scene;
+    std::string techniques, output, size = "512x512", device;
     std::string integrator = "surface", ambient = "renderer";
     ComparisonSettings defaults;
     double noise = defaults.noise;
@@ -81,10 +82,8 @@ Result<void> try_directory(const fs::path& directory) {
 }
 
 Result<Scene> scene_of(const Options& options) {
-    Result<Scene> scene = load_scene(options.scene);
+    Result<Scene> scene = options.scene.load();
     if (!scene) return scene;
-    if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
-        return applied.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     return scene;
 }
@@ -183,8 +182,8 @@ Result<int> run(const Options& options) {
     const fs::path directory(options.output);
     if (Result<void> written = write_text_file(directory / "report.html", *page); !written)
         return written.error();
-    if (Result<void> written =
-            write_text_file(directory / "scores.csv", scores_csv(score_rows(options.scene, *comparison)));
+    if (Result<void> written = write_text_file(directory / "scores.csv",
+                                               scores_csv(score_rows(options.scene.name, *comparison)));
         !written)
         return written.error();
     if (options.json) {
@@ -206,14 +205,12 @@ void add_compare_command(CommandLine& line) {
         "dermis compare head_scan --techniques "
         "\"lambert,wrap,preintegrated[diffuse=curve_2015,shadow=plain]\" "
         "-o out/compare");
-    command->add_option("scene", options->scene, "scene file, mesh, scene name or builtin:NAME")->required();
+    options->scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
     command->add_option("-o,--output", options->output, "directory for report.html and scores.csv")
         ->required();
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command->add_option("--camera", options->camera, "\"yaw=30 pitch=5 distance_mm=600 fov_deg=30\"");
-    command->add_option("--light", options->light, "\"yaw=-60 pitch=20 intensity=3\" for the key light");
     command->add_option("--integrator", options->integrator, "of the ground truth: surface or walk")
         ->capture_default_str();
     command

@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "dermis/render/output.h"
+#include "dermis/scene/scene_words.h"
 #include "render_options.h"
 #include "turntable.h"
 
