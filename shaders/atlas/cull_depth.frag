@@ -3,7 +3,7 @@
 // The full-screen triangle lies at depth 0; what is dropped keeps the 1 it was cleared to.
 #include "shaders/include/frame.glsl"
 
-layout(set = 0, binding = 21) uniform texture2D tiles;
+uniform texture2D tiles;
 layout(constant_id = 0) const int tile = 8;
 
 void main() {

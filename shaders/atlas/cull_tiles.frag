@@ -3,7 +3,7 @@
 // A tile is visible when any of its texels is.
 #include "shaders/include/frame.glsl"
 
-layout(set = 0, binding = 21) uniform texture2D atlas_visible;
+uniform texture2D atlas_visible;
 layout(constant_id = 0) const int tile = 8;
 
 layout(location = 0) out vec4 tile_out;

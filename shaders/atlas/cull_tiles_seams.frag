@@ -3,7 +3,7 @@
 // A tile is also needed when one of its gutter texels stands for a needed place beyond a seam.
 #include "shaders/atlas/blur_mm.glsl"
 
-layout(set = 0, binding = 25) uniform texture2D tiles;
+uniform texture2D tiles;
 layout(constant_id = 0) const int tile = 8;
 
 layout(location = 0) out vec4 tile_out;

@@ -5,11 +5,11 @@
 // alpha is 1 where skin was written, the target is cleared to 0, and the size lies in the atlas's metric.
 #include "shaders/atlas/light.glsl"
 
-layout(set = 0, binding = 1, scalar) uniform Params {
+layout(scalar) uniform Params {
     float occluded;
     float trans_shadow_alpha;
 };
-layout(set = 0, binding = 19) uniform texture2D kernel_size_map;
+uniform texture2D kernel_size_map;
 
 const int kSpaceTexels = 0, kSpaceMm = 1;
 layout(constant_id = 12) const int space = kSpaceTexels;

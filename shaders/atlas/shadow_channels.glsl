@@ -6,7 +6,7 @@
 
 #include "shaders/include/shadow.glsl"
 
-layout(set = 0, binding = 17) uniform texture2D shadow_channels;
+uniform texture2D shadow_channels;
 
 const int kChannelsNone = 0, kChannelsColor = 1, kChannelsTwoLights = 2;
 layout(constant_id = 10) const int channels = kChannelsNone;

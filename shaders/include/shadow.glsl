@@ -4,7 +4,7 @@
 
 #include "shaders/include/frame.glsl"
 
-layout(set = 0, binding = 10) uniform texture2D shadow_map;
+uniform texture2D shadow_map;
 
 const int kShadowTaps = 24;
 const float kGoldenAngle = 2.39996323;

@@ -11,7 +11,7 @@ layout(location = 3) in vec2 uv_in;
 layout(location = 4) in float curvature_per_mm_in;
 layout(location = 5) in float occlusion_in;
 
-layout(set = 0, binding = 2, scalar) uniform Material {
+layout(scalar) uniform Material {
     vec3 albedo_linear;
     float roughness;
     vec3 emission_linear;
@@ -25,11 +25,11 @@ layout(set = 0, binding = 2, scalar) uniform Material {
     float curvature_scale_per_mm;  // of a value of 1 in the curvature map
 };
 
-layout(set = 0, binding = 12) uniform texture2D albedo_map;
-layout(set = 0, binding = 13) uniform texture2D normal_map;
-layout(set = 0, binding = 14) uniform texture2D specular_map;
-layout(set = 0, binding = 15) uniform texture2D roughness_map;
-layout(set = 0, binding = 16) uniform texture2D occlusion_map;
+uniform texture2D albedo_map;
+uniform texture2D normal_map;
+uniform texture2D specular_map;
+uniform texture2D roughness_map;
+uniform texture2D occlusion_map;
 
 struct Surface {
     vec3 p_world_mm;

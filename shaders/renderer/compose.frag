@@ -10,9 +10,9 @@ layout(push_constant) uniform Push {
 };
 const int kOne = 1, kWipe = 2, kSideBySide = 3;
 
-layout(set = 0, binding = 5) uniform sampler linear_clamp;
-layout(set = 0, binding = 21) uniform texture2D picture_a;
-layout(set = 0, binding = 22) uniform texture2D picture_b;
+uniform sampler linear_clamp;
+uniform texture2D picture_a;
+uniform texture2D picture_b;
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 window_out;

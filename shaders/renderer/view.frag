@@ -5,12 +5,12 @@
 #include "shaders/include/frame.glsl"
 #include "shaders/renderer/tone_map.glsl"
 
-layout(set = 0, binding = 21) uniform texture2D gbuffer_position;
-layout(set = 0, binding = 22) uniform texture2D gbuffer_normal;
-layout(set = 0, binding = 23) uniform texture2D gbuffer_geometry;
-layout(set = 0, binding = 24) uniform texture2D gbuffer_albedo;
-layout(set = 0, binding = 25) uniform texture2D gbuffer_light;
-layout(set = 0, binding = 26) uniform texture2D view_legend;  // ink of ticks and words: dermis/render/legend.h
+uniform texture2D gbuffer_position;
+uniform texture2D gbuffer_normal;
+uniform texture2D gbuffer_geometry;
+uniform texture2D gbuffer_albedo;
+uniform texture2D gbuffer_light;
+uniform texture2D view_legend;  // ink of ticks and words: dermis/render/legend.h
 
 const int kNormal = 0, kGeometryNormal = 1, kAlbedo = 2, kRoughness = 3, kCurvature = 4, kOcclusion = 5, kShadow = 6,
           kNDotL = 7, kDepth = 8, kUv = 9, kPosition = 10;

@@ -4,7 +4,7 @@
 // shadow edges as a function of where in the penumbra one is (Penner 2011).
 #include "shaders/include/frame.glsl"
 
-layout(set = 0, binding = 1, scalar) uniform Params {
+layout(scalar) uniform Params {
     float curvature_gain;
     float tune_curvature;
     float normal_lod_bias;
@@ -38,15 +38,15 @@ layout(constant_id = 6) const int ambient = kAmbientLut;
 const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
 layout(constant_id = 7) const int transmission = kTransmissionNone;
 
-layout(set = 0, binding = 18) uniform texture2D curvature_map;
-layout(set = 0, binding = 21) uniform texture2D skin_lut;           // N.L * .5 + .5, curvature
-layout(set = 0, binding = 22) uniform texture2D skin_zonal;         // curvature, order 0 to 2
-layout(set = 0, binding = 23) uniform texture2D skin_shadow;        // visibility, under shadow_width_mm
-layout(set = 0, binding = 24) uniform texture2D skin_closed_form;   // curvature, rows of coefficients
-layout(set = 0, binding = 25) uniform texture2D skin_gaussians;     // a texel a term: weights, variance in mm^2
-layout(set = 0, binding = 26) uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
-layout(set = 0, binding = 27) uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
-layout(set = 0, binding = 28) uniform texture2D skin_transmission;  // distance
+uniform texture2D curvature_map;
+uniform texture2D skin_lut;           // N.L * .5 + .5, curvature
+uniform texture2D skin_zonal;         // curvature, order 0 to 2
+uniform texture2D skin_shadow;        // visibility, under shadow_width_mm
+uniform texture2D skin_closed_form;   // curvature, rows of coefficients
+uniform texture2D skin_gaussians;     // a texel a term: weights, variance in mm^2
+uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
+uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
+uniform texture2D skin_transmission;  // distance
 
 const float kMaxCurvaturePerMm = 1.0;
 const float kLeastLogMm = -8.0, kMostLogMm = 4.0;  // of skin_normal_blend

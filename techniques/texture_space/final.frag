@@ -5,14 +5,14 @@
 #include "shaders/atlas/light.glsl"
 #include "shaders/include/specular.glsl"
 
-layout(set = 0, binding = 1, scalar) uniform Params {
+layout(scalar) uniform Params {
     float specular_shadow_scale;
     float specular_shadow_bias;
     float occluded;
     float trans_shadow_alpha;
     float cull_bias;
 };
-layout(set = 0, binding = 21) uniform texture2D light_map;
+uniform texture2D light_map;
 layout(constant_id = 1) const int view = 0;
 layout(constant_id = 2) const int specular_shadow = 1;
 layout(constant_id = 3) const int space = 0;  // 1: mm, alpha tells what was written

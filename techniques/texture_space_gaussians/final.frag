@@ -4,13 +4,13 @@
 #include "shaders/atlas/light.glsl"
 #include "shaders/include/specular.glsl"
 
-layout(set = 0, binding = 1, scalar) uniform Params {
+layout(scalar) uniform Params {
     float occluded;
     float trans_shadow_alpha;
     float cull_bias;
     float pre_scatter;
 };
-layout(set = 0, binding = 21) uniform texture2D light_map;
+uniform texture2D light_map;
 layout(constant_id = 1) const int view = 0;
 
 layout(location = 0) out vec4 radiance_out;
