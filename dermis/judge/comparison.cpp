@@ -36,8 +36,7 @@ size_t image_bytes(const ImageDeclaration& image, int width, int height) {
 
 Result<void> measure_bytes(const Scene& scene, const ComparisonSettings& settings, Compared& row) {
     const Technique& technique = *row.contestant.technique;
-    const PassList list =
-        technique.build(row.contestant.values, {.width = settings.width, .height = settings.height});
+    const PassList list = technique.build(row.contestant.values, {});
     for (const ImageDeclaration& image : list.images)
         row.image_bytes += image_bytes(image, settings.width, settings.height);
     if (!technique.tables) return {};

@@ -5,6 +5,7 @@
 #ifndef DERMIS_ATLAS_MM_GLSL
 #define DERMIS_ATLAS_MM_GLSL
 
+#include "shaders/atlas/constants.h"
 #include "shaders/include/frame.glsl"
 
 uniform texture2D source;

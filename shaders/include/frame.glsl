@@ -5,6 +5,8 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
+#include "shaders/include/constants.h"
+
 const float kPi = 3.14159265359;
 
 layout(scalar) uniform Frame {
@@ -12,12 +14,10 @@ layout(scalar) uniform Frame {
     mat4 inverse_view_projection;
     mat4 light_view_projection;  // of the key light, for the shadow map
     vec3 eye_world_mm;
-    float pixel_angle_rad;       // of one pixel at the middle of the picture
     vec3 bounds_center_mm;
     float bounds_radius_mm;
     vec3 background_linear;
     int environment_visible;
-    vec3 view_forward_world;
     float environment_intensity;
     float environment_yaw_rad;
     float environment_mip_count;
@@ -32,7 +32,7 @@ layout(scalar) uniform Frame {
 
 // Directional: intensity_linear is irradiance at normal incidence; point and spot: irradiance at 1 m.
 struct LightSource {
-    int kind;  // 0 directional, 1 point, 2 spot
+    int kind;  // kLightDirectional, ...
     vec3 intensity_linear;
     vec3 to_light_world;
     vec3 position_mm;

@@ -5,7 +5,7 @@
 #include "shaders/renderer/tone_map.glsl"
 
 uniform texture2D radiance;
-layout(constant_id = 0) const int tone_map = 1;
+layout(constant_id = 0) const int tone_map = kToneMapHable;
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 display_out;

@@ -10,7 +10,6 @@ layout(scalar) uniform Params {
 };
 uniform texture2D source;
 
-const int kDilateOff = 0, kDilateSource = 1, kDilateWrittenOnly = 2;
 layout(constant_id = 1) const int dilate = kDilateWrittenOnly;
 
 layout(location = 0) in vec2 uv;
