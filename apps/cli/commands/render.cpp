@@ -90,7 +90,6 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     for (int frame = 0; frame < frames; ++frame) {
         const double turn_rad = options.turn_deg * 3.14159265358979 / 180 * frame / frames;
         turn_camera(prepared.scene, start, turn_rad);
-        prepared.draw.frame_index = frame;
         Result<gpu::FrameResult> drawn = renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
         if (!drawn) return drawn.error();
         results.push_back(std::move(*drawn));
