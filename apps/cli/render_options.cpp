@@ -9,7 +9,7 @@
 
 namespace dermis::cli {
 
-void RenderOptions::add_to(CLI::App& command) {
+void RenderOptions::add_to(Command& command) {
     command
         .add_option("scene", scene, "scene file, mesh (.glb .gltf .obj), name of a scene, or builtin:NAME")
         ->capture_default_str();

@@ -83,7 +83,7 @@ Result<Json> images_of(const Scene& scene, const Comparison& comparison, double 
     return images;
 }
 
-Json number(double value) {
+Json json_number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -91,20 +91,20 @@ Json rows_of(const Comparison& comparison) {
     Json rows = Json::array();
     for (const Compared& row : comparison.rows) {
         const Scores& s = row.scores;
-        const auto part = [](const std::optional<double>& v) { return v ? number(*v) : Json(nullptr); };
+        const auto part = [](const std::optional<double>& v) { return v ? json_number(*v) : Json(nullptr); };
         rows.push_back({{"technique", row.contestant.technique->id},
                         {"settings", row.contestant.settings},
                         {"summary", row.contestant.technique->summary},
-                        {"rmse", number(s.rmse)},
-                        {"rel_mse", number(s.rel_mse)},
-                        {"psnr_db", number(s.psnr_db)},
-                        {"ssim", number(s.ssim)},
-                        {"delta_e_2000", number(s.delta_e_2000)},
-                        {"flip", number(s.flip)},
+                        {"rmse", json_number(s.rmse)},
+                        {"rel_mse", json_number(s.rel_mse)},
+                        {"psnr_db", json_number(s.psnr_db)},
+                        {"ssim", json_number(s.ssim)},
+                        {"delta_e_2000", json_number(s.delta_e_2000)},
+                        {"flip", json_number(s.flip)},
                         {"terminator_rmse", part(s.terminator_rmse)},
                         {"penumbra_rmse", part(s.penumbra_rmse)},
-                        {"time_ms", number(row.time_ms)},
-                        {"time_ratio", row.time_ratio > 0 ? number(row.time_ratio) : Json(nullptr)},
+                        {"time_ms", json_number(row.time_ms)},
+                        {"time_ratio", row.time_ratio > 0 ? json_number(row.time_ratio) : Json(nullptr)},
                         {"bytes", row.bytes()}});
     }
     return rows;

@@ -11,8 +11,6 @@ namespace dermis {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kBuiltin = "builtin:";
-
 Result<Scene> load_builtin(std::string_view name) {
     Result<std::vector<SceneObject>> objects = make_builtin_objects(name);
     if (!objects) return objects.error();
@@ -77,8 +75,8 @@ bool looks_like_a_name(std::string_view text) {
 }  // namespace
 
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
-    if (path_or_name.starts_with(kBuiltin))
-        return load_builtin(std::string_view(path_or_name).substr(kBuiltin.size()));
+    if (path_or_name.starts_with(kBuiltinPrefix))
+        return load_builtin(std::string_view(path_or_name).substr(kBuiltinPrefix.size()));
     const fs::path path = path_or_name;
     std::error_code ec;
     if (looks_like_a_name(path_or_name) && !fs::is_regular_file(path, ec)) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/base/text.h"
 #include "dermis/scene/key_value_text.h"
 #include "dermis/scene/scene.h"
@@ -11,7 +11,6 @@
 namespace dermis {
 namespace {
 
-constexpr float kDegreesPerRadian = 180.0f / std::numbers::pi_v<float>;
 constexpr std::string_view kToneMap = "tone_map=", kProfile = "profile=";
 
 // The numbers of a look; keys() ties names and ranges to them.

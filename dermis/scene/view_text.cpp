@@ -1,15 +1,13 @@
 // Camera and light as texts: both live on a sphere around a target, at a yaw and a pitch.
 
 #include <array>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/scene/key_value_text.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
 namespace {
-
-constexpr float kDegreesPerRadian = 180.0f / std::numbers::pi_v<float>;
 
 // The values of a text, in its own units; keys() ties names and ranges to them.
 struct CameraWords {

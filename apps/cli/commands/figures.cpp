@@ -67,8 +67,8 @@ Result<int> make_figures(const Options& options) {
 
 void add_figures_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = line.add("figures", "Makes the figures of a technique's source again, with numbers",
-                                 "dermis figures preintegrated -o out/figures --size 400");
+    Command* command = line.add("figures", "Makes the figures of a technique's source again, with numbers",
+                                "dermis figures preintegrated -o out/figures --size 400");
     command->add_option("technique", options->technique, "see dermis techniques")->required();
     command->add_option("-o,--output", options->output, "directory; one PNG a figure")->capture_default_str();
     command->add_option("--size", options->size, "height of a cell in pixels")->capture_default_str();
