@@ -130,7 +130,7 @@ Result<Ktx2Header> read_header(Bytes file) {
     return header;
 }
 
-Error unread_format(uint32_t vulkan) {
+Error unread_vulkan_format(uint32_t vulkan) {
     // VK_FORMAT_BC1_RGB_UNORM_BLOCK to VK_FORMAT_ASTC_12x12_SRGB_BLOCK; VK_FORMAT_UNDEFINED is Basis
     // Universal.
     const bool compressed = vulkan == 0 || (vulkan >= 131 && vulkan <= 184);
@@ -149,7 +149,7 @@ Result<LoadedImage> decode_ktx2(Bytes file, ImageUse) {
     Result<Ktx2Header> header = read_header(file);
     if (!header) return header.error();
     const TexelFormat* format = find_vulkan(header->format);
-    if (!format) return unread_format(header->format);
+    if (!format) return unread_vulkan_format(header->format);
     if (Result<void> size = check_image_size(header->width, header->height, format->channels); !size)
         return size.error();
     const uint64_t count = uint64_t(header->width) * header->height * uint64_t(format->channels) *
