@@ -7,7 +7,7 @@
 
 namespace dermis::cli {
 
-void RenderOptions::add_to(CLI::App& command) {
+void RenderOptions::add_to(Command& command) {
     scene.add_to(command)->capture_default_str();
     command.add_option("-t,--technique", technique,
                        "see dermis techniques (default: the scene's, or lambert)");

@@ -1,11 +1,11 @@
 #pragma once
 // What render shares with every command that draws: scene, technique, settings, size, view.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command.h"
 #include "dermis/render/renderer.h"
 #include "dermis/technique/technique.h"
 #include "scene_choice.h"
@@ -19,7 +19,7 @@ struct RenderOptions {
     int samples = 1;
     bool validation = false;
 
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
 };
 
 /// A scene, ready to draw with a technique and its settings.

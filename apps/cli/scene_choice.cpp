@@ -4,13 +4,13 @@
 
 namespace dermis::cli {
 
-CLI::Option* SceneChoice::add_to(CLI::App& command) {
+Option* SceneChoice::add_to(Command& command) {
     add_options_to(command);
     return command.add_option("scene", name,
                               "scene file, mesh (.glb .gltf .obj), name of a scene, or builtin:NAME");
 }
 
-void SceneChoice::add_options_to(CLI::App& command) {
+void SceneChoice::add_options_to(Command& command) {
     command
         .add_option("--scene", words,
                     "a key of the scene file (dermis keys), KEY=VALUE: environment.yaw_deg=30, "

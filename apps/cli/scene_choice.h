@@ -15,9 +15,9 @@ struct SceneChoice {
     std::vector<std::string> words;
 
     /// The scene as the first argument, and the three options.
-    CLI::Option* add_to(CLI::App& command);
+    Option* add_to(Command& command);
     /// The options alone.
-    void add_options_to(CLI::App& command);
+    void add_options_to(Command& command);
 
     /// Loads and changes it. `as_filed` gets what the scene's files say, without objects: which --scene keys
     /// are read while loading counts as theirs. Errors as load_scene() and set_words().

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/optics/fresnel.h"
 #include "dermis/optics/microfacet.h"
 #include "dermis/rays/sampling.h"
@@ -12,7 +13,6 @@
 namespace dermis {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr size_t kMostTranslucentLayers = 16;
 
 bool is_black(Vec3 v) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
@@ -20,14 +20,12 @@ namespace dermis {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180;
-constexpr std::string_view kBuiltin = "builtin:";
 
 Result<std::vector<SceneObject>> load_objects(const SceneDescription& description,
                                               const MeshDescription& mesh, Scene& scene) {
-    if (mesh.file.text.starts_with(kBuiltin)) {
+    if (mesh.file.text.starts_with(kBuiltinPrefix)) {
         auto objects =
-            make_builtin_objects(std::string_view(mesh.file.text).substr(kBuiltin.size()), mesh.bust);
+            make_builtin_objects(std::string_view(mesh.file.text).substr(kBuiltinPrefix.size()), mesh.bust);
         if (!objects) return error_at(description, mesh.file, objects.error().message);
         return objects;
     }

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/base/text.h"
 #include "dermis/bust/bust.h"
 #include "dermis/scene/glasses.h"
 
 namespace dermis {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kRadiansPerDegree = kPi / 180;
 
 // Centres are this many times the sum of two radii apart, so that no sphere shadows its neighbour while the
 // key light's direction is at most 50 degrees off the plane between them (a test holds the default to it).

@@ -10,6 +10,9 @@
 
 namespace dermis {
 
+/// Written before the name of a mesh that needs no file.
+inline constexpr std::string_view kBuiltinPrefix = "builtin:";
+
 /// Radii of the built-in spheres, left to right.
 inline constexpr float kSphereRadiiMm[4] = {2, 4, 8, 16};
 

@@ -12,8 +12,6 @@ namespace dermis {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kBuiltin = "builtin:";
-
 Result<Scene> load_builtin(std::string_view name) {
     Result<std::vector<SceneObject>> objects = make_builtin_objects(name);
     if (!objects) return objects.error();
@@ -98,11 +96,11 @@ bool looks_like_a_name(std::string_view text) {
 
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
     const bool is_mesh_file = is_mesh(path_or_name);
-    if (path_or_name.starts_with(kBuiltin) || is_mesh_file)
+    if (path_or_name.starts_with(kBuiltinPrefix) || is_mesh_file)
         if (Result<void> refused = refuse_words(path_or_name, options.words); !refused)
             return refused.error();
-    if (path_or_name.starts_with(kBuiltin))
-        return load_builtin(std::string_view(path_or_name).substr(kBuiltin.size()));
+    if (path_or_name.starts_with(kBuiltinPrefix))
+        return load_builtin(std::string_view(path_or_name).substr(kBuiltinPrefix.size()));
     const fs::path path = path_or_name;
     std::error_code ec;
     if (looks_like_a_name(path_or_name) && !fs::is_regular_file(path, ec)) {

@@ -8,7 +8,6 @@
 namespace dermis {
 namespace {
 
-constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180;
 
 Result<Environment> place_environment(const SceneDescription& description,
                                       const EnvironmentDescription& given) {

@@ -200,7 +200,7 @@ Result<int> run(const Options& options) {
 
 void add_compare_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = line.add(
+    Command* command = line.add(
         "compare", "techniques held against the ground truth: a page with a wipe slider, a table of errors",
         "dermis compare head_scan --techniques "
         "\"lambert,wrap,preintegrated[diffuse=curve_2015,shadow=plain]\" "

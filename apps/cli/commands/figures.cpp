@@ -74,8 +74,8 @@ Result<int> make_figures(const Options& options) {
 
 void add_figures_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = line.add("figures", "Makes the figures of a technique's source again, with numbers",
-                                 "dermis figures preintegrated -o out/figures --size 400");
+    Command* command = line.add("figures", "Makes the figures of a technique's source again, with numbers",
+                                "dermis figures preintegrated -o out/figures --size 400");
     command->add_option("technique", options->technique, "see dermis techniques")->required();
     command->add_option("scene", options->scene.name, "draw this scene instead of each figure's own");
     options->scene.add_options_to(*command);

@@ -33,8 +33,8 @@ Result<int> print_passes(const Options& options) {
 
 void add_passes_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = line.add("passes", "Prints the passes of a technique's frame, without a GPU",
-                                 "dermis passes lambert --set specular=blinn_phong");
+    Command* command = line.add("passes", "Prints the passes of a technique's frame, without a GPU",
+                                "dermis passes lambert --set specular=blinn_phong");
     command->add_option("id", options->technique, "the technique")->required();
     command->add_option("--set", options->settings, "a parameter, name=value; may be repeated")
         ->allow_extra_args(false);

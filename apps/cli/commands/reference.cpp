@@ -239,7 +239,7 @@ Result<int> run(const Options& options) {
 
 void add_reference_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = line.add(
+    Command* command = line.add(
         "reference",
         "The ground truth of a scene: surface integral of the diffusion profile, or random walks",
         "dermis reference head_scan -o truth.exr --noise 0.01\n"

@@ -144,7 +144,7 @@ Result<int> render(Options options) {
 
 void add_render_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command =
+    Command* command =
         line.add("render", "Draws a scene with a technique",
                  "dermis render head_scan --technique wrap --set wrap=0.4 -o out/head.png --timings");
     options->render.add_to(*command);

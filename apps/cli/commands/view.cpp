@@ -85,8 +85,8 @@ void add_view_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     options->render.size = "";  // the last window's
     options->render.samples = 4;
-    CLI::App* command = line.add("view", "look at a scene in a window, in real time (F1 there: help)",
-                                 "dermis view head_scan --technique preintegrated");
+    Command* command = line.add("view", "look at a scene in a window, in real time (F1 there: help)",
+                                "dermis view head_scan --technique preintegrated");
     options->render.add_to(*command);
     command->add_option("--interface-scale", options->interface_scale,
                         "size of letters and widgets (default: from the display)");
