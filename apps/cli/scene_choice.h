@@ -2,10 +2,10 @@
 // Which scene a command draws and what of it is changed: SCENE --scene KEY=VALUE ... --camera "..." --light
 // "...".
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "command.h"
 #include "dermis/scene/scene_words.h"
 
 namespace dermis::cli {

@@ -1,7 +1,6 @@
 #include "dermis/scene/scene_views.h"
 
-#include <numbers>
-
+#include "dermis/base/angle.h"
 #include "dermis/scene/builtin.h"
 #include "dermis/scene/scene_files.h"
 

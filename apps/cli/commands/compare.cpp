@@ -143,7 +143,7 @@ std::vector<std::string> warnings_of(const Comparison& comparison, const Compari
 
 nlohmann::ordered_json to_json(const Options& options, const Scene& scene, const Comparison& comparison) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const ScoreRow& row : score_rows(options.scene, comparison)) {
+    for (const ScoreRow& row : score_rows(options.scene.name, comparison)) {
         nlohmann::ordered_json entry = {{"technique", row.technique}, {"settings", row.settings}};
         for (const ScoreColumn& column : score_columns()) {
             const std::optional<double> value = column.get(row);
