@@ -225,7 +225,7 @@ Result<int> run(const Options& options) {
         return written.error();
     if (Result<void> written = write_preview(options, *scene, *picture); !written) return written.error();
     for (const std::string& warning : picture->warnings)
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+        print_warning(warning);
     if (options.json)
         std::printf("%s\n", json.dump(2).c_str());
     else

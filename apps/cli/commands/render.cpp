@@ -111,7 +111,7 @@ Result<int> render(Options options) {
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
     for (const std::string& warning : prepared->scene.warnings)
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+        print_warning(warning);
     Result<gpu::Device> device = gpu::Device::create(
         {.validation = options.render.validation, .name_contains = options.render.device});
     if (!device) return device.error();
@@ -125,7 +125,7 @@ Result<int> render(Options options) {
     if (!frames) return frames.error();
 
     for (const std::string& warning : renderer->warnings())
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+        print_warning(warning);
     const gpu::FrameResult timings = median_timings(*frames);
     if (options.json) {
         std::printf("%s\n", to_json(*prepared, options, *device, timings).dump(2).c_str());
