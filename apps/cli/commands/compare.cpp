@@ -171,8 +171,7 @@ Result<int> run(const Options& options) {
     if (Result<void> good = try_directory(options.output); !good) return good.error();
     const Result<Scene> scene = scene_of(options);
     if (!scene) return scene.error();
-    for (const std::string& warning : scene->warnings)
-        print_warning(warning);
+    for (const std::string& warning : scene->warnings) print_warning(warning);
     const Result<Comparison> comparison = compare(options, *scene, *contestants, *settings);
     if (!comparison) return comparison.error();
     for (const std::string& warning : warnings_of(*comparison, *settings)) print_warning(warning);

@@ -39,6 +39,7 @@ struct MapRow {
 
 std::vector<MapRow> maps_of(const Material& m) {
     std::vector<MapRow> rows = {{"base color", &m.base_color_map},
+                                {"emission", &m.emission_map},
                                 {"normal", &m.normal_map},
                                 {"metallic roughness", &m.metallic_roughness_map},
                                 {"roughness", &m.roughness_map},
