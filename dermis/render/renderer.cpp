@@ -8,8 +8,8 @@
 #include "dermis/optics/presets.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/frame_values.h"
-#include "dermis/render/material_maps.h"
 #include "dermis/render/legend.h"
+#include "dermis/render/material_maps.h"
 
 namespace dermis {
 namespace {

@@ -33,6 +33,7 @@ Result<std::vector<SceneObject>> load_objects(const SceneDescription& descriptio
     if (!path) return path.error();
     Result<LoadedMesh> loaded =
         read_mesh(*path, {.unit_mm = mesh.unit_mm,
+                          .scale_after = mesh.scale,
                           .subdivision_level = mesh.subdivision,
                           .ignore_missing_materials = description.maps.albedo.given()});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
