@@ -1,4 +1,6 @@
 #include "render_options.h"
+#include "catalog/catalog.h"
+#include "dermis/scene/load_scene.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -87,9 +89,10 @@ Result<Prepared> prepare(const RenderOptions& options) {
     if (options.samples != 1 && options.samples != 4)
         return Error{"--samples " + std::to_string(options.samples) + ": 1 or 4"};
     if (!options.technique.empty())
-        if (const auto known = find_technique(options.technique); !known) return known.error();
+        if (const auto known = find_technique(built_in_catalog().techniques, options.technique); !known)
+            return known.error();
 
-    Result<Scene> scene = load_scene(options.scene);
+    Result<Scene> scene = load_scene(options.scene, {.subjects = built_in_catalog().subjects});
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
@@ -101,7 +104,7 @@ Result<Prepared> prepare(const RenderOptions& options) {
     const std::string id = !options.technique.empty()  ? options.technique
                            : !scene->technique.empty() ? scene->technique
                                                        : "lambert";
-    const Result<const Technique*> technique = find_technique(id);
+    const Result<const Technique*> technique = find_technique(built_in_catalog().techniques, id);
     if (!technique) return technique.error();
     ParameterValues values((*technique)->parameters);
     if (scenes_own)

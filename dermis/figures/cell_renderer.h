@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "dermis/render/catalog.h"
 #include "dermis/render/renderer.h"
 #include "dermis/technique/figure.h"
 
@@ -29,7 +30,8 @@ class CellRenderer {
         std::string scene;  ///< instead of every figure's own when not empty
         int samples = 4;
     };
-    CellRenderer(gpu::Device& device, Options options);
+    /// `device` and what `catalog` shows must outlive it.
+    CellRenderer(gpu::Device& device, const Catalog& catalog, Options options);
     CellRenderer(CellRenderer&&) noexcept;
     ~CellRenderer();
 
@@ -43,6 +45,7 @@ class CellRenderer {
                                    const FigureCell& cell, Stage& stage, CellSize size);
 
     gpu::Device* device_;
+    Catalog catalog_;
     Options options_;
     std::map<std::string, std::unique_ptr<Stage>> stages_;
 };

@@ -8,9 +8,9 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
-#include "dermis/scene/builtin.h"
 #include "dermis/scene/displacement.h"
 #include "dermis/scene/place_mesh.h"
+#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_paths.h"
 
@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180;
-constexpr std::string_view kBuiltin = "builtin:";
 
 Error error_at(const SceneDescription& description, const NamedFile& file, const std::string& message) {
     return Error{description.file.string() + ":" + std::to_string(file.line) + ": " + file.key + ": " +
@@ -32,13 +31,12 @@ Result<fs::path> resolve(const SceneDescription& description, const NamedFile& f
     return path;
 }
 
-Result<std::vector<SceneObject>> load_objects(const SceneDescription& description,
-                                              const MeshDescription& mesh, Scene& scene) {
-    if (mesh.file.text.starts_with(kBuiltin)) {
-        auto objects =
-            make_builtin_objects(std::string_view(mesh.file.text).substr(kBuiltin.size()), mesh.bust);
-        if (!objects) return error_at(description, mesh.file, objects.error().message);
-        return objects;
+Result<SubjectScene> load_objects(const SceneDescription& description, const MeshDescription& mesh,
+                                  std::span<const Subject> subjects, Scene& scene) {
+    if (const auto subject = subject_name(mesh.file.text)) {
+        Result<SubjectScene> made = make_subject(subjects, *subject, mesh.parameters);
+        if (!made) return error_at(description, mesh.file, made.error().message);
+        return made;
     }
     const Result<fs::path> path = resolve(description, mesh.file);
     if (!path) return path.error();
@@ -49,10 +47,10 @@ Result<std::vector<SceneObject>> load_objects(const SceneDescription& descriptio
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());
-    std::vector<SceneObject> objects(1);
-    objects[0] = {.name = mesh.name.empty() ? path->stem().string() : mesh.name,
-                  .mesh = std::move(loaded->mesh)};
-    return objects;
+    SubjectScene made;
+    made.objects.push_back(
+        {.name = mesh.name.empty() ? path->stem().string() : mesh.name, .mesh = std::move(loaded->mesh)});
+    return made;
 }
 
 // Each map of the description, and where it goes in a material.
@@ -146,10 +144,12 @@ Result<void> apply_material(const SceneDescription& description, const MaterialD
     return {};
 }
 
-Result<void> add_objects(const SceneDescription& description, const MeshDescription& mesh, Scene& scene) {
-    Result<std::vector<SceneObject>> objects = load_objects(description, mesh, scene);
-    if (!objects) return objects.error();
-    for (SceneObject& object : *objects) {
+// The objects go to the scene; what else a subject states is returned.
+Result<SubjectScene> add_objects(const SceneDescription& description, const MeshDescription& mesh,
+                                 std::span<const Subject> subjects, Scene& scene) {
+    Result<SubjectScene> made = load_objects(description, mesh, subjects, scene);
+    if (!made) return made.error();
+    for (SceneObject& object : made->objects) {
         place_mesh(object.mesh, {.scale = mesh.scale,
                                  .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
                                  .translation_mm = mesh.translate_mm});
@@ -170,13 +170,15 @@ Result<void> add_objects(const SceneDescription& description, const MeshDescript
             if (const Result<void> applied =
                     apply_material(description, given, object.classes.back(), material);
                 !applied)
-                return applied;
+                return applied.error();
         }
-        if (const Result<void> displaced = apply_displacement(object.mesh); !displaced) return displaced;
+        if (const Result<void> displaced = apply_displacement(object.mesh); !displaced)
+            return displaced.error();
         hide_materials(object.mesh, hidden);
         scene.objects.push_back(std::move(object));
     }
-    return {};
+    made->objects.clear();
+    return made;
 }
 
 // A [material.NAME] that no mesh has is a mistake, most often in the name.
@@ -250,16 +252,21 @@ bool lacks_asset(const SceneDescription& description) {
                                [&](const MapRow& row) { return lacks(description.maps.*row.from); });
 }
 
-Result<Scene> build_scene(const SceneDescription& description) {
+Result<Scene> build_scene(const SceneDescription& description, std::span<const Subject> subjects) {
     const HeadDescription& head = description.head;
     Scene scene{.name = head.name.empty() ? description.file.stem().string() : head.name};
-    for (const MeshDescription& mesh : description.meshes)
-        if (const Result<void> added = add_objects(description, mesh, scene); !added) return added.error();
+    SubjectScene stated;
+    for (const MeshDescription& mesh : description.meshes) {
+        Result<SubjectScene> added = add_objects(description, mesh, subjects, scene);
+        if (!added) return added.error();
+        if (added->states_anything()) stated = std::move(*added);
+    }
     if (const Result<void> checked = check_material_names(description, scene); !checked)
         return checked.error();
 
     place_in_studio(scene);
-    scene.camera = build_camera(description.camera, scene);
+    apply_statements(stated, scene);
+    if (description.camera.line > 0 || !stated.camera) scene.camera = build_camera(description.camera, scene);
     if (!description.lights.empty()) scene.lights.clear();
     for (const LightDescription& light : description.lights)
         scene.lights.push_back(build_light(light, scene.bounds_center_mm));

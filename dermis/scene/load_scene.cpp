@@ -1,9 +1,11 @@
+#include "dermis/scene/load_scene.h"
+
 #include <algorithm>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
-#include "dermis/scene/builtin.h"
+#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_paths.h"
 
@@ -11,32 +13,31 @@ namespace dermis {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kBuiltin = "builtin:";
-
-Result<Scene> load_builtin(std::string_view name) {
-    Result<std::vector<SceneObject>> objects = make_builtin_objects(name);
-    if (!objects) return objects.error();
-    Scene scene{.name = std::string(name), .objects = std::move(*objects)};
+Result<Scene> load_subject(std::string_view name, std::span<const Subject> subjects) {
+    Result<SubjectScene> made = make_subject(subjects, name);
+    if (!made) return made.error();
+    Scene scene{.name = std::string(name), .objects = std::move(made->objects)};
     place_in_studio(scene);
+    apply_statements(*made, scene);
     return scene;
 }
 
-Result<SceneDescription> read_description(const fs::path& path) {
+Result<SceneDescription> read_description(const fs::path& path, std::span<const Subject> subjects) {
     const Result<std::string> text = read_text_file(path);
     if (!text) return text.error();
-    return parse_scene(*text, path);
+    return parse_scene(*text, path, subjects);
 }
 
-Result<Scene> load_scene_file(const fs::path& path) {
-    const Result<SceneDescription> description = read_description(path);
+Result<Scene> load_scene_file(const fs::path& path, std::span<const Subject> subjects) {
+    const Result<SceneDescription> description = read_description(path, subjects);
     if (!description) return description.error();
-    Result<Scene> scene = build_scene(*description);
+    Result<Scene> scene = build_scene(*description, subjects);
     if (scene) scene->files.push_back(path);
     if (scene || description->head.without_assets.empty() || !lacks_asset(*description)) return scene;
 
     const Result<SceneDescription> other =
-        read_description(path.parent_path() / (description->head.without_assets + ".toml"));
-    Result<Scene> instead = other ? build_scene(*other) : other.error();
+        read_description(path.parent_path() / (description->head.without_assets + ".toml"), subjects);
+    Result<Scene> instead = other ? build_scene(*other, subjects) : other.error();
     if (!instead) return scene;
     instead->files.push_back(path);
     instead->warnings.insert(instead->warnings.begin(), scene.error().message + "; drawing scene '" +
@@ -77,17 +78,17 @@ bool looks_like_a_name(std::string_view text) {
 }  // namespace
 
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
-    if (path_or_name.starts_with(kBuiltin))
-        return load_builtin(std::string_view(path_or_name).substr(kBuiltin.size()));
+    if (const auto subject = subject_name(path_or_name)) return load_subject(*subject, options.subjects);
     const fs::path path = path_or_name;
     std::error_code ec;
     if (looks_like_a_name(path_or_name) && !fs::is_regular_file(path, ec)) {
-        if (const fs::path file = find_scene(path_or_name); !file.empty()) return load_scene_file(file);
+        if (const fs::path file = find_scene(path_or_name); !file.empty())
+            return load_scene_file(file, options.subjects);
         return Error{unknown_name("scene", path_or_name, scene_names()) +
                      ", or a .toml, .obj, .gltf or .glb file"};
     }
     const std::string extension = to_lower(path.extension().string());
-    if (extension == ".toml") return load_scene_file(path);
+    if (extension == ".toml") return load_scene_file(path, options.subjects);
     if (extension == ".obj" || extension == ".gltf" || extension == ".glb")
         return load_mesh_file(path, options);
     return Error{path_or_name + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)"};

@@ -123,12 +123,4 @@ struct Scene {
 /// The inverse: what differs from the scene `than`, numbers rounded to 1e-4; empty where nothing does.
 [[nodiscard]] std::string look_text(const Scene& scene, const Scene& than);
 
-struct SceneOptions {
-    std::optional<float> mesh_unit_mm;  ///< of a bare mesh file; a scene file states its own
-};
-
-/// A scene file, a mesh file (placed in the default studio), "builtin:NAME", or the name of a file of scenes/
-/// ("head_scan"). Errors name file, line and key; see docs/scene_file.md.
-[[nodiscard]] Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options = {});
-
 }  // namespace dermis

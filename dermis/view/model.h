@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "dermis/render/catalog.h"
 #include "dermis/scene/scene.h"
-#include "dermis/technique/technique.h"
 
 namespace dermis::view {
 
@@ -52,6 +52,7 @@ class Notices {
 struct Model {
     std::string scene_path;  ///< as opened: a file, a name, builtin:NAME
     Scene* scene = nullptr;  ///< lives in the stage; null until the first one is loaded
+    Catalog catalog;         ///< what may be chosen
     std::array<TechniqueChoice, 2> choices;
     std::string view = "final";
     int tone = 0;  ///< 0: as the maps are; 1 to 6: OpenPBR's skins

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "catalog/catalog.h"
 #include "dermis/scene/scene_description.h"
 
 namespace {
@@ -18,7 +19,8 @@ void expect(bool holds) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const dermis::Result<dermis::SceneDescription> scene = dermis::parse_scene(text, "fuzz.toml");
+    const dermis::Result<dermis::SceneDescription> scene =
+        dermis::parse_scene(text, "fuzz.toml", dermis::built_in_catalog().subjects);
     if (scene) {
         expect(!scene->meshes.empty());
         int keys = 0;

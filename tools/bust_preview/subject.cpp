@@ -5,7 +5,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/parallel.h"
-#include "dermis/bust/head_mesh.h"
+#include "subjects/bust/head_mesh.h"
 
 namespace dermis::preview {
 

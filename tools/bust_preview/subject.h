@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "dermis/bust/bust.h"
-#include "dermis/bust/field.h"
-#include "dermis/bust/surface.h"
+#include "subjects/bust/bust.h"
+#include "subjects/bust/field.h"
+#include "subjects/bust/surface.h"
 
 namespace dermis::preview {
 

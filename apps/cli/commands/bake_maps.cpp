@@ -4,12 +4,14 @@
 #include <cstdio>
 #include <memory>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/presets.h"
 #include "dermis/rays/bake_map.h"
 #include "dermis/rays/map_file.h"
+#include "dermis/scene/load_scene.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::cli {
@@ -22,14 +24,15 @@ struct Options {
 };
 
 Result<int> run(Options options) {
-    SceneOptions scene_options;
+    SceneOptions scene_options = {.subjects = built_in_catalog().subjects};
     if (options.unit_mm > 0) scene_options.mesh_unit_mm = options.unit_mm;
     const Result<Scene> scene = load_scene(options.mesh, scene_options);
     if (!scene) return scene.error();
     BakeMapSettings& settings = options.settings;
     if (!options.material.empty()) settings.material = options.material;
     if (settings.kind == MapKind::kernel_size) {
-        Result<Profile> profile = find_profile(options.profile.empty() ? scene->skin.profile : options.profile);
+        Result<Profile> profile =
+            find_profile(options.profile.empty() ? scene->skin.profile : options.profile);
         if (!profile) return profile.error();
         settings.profile = std::move(*profile);
     }
@@ -46,7 +49,8 @@ Result<int> run(Options options) {
     if (!map) return map.error();
     if (Result<void> written = write_map(options.output, *map, {options.mesh, settings}); !written)
         return written.error();
-    for (const std::string& warning : map->warnings) std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    for (const std::string& warning : map->warnings)
+        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
     std::printf("%s: %s, %dx%d, %s to %s %s\n%s\n", options.output.c_str(),
                 std::string(map_kind_name(settings.kind)).c_str(), map->values.width, map->values.height,
                 to_text(map->min).c_str(), to_text(map->max).c_str(), map->unit.c_str(),
@@ -57,7 +61,8 @@ Result<int> run(Options options) {
 void add_common(CLI::App* command, Options& options) {
     BakeMapSettings& s = options.settings;
     command->add_option("mesh", options.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
-    command->add_option("-o,--output", options.output, "FILE.exr; sidecar and preview come beside it")->required();
+    command->add_option("-o,--output", options.output, "FILE.exr; sidecar and preview come beside it")
+        ->required();
     command->add_option("--size", s.size, "texels a side")->capture_default_str();
     command->add_option("--gutter", s.gutter_texels, "islands grow by so many texels")->capture_default_str();
     command->add_option("--material", options.material, "only this material; else all skin");
@@ -66,13 +71,17 @@ void add_common(CLI::App* command, Options& options) {
 
 void add_rays(CLI::App* command, BakeMapSettings& s) {
     command->add_option("--rays", s.rays, "rays a texel")->capture_default_str();
-    command->add_option("--ray-size", s.ray_size, "rays are traced on a grid of at most so many texels a side")
+    command
+        ->add_option("--ray-size", s.ray_size, "rays are traced on a grid of at most so many texels a side")
         ->capture_default_str();
-    command->add_option("--max-mm", s.max_mm, "thickness of what is open; how far occlusion looks, 0: any distance")
+    command
+        ->add_option("--max-mm", s.max_mm,
+                     "thickness of what is open; how far occlusion looks, 0: any distance")
         ->capture_default_str();
 }
 
-void add_map(CommandLine& line, CLI::App* group, MapKind kind, const std::string& summary, const std::string& example) {
+void add_map(CommandLine& line, CLI::App* group, MapKind kind, const std::string& summary,
+             const std::string& example) {
     auto options = std::make_shared<Options>();
     BakeMapSettings& s = options->settings;
     s.kind = kind;
@@ -81,9 +90,11 @@ void add_map(CommandLine& line, CLI::App* group, MapKind kind, const std::string
     CLI::App* command = line.add(std::string(map_kind_name(kind)), summary, example, group);
     add_common(command, *options);
     if (depth || kind == MapKind::occlusion) add_rays(command, s);
-    if (depth) command->add_option("--cone-rad", s.cone_rad, "half angle of the inward rays")->capture_default_str();
+    if (depth)
+        command->add_option("--cone-rad", s.cone_rad, "half angle of the inward rays")->capture_default_str();
     if (kind == MapKind::curvature)
-        command->add_option("--smoothing-mm", s.smoothing_mm, "averages features narrower than about twice this")
+        command
+            ->add_option("--smoothing-mm", s.smoothing_mm, "averages features narrower than about twice this")
             ->capture_default_str();
     if (kind == MapKind::kernel_size)
         command->add_option("--profile", options->profile, "diffusion profile instead of the scene's");
@@ -97,14 +108,16 @@ void add_bake_maps_command(CommandLine& line) {
     const std::vector<CLI::App*> groups = line.app.get_subcommands(is_bake);
     CLI::App* group = groups.empty() ? nullptr : groups[0];
     if (!group) {
-        group = line.add("bake", "Tables and maps for the techniques", "dermis bake curvature head_scan -o curvature.exr");
+        group = line.add("bake", "Tables and maps for the techniques",
+                         "dermis bake curvature head_scan -o curvature.exr");
         group->require_subcommand(1);
     }
     add_map(line, group, MapKind::curvature, "Signed mean curvature in 1/mm over the UV atlas",
             "dermis bake curvature head_scan --smoothing-mm 2 -o curvature.exr");
     add_map(line, group, MapKind::thickness, "Millimetres of material under the surface",
             "dermis bake thickness head_scan -o thickness.exr");
-    add_map(line, group, MapKind::kernel_size, "Blur size of the texture-space method, from thickness and profile",
+    add_map(line, group, MapKind::kernel_size,
+            "Blur size of the texture-space method, from thickness and profile",
             "dermis bake kernel-size head_scan --profile gpu_gems_3 -o kernel.exr");
     add_map(line, group, MapKind::stretch, "Millimetres a unit of u and of v, and the cosine between them",
             "dermis bake stretch head_scan -o stretch.exr");

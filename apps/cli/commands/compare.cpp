@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/file.h"
 #include "dermis/base/progress.h"
@@ -14,6 +15,7 @@
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/report.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/scene/load_scene.h"
 #include "render_options.h"
 
 namespace dermis::cli {
@@ -81,7 +83,7 @@ Result<void> try_directory(const fs::path& directory) {
 }
 
 Result<Scene> scene_of(const Options& options) {
-    Result<Scene> scene = load_scene(options.scene);
+    Result<Scene> scene = load_scene(options.scene, {.subjects = built_in_catalog().subjects});
     if (!scene) return scene;
     if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
         return applied.error();
@@ -95,7 +97,7 @@ Result<Comparison> compare(const Options& options, const Scene& scene,
     if (!device) return device.error();
     Progress line("ground truth", 0);
     std::optional<Progress> techniques;
-    return compare_techniques(*device, scene, contestants, settings,
+    return compare_techniques(*device, built_in_catalog(), scene, contestants, settings,
                               {.reference = [&](double done) { line.set(done); },
                                .techniques =
                                    [&](double done, const std::string& name) {
@@ -167,7 +169,8 @@ Result<int> run(const Options& options) {
     const Result<ComparisonSettings> settings = settings_of(options);
     if (!settings) return settings.error();
     const Result<std::vector<Contestant>> contestants =
-        options.techniques.empty() ? default_contestants() : parse_technique_list(options.techniques);
+        options.techniques.empty() ? default_contestants(built_in_catalog().techniques)
+                                   : parse_technique_list(built_in_catalog().techniques, options.techniques);
     if (!contestants) return contestants.error();
     if (Result<void> good = try_directory(options.output); !good) return good.error();
     const Result<Scene> scene = scene_of(options);

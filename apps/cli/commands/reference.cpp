@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
@@ -16,6 +17,7 @@
 #include "dermis/image/tone_map.h"
 #include "dermis/reference/picture.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/scene/load_scene.h"
 #include "render_options.h"
 
 namespace dermis::cli {
@@ -142,7 +144,7 @@ Result<ReferenceSettings> settings_of(const Options& options) {
 }
 
 Result<Scene> scene_of(const Options& options) {
-    Result<Scene> scene = load_scene(options.scene);
+    Result<Scene> scene = load_scene(options.scene, {.subjects = built_in_catalog().subjects});
     if (!scene) return scene;
     if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
         return applied.error();
