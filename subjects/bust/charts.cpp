@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <queue>
 
 #include "dermis/base/parallel.h"
+#include "dermis/mesh/topology.h"
 #include "subjects/bust/remesh.h"
 
 namespace dermis::bust {
@@ -242,18 +242,14 @@ std::vector<Chart> cut_charts(Surface surface, const BustField& field) {
     for (const int h : seam) cut[h] = cut[edges.twin[h]] = 1;
 
     // Corners of triangles that meet across an uncut edge are one vertex.
-    std::vector<int> root(edges.twin.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int i) {
-        while (root[i] != i) i = root[i] = root[root[i]];
-        return i;
-    };
-    const auto next = [](int h) { return h % 3 == 2 ? h - 2 : h + 1; };
+    DisjointSets vertices(edges.twin.size());
+    const auto find = [&](int h) { return vertices.find(uint32_t(h)); };
+    const auto next = [](int h) { return int(next_corner(uint32_t(h))); };
     for (int h = 0; h < int(edges.twin.size()); ++h) {
         const int t = edges.twin[h];
         if (cut[h] || labels[h / 3] != labels[t / 3]) continue;
-        root[find(h)] = find(next(t));
-        root[find(next(h))] = find(t);
+        vertices.join(uint32_t(h), uint32_t(next(t)));
+        vertices.join(uint32_t(next(h)), uint32_t(t));
     }
     std::vector<Chart> charts(kChartCount);
     std::vector<int> id(edges.twin.size(), -1);

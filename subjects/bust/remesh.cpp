@@ -4,11 +4,12 @@
 
 #include "subjects/bust/remesh.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <unordered_map>
 
 #include "dermis/base/parallel.h"
+#include "dermis/mesh/topology.h"
 
 namespace dermis::bust {
 namespace {
@@ -279,20 +280,16 @@ class Remesher {
 }  // namespace
 
 Surface largest_piece(const Surface& surface) {
-    std::vector<int> root(surface.points.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int i) {
-        while (root[i] != i) i = root[i] = root[root[i]];
-        return i;
-    };
-    for (const auto& t : surface.triangles) root[find(t[0])] = find(t[1]), root[find(t[1])] = find(t[2]);
+    DisjointSets pieces(surface.points.size());
+    for (const auto& t : surface.triangles)
+        pieces.join(uint32_t(t[0]), uint32_t(t[1])), pieces.join(uint32_t(t[1]), uint32_t(t[2]));
     std::vector<int> count(surface.points.size(), 0);
-    for (const auto& t : surface.triangles) ++count[find(t[0])];
-    const int best = int(std::max_element(count.begin(), count.end()) - count.begin());
+    for (const auto& t : surface.triangles) ++count[pieces.find(uint32_t(t[0]))];
+    const auto best = uint32_t(std::max_element(count.begin(), count.end()) - count.begin());
     Surface kept;
     std::vector<int> id(surface.points.size(), -1);
     for (const auto& t : surface.triangles) {
-        if (find(t[0]) != best) continue;
+        if (pieces.find(uint32_t(t[0])) != best) continue;
         std::array<int, 3> moved;
         for (int k = 0; k < 3; ++k) {
             if (id[t[k]] < 0) {
