@@ -75,7 +75,7 @@ Result<Cost> measure(Renderer& renderer, const Run& run, int frames) {
     std::vector<double> totals, cpu;
     for (int frame = 0; frame < frames; ++frame) {
         const std::clock_t before = std::clock();
-        Result<gpu::FrameResult> drawn = renderer.draw(*run.technique, run.values, {.frame_index = frame});
+        Result<gpu::FrameResult> drawn = renderer.draw(*run.technique, run.values, {});
         if (!drawn) return drawn.error();
         if (frame == 0) continue;  // compiles
         cpu.push_back(double(std::clock() - before) * 1e3 / CLOCKS_PER_SEC);

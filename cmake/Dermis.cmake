@@ -4,6 +4,27 @@ include_guard()
 
 set_property(GLOBAL PROPERTY DERMIS_LAYERS "")
 
+# Most of compiling is parsing headers, again in every file. What nearly every file includes is parsed once (a
+# precompiled header; -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON goes without), and the compiler is given the files of a
+# library eight at a time (DERMIS_UNITY). Together they leave about a third of the processor time of a first build.
+set(DERMIS_STANDARD_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <cstdio> <cstring> <filesystem> <functional>
+    <map> <memory> <numbers> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/standard_headers.cpp CONTENT
+    "// Carries the precompiled header that the libraries share.\n")
+add_library(dermis_standard_headers OBJECT ${PROJECT_BINARY_DIR}/standard_headers.cpp)
+target_compile_options(dermis_standard_headers PRIVATE ${DERMIS_WARNINGS})
+target_precompile_headers(dermis_standard_headers PRIVATE ${DERMIS_STANDARD_HEADERS})
+
+# dermis_quick_build(target [SEPARATE]): both for one library.
+#   SEPARATE  only the precompiled header: its files use the same names, as every technique has its Params
+function(dermis_quick_build target)
+    cmake_parse_arguments(arg "SEPARATE" "" "" ${ARGN})
+    target_precompile_headers(${target} REUSE_FROM dermis_standard_headers)
+    if(DERMIS_UNITY AND NOT arg_SEPARATE)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    endif()
+endfunction()
+
 # dermis_library(optics DEPENDS base PACKAGES Eigen3::Eigen [INSTALL])
 #   DEPENDS   the folders of dermis/ whose headers this one includes: all of them and no other. Also written to
 #             layers.txt, which a test compares with every #include
@@ -17,6 +38,7 @@ function(dermis_library folder)
         set(scope PUBLIC)
         target_link_libraries(dermis_${folder} PRIVATE ${arg_PACKAGES})
         target_compile_options(dermis_${folder} PRIVATE ${DERMIS_WARNINGS})
+        dermis_quick_build(dermis_${folder})
     else()
         add_library(dermis_${folder} INTERFACE)
         set(scope INTERFACE)

@@ -8,16 +8,15 @@
 
 namespace dermis::cli {
 
-CLI::App* bake_group(CommandLine& line) {
-    const auto is_bake = [](const CLI::App* command) { return command->get_name() == "bake"; };
-    for (CLI::App* group : line.app.get_subcommands(is_bake)) return group;
-    CLI::App* group = line.add("bake", "Tables and maps that techniques need",
-                               "dermis bake lut --profile jensen_skin1 -o skin.exr --plot skin.svg");
-    group->require_subcommand(1);
+Command* bake_group(CommandLine& line) {
+    if (Command* group = line.find("bake")) return group;
+    Command* group = line.add("bake", "Tables and maps that techniques need",
+                              "dermis bake lut --profile jensen_skin1 -o skin.exr --plot skin.svg");
+    group->require_subcommand();
     return group;
 }
 
-void TableOutput::add_to(CLI::App* command) {
+void TableOutput::add_to(Command* command) {
     command
         ->add_option("-o,--output", path,
                      "File: .exr, .png, .ktx2, .dds, .h or .csv; FILE.json is written beside")

@@ -11,12 +11,12 @@
 namespace dermis::cli {
 
 /// `dermis bake`, made by whichever subcommand asks first.
-[[nodiscard]] CLI::App* bake_group(CommandLine& line);
+[[nodiscard]] Command* bake_group(CommandLine& line);
 
 /// -o FILE, --storage, --plot.
 struct TableOutput {
     std::string path, plot_path, storage = "auto";
-    void add_to(CLI::App* command);
+    void add_to(Command* command);
     [[nodiscard]] Result<TableStorage> chosen_storage(TableStorage preferred = TableStorage::automatic) const;
 };
 

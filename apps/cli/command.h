@@ -1,32 +1,93 @@
 #pragma once
-// What a command of the command line is: a CLI11 subcommand that leaves an action behind when it was chosen.
+// The command line: commands with their options, and the action that the chosen one leaves behind. CLI11
+// parses it, in command.cpp alone: its header costs more to compile than any command does.
 
-#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <deque>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "dermis/base/result.h"
 
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
 namespace dermis::cli {
+
+/// An option or an argument of a command.
+class Option {
+  public:
+    explicit Option(CLI::Option* option) : option_(option) {}
+    Option* required();
+    Option* check_positive();
+    /// --help shows the value that the variable has now.
+    Option* capture_default_str();
+    /// false: `--set a=1 b` takes one value, and b is an argument of its own.
+    Option* allow_extra_args(bool allowed);
+
+  private:
+    CLI::Option* option_;
+};
+
+/// A command and its options. `value` must live until the action has run; it keeps its value when the option
+/// is absent.
+class Command {
+  public:
+    explicit Command(CLI::App* app) : app_(app) {}
+    Option* add_option(const std::string& names, std::string& value, const std::string& help);
+    Option* add_option(const std::string& names, std::vector<std::string>& value, const std::string& help);
+    Option* add_option(const std::string& names, std::optional<double>& value, const std::string& help);
+    Option* add_option(const std::string& names, double& value, const std::string& help);
+    Option* add_option(const std::string& names, float& value, const std::string& help);
+    Option* add_option(const std::string& names, int& value, const std::string& help);
+    Option* add_option(const std::string& names, uint32_t& value, const std::string& help);
+    Option* add_option(const std::string& names, uint64_t& value, const std::string& help);
+    Option* add_flag(const std::string& names, bool& value, const std::string& help);
+    /// This command is nothing without one of its own.
+    void require_subcommand();
+    /// Accepts whatever follows.
+    void allow_extras();
+
+  private:
+    friend class CommandLine;
+    template <class Value>
+    Option* add_any(const std::string& names, Value& value, const std::string& help);
+
+    CLI::App* app_;
+    std::deque<Option> options_;  // a deque: pointers to its elements stay valid
+};
 
 /// Runs after parsing; the value is the exit code, an error is printed as one line and exits with 1.
 using Action = std::function<Result<int>()>;
 
-struct CommandLine {
-    CLI::App& app;
+class CommandLine {
+  public:
+    /// What `dermis --version` prints, and what --help says of the program.
+    CommandLine(const std::string& version, const std::string& summary, const std::string& example);
+    ~CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+
+    /// A subcommand of `parent` (of the program by default); every one has an example under its --help.
+    Command* add(const std::string& name, const std::string& summary, const std::string& example,
+                 Command* parent = nullptr);
+    /// `dermis NAME` if it was added already, otherwise null.
+    Command* find(const std::string& name);
+    void when_chosen(Command* command, Action run);
+
+    /// The exit code, or nothing when a command was chosen: then call `action`. Prints help and what was
+    /// wrong.
+    [[nodiscard]] std::optional<int> parse(int argc, char** argv);
     Action action;
 
-    /// A subcommand of `parent` (the app itself by default); every one has an example under its --help.
-    CLI::App* add(const std::string& name, const std::string& summary, const std::string& example,
-                  CLI::App* parent = nullptr) {
-        CLI::App* command = (parent ? parent : &app)->add_subcommand(name, summary);
-        command->footer("Example:\n  " + example);
-        return command;
-    }
-
-    void when_chosen(CLI::App* command, Action run) {
-        command->callback([this, run = std::move(run)] { action = run; });
-    }
+  private:
+    std::unique_ptr<CLI::App> app_;
+    std::deque<Command> commands_;
 };
 
 /// Generated: calls add_NAME_command of every commands/NAME.cpp.

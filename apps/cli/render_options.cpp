@@ -1,32 +1,20 @@
 #include "render_options.h"
 #include "catalog/catalog.h"
-#include "dermis/scene/load_scene.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "dermis/base/text.h"
-#include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
 
 namespace dermis::cli {
 
-void RenderOptions::add_to(CLI::App& command) {
-    command
-        .add_option("scene", scene, "scene file, mesh (.glb .gltf .obj), name of a scene, or builtin:NAME")
-        ->capture_default_str();
+void RenderOptions::add_to(Command& command) {
+    scene.add_to(command)->capture_default_str();
     command.add_option("-t,--technique", technique,
                        "see dermis techniques (default: the scene's, or lambert)");
     command.add_option("--set", settings, "a parameter of the technique, name=value; may be repeated")
         ->allow_extra_args(false);
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command.add_option("--camera", camera, "\"yaw=30 pitch=5 distance_mm=600 fov_deg=30\", any of them");
-    command.add_option("--light", light, "\"yaw=-60 pitch=20 intensity=3\" of the key light, any of them");
-    command.add_option("--look", look,
-                       "\"exposure_ev=0.5 tint=1,.9,.8 tone_map=aces profile=NAME surroundings=2 turned=30 "
-                       "in_the_picture=1\", any of them");
-    command.add_option("--environment", environment,
-                       "a panorama (.hdr, .exr) instead of the scene's surroundings");
     command.add_option("--view", view, "final, diffuse, specular, normal, albedo, curvature, shadow, ...")
         ->capture_default_str();
     command.add_option("--samples", samples, "a pixel: 1 or 4")->capture_default_str();
@@ -51,38 +39,6 @@ Result<void> apply_setting(ParameterValues& values, const std::string& setting) 
     return values.set(setting.substr(0, equals), setting.substr(equals + 1));
 }
 
-Result<void> apply_views(Scene& scene, const std::string& camera, const std::string& light) {
-    if (!camera.empty()) {
-        const Result<Camera> changed = parse_camera(camera, scene.camera);
-        if (!changed) return changed.error();
-        scene.camera = *changed;
-        fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
-    }
-    if (!light.empty()) {
-        const auto key = std::ranges::find(scene.lights, true, &Light::is_key);
-        if (key == scene.lights.end()) return Error{"--light: the scene has no key light to move"};
-        const Result<Light> changed = parse_light(light, *key, scene.bounds_center_mm);
-        if (!changed) return changed.error();
-        *key = *changed;
-    }
-    return {};
-}
-
-Result<void> apply_looks(Scene& scene, const std::string& look, const std::string& environment) {
-    if (!environment.empty()) {
-        std::error_code ec;
-        if (!std::filesystem::is_regular_file(environment, ec))
-            return Error{"--environment " + environment + ": no such file; it is a panorama, .hdr or .exr"};
-        scene.environment.kind = EnvironmentKind::file;
-        scene.environment.file = environment;
-    }
-    if (look.empty()) return {};
-    if (Result<void> parsed = parse_look(look, scene); !parsed) return parsed;
-    const Result<Profile> profile = find_profile(scene.skin.profile);
-    if (!profile) return Error{"--look: " + profile.error().message};
-    return {};
-}
-
 Result<Prepared> prepare(const RenderOptions& options) {
     const Result<std::pair<int, int>> size = parse_size(options.size);
     if (!size) return size.error();
@@ -92,13 +48,10 @@ Result<Prepared> prepare(const RenderOptions& options) {
         if (const auto known = find_technique(built_in_catalog().techniques, options.technique); !known)
             return known.error();
 
-    Result<Scene> scene = load_scene(options.scene, {.subjects = built_in_catalog().subjects});
+    Scene as_filed;
+    Result<Scene> scene = options.scene.load(&as_filed);
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
-    if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
-        return applied.error();
-    if (Result<void> applied = apply_looks(*scene, options.look, options.environment); !applied)
-        return applied.error();
 
     const bool scenes_own = options.technique.empty() || options.technique == scene->technique;
     const std::string id = !options.technique.empty()  ? options.technique
@@ -110,7 +63,7 @@ Result<Prepared> prepare(const RenderOptions& options) {
     if (scenes_own)
         for (const auto& [name, text] : scene->settings)
             if (Result<void> set = values.set(name, text); !set)
-                return Error{options.scene + ": [settings] " + set.error().message};
+                return Error{options.scene.name + ": [settings] " + set.error().message};
     for (const std::string& setting : options.settings)
         if (Result<void> set = apply_setting(values, setting); !set) return set.error();
 
@@ -119,6 +72,7 @@ Result<Prepared> prepare(const RenderOptions& options) {
         return Error{unknown_name("view", options.view, views)};
     return Prepared{
         .scene = std::move(*scene),
+        .as_filed = std::move(as_filed),
         .technique = *technique,
         .values = values,
         .draw = {

@@ -1,30 +1,31 @@
 #pragma once
 // What render shares with every command that draws: scene, technique, settings, size, view.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command.h"
 #include "dermis/render/renderer.h"
-#include "dermis/scene/scene.h"
 #include "dermis/technique/technique.h"
+#include "scene_choice.h"
 
 namespace dermis::cli {
 
 struct RenderOptions {
-    std::string scene = "bust", technique, size = "1024x1024", camera, light, look, environment,
-                view = "final", device;
+    SceneChoice scene = {.name = "bust"};
+    std::string technique, size = "1024x1024", view = "final", device;
     std::vector<std::string> settings;  ///< name=value
     int samples = 1;
     bool validation = false;
 
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
 };
 
 /// A scene, ready to draw with a technique and its settings.
 struct Prepared {
     Scene scene;
+    Scene as_filed;  ///< what the scene's files say, before --scene, --camera and --light; without objects
     const Technique* technique = nullptr;
     std::optional<ParameterValues> values;
     DrawSettings draw;
@@ -32,13 +33,6 @@ struct Prepared {
 
 /// Everything that can be wrong with the options is found here, before a device is opened.
 [[nodiscard]] Result<Prepared> prepare(const RenderOptions& options);
-
-/// --camera and --light, as parse_camera and parse_light have them; empty ones change nothing. Call it before
-/// anything is derived from the scene's views.
-[[nodiscard]] Result<void> apply_views(Scene& scene, const std::string& camera, const std::string& light);
-
-/// --look and --environment; empty ones change nothing.
-[[nodiscard]] Result<void> apply_looks(Scene& scene, const std::string& look, const std::string& environment);
 
 /// "1024x768", each side 1 to 8192.
 [[nodiscard]] Result<std::pair<int, int>> parse_size(std::string_view text);

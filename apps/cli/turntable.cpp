@@ -32,7 +32,6 @@ Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& 
     Progress progress("turntable", size_t(turntable.frames));
     for (int frame = 0; frame < turntable.frames; ++frame) {
         turn_camera(prepared->scene, start, 2 * 3.14159265358979 * frame / turntable.frames);
-        prepared->draw.frame_index = frame;
         if (const auto drawn = renderer->draw(*prepared->technique, *prepared->values, prepared->draw);
             !drawn)
             return drawn.error();

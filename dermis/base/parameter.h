@@ -39,6 +39,41 @@ struct ParameterTable {
     [[nodiscard]] const Parameter* find(std::string_view name) const;
 };
 
+/// A Params in memory, reachable by name through its table (which must outlive it).
+class ParameterValues {
+  public:
+    explicit ParameterValues(const ParameterTable& table) : table_(&table), bytes_(table.defaults) {}
+
+    [[nodiscard]] const ParameterTable& table() const { return *table_; }
+
+    /// From text as --set and scene files have it: a number, on/off, a choice's name, or three numbers
+    /// separated by commas or spaces. Errors name the parameter, the value, and its range or choices.
+    [[nodiscard]] Result<void> set(std::string_view name, std::string_view text);
+    /// The inverse of set(): round-trips.
+    [[nodiscard]] std::string text(const Parameter& parameter) const;
+    [[nodiscard]] std::array<double, 3> get(const Parameter& parameter) const;
+    void put(const Parameter& parameter, std::array<double, 3> value);
+    /// All of them, unchecked; `Params` is what the table was built for.
+    template <class Params>
+    void put_all(const Params& params) {
+        std::memcpy(bytes_.data(), &params, sizeof params);
+    }
+
+    /// Error: a value out of its range or not a number, as set() has it.
+    [[nodiscard]] Result<void> check() const;
+
+    template <class Params>
+    [[nodiscard]] Params as() const {
+        Params params;
+        std::memcpy(&params, bytes_.data(), sizeof params);
+        return params;
+    }
+
+  private:
+    const ParameterTable* table_;
+    std::vector<std::byte> bytes_;
+};
+
 /// Collects {member, name, unit, min, max, doc}; defaults are read from a default-constructed Params, which
 /// must be trivially copyable. Members: float or double for number, int32_t for integer, bool for toggle, an
 /// enum over int32_t for choice, Vec3 for color.
@@ -101,6 +136,19 @@ class ParameterTableBuilder {
             {std::move(name), "linear", std::move(doc), ParameterKind::color, min, max, {c.x, c.y, c.z}});
     }
 
+    /// The rows of a part of Params that several techniques share; `rows` is the part's own table.
+    template <class Part>
+    ParameterTableBuilder& part(Part Params::*member, const ParameterTable& rows) {
+        ParameterValues values(rows);
+        values.put_all(defaults_.*member);
+        for (Parameter row : rows.parameters) {
+            row.default_value = values.get(row);
+            row.offset += offset_of(member);
+            table_.parameters.push_back(std::move(row));
+        }
+        return *this;
+    }
+
     [[nodiscard]] ParameterTable build() const {
         ParameterTable table = table_;
         table.defaults.resize(sizeof(Params));
@@ -112,49 +160,18 @@ class ParameterTableBuilder {
     template <class Member>
     ParameterTableBuilder& add(Member Params::*member, Parameter parameter) {
         parameter.double_precision = std::is_same_v<Member, double>;
-        const auto* base = reinterpret_cast<const std::byte*>(&defaults_);
-        parameter.offset = size_t(reinterpret_cast<const std::byte*>(&(defaults_.*member)) - base);
+        parameter.offset = offset_of(member);
         table_.parameters.push_back(std::move(parameter));
         return *this;
+    }
+    template <class Member>
+    [[nodiscard]] size_t offset_of(Member Params::*member) const {
+        const auto* base = reinterpret_cast<const std::byte*>(&defaults_);
+        return size_t(reinterpret_cast<const std::byte*>(&(defaults_.*member)) - base);
     }
 
     Params defaults_ = {};
     ParameterTable table_;
-};
-
-/// A Params in memory, reachable by name through its table (which must outlive it).
-class ParameterValues {
-  public:
-    explicit ParameterValues(const ParameterTable& table) : table_(&table), bytes_(table.defaults) {}
-
-    [[nodiscard]] const ParameterTable& table() const { return *table_; }
-
-    /// From text as --set and scene files have it: a number, on/off, a choice's name, or three numbers
-    /// separated by commas or spaces. Errors name the parameter, the value, and its range or choices.
-    [[nodiscard]] Result<void> set(std::string_view name, std::string_view text);
-    /// The inverse of set(): round-trips.
-    [[nodiscard]] std::string text(const Parameter& parameter) const;
-    [[nodiscard]] std::array<double, 3> get(const Parameter& parameter) const;
-    void put(const Parameter& parameter, std::array<double, 3> value);
-    /// All of them, unchecked; `Params` is what the table was built for.
-    template <class Params>
-    void put_all(const Params& params) {
-        std::memcpy(bytes_.data(), &params, sizeof params);
-    }
-
-    /// Error: a value out of its range or not a number, as set() has it.
-    [[nodiscard]] Result<void> check() const;
-
-    template <class Params>
-    [[nodiscard]] Params as() const {
-        Params params;
-        std::memcpy(&params, bytes_.data(), sizeof params);
-        return params;
-    }
-
-  private:
-    const ParameterTable* table_;
-    std::vector<std::byte> bytes_;
 };
 
 }  // namespace dermis

@@ -12,6 +12,7 @@
 #include "dermis/scene/load_scene.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_words.h"
 
 namespace dermis {
 namespace {
@@ -44,10 +45,10 @@ ChosenEnvironment choose_environment(const Environment& own, const FigureCell& c
     return chosen;
 }
 
-Result<Scene> load_figure_scene(const std::string& name, std::span<const Subject> subjects) {
-    if (name != kHeadScene) return load_scene(name, {.subjects = subjects});
-    Result<Scene> scan = load_scene("head_scan", {.subjects = subjects});
-    return scan ? std::move(scan) : load_scene("bust", {.subjects = subjects});
+Result<Scene> load_figure_scene(const std::string& name, const SceneOptions& options) {
+    if (name != kHeadScene) return load_scene(name, options);
+    Result<Scene> scan = load_scene("head_scan", options);
+    return scan ? std::move(scan) : load_scene("bust", options);
 }
 
 void make_white(Scene& scene) {
@@ -75,22 +76,11 @@ Result<void> look_at_object(Scene& scene, const std::string& name, float aspect)
 }
 
 Result<void> place_camera_and_light(Scene& scene, const FigureCell& cell, float aspect) {
-    if (!cell.camera.empty()) {
-        const Result<Camera> camera = parse_camera(cell.camera, scene.camera);
-        if (!camera) return camera.error();
-        scene.camera = *camera;
-    }
+    if (Result<void> set = set_section(scene, "camera", cell.camera); !set) return set;
     if (!cell.object.empty())
         if (Result<void> placed = look_at_object(scene, cell.object, aspect); !placed) return placed;
     fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
-    if (!cell.light.empty())
-        for (Light& light : scene.lights)
-            if (light.is_key) {
-                const Result<Light> moved = parse_light(cell.light, light);
-                if (!moved) return moved.error();
-                light = *moved;
-            }
-    return {};
+    return set_section(scene, "light.key", cell.light);
 }
 
 Image three_channels(const Image& image) {
@@ -181,12 +171,14 @@ Result<CellRenderer::Stage*> CellRenderer::stage(const Figure& figure, const Fig
     if (const auto found = stages_.find(key); found != stages_.end()) return found->second.get();
     if (stages_.size() >= kStages) stages_.clear();
 
-    Result<Scene> scene = load_figure_scene(name, catalog_.subjects);
+    Result<Scene> scene =
+        load_figure_scene(name, {.subjects = catalog_.subjects, .words = options_.loading_words});
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     if (cell.albedo == CellAlbedo::white) make_white(*scene);
     const ChosenEnvironment chosen = choose_environment(scene->environment, cell);
     scene->environment = chosen.environment;
+    if (Result<void> set = set_words(*scene, options_.words); !set) return set.error();
     auto made = std::make_unique<Stage>(Stage{.scene = std::move(*scene), .remark = chosen.remark});
     Result<Renderer> renderer =
         Renderer::create(*device_, gpu::embedded_shaders(catalog_.shaders), made->scene);

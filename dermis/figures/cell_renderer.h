@@ -29,6 +29,9 @@ class CellRenderer {
     struct Options {
         std::string scene;  ///< instead of every figure's own when not empty
         int samples = 4;
+        /// Keys of every figure's scene: those that are read while it is loaded, and the others; a cell's own
+        /// camera and light come after them.
+        std::vector<SceneWord> loading_words = {}, words = {};
     };
     /// `device` and what `catalog` shows must outlive it.
     CellRenderer(gpu::Device& device, const Catalog& catalog, Options options);

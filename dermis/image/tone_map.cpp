@@ -16,7 +16,7 @@ Vec3 each(Vec3 c, Curve curve) {
     return {curve(c.x), curve(c.y), curve(c.z)};
 }
 
-float clamp_unit(float x) {
+float clamp_display(float x) {
     return std::clamp(x, 0.0f, 1.0f);
 }
 
@@ -31,7 +31,7 @@ float hable_curve(float x) {
 Vec3 hable(Vec3 c) {
     constexpr float kExposureBias = 2.0f, kWhite = 11.2f;
     const float scale = 1.0f / hable_curve(kWhite);
-    return each(c, [=](float x) { return clamp_unit(scale * hable_curve(kExposureBias * x)); });
+    return each(c, [=](float x) { return clamp_display(scale * hable_curve(kExposureBias * x)); });
 }
 
 // Hill 2016: linear sRGB to AP1 with the reference transform's desaturation, the curve, and back. The curve
@@ -45,7 +45,7 @@ Vec3 aces(Vec3 c) {
     const Vec3 fitted = each(kIn * c, [](float x) {
         return (x * (x + 0.0245786f) - 0.000090537f) / (x * (0.983729f * x + 0.4329510f) + 0.238081f);
     });
-    return each(kOut * fitted, clamp_unit);
+    return each(kOut * fitted, clamp_display);
 }
 
 // Khronos PBR Neutral specification. 0.04 is the reflectance at normal incidence of common dielectrics, which
@@ -92,7 +92,7 @@ Vec3 tone_map(ToneMap curve, Vec3 c_linear) {
         case ToneMap::none:
             break;
     }
-    return each(c, clamp_unit);
+    return each(c, clamp_display);
 }
 
 Image tone_mapped(const Image& image, ToneMap curve, float exposure) {

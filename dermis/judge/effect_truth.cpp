@@ -13,14 +13,14 @@ namespace dermis {
 namespace {
 
 // Raised when what is stored changes.
-constexpr std::string_view kVersion = "effect 1";
+constexpr std::string_view kEffectVersion = "effect 1";
 // Rounds over the grid in one batch at most: what a run that is stopped loses.
 constexpr int kMostRounds = 8;
 // The estimate of what is left is exceeded by this, so that it is not missed by a hair.
 constexpr double kMargin = 1.05;
 
 // What is stored: the header, then the floats of every image in the order of images().
-struct Header {
+struct EffectHeader {
     int32_t width = 0, height = 0;
     int32_t passes = 0;  // a half
     uint32_t batches = 0;
@@ -28,7 +28,7 @@ struct Header {
 };
 
 struct State {
-    Header header;
+    EffectHeader header;
     EffectTruth truth;
 
     explicit State(const ReferenceSettings& s) {
@@ -48,12 +48,12 @@ Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& sett
     plain.samples = settings.grid * settings.grid;
     const Result<std::string> hash = reference_hash(scene, plain);
     if (!hash) return hash.error();
-    return Hasher().add(kVersion).add(*hash).hex();
+    return Hasher().add(kEffectVersion).add(*hash).hex();
 }
 
 std::vector<std::byte> pack(State& state) {
-    std::vector<std::byte> bytes(sizeof(Header));
-    std::memcpy(bytes.data(), &state.header, sizeof(Header));
+    std::vector<std::byte> bytes(sizeof(EffectHeader));
+    std::memcpy(bytes.data(), &state.header, sizeof(EffectHeader));
     for (const Image* image : state.images())
         bytes.insert(bytes.end(), image->bytes.begin(), image->bytes.end());
     return bytes;
@@ -61,9 +61,9 @@ std::vector<std::byte> pack(State& state) {
 
 // False, and the state as new, when the bytes are of something else.
 bool unpack(const std::vector<std::byte>& bytes, State& state) {
-    size_t expected = sizeof(Header);
+    size_t expected = sizeof(EffectHeader);
     for (const Image* image : state.images()) expected += image->bytes.size();
-    Header header;
+    EffectHeader header;
     if (bytes.size() != expected) return false;
     std::memcpy(&header, bytes.data(), sizeof header);
     if (header.width != state.header.width || header.height != state.header.height) return false;

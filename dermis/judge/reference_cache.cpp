@@ -4,88 +4,15 @@
 #include <cstring>
 
 #include "dermis/base/cache.h"
-#include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/optics/presets.h"
+#include "dermis/scene/scene_hash.h"
 
 namespace dermis {
 namespace {
 
 // Part of every hash: to be raised when the ground truth's algorithm changes its pictures.
 constexpr std::string_view kVersion = "reference 3";
-
-void add(Hasher& hasher, Vec3 v) {
-    hasher.add(v.x).add(v.y).add(v.z);
-}
-
-template <class T>
-void add_all(Hasher& hasher, const std::vector<T>& values) {
-    hasher.add(std::as_bytes(std::span(values)));
-}
-
-// Pixels and embedded bytes as they are, files by what is in them.
-Result<void> add(Hasher& hasher, const ImageSource& source) {
-    hasher.add(source.present());
-    if (!source.present()) return {};
-    hasher.add(source.width).add(source.height).add(source.channels);
-    hasher.add(std::span(source.encoded)).add(std::span(source.pixels));
-    if (!source.encoded.empty() || !source.pixels.empty()) return {};
-    const Result<std::vector<std::byte>> file = read_file(source.name);
-    if (!file) return file.error();
-    hasher.add(std::span(*file));
-    return {};
-}
-
-Result<void> add(Hasher& hasher, const Material& m) {
-    add(hasher, m.base_color_linear);
-    add(hasher, m.emission_linear);
-    hasher.add(m.opacity).add(m.alpha_mode).add(m.roughness).add(m.metallic).add(m.specular).add(m.ior);
-    hasher.add(m.double_sided).add(m.normal_space).add(m.normal_scale).add(m.dilate_texels);
-    for (const ImageSource* source : {&m.base_color_map, &m.normal_map, &m.metallic_roughness_map,
-                                      &m.specular_map, &m.occlusion_map, &m.opacity_map, &m.roughness_map})
-        if (Result<void> added = add(hasher, *source); !added) return added;
-    return {};
-}
-
-Result<void> add(Hasher& hasher, const SceneObject& object) {
-    const Mesh& mesh = object.mesh;
-    add_all(hasher, mesh.positions_mm);
-    add_all(hasher, mesh.normals);
-    add_all(hasher, mesh.tangents);
-    add_all(hasher, mesh.uvs);
-    add_all(hasher, mesh.occlusions);
-    add_all(hasher, mesh.indices);
-    for (const Submesh& part : mesh.submeshes)
-        hasher.add(part.first_index).add(part.index_count).add(part.material);
-    for (const MaterialClass material_class : object.classes) hasher.add(material_class);
-    for (const Material& material : mesh.materials)
-        if (Result<void> added = add(hasher, material); !added) return added;
-    return {};
-}
-
-void add(Hasher& hasher, const Light& light) {
-    add(hasher, light.color_linear);
-    add(hasher, light.to_light_world);
-    add(hasher, light.position_mm);
-    hasher.add(light.kind).add(light.intensity).add(light.inner_angle_rad).add(light.outer_angle_rad);
-    hasher.add(light.is_key);
-}
-
-void add(Hasher& hasher, const Camera& camera) {
-    add(hasher, camera.eye_mm);
-    add(hasher, camera.target_mm);
-    add(hasher, camera.up_world);
-    hasher.add(camera.vertical_fov_rad).add(camera.near_mm).add(camera.far_mm);
-}
-
-Result<void> add(Hasher& hasher, const Environment& environment) {
-    hasher.add(environment.kind).add(environment.intensity).add(environment.yaw_rad).add(environment.visible);
-    if (environment.kind != EnvironmentKind::file) return {};
-    const Result<std::vector<std::byte>> file = read_file(environment.file);
-    if (!file) return file.error();
-    hasher.add(std::span(*file));
-    return {};
-}
 
 // What a profile is to the integrator: its values, whatever its model and name.
 void add(Hasher& hasher, const Profile& profile) {
@@ -165,13 +92,9 @@ std::optional<ReferencePicture> unpack(const std::vector<std::byte>& bytes,
 Result<std::string> reference_hash(const Scene& scene, const ReferenceSettings& settings) {
     Hasher hasher;
     hasher.add(kVersion);
-    for (const SceneObject& object : scene.objects)
-        if (Result<void> added = add(hasher, object); !added) return added.error();
-    for (const Light& light : scene.lights) add(hasher, light);
-    add(hasher, scene.camera);
-    if (Result<void> added = add(hasher, scene.environment); !added) return added.error();
-    add(hasher, scene.skin.albedo_tint_linear);
-    add(hasher, scene.background_linear);
+    const Result<std::string> content = hash_of(scene);
+    if (!content) return content.error();
+    hasher.add(*content);
     const Result<Profile> profile = find_profile(scene.skin.profile);
     if (!profile) return profile.error();
     add(hasher, *profile);

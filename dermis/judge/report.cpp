@@ -6,6 +6,7 @@
 
 #include "dermis/image/io.h"
 #include "dermis/judge/heat_map.h"
+#include "dermis/scene/scene_words.h"
 
 namespace dermis {
 
@@ -103,7 +104,7 @@ Result<Json> images_of(const Scene& scene, const Comparison& comparison, const I
     return images;
 }
 
-Json number(std::optional<double> value) {
+Json json_number(std::optional<double> value) {
     return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
 
@@ -115,7 +116,7 @@ Json rows_of(const Comparison& comparison) {
                     {"settings", scores[i].settings},
                     {"summary", comparison.rows[i].contestant.technique->summary}};
         for (const ScoreColumn& column : score_columns())
-            row[std::string(column.name)] = number(column.get(scores[i]));
+            row[std::string(column.name)] = json_number(column.get(scores[i]));
         if (scores[i].time_ratio <= 0) row["time_ratio"] = nullptr;
         rows.push_back(std::move(row));
     }

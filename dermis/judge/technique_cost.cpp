@@ -35,7 +35,7 @@ size_t image_bytes(const ImageDeclaration& image, int width, int height) {
 Result<void> measure_bytes(const Scene& scene, const Contestant& contestant, int width, int height,
                            TechniqueCost& cost) {
     const Technique& technique = *contestant.technique;
-    const PassList list = technique.build(contestant.values, {.width = width, .height = height});
+    const PassList list = technique.build(contestant.values, {});
     for (const ImageDeclaration& image : list.images) cost.image_bytes += image_bytes(image, width, height);
     if (!technique.tables) return {};
     const Result<Profile> profile = find_profile(scene.skin.profile);

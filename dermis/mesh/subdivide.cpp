@@ -27,8 +27,8 @@ struct Sum {
     void Clear() { value = {}; }
     void AddWithWeight(const Sum& other, float weight) { value = value + other.value * weight; }
 };
-using Point = Sum<Vec3>;
-using Uv = Sum<Vec2>;
+using PositionSum = Sum<Vec3>;
+using UvSum = Sum<Vec2>;
 
 struct Cage {
     std::vector<int> face_sizes, positions, uvs;  // signed, as OpenSubdiv has its indices
@@ -87,12 +87,13 @@ std::vector<Sum<Value>> refine(const std::vector<Value>& values, int level, cons
 void evaluate_positions(const Far::TopologyRefiner& refiner, const std::vector<Vec3>& cage,
                         PolygonMesh& out) {
     const Far::PrimvarRefiner primvars(refiner);
-    const auto refined = refine(cage, refiner.GetMaxLevel(), [&](int level, const std::vector<Point>& from) {
-        std::vector<Point> to(size_t(refiner.GetLevel(level).GetNumVertices()));
-        primvars.Interpolate(level, from, to);
-        return to;
-    });
-    std::vector<Point> limit(refined.size()), along_1(refined.size()), along_2(refined.size());
+    const auto refined =
+        refine(cage, refiner.GetMaxLevel(), [&](int level, const std::vector<PositionSum>& from) {
+            std::vector<PositionSum> to(size_t(refiner.GetLevel(level).GetNumVertices()));
+            primvars.Interpolate(level, from, to);
+            return to;
+        });
+    std::vector<PositionSum> limit(refined.size()), along_1(refined.size()), along_2(refined.size());
     primvars.Limit(refined, limit, along_1, along_2);
     for (size_t i = 0; i < limit.size(); ++i) {
         out.positions_mm.push_back(limit[i].value);
@@ -102,14 +103,14 @@ void evaluate_positions(const Far::TopologyRefiner& refiner, const std::vector<V
 
 void evaluate_uvs(const Far::TopologyRefiner& refiner, const std::vector<Vec2>& cage, PolygonMesh& out) {
     const Far::PrimvarRefiner primvars(refiner);
-    const auto refined = refine(cage, refiner.GetMaxLevel(), [&](int level, const std::vector<Uv>& from) {
-        std::vector<Uv> to(size_t(refiner.GetLevel(level).GetNumFVarValues(0)));
+    const auto refined = refine(cage, refiner.GetMaxLevel(), [&](int level, const std::vector<UvSum>& from) {
+        std::vector<UvSum> to(size_t(refiner.GetLevel(level).GetNumFVarValues(0)));
         primvars.InterpolateFaceVarying(level, from, to, 0);
         return to;
     });
-    std::vector<Uv> limit(refined.size());
+    std::vector<UvSum> limit(refined.size());
     primvars.LimitFaceVarying(refined, limit, 0);
-    for (const Uv& uv : limit) out.uvs.push_back(uv.value);
+    for (const UvSum& uv : limit) out.uvs.push_back(uv.value);
 }
 
 void copy_faces(const Far::TopologyRefiner& refiner, const PolygonMesh& cage, PolygonMesh& out) {

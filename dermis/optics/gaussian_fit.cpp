@@ -10,7 +10,7 @@
 namespace dermis {
 namespace {
 
-constexpr int kSamples = 200;
+constexpr int kFitSamples = 200;
 constexpr int kMaxIterations = 120;
 
 struct Samples {
@@ -152,8 +152,8 @@ Samples sample(const Profile& profile, int channel) {
     const double nearest = std::max(inverse_cdf_mm(profile, channel, 0.001), 1e-9);
     const double farthest = std::max(inverse_cdf_mm(profile, channel, 0.9999), nearest * 1.01);
     Samples samples;
-    for (int k = 0; k < kSamples; ++k) {
-        const double r = nearest * std::pow(farthest / nearest, k / double(kSamples - 1));
+    for (int k = 0; k < kFitSamples; ++k) {
+        const double r = nearest * std::pow(farthest / nearest, k / double(kFitSamples - 1));
         samples.half_r_squared.push_back(r * r / 2);
         samples.beyond.push_back(1 - cdf(profile, channel, r));
         samples.importance.push_back(1);
@@ -199,7 +199,7 @@ GaussianFit to_gaussian_sum(const Profile& profile, int terms_per_channel) {
             fit.sum.terms.push_back(term);
         }
         fit.max_error[size_t(c)] = largest_error(p, samples);
-        fit.rms_error[size_t(c)] = std::sqrt(squared_error(p, samples) / kSamples);
+        fit.rms_error[size_t(c)] = std::sqrt(squared_error(p, samples) / kFitSamples);
     }
     std::ranges::sort(fit.sum.terms, {}, &GaussianTerm::variance_mm2);
     return fit;

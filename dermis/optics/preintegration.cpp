@@ -11,7 +11,7 @@ namespace dermis {
 namespace pre = preintegration;
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // The even part of D against cos(b) db, times 1 and times P_2(sin b), over half the range. The series has at
 // most the order that 40 Gauss nodes integrate exactly; a tail is a smooth function of the chord, over its
@@ -28,9 +28,9 @@ std::array<Rgb, 2> even_moments(const pre::Row& row, Construction construction) 
     const std::span basis = std::span(storage).first(pre::basis_size(construction));
     static const pre::GaussLegendre<48> rule;
     for (size_t i = 0; i < rule.size(); ++i) {
-        const double b = rule.node(i) * kPi / 2;
+        const double b = rule.node(i) * pi / 2;
         pre::evaluate_basis(construction, std::sin(b), basis);
-        add(row.even_part(basis), std::sin(b), rule.weight(i) * kPi / 2 * std::cos(b));
+        add(row.even_part(basis), std::sin(b), rule.weight(i) * pi / 2 * std::cos(b));
     }
     for (const pre::NarrowLobe& lobe : row.narrow) {
         const double reach = std::sqrt(lobe.tail.reach());
@@ -100,9 +100,9 @@ std::array<Rgb, 3> preintegrated_zonal_harmonics(const GaussianSum& profile, dou
     const std::array<Rgb, 2> moments = even_moments(row, how.construction);
     std::array<Rgb, 3> zonal;
     for (size_t c = 0; c < 3; ++c) {
-        zonal[0][c] = 2 * std::sqrt(kPi) * moments[0][c];
-        zonal[1][c] = std::sqrt(kPi / 3) * (row.series_cosine[c] + row.local_cosine[c]);
-        zonal[2][c] = 2 * std::sqrt(5 * kPi) * moments[1][c];
+        zonal[0][c] = 2 * std::sqrt(pi) * moments[0][c];
+        zonal[1][c] = std::sqrt(pi / 3) * (row.series_cosine[c] + row.local_cosine[c]);
+        zonal[2][c] = 2 * std::sqrt(5 * pi) * moments[1][c];
     }
     return zonal;
 }

@@ -13,7 +13,7 @@
 namespace dermis {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // Calls visit(d, weight) for the nodes of the panels from `start` towards `end` (either direction); the first
 // is `first_mm` wide. visit returns how much of the profile the node held; panels end once they hold nothing.
@@ -44,7 +44,7 @@ double lit_mean(double sine_b, double cosine_b, double chord_fraction_squared) {
     const double q = 2 * cosine_b * std::sqrt(std::max(0.0, x_squared * (1 - x_squared)));
     if (p <= -q) return 0;
     if (p >= q) return p;
-    return (p * std::acos(-p / q) + std::sqrt((q - p) * (q + p))) / kPi;
+    return (p * std::acos(-p / q) + std::sqrt((q - p) * (q + p))) / pi;
 }
 
 struct Moments {
@@ -118,9 +118,9 @@ std::array<Rgb, 3> preintegrated_zonal_harmonics(const RadialProfile& profile, d
                                                   : moments_of(profile, radius_mm);
     std::array<Rgb, 3> zonal;
     for (size_t c = 0; c < 3; ++c) {
-        zonal[0][c] = std::sqrt(kPi) / 2;
-        zonal[1][c] = std::sqrt(kPi / 3) * moments.cosine[c];
-        zonal[2][c] = std::sqrt(5 * kPi) / 8 * moments.second[c];
+        zonal[0][c] = std::sqrt(pi) / 2;
+        zonal[1][c] = std::sqrt(pi / 3) * moments.cosine[c];
+        zonal[2][c] = std::sqrt(5 * pi) / 8 * moments.second[c];
     }
     return zonal;
 }

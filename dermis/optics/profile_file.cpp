@@ -9,7 +9,6 @@
 namespace dermis {
 namespace {
 
-constexpr size_t kMaxRows = 100'000;
 constexpr std::string_view kTableHeader = "r_mm,r,g,b", kSumHeader = "variance_mm2,r,g,b";
 
 struct Rows {
@@ -60,8 +59,8 @@ Result<Rows> parse_rows(std::string_view text, std::string_view place) {
         }
         const auto row = parse_row(line, here);
         if (!row) return row.error();
-        if (rows.first.size() == kMaxRows)
-            return Error{here + ": more than " + std::to_string(kMaxRows) + " rows"};
+        if (rows.first.size() == kMaxProfileRows)
+            return Error{here + ": more than " + std::to_string(kMaxProfileRows) + " rows"};
         rows.first.push_back((*row)[0]);
         rows.rgb.push_back({(*row)[1], (*row)[2], (*row)[3]});
     }

@@ -9,8 +9,6 @@
 namespace dermis {
 namespace {
 
-constexpr size_t kMaxRows = 100'000;
-
 // 2 pi times the integral of (at_zero + slope r) r^(1 + power) over [from, to].
 double linear_moment(double at_zero, double slope, int power, double from, double to) {
     const auto raised = [&](int n) { return std::pow(to, n) - std::pow(from, n); };
@@ -24,7 +22,7 @@ Result<TabulatedProfile> TabulatedProfile::make(std::span<const double> r_mm,
                                                 std::span<const std::array<double, 3>> r_per_mm2,
                                                 std::string_view place) {
     const auto wrong = [&](const Error& error) { return Error{std::string(place) + ": " + error.message}; };
-    if (r_mm.size() != r_per_mm2.size() || r_mm.size() < 2 || r_mm.size() > kMaxRows)
+    if (r_mm.size() != r_per_mm2.size() || r_mm.size() < 2 || r_mm.size() > kMaxProfileRows)
         return wrong(out_of_range("the number of rows", double(r_mm.size()), "2 to 100000"));
     double largest = 0;
     for (size_t i = 0; i < r_mm.size(); ++i) {

@@ -202,7 +202,7 @@ ToolRow faceworks() {
             write_faceworks,
             read_faceworks};
 }
-ToolRow separable_sss() {
+ToolRow separable_sss_row() {
     return {{ToolId::separable_sss,
              "separable_sss",
              "look radius: the blur's half width, over which its kernel runs from 0 to 3",
@@ -306,7 +306,7 @@ ToolRow pbrt() {
 const std::vector<ToolRow>& tool_rows() {
     static const std::vector<ToolRow> kRows = {
         faceworks(),
-        separable_sss(),
+        separable_sss_row(),
         hdrp(),
         unreal(),
         blender<four_pi_mean_free_path_per_d>(ToolId::blender_burley, "blender_burley",

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "dermis/base/angle.h"
 
 namespace dermis {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 Vec3 from_cosine(float cosine, float azimuth_rad) {
     const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));

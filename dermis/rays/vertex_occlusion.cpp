@@ -13,7 +13,7 @@ namespace dermis {
 namespace {
 
 // Raised when the algorithm changes, so that old cache entries are not taken for new ones.
-constexpr int kAlgorithmVersion = 1;
+constexpr int kOcclusionVersion = 1;
 
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values) {
@@ -29,7 +29,7 @@ void add_mesh(Hasher& hasher, const Mesh& mesh, std::span<const MaterialClass> c
 
 std::string content_hash(std::span<const SceneObject> objects, const OcclusionSettings& settings) {
     Hasher hasher;
-    hasher.add(kAlgorithmVersion).add(settings.rays).add(settings.max_mm);
+    hasher.add(kOcclusionVersion).add(settings.rays).add(settings.max_mm);
     for (const SceneObject& object : objects) add_mesh(hasher, object.mesh, object.classes);
     return hasher.hex();
 }

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/image/colour.h"
 #include "dermis/scene/panorama.h"
 
 namespace dermis {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Solid angle per unit of the uv square at this height: 2 pi wide, pi high, times the sine of the polar
 // angle.

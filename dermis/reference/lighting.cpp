@@ -4,14 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/optics/fresnel.h"
 #include "dermis/optics/microfacet.h"
 #include "dermis/rays/sampling.h"
+#include "shaders/include/constants.h"
 
 namespace dermis {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr size_t kMostTranslucentLayers = 16;
 
 bool is_black(Vec3 v) {
@@ -27,17 +28,16 @@ Vec3 mix(Vec3 a, Vec3 b, float t) {
 }
 
 // shaders/include/shadow.glsl, shadow_disk(): point `disk` of the unit disk that is round as the light sees
-// it, in the tangent plane, lifted out of hollows and, under grazing light, out of the surface.
+// it, in the tangent plane, lifted out of cavities and, under grazing light, out of the surface.
 Vec3 tangent_disk(Vec3 n, Vec3 to_light, Vec2 disk, float radius_mm) {
-    constexpr float kHollow = 0.1f, kFacetLift = 0.3f, kMostSlope = 4;
     const LocalFrame frame = frame_of(to_light);
     const float n_dot_l = std::clamp(dot(n, to_light), 0.0f, 1.0f), sine = std::sqrt(1 - n_dot_l * n_dot_l);
-    const float per_cosine = std::min(1 / std::max(n_dot_l, 1e-3f), kMostSlope / std::max(sine, 1e-3f));
+    const float per_cosine = std::min(1 / std::max(n_dot_l, 1e-3f), kShadowMaxSlope / std::max(sine, 1e-3f));
     const Vec3 facing = (frame.tangent * disk.x + frame.bitangent * disk.y) * radius_mm;
     const Vec3 in_plane = facing - to_light * (dot(facing, n) * per_cosine);
-    const float lacking = std::max(0.0f, sine - kMostSlope * n_dot_l);
-    return in_plane +
-           n * (0.5f * kHollow / radius_mm * dot(in_plane, in_plane) + radius_mm * (kFacetLift + lacking));
+    const float lacking = std::max(0.0f, sine - kShadowMaxSlope * n_dot_l);
+    return in_plane + n * (0.5f * kShadowConcavity / radius_mm * dot(in_plane, in_plane) +
+                           radius_mm * (kShadowFacetLift + lacking));
 }
 
 }  // namespace

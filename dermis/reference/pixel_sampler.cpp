@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/optics/presets.h"
 #include "dermis/rays/flesh.h"
 #include "dermis/rays/random.h"
@@ -12,7 +12,6 @@
 namespace dermis {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kMostLayers = 16;
 constexpr int kAlbedoWalks = 200'000;
 

@@ -11,7 +11,7 @@
 namespace dermis {
 namespace {
 
-Vec3 mix(Vec3 a, Vec3 b, float t) {
+Vec3 blend(Vec3 a, Vec3 b, float t) {
     return a * (1 - t) + b * t;
 }
 
@@ -65,14 +65,15 @@ Vec3 SplitSumReflection::cube_level(Vec3 d, int level) const {
     const float x = point.s * size - 0.5f, y = point.t * size - 0.5f;
     const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
     const float fx = x - float(x0), fy = y - float(y0);
-    return mix(mix(texel(level, point.face, x0, y0), texel(level, point.face, x0 + 1, y0), fx),
-               mix(texel(level, point.face, x0, y0 + 1), texel(level, point.face, x0 + 1, y0 + 1), fx), fy);
+    return blend(blend(texel(level, point.face, x0, y0), texel(level, point.face, x0 + 1, y0), fx),
+                 blend(texel(level, point.face, x0, y0 + 1), texel(level, point.face, x0 + 1, y0 + 1), fx),
+                 fy);
 }
 
 Vec3 SplitSumReflection::cube(Vec3 d, float level) const {
     const float clamped = std::clamp(level, 0.0f, float(light_.mips - 1));
     const int low = int(clamped), high = std::min(low + 1, light_.mips - 1);
-    return mix(cube_level(d, low), cube_level(d, high), clamped - float(low));
+    return blend(cube_level(d, low), cube_level(d, high), clamped - float(low));
 }
 
 Vec2 SplitSumReflection::scale_and_bias(float roughness, float n_dot_v) const {

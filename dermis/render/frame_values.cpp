@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "shaders/include/constants.h"
+
 namespace dermis {
 namespace {
 
@@ -55,6 +57,9 @@ Mat4 light_matrix(const Light& light, Vec3 center_mm, float radius_mm) {
     return from_glm(glm::perspective(2 * std::asin(sine), 1.0f, near_mm, distance_mm + radius_mm) * view);
 }
 
+static_assert(int(LightKind::directional) == kLightDirectional && int(LightKind::point) == kLightPoint &&
+              int(LightKind::spot) == kLightSpot);
+
 std::vector<gpu::Values> light_values(const Scene& scene) {
     std::vector<gpu::Values> lights;
     for (const Light& light : scene.lights) {
@@ -66,7 +71,7 @@ std::vector<gpu::Values> light_values(const Scene& scene) {
                           {"cos_outer", std::cos(light.outer_angle_rad)}});
     }
     if (lights.empty()) {
-        lights.push_back({{"kind", int32_t(0)},
+        lights.push_back({{"kind", int32_t(kLightDirectional)},
                           {"intensity_linear", Vec3{}},
                           {"to_light_world", Vec3{0, 0, 1}},
                           {"position_mm", Vec3{}},
@@ -80,18 +85,15 @@ gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings)
     const CameraMatrices camera =
         camera_matrices(scene.camera, float(settings.width) / float(settings.height));
     const int key = light_index(scene, true), second = light_index(scene, false);
-    const float pixel_angle_rad = 2 * std::tan(0.5f * scene.camera.vertical_fov_rad) / float(settings.height);
     return {{"view_projection", camera.view_projection},
             {"inverse_view_projection", camera.inverse_view_projection},
             {"light_view_projection", light_matrix_of(scene, key)},
             {"eye_world_mm", scene.camera.eye_mm},
-            {"pixel_angle_rad", pixel_angle_rad},
             {"bounds_center_mm", scene.bounds_center_mm},
             {"bounds_radius_mm", scene.bounds_radius_mm},
             {"background_linear", scene.background_linear},
             {"environment_visible",
              int32_t(scene.environment.visible && scene.environment.kind != EnvironmentKind::none)},
-            {"view_forward_world", normalize(scene.camera.target_mm - scene.camera.eye_mm)},
             {"environment_intensity",
              scene.environment.kind == EnvironmentKind::none ? 0.0f : scene.environment.intensity},
             {"environment_yaw_rad", scene.environment.yaw_rad},

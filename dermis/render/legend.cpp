@@ -2,22 +2,22 @@
 
 #include <cmath>
 
+#include "dermis/base/text.h"
 #include "dermis/image/label.h"
+#include "shaders/renderer/constants.h"
 
 namespace dermis {
 namespace {
 
-// view.frag knows the bar's place: these columns, above row kTickTop.
-constexpr int kBarLeft = 24, kBarRight = 264, kTickTop = 18, kTickBottom = 24;
+constexpr int kTickTop = kLegendBarBottom, kTickBottom = kTickTop + 6;
 constexpr float kTextPx = 11;
 
 struct Scale {
     std::string_view view;
-    const char* labels[5];
+    double full;  // at the ends of the bar
     const char* unit;
 };
-constexpr Scale kScales[] = {{"curvature", {"-0.125", "-0.0625", "0", "0.0625", "0.125"}, "1/mm"},
-                             {"n_dot_l", {"-1", "-0.5", "0", "0.5", "1"}, "N·L"}};
+const Scale kScales[] = {{"curvature", kFullCurvaturePerMm, "1/mm"}, {"n_dot_l", 1, "N·L"}};
 
 const Scale* scale_of(std::string_view view) {
     for (const Scale& scale : kScales)
@@ -39,12 +39,12 @@ Result<Image> make_legend(std::string_view view) {
     if (!font) return font.error();
     const TextStyle style = {.size_px = kTextPx, .color = {1, 1, 1}};
     for (int i = 0; i < 5; ++i) {
-        const int x = kBarLeft + (kBarRight - kBarLeft) * i / 4;
+        const int x = kLegendBarLeft + (kLegendBarRight - kLegendBarLeft) * i / 4;
+        const std::string label = to_text(scale->full * (i - 2) / 2);
         for (int y = kTickTop; y < kTickBottom; ++y) ink.set(x, y, 0, 1);
-        font->draw(ink, x - font->width_px(scale->labels[i], kTextPx) / 2, kTickBottom + 2, scale->labels[i],
-                   style);
+        font->draw(ink, x - font->width_px(label, kTextPx) / 2, kTickBottom + 2, label, style);
     }
-    font->draw(ink, kBarRight + 12, 3, scale->unit, style);
+    font->draw(ink, kLegendBarRight + 12, 3, scale->unit, style);
     return ink;
 }
 

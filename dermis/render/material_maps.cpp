@@ -26,7 +26,7 @@ std::vector<std::byte> expand_to_four(const Image& image) {
     return out;
 }
 
-Image to_half(const Image& image, int channels) {
+Image to_half_image(const Image& image, int channels) {
     Image half(image.width, image.height, channels, PixelFormat::f16);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
@@ -105,14 +105,14 @@ Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Materia
     if (map.is_single) {
         const Image single = single_channel(image, channel);
         data.format = single.format == PixelFormat::u8 ? ImageFormat::r8 : ImageFormat::r16f;
-        data.bytes = single.format == PixelFormat::u8 ? single.bytes : to_half(single, 1).bytes;
+        data.bytes = single.format == PixelFormat::u8 ? single.bytes : to_half_image(single, 1).bytes;
     } else if (image.format == PixelFormat::u8) {
         data.format = ImageFormat::rgba8;
         data.srgb = image.encoding == Encoding::srgb;
         data.bytes = expand_to_four(image);
     } else {
         data.format = ImageFormat::rgba16f;
-        data.bytes = to_half(to_linear_float(image), 4).bytes;
+        data.bytes = to_half_image(to_linear_float(image), 4).bytes;
     }
     return data;
 }

@@ -173,7 +173,7 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
                                .shadow_map_size = settings.shadow_map_size,
                                .penumbra_mm = settings.penumbra_mm,
                                .environment_mip_count = uploaded_->environment_mip_count()});
-    inputs.blocks["Params"] = parameter_block(values);
+    inputs.blocks["Params"] = inputs.blocks["AtlasParams"] = parameter_block(values);
     inputs.arrays["Lights"] = light_values(*scene_);
     inputs.arrays["EnvironmentSh"] = uploaded_->environment_sh();
     inputs.draws = uploaded_->draws();
@@ -192,13 +192,9 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
     if (!skin) return skin.error();
     const std::string key = light_key(technique, values, settings, *scene_);
     const FrameContext frame = {
-        .width = settings.width,
-        .height = settings.height,
-        .samples = settings.samples,
         .view = settings.view,
         .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
         .previous_camera_distance_mm = key == history_key_ ? history_distance_mm_ : 0,
-        .frame_index = settings.frame_index,
         .shadow_map_size = settings.shadow_map_size,
         .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
         .has_second_light = scene_->lights.size() > 1,

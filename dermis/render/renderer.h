@@ -21,7 +21,6 @@ struct DrawSettings {
     bool deep = false;           ///< radiance and display in float: for 16-bit files and for measuring
     int shadow_map_size = 2048;
     float penumbra_mm = 2;
-    int frame_index = 0;
 };
 
 class Renderer {

@@ -8,6 +8,7 @@
 #include "dermis/mesh/stretch.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"
+#include "shaders/include/constants.h"
 
 namespace dermis {
 namespace {
@@ -62,8 +63,10 @@ float dielectric_f0(float ior) {
 
 // The block Material of shaders/include/surface.glsl.
 gpu::Values material_values(const Material& material, Vec3 tint) {
-    const bool mapped = material.normal_map.present();
-    const int32_t normal_space = !mapped ? 2 : material.normal_space == NormalSpace::object ? 1 : 0;
+    int32_t normal_space = kNormalSpaceAbsent;
+    if (material.normal_map.present())
+        normal_space =
+            material.normal_space == NormalSpace::object ? kNormalSpaceObject : kNormalSpaceTangent;
     return {{"albedo_linear", material.base_color_linear * tint},
             {"roughness", material.roughness},
             {"emission_linear", material.emission_linear},
@@ -74,9 +77,7 @@ gpu::Values material_values(const Material& material, Vec3 tint) {
             {"normal_space", normal_space},
             {"normal_scale", material.normal_scale},
             {"opacity_from_map", int32_t(material.opacity_map.present())},
-            {"thickness_scale_mm", material.thickness_scale_mm},
-            {"curvature_scale_per_mm", material.curvature_scale_per_mm},
-            {"curvature_from_map", int32_t(material.curvature_map.present())}};
+            {"curvature_scale_per_mm", material.curvature_scale_per_mm}};
 }
 
 gpu::DrawClass draw_class(MaterialClass material_class) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shaders/renderer/constants.h"
+
 namespace dermis {
 namespace {
 
@@ -57,6 +59,9 @@ Pass gbuffer_pass() {
     return pass;
 }
 
+static_assert(int(ToneMap::none) == kToneMapNone && int(ToneMap::hable) == kToneMapHable &&
+              int(ToneMap::aces) == kToneMapAces && int(ToneMap::pbr_neutral) == kToneMapPbrNeutral);
+
 Pass tone_map_pass(const SharedPassSettings& settings) {
     return {.name = "tone map",
             .kind = PassKind::fullscreen,
@@ -85,10 +90,21 @@ const std::vector<std::string>& gbuffer_images() {
 }
 
 const std::vector<std::string>& gbuffer_views() {
-    // The order is that of shaders/renderer/view.frag.
-    static const std::vector<std::string> kNames = {
-        "normal", "geometry_normal", "albedo", "roughness", "curvature", "occlusion",
-        "shadow", "n_dot_l",         "depth",  "uv",        "position"};
+    static const std::vector<std::string> kNames = [] {
+        std::vector<std::string> names(kShownCount);
+        names[kShownNormal] = "normal";
+        names[kShownGeometryNormal] = "geometry_normal";
+        names[kShownAlbedo] = "albedo";
+        names[kShownRoughness] = "roughness";
+        names[kShownCurvature] = "curvature";
+        names[kShownOcclusion] = "occlusion";
+        names[kShownShadow] = "shadow";
+        names[kShownNDotL] = "n_dot_l";
+        names[kShownDepth] = "depth";
+        names[kShownUv] = "uv";
+        names[kShownPosition] = "position";
+        return names;
+    }();
     return kNames;
 }
 

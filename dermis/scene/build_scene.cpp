@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
@@ -12,24 +12,13 @@
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_views.h"
 
 namespace dermis {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180;
-
-Error error_at(const SceneDescription& description, const NamedFile& file, const std::string& message) {
-    return Error{description.file.string() + ":" + std::to_string(file.line) + ": " + file.key + ": " +
-                 message};
-}
-
-Result<fs::path> resolve(const SceneDescription& description, const NamedFile& file) {
-    Result<fs::path> path = resolve_path(file.text, description.file);
-    if (!path) return error_at(description, file, path.error().message);
-    return path;
-}
 
 Result<SubjectScene> load_objects(const SceneDescription& description, const MeshDescription& mesh,
                                   std::span<const Subject> subjects, Scene& scene) {
@@ -38,7 +27,7 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
         if (!made) return error_at(description, mesh.file, made.error().message);
         return made;
     }
-    const Result<fs::path> path = resolve(description, mesh.file);
+    const Result<fs::path> path = resolve_file(description, mesh.file);
     if (!path) return path.error();
     Result<LoadedMesh> loaded =
         read_mesh(*path, {.unit_mm = mesh.unit_mm,
@@ -102,7 +91,7 @@ Result<void> apply_maps(const SceneDescription& description, const MapsDescripti
     for (const MapRow& row : kMapRows) {
         const NamedFile& file = maps.*row.from;
         if (!file.given()) continue;
-        const Result<fs::path> path = resolve(description, file);
+        const Result<fs::path> path = resolve_file(description, file);
         if (!path) return path.error();
         if (row.from == &MapsDescription::curvature)
             if (Result<void> known = check_curvature_unit(description, maps, *path); !known) return known;
@@ -194,53 +183,6 @@ Result<void> check_material_names(const SceneDescription& description, const Sce
     return {};
 }
 
-Light build_light(const LightDescription& given, Vec3 center_mm) {
-    const Vec3 target_mm = given.target_mm.value_or(center_mm);
-    const Vec3 direction = direction_from_yaw_pitch(given.yaw_deg.value_or(0) * kRadiansPerDegree,
-                                                    given.pitch_deg.value_or(0) * kRadiansPerDegree);
-    Light light{.name = given.name,
-                .kind = given.kind,
-                .color_linear = given.color_linear,
-                .intensity = given.intensity,
-                .to_light_world = direction,
-                .position_mm = target_mm + direction * given.distance_mm.value_or(0),
-                .inner_angle_rad = given.inner_angle_deg * kRadiansPerDegree,
-                .outer_angle_rad = given.outer_angle_deg * kRadiansPerDegree,
-                .is_key = given.key.value_or(false)};
-    if (given.position_mm) {
-        light.position_mm = *given.position_mm;
-        const Vec3 axis = normalize(*given.position_mm - target_mm);
-        if (length(axis) > 0) light.to_light_world = axis;
-    }
-    return light;
-}
-
-Camera build_camera(const CameraDescription& given, const Scene& scene) {
-    Camera camera = framing_camera(given.target_mm.value_or(scene.bounds_center_mm), scene.bounds_radius_mm,
-                                   given.fov_deg * kRadiansPerDegree);
-    const float framing_mm = length(camera.eye_mm - camera.target_mm);
-    camera.eye_mm = given.eye_mm.value_or(
-        camera.target_mm + direction_from_yaw_pitch(given.yaw_deg.value_or(0) * kRadiansPerDegree,
-                                                    given.pitch_deg.value_or(0) * kRadiansPerDegree) *
-                               given.distance_mm.value_or(framing_mm));
-    fit_depth_range(camera, scene.bounds_center_mm, scene.bounds_radius_mm);
-    return camera;
-}
-
-Result<Environment> build_environment(const SceneDescription& description,
-                                      const EnvironmentDescription& given) {
-    Environment environment{.kind = given.kind.value_or(EnvironmentKind::studio),
-                            .intensity = given.intensity,
-                            .yaw_rad = given.yaw_deg * kRadiansPerDegree,
-                            .visible = given.visible};
-    if (!given.file.given()) return environment;
-    const Result<fs::path> path = resolve(description, given.file);
-    if (!path) return path.error();
-    environment.kind = EnvironmentKind::file;
-    environment.file = *path;
-    return environment;
-}
-
 }  // namespace
 
 bool lacks_asset(const SceneDescription& description) {
@@ -264,27 +206,18 @@ Result<Scene> build_scene(const SceneDescription& description, std::span<const S
     if (const Result<void> checked = check_material_names(description, scene); !checked)
         return checked.error();
 
-    place_in_studio(scene);
+    compute_bounds(scene);
+    if (const Result<void> placed = place_views(description, scene); !placed) return placed.error();
+    if (description.camera.line > 0) stated.camera.reset();
+    if (!description.lights.empty()) stated.lights.clear();
+    if (description.environment) stated.environment.reset();
     apply_statements(stated, scene);
-    if (description.camera.line > 0 || !stated.camera) scene.camera = build_camera(description.camera, scene);
-    if (!description.lights.empty()) scene.lights.clear();
-    for (const LightDescription& light : description.lights)
-        scene.lights.push_back(build_light(light, scene.bounds_center_mm));
-    if (description.environment) {
-        Result<Environment> environment = build_environment(description, *description.environment);
-        if (!environment) return environment.error();
-        scene.environment = *environment;
-    }
-    scene.skin = description.skin;
     if (!scene.skin.diffuse_table.empty()) {
         const Result<fs::path> table = resolve_path(scene.skin.diffuse_table, description.file);
         if (!table)
             return Error{description.file.string() + ": skin.diffuse_table: " + table.error().message};
         scene.skin.diffuse_table = table->string();
     }
-    scene.background_linear = head.background_linear;
-    scene.tone_map = head.tone_map;
-    scene.exposure_ev = head.exposure_ev;
     scene.credit = head.credit;
     scene.technique = head.technique;
     scene.settings = description.settings;

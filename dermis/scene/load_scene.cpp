@@ -6,8 +6,9 @@
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/scene/placement.h"
-#include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_words.h"
 
 namespace dermis {
 namespace fs = std::filesystem;
@@ -18,26 +19,41 @@ Result<Scene> load_subject(std::string_view name, std::span<const Subject> subje
     if (!made) return made.error();
     Scene scene{.name = std::string(name), .objects = std::move(made->objects)};
     place_in_studio(scene);
+    if (!made->lights.empty()) scene.exposure_ev = 0;
     apply_statements(*made, scene);
     return scene;
 }
 
-Result<SceneDescription> read_description(const fs::path& path, std::span<const Subject> subjects) {
+Result<SceneDescription> read_description(const fs::path& path, const SceneOptions& options) {
     const Result<std::string> text = read_text_file(path);
     if (!text) return text.error();
-    return parse_scene(*text, path, subjects);
+    Result<SceneDescription> description = parse_scene(*text, path, options.subjects);
+    if (!description || options.words.empty()) return description;
+    for (const SceneWord& word : options.words)
+        if (Result<void> set = set_word(*description, word, options.subjects); !set) return set.error();
+    if (Result<void> checked = check_scene(*description); !checked) return checked.error();
+    return description;
 }
 
-Result<Scene> load_scene_file(const fs::path& path, std::span<const Subject> subjects) {
-    const Result<SceneDescription> description = read_description(path, subjects);
+// Only a scene file has these keys; a wrong one is told all the same.
+Result<void> refuse_words(const std::string& name, const SceneOptions& options) {
+    if (options.words.empty()) return {};
+    SceneDescription any{.meshes = {{.file = {.text = name}}}};
+    if (Result<void> set = set_word(any, options.words[0], options.subjects); !set) return set;
+    return Error{options.words[0].key + ": read while a scene file is loaded, and " + name +
+                 " is none; write a scene file with [[mesh]] file = \"" + name + "\""};
+}
+
+Result<Scene> load_scene_file(const fs::path& path, const SceneOptions& options) {
+    const Result<SceneDescription> description = read_description(path, options);
     if (!description) return description.error();
-    Result<Scene> scene = build_scene(*description, subjects);
+    Result<Scene> scene = build_scene(*description, options.subjects);
     if (scene) scene->files.push_back(path);
     if (scene || description->head.without_assets.empty() || !lacks_asset(*description)) return scene;
 
     const Result<SceneDescription> other =
-        read_description(path.parent_path() / (description->head.without_assets + ".toml"), subjects);
-    Result<Scene> instead = other ? build_scene(*other, subjects) : other.error();
+        read_description(path.parent_path() / (description->head.without_assets + ".toml"), options);
+    Result<Scene> instead = other ? build_scene(*other, options.subjects) : other.error();
     if (!instead) return scene;
     instead->files.push_back(path);
     instead->warnings.insert(instead->warnings.begin(), scene.error().message + "; drawing scene '" +
@@ -71,6 +87,11 @@ Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) 
     return scene;
 }
 
+bool is_mesh(const fs::path& path) {
+    const std::string extension = to_lower(path.extension().string());
+    return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+}
+
 bool looks_like_a_name(std::string_view text) {
     return text.find('/') == std::string_view::npos && text.find('.') == std::string_view::npos;
 }
@@ -78,19 +99,21 @@ bool looks_like_a_name(std::string_view text) {
 }  // namespace
 
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
-    if (const auto subject = subject_name(path_or_name)) return load_subject(*subject, options.subjects);
+    const bool is_mesh_file = is_mesh(path_or_name);
+    const auto subject = subject_name(path_or_name);
+    if (subject || is_mesh_file)
+        if (Result<void> refused = refuse_words(path_or_name, options); !refused) return refused.error();
+    if (subject) return load_subject(*subject, options.subjects);
     const fs::path path = path_or_name;
     std::error_code ec;
     if (looks_like_a_name(path_or_name) && !fs::is_regular_file(path, ec)) {
         if (const fs::path file = find_scene(path_or_name); !file.empty())
-            return load_scene_file(file, options.subjects);
+            return load_scene_file(file, options);
         return Error{unknown_name("scene", path_or_name, scene_names()) +
                      ", or a .toml, .obj, .gltf or .glb file"};
     }
-    const std::string extension = to_lower(path.extension().string());
-    if (extension == ".toml") return load_scene_file(path, options.subjects);
-    if (extension == ".obj" || extension == ".gltf" || extension == ".glb")
-        return load_mesh_file(path, options);
+    if (is_mesh_file) return load_mesh_file(path, options);
+    if (to_lower(path.extension().string()) == ".toml") return load_scene_file(path, options);
     return Error{path_or_name + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)"};
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "dermis/scene/subject.h"
 
@@ -12,6 +13,7 @@ namespace dermis {
 struct SceneOptions {
     std::span<const Subject> subjects = {};  ///< what "builtin:NAME" may be
     std::optional<float> mesh_unit_mm = {};  ///< of a bare mesh file; a scene file states its own
+    std::vector<SceneWord> words = {};       ///< set before anything is loaded; each is_loading_key()
 };
 
 /// A scene file, a mesh file (placed in the default studio), "builtin:NAME", or the name of a file of scenes/

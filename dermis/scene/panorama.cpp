@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/image/half.h"
 
 namespace dermis {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 float clean(float value) {
     return value > 0 ? std::min(value, kMaxHalf) : 0.0f;  // a NaN compares false

@@ -2,16 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "dermis/base/angle.h"
 
 namespace dermis {
-namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kRadiansPerDegree = kPi / 180;
-
-}  // namespace
-
 void apply_skin(const Skin& skin, Material& material) {
     material.ior = skin.ior;
     material.roughness = skin.roughness;
@@ -33,8 +27,7 @@ void compute_bounds(Scene& scene) {
     if (scene.bounds_radius_mm <= 0) scene.bounds_radius_mm = 1;
 }
 
-void place_in_studio(Scene& scene) {
-    compute_bounds(scene);
+void light_in_studio(Scene& scene) {
     scene.lights = {
         {.name = "key",
          .color_linear = {1, 0.93f, 0.84f},
@@ -42,6 +35,11 @@ void place_in_studio(Scene& scene) {
          .to_light_world = direction_from_yaw_pitch(-50 * kRadiansPerDegree, 35 * kRadiansPerDegree),
          .is_key = true}};
     scene.environment = {.kind = EnvironmentKind::studio, .intensity = 0.75f};
+}
+
+void place_in_studio(Scene& scene) {
+    compute_bounds(scene);
+    light_in_studio(scene);
     scene.exposure_ev = 0.6f;
     scene.camera = framing_camera(scene.bounds_center_mm, scene.bounds_radius_mm);
 }

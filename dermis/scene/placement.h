@@ -12,6 +12,9 @@ void apply_skin(const Skin& skin, Material& material);
 /// Fills the bounds.
 void place_in_studio(Scene& scene);
 
+/// Its lights and environment alone.
+void light_in_studio(Scene& scene);
+
 /// The smallest sphere around the box of all positions, into the scene's bounds.
 void compute_bounds(Scene& scene);
 

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/base/parallel.h"
 #include "dermis/image/half.h"
 #include "dermis/scene/hammersley.h"
 
 namespace dermis {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Rough levels have few texels and wide lobes: more samples there cost little and keep each one's footprint
 // small.

@@ -56,16 +56,6 @@ struct YawPitch {
 [[nodiscard]] Vec3 direction_from_yaw_pitch(float yaw_rad, float pitch_rad);
 [[nodiscard]] YawPitch yaw_pitch_of(Vec3 direction);
 
-/// "yaw=30 pitch=5 distance_mm=600 fov_deg=30 target_mm=0,0,0" (yaw and pitch in degrees); yaw 0 looks at +Z
-/// faces from the front, positive yaw moves the eye towards +X. Keys not given keep what `camera` has.
-[[nodiscard]] Result<Camera> parse_camera(std::string_view text, const Camera& camera);
-/// "yaw=-60 pitch=20 intensity=3 color=1,.9,.8" for the key light; same meaning of yaw and pitch. Point and
-/// spot lights also have distance_mm and stay aimed at the target.
-[[nodiscard]] Result<Light> parse_light(std::string_view text, const Light& light, Vec3 target_mm = {});
-/// The inverses: what to pass to `render` to get this view again (numbers rounded to 1e-4).
-[[nodiscard]] std::string camera_text(const Camera& camera);
-[[nodiscard]] std::string light_text(const Light& light, Vec3 target_mm = {});
-
 enum class EnvironmentKind { none, studio, file };
 
 struct Environment {
@@ -116,11 +106,13 @@ struct Scene {
     [[nodiscard]] const Light& key_light() const;
 };
 
-/// "exposure_ev=0.5 tint=1,.9,.8 surroundings=2 turned=30 in_the_picture=1 tone_map=aces profile=NAME": all
-/// that changes the picture and is neither camera, key light, objects nor maps. Keys not given keep what the
-/// scene has; after an error nothing has changed. The profile is not looked up.
-[[nodiscard]] Result<void> parse_look(std::string_view text, Scene& scene);
-/// The inverse: what differs from the scene `than`, numbers rounded to 1e-4; empty where nothing does.
-[[nodiscard]] std::string look_text(const Scene& scene, const Scene& than);
+/// The scene without its objects, which are large: what can be changed of it after loading.
+[[nodiscard]] Scene without_objects(const Scene& scene);
+
+/// A key of the scene file and its value: {"light.key.intensity", "2"}; see scene_words.h.
+struct SceneWord {
+    std::string key, value;
+    friend bool operator==(const SceneWord&, const SceneWord&) = default;
+};
 
 }  // namespace dermis

@@ -6,6 +6,7 @@ namespace dermis {
 namespace {
 
 Error error_at(const SceneDescription& scene, int line, std::string message) {
+    if (scene.file.empty()) return Error{std::move(message)};
     return Error{scene.file.string() + ":" + std::to_string(std::max(line, 1)) + ": " + std::move(message)};
 }
 
@@ -90,6 +91,10 @@ Result<void> check_scene(SceneDescription& scene) {
                             "mesh.file is missing; give file = \"HEAD.obj\" or \"builtin:spheres\"");
     for (const MeshDescription& mesh : scene.meshes)
         if (const Result<void> checked = check_mesh(scene, mesh); !checked) return checked;
+    return check_views(scene);
+}
+
+Result<void> check_views(SceneDescription& scene) {
     for (const LightDescription& light : scene.lights)
         if (const Result<void> checked = check_light(scene, light); !checked) return checked;
     Result<void> checked = check_key_light(scene);

@@ -8,4 +8,7 @@ namespace dermis {
 /// Also makes a single light the key light.
 [[nodiscard]] Result<void> check_scene(SceneDescription& scene);
 
+/// The lights, the environment and the camera alone.
+[[nodiscard]] Result<void> check_views(SceneDescription& scene);
+
 }  // namespace dermis

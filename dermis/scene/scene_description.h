@@ -15,9 +15,9 @@ namespace dermis {
 /// A path as the file has it, and where it stands; `key` is its full name ("maps.albedo").
 struct NamedFile {
     std::string text, key;
-    int line = 0;
+    int line = 0;  ///< 0: not from a file
 
-    [[nodiscard]] bool given() const { return line > 0; }
+    [[nodiscard]] bool given() const { return !text.empty(); }
 };
 
 struct MapsDescription {

@@ -16,21 +16,11 @@ namespace {
 template <class Target>
 Result<void> read_section(const TomlNode& section, const std::string& path, const KeyTable<Target>& table,
                           Target& target, const TomlPlace& place, const std::set<std::string>& nested = {}) {
-    std::vector<std::string> names(nested.begin(), nested.end());
-    for (const Key<Target>& key : table.keys()) names.push_back(key.info.name);
     for (const TomlEntry& entry : section.entries) {
         if (nested.contains(entry.key)) continue;
-        const auto key = std::ranges::find_if(table.keys(),
-                                              [&](const Key<Target>& k) { return k.info.name == entry.key; });
-        const TomlPlace here = place.at(entry.line);
-        if (key == table.keys().end())
-            return here.error(
-                unknown_name(path.empty() ? "key" : "key in [" + path + "]:", entry.key, names));
-        KeyValue value{.full_name = path.empty() ? entry.key : path + "." + entry.key, .line = entry.line};
-        if (!read_toml_value(entry.value, key->info, value))
-            return here.error(value.full_name + " = " + toml_text(entry.value) + ": " + entry.key + " " +
-                              wanted_text(key->info));
-        key->set(target, value);
+        const auto value = [&](const KeyInfo&) -> const TomlNode& { return entry.value; };
+        const Result<void> set = set_key(table, target, path, entry.key, place.at(entry.line), value, nested);
+        if (!set) return set;
     }
     return {};
 }
@@ -51,46 +41,17 @@ Result<void> read_table(const TomlNode& root, const std::string& name, const Key
     return read_section(*table, path, keys, target, place);
 }
 
-Result<void> read_parameter(const TomlEntry& entry, const Parameter& parameter, MeshDescription& mesh,
-                            const TomlPlace& here) {
-    const KeyInfo info = key_info(parameter);
-    if (KeyValue value; !read_toml_value(entry.value, info, value))
-        return here.error("mesh." + entry.key + " = " + toml_text(entry.value) + ": " + entry.key + " " +
-                          wanted_text(info));
-    mesh.parameters[entry.key] = *setting_text(entry.value);
-    return {};
-}
-
-// A [[mesh]] that names a subject has its parameters beside its own keys.
-Result<void> read_mesh_section(const TomlNode& section, std::span<const Subject> subjects,
-                               MeshDescription& mesh, const TomlPlace& place) {
-    const TomlNode* file = section.find("file");
-    const std::string mesh_text = file ? file->text : "this mesh";
-    const auto name = subject_name(mesh_text);
-    const auto is_named = [&](const Subject& subject) { return subject.name == name; };
-    const auto named = std::ranges::find_if(subjects, is_named);
-    std::set<std::string> parameters;
-    if (named != subjects.end())
-        for (const Parameter& parameter : named->parameters.parameters) parameters.insert(parameter.name);
-    const auto is_mesh_key = [](const TomlEntry& entry) {
-        return std::ranges::any_of(mesh_keys().keys(),
-                                   [&](const auto& key) { return key.info.name == entry.key; });
-    };
-    for (const TomlEntry& entry : section.entries) {
-        if (is_mesh_key(entry)) continue;
-        const TomlPlace here = place.at(entry.line);
-        if (parameters.contains(entry.key)) {
-            const Result<void> read = read_parameter(entry, *named->parameters.find(entry.key), mesh, here);
-            if (!read) return read;
-            continue;
+// Its own keys first: `file` says whose parameters the others are.
+Result<void> read_mesh(const TomlNode& section, std::span<const Subject> subjects, MeshDescription& mesh,
+                       const TomlPlace& place) {
+    for (const bool own : {true, false})
+        for (const TomlEntry& entry : section.entries) {
+            if ((mesh_keys().find(entry.key) != nullptr) != own) continue;
+            const auto value = [&](const KeyInfo&) -> const TomlNode& { return entry.value; };
+            const Result<void> set = set_mesh_key(mesh, entry.key, subjects, place.at(entry.line), value);
+            if (!set) return set;
         }
-        const auto other = std::ranges::find_if(
-            subjects, [&](const Subject& subject) { return subject.parameters.find(entry.key); });
-        if (other != subjects.end())
-            return here.error("mesh." + entry.key + ": only builtin:" + other->name + " has it, not " +
-                              mesh_text + "; leave it out");
-    }
-    return read_section(section, "mesh", mesh_keys(), mesh, place, parameters);
+    return {};
 }
 
 // [name] once or [[name]] any number of times.
@@ -149,7 +110,7 @@ Result<void> read_root(const TomlNode& root, SceneDescription& scene, std::span<
     if (read)
         read =
             read_tables(root, "mesh", scene.meshes, place, [&](const TomlNode& table, MeshDescription& mesh) {
-                return read_mesh_section(table, subjects, mesh, place);
+                return read_mesh(table, subjects, mesh, place);
             });
     if (read) read = read_table(root, "maps", maps_keys(), scene.maps, place);
     if (read) read = read_materials(root, scene, place);

@@ -40,6 +40,18 @@ std::vector<fs::path> files_of(const Scene& scene) {
     return files;
 }
 
+Error error_at(const SceneDescription& description, const NamedFile& file, const std::string& message) {
+    const std::string place =
+        file.line > 0 ? description.file.string() + ":" + std::to_string(file.line) + ": " : "";
+    return Error{place + file.key + ": " + message};
+}
+
+Result<fs::path> resolve_file(const SceneDescription& description, const NamedFile& file) {
+    Result<fs::path> path = resolve_path(file.text, file.line > 0 ? description.file : fs::path());
+    if (!path) return error_at(description, file, path.error().message);
+    return path;
+}
+
 std::vector<const NamedFile*> named_files(const SceneDescription& description) {
     std::vector<const NamedFile*> files;
     for (const MeshDescription& mesh : description.meshes) files.push_back(&mesh.file);

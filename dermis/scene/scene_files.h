@@ -12,6 +12,12 @@ namespace dermis {
 /// panorama, the diffuse table. Sorted, each once. Baked and cached files are not among them.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const Scene& scene);
 
+/// Where a file that the description names is. Errors name the line and the key, as error_at() does.
+[[nodiscard]] Result<std::filesystem::path> resolve_file(const SceneDescription& description,
+                                                         const NamedFile& file);
+[[nodiscard]] Error error_at(const SceneDescription& description, const NamedFile& file,
+                             const std::string& message);
+
 /// The paths a description states, in its order: whatever may stand in quotes in the file.
 [[nodiscard]] std::vector<const NamedFile*> named_files(const SceneDescription& description);
 

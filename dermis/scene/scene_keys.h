@@ -22,6 +22,8 @@ struct KeyInfo {
     double min = 0, max = 1;
     std::vector<std::string> choices;
     std::string default_text;
+    bool changeable =
+        false;  ///< of the root and [skin]: also on a loaded scene, as all of light, environment, camera
 };
 
 /// A value that passed its row's checks. A choice is its index.
@@ -29,13 +31,15 @@ struct KeyValue {
     double numbers[3] = {};
     int integer = 0;
     std::string text, full_name;  ///< full_name: "maps.albedo"
-    int line = 0;
+    int line = 0;                 ///< 0: not from a file
 };
 
 template <class Target>
 struct Key {
     KeyInfo info;
     std::function<void(Target&, const KeyValue&)> set;
+    /// False where the target has no value for it; empty where the row cannot be read back.
+    std::function<bool(const Target&, KeyValue&)> get;
 };
 
 /// Text of numbers, toggles and choices for `default_text`.
@@ -104,16 +108,22 @@ class KeyTable {
             [member](Target& t, const KeyValue& v) {
                 t.*member = {.text = v.text, .key = v.full_name, .line = v.line};
             },
-            [](const Target&, KeyValue&) { return false; });
+            [member](const Target& t, KeyValue& v) { return !(v.text = (t.*member).text).empty(); });
     }
 
     /// A row whose value goes somewhere else than into a member of Target.
     KeyTable& row(KeyInfo info, std::function<void(Target&, const KeyValue&)> set) {
-        keys_.push_back({std::move(info), std::move(set)});
+        keys_.push_back({std::move(info), std::move(set), {}});
         return *this;
     }
 
     [[nodiscard]] std::span<const Key<Target>> keys() const { return keys_; }
+    /// Null where the table has no such key.
+    [[nodiscard]] const Key<Target>* find(std::string_view name) const {
+        for (const Key<Target>& key : keys_)
+            if (key.info.name == name) return &key;
+        return nullptr;
+    }
 
   private:
     template <class Member, class Stored>
@@ -129,11 +139,11 @@ class KeyTable {
         value.numbers[0] = member.x, value.numbers[1] = member.y, value.numbers[2] = member.z;
         return true;
     }
-    template <class Read>
-    KeyTable& add(KeyInfo info, std::function<void(Target&, const KeyValue&)> set, const Read& read_default) {
+    KeyTable& add(KeyInfo info, std::function<void(Target&, const KeyValue&)> set,
+                  std::function<bool(const Target&, KeyValue&)> get) {
         KeyValue value;
-        if (read_default(Target{}, value)) info.default_text = key_text(info, value);
-        keys_.push_back({std::move(info), std::move(set)});
+        if (get(Target{}, value)) info.default_text = key_text(info, value);
+        keys_.push_back({std::move(info), std::move(set), std::move(get)});
         return *this;
     }
 

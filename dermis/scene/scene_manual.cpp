@@ -76,6 +76,14 @@ yaw_deg = 20
 distance_mm = 700
 ```
 
+On the command line (`render`, `compare`, `reference`, `view`, `figures`) the same keys change a scene: `--scene
+environment.yaw_deg=30 --scene skin.profile=jensen_skin1 --scene exposure_ev=0.5`. Strings need no quotes, three numbers
+are `1,.9,.8`, and paths are relative to the current directory. A `[[light]]` or `[[mesh]]` is chosen by its name or its
+number, the key light as `key`: `--scene light.key.intensity=2`, `--scene light.2.color=1,.9,.8`; a single one needs no
+name: `--scene mesh.tone=5`. `--camera "yaw_deg=30 fov_deg=20"` is short for `--scene camera.yaw_deg=30 --scene
+camera.fov_deg=20`, and `--light "..."` the same for `light.key`. A camera or a light keeps what is not named. Meshes,
+maps, materials and settings can be changed of scene files only, not of a bare mesh or a `builtin:NAME`.
+
 This page is what `dermis keys` prints; a test compares the two.
 )";
 

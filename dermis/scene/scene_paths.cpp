@@ -55,7 +55,8 @@ Result<fs::path> resolve_path(std::string_view text, const fs::path& scene_file)
     std::error_code ec;
     if (fs::is_directory(path, ec)) return Error{"'" + path.string() + "' is a directory, not a file"};
     if (!fs::exists(path, ec))
-        return Error{"'" + path.string() + "' does not exist; paths are relative to the scene file"};
+        return Error{"'" + path.string() + "' does not exist; paths are relative to the " +
+                     (scene_file.empty() ? "current directory" : "scene file")};
     return path;
 }
 

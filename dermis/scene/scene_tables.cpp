@@ -63,16 +63,21 @@ const KeyTable<HeadDescription>& head_keys() {
                 {.name = "without_assets",
                  .doc = "scene beside this one that is drawn, with a warning, where an `assets:` mesh or map "
                         "of this one is missing"})
-            .color(&D::background_linear,
-                   {.name = "background", .unit = "linear", .doc = "radiance behind everything", .max = 1e3})
+            .color(&D::background_linear, {.name = "background",
+                                           .unit = "linear",
+                                           .doc = "radiance behind everything",
+                                           .max = 1e3,
+                                           .changeable = true})
             .choice<ToneMap>(&D::tone_map, {.name = "tone_map",
                                             .doc = "from radiance to the display",
-                                            .choices = {"none", "hable", "aces", "pbr_neutral"}})
+                                            .choices = {tone_map_names().begin(), tone_map_names().end()},
+                                            .changeable = true})
             .number(&D::exposure_ev, {.name = "exposure_ev",
                                       .unit = "stops",
                                       .doc = "scales radiance by 2^x",
                                       .min = -20,
-                                      .max = 20})
+                                      .max = 20,
+                                      .changeable = true})
             .text(&D::technique,
                   {.name = "technique",
                    .doc = "id of the technique to draw the skin with; see `dermis techniques`"});
@@ -195,8 +200,9 @@ const KeyTable<MaterialDescription>& material_keys() {
 const KeyTable<Skin>& skin_keys() {
     static const KeyTable<Skin> table =
         KeyTable<Skin>()
-            .text(&Skin::profile,
-                  {.name = "profile", .doc = "name of the diffusion profile; see `dermis profile list`"})
+            .text(&Skin::profile, {.name = "profile",
+                                   .doc = "name of the diffusion profile; see `dermis profile list`",
+                                   .changeable = true})
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})
@@ -207,7 +213,8 @@ const KeyTable<Skin>& skin_keys() {
             .color(&Skin::albedo_tint_linear, {.name = "albedo_tint",
                                                .unit = "linear",
                                                .doc = "multiplies the colour of every skin material",
-                                               .max = 4});
+                                               .max = 4,
+                                               .changeable = true});
     return table;
 }
 

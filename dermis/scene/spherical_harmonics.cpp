@@ -1,7 +1,6 @@
 #include "dermis/scene/spherical_harmonics.h"
 
-#include <numbers>
-
+#include "dermis/base/angle.h"
 #include "dermis/scene/panorama.h"
 
 namespace dermis {
@@ -38,7 +37,6 @@ RadianceSh project_radiance(const Image& panorama) {
 }
 
 Vec3 sh_irradiance(const RadianceSh& sh, Vec3 n) {
-    constexpr float kPi = std::numbers::pi_v<float>;
     constexpr float kBandWeight[9] = {kPi,     2 * kPi / 3, 2 * kPi / 3, 2 * kPi / 3, kPi / 4,
                                       kPi / 4, kPi / 4,     kPi / 4,     kPi / 4};
     const std::array<float, 9> basis = sh_basis(n);

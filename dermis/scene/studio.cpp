@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/base/parallel.h"
 #include "dermis/scene/panorama.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
 namespace {
-
-constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180;
 
 // A rectangle that faces the scene; angles as of lights and cameras.
 struct SoftBox {

@@ -35,10 +35,7 @@ void apply_statements(const SubjectScene& made, Scene& scene) {
         scene.camera = *made.camera;
         fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
     }
-    if (!made.lights.empty()) {
-        scene.lights = made.lights;
-        scene.exposure_ev = 0;
-    }
+    if (!made.lights.empty()) scene.lights = made.lights;
     if (made.environment) scene.environment = *made.environment;
 }
 

@@ -152,7 +152,8 @@ const TomlNode* TomlNode::find(std::string_view key) const {
 Error TomlPlace::error(std::string message) const {
     std::ranges::replace_if(
         message, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
-    return Error{file + ":" + std::to_string(line) + ": " + std::move(message)};
+    return Error{file.empty() ? std::move(message)
+                              : file + ":" + std::to_string(line) + ": " + std::move(message)};
 }
 
 Result<TomlNode> parse_toml(std::string_view text, const std::string& file) {

@@ -39,7 +39,7 @@ struct TomlPlace {
     std::string file;
     int line = 1;
 
-    /// "FILE:LINE: message", in one line whatever the message quotes.
+    /// "FILE:LINE: message", without a file only the message; in one line whatever the message quotes.
     [[nodiscard]] Error error(std::string message) const;
     [[nodiscard]] TomlPlace at(int other_line) const { return {file, other_line}; }
 };

@@ -2,8 +2,10 @@
 // TOML values as keys want them, and as errors repeat them.
 
 #include <optional>
+#include <set>
 #include <string>
 
+#include "dermis/base/text.h"
 #include "dermis/scene/scene_keys.h"
 #include "dermis/scene/toml_document.h"
 
@@ -11,6 +13,9 @@ namespace dermis {
 
 /// "a table", "an integer", ...
 [[nodiscard]] std::string toml_kind(const TomlNode& node);
+
+/// In double quotes, as TOML writes a string without line breaks.
+[[nodiscard]] std::string toml_string(std::string_view text);
 
 /// The value as the file has it when it is short, else its kind.
 [[nodiscard]] std::string toml_text(const TomlNode& node);
@@ -24,5 +29,34 @@ namespace dermis {
 /// Settings belong to a technique, which knows their ranges; here they only become text. Nothing when the
 /// value is of a kind that no setting has.
 [[nodiscard]] std::optional<std::string> setting_text(const TomlNode& node);
+
+/// Sets the key `name` of the section `path` ("" is the root) to the value that `node_of(const KeyInfo&)`
+/// gives for it. Errors: no such key (with the one that may be meant, out of the table and `nested`), a wrong
+/// type, out of range.
+template <class Target, class NodeOf>
+[[nodiscard]] Result<void> set_key(const KeyTable<Target>& table, Target& target, const std::string& path,
+                                   const std::string& name, const TomlPlace& place, const NodeOf& node_of,
+                                   const std::set<std::string>& nested = {}) {
+    const Key<Target>* key = table.find(name);
+    if (!key) {
+        std::vector<std::string> names(nested.begin(), nested.end());
+        for (const Key<Target>& known : table.keys()) names.push_back(known.info.name);
+        return place.error(unknown_name(path.empty() ? "key" : "key in [" + path + "]:", name, names));
+    }
+    const TomlNode& node = node_of(key->info);
+    KeyValue value{.full_name = path.empty() ? name : path + "." + name,
+                   .line = place.file.empty() ? 0 : place.line};
+    if (!read_toml_value(node, key->info, value))
+        return place.error(value.full_name + " = " + toml_text(node) + ": " + name + " " +
+                           wanted_text(key->info));
+    key->set(target, value);
+    return {};
+}
+
+/// The same of a [[mesh]], whose file is set: also a parameter of the subject that it names. Errors:
+/// likewise, and that only another subject has it.
+[[nodiscard]] Result<void> set_mesh_key(MeshDescription& mesh, const std::string& name,
+                                        std::span<const Subject> subjects, const TomlPlace& place,
+                                        const std::function<const TomlNode&(const KeyInfo&)>& node_of);
 
 }  // namespace dermis

@@ -1,5 +1,7 @@
 #include "dermis/technique/atlas_cull.h"
 
+#include "shaders/atlas/constants.h"
+
 namespace dermis {
 namespace {
 
@@ -48,26 +50,23 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings) {
                            .kind = PassKind::fullscreen,
                            .shader = "atlas/cull_tiles.frag",
                            .reads = {"atlas_visible"},
-                           .colors = {{.image = "atlas_tiles", .load = LoadOp::discard}},
-                           .constants = {{"tile", kCullTile}}});
+                           .colors = {{.image = "atlas_tiles", .load = LoadOp::discard}}});
     const int grow = in_tiles(settings.reach_texels);
     add_growth(list, "atlas_tiles", "atlas_tiles_grown", grow, "");
-    // What is needed beyond a seam: the gutters there stand for needed places, and light goes as far again.
+    // What is needed beyond a seam: the gutters that hold it, and light goes as far again.
     if (settings.across_seams) {
         list.passes.push_back({.name = "cull seams",
                                .kind = PassKind::fullscreen,
                                .shader = "atlas/cull_tiles_seams.frag",
                                .reads = {{"tiles", "atlas_tiles"}, "seam_map"},
-                               .colors = {{.image = "atlas_tiles_grown", .load = LoadOp::discard}},
-                               .constants = {{"tile", kCullTile}}});
+                               .colors = {{.image = "atlas_tiles_grown", .load = LoadOp::discard}}});
         add_growth(list, "atlas_tiles_grown", "atlas_tiles", grow, " beyond seams");
     }
     list.passes.push_back({.name = "cull depth",
                            .kind = PassKind::fullscreen,
                            .shader = "atlas/cull_depth.frag",
                            .reads = {{"tiles", settings.across_seams ? "atlas_tiles_grown" : "atlas_tiles"}},
-                           .depth = DepthTarget{.image = "atlas_depth", .compare = Compare::always},
-                           .constants = {{"tile", kCullTile}}});
+                           .depth = DepthTarget{.image = "atlas_depth", .compare = Compare::always}});
 }
 
 void keep_unculled(Pass& pass, const AtlasCullSettings& settings) {

@@ -12,9 +12,6 @@
 
 namespace dermis {
 
-/// Texels a side of the tiles that are kept or dropped whole.
-inline constexpr int kCullTile = 8;
-
 /// Texels within `radius` of (u, v) are never culled; radius 0: none.
 struct UvCircle {
     float u = 0, v = 0, radius = 0;

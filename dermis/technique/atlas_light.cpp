@@ -34,6 +34,38 @@ Pass carry_pass(const AtlasLightSettings& settings) {
 
 }  // namespace
 
+const ParameterTable& atlas_parameters() {
+    using P = AtlasParams;
+    static const ParameterTable kTable =
+        ParameterTableBuilder<P>()
+            .integer(&P::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
+            .toggle(&P::translucent_shadows, "translucent_shadows", "translucent objects tint the key light")
+            .number(&P::occluded, "occluded", "", 0, 1, "share of the light that full shadow leaves")
+            .number(&P::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
+                    "exponent of a translucent shadow; larger is darker")
+            .toggle(&P::cull_frustum, "cull_frustum", "leave out texels outside the view")
+            .toggle(&P::cull_back_face, "cull_back_face", "leave out texels that face away")
+            .number(&P::cull_bias, "cull_bias", "", 0, 2, "added to the cosine between view and normal")
+            .build();
+    return kTable;
+}
+
+AtlasParams coarse_light_map(AtlasParams params, float scale) {
+    constexpr int32_t kSmallest = 256;
+    params.light_map_size =
+        std::max(int32_t(float(params.light_map_size) * scale), std::min(params.light_map_size, kSmallest));
+    return params;
+}
+
+AtlasLightSettings atlas_light_settings(const AtlasParams& params) {
+    return {.shadow = {.translucent = params.translucent_shadows},
+            .cull = {.frustum = params.cull_frustum,
+                     .back_face = params.cull_back_face,
+                     .bias = params.cull_bias,
+                     .size = params.light_map_size},
+            .size = params.light_map_size};
+}
+
 float longest_step_texels(float length_mm, int size, const FrameContext& frame) {
     return std::clamp(length_mm * frame.densest_uv_per_mm * float(size), 0.01f, float(size) / 4);
 }
@@ -50,7 +82,7 @@ void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const F
                   .shader = "atlas/light.frag",
                   .colors = {{.image = settings.in_mm ? "light_map_b" : "light_map_a",
                               .clear = nothing_written(settings.in_mm)}},
-                  .constants = {{"space", int32_t(settings.in_mm)}},
+                  .constants = {{"space", settings.in_mm ? kSpaceMm : kSpaceTexels}},
                   .values = {{"pre_scatter", settings.pre_scatter}}};
     read_shadow_channels(light, settings.shadow, frame);
     keep_unculled(light, settings.cull);

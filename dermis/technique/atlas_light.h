@@ -7,6 +7,21 @@
 
 namespace dermis {
 
+/// The parameters of every technique that lights the skin in its atlas: a part of the technique's own, with
+/// the rows of atlas_parameters(). Shaders have them in the block AtlasParams (shaders/atlas/light.glsl).
+struct AtlasParams {
+    int32_t light_map_size = 1024;
+    bool translucent_shadows = true;
+    float occluded = 0;
+    float trans_shadow_alpha = 1;
+    bool cull_frustum = true, cull_back_face = true;
+    float cull_bias = 0.3f;
+};
+[[nodiscard]] const ParameterTable& atlas_parameters();
+
+/// `params` with a smaller light map, for Technique::coarse: `scale` times as large, but not under 256.
+[[nodiscard]] AtlasParams coarse_light_map(AtlasParams params, float scale);
+
 struct AtlasLightSettings {
     ShadowChannelSettings shadow;
     AtlasCullSettings cull;
@@ -18,6 +33,9 @@ struct AtlasLightSettings {
     /// In mm: the metric's steps are kernel size * scale + bias long, and at most longest_texels.
     float kernel_scale_mm = 1, kernel_bias_mm = 0, longest_texels = 16;
 };
+
+/// What follows from the parameters alone.
+[[nodiscard]] AtlasLightSettings atlas_light_settings(const AtlasParams& params);
 
 /// In texels of the light map, the farthest that `length_mm` reaches on nearly all of the skin (99 % of its
 /// area); longer steps are cut to it, so that culls know how far light is carried.

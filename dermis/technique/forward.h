@@ -4,18 +4,23 @@
 #include <string>
 
 #include "dermis/technique/technique.h"
+#include "shaders/include/constants.h"
 
 namespace dermis {
 
-/// The order is that of shaders/include/specular.glsl.
-enum class SpecularModel : int32_t { none, blinn_phong, ggx, two_lobe_ggx, ksk };
+enum class SpecularModel : int32_t {
+    none = kSpecularNone,
+    blinn_phong = kSpecularBlinnPhong,
+    ggx = kSpecularGgx,
+    two_lobe_ggx = kSpecularTwoLobe,
+    ksk = kSpecularKsk
+};
 
 [[nodiscard]] const std::vector<std::string>& specular_model_names();
 
-/// 0 final, 1 diffuse, 2 specular: the `view` constant of forward.glsl; other views shade as final.
-[[nodiscard]] int32_t forward_view(std::string_view view);
-
-/// The skin drawn through the camera into radiance and depth.
-[[nodiscard]] Pass forward_skin_pass(std::string shader, SpecularModel specular, const FrameContext& frame);
+/// The skin drawn through the camera into radiance and depth. `own_view` is the technique's own debug view,
+/// if it has one (shaders/include/view.glsl); views of the G-buffer shade as final.
+[[nodiscard]] Pass forward_skin_pass(std::string shader, SpecularModel specular, const FrameContext& frame,
+                                     std::string_view own_view = {});
 
 }  // namespace dermis

@@ -3,17 +3,18 @@
 // translucent sheets added into RGB with the depth test on, depth writes off and alpha untouched.
 
 #include "dermis/technique/technique.h"
+#include "shaders/atlas/constants.h"
 
 namespace dermis {
 
-/// The order is that of shaders/atlas/shadow_channels.glsl.
 enum class ShadowChannels : int32_t {
-    none,
-    color,      ///< RGB the key light's optical depth, A its depth
-    two_lights  ///< R and A the key light's, G and B the second light's opacity and depth
+    none = kChannelsNone,
+    color = kChannelsColor,  ///< RGB the key light's optical depth, A its depth
+    two_lights =
+        kChannelsTwoLights  ///< R and A the key light's, G and B the second light's opacity and depth
 };
 /// disk: filtered over the penumbra's width; single: the source's one texel with a constant bias.
-enum class ShadowLookup : int32_t { disk, single };
+enum class ShadowLookup : int32_t { disk = kLookupDisk, single = kLookupSingle };
 
 struct ShadowChannelSettings {
     bool translucent = true;  ///< draw the translucent sheets, if the scene has any

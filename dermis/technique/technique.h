@@ -21,15 +21,11 @@ namespace dermis {
 
 /// What build() may know of the frame.
 struct FrameContext {
-    int width = 1024, height = 1024;
-    int samples = 1;                ///< of radiance and depth
-    std::string view = "final";     ///< a debug view: final, diffuse, specular, or one of the technique's own
-    std::vector<std::string> maps;  ///< frame inputs and material maps that exist
+    std::string view = "final";  ///< a debug view: final, diffuse, specular, or one of the technique's own
     float camera_distance_mm = 600;
     /// Where the camera stood in the frame before, if that had the same technique, settings and lights, so
     /// that persistent images hold what this frame would draw again; else 0.
     float previous_camera_distance_mm = 0;
-    int frame_index = 0;
     int shadow_map_size = 2048;    ///< of the frame's "shadow_map", which a pass may test against
     bool has_translucent = false;  ///< the scene has sheets that tint the key light
     bool has_second_light = false;

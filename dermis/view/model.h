@@ -51,6 +51,8 @@ class Notices {
 
 struct Model {
     std::string scene_path;  ///< as opened: a file, a name, builtin:NAME
+    std::vector<SceneWord>
+        loading_words;       ///< with which scene_path was loaded: --scene keys of is_loading_key()
     Scene* scene = nullptr;  ///< lives in the stage; null until the first one is loaded
     Catalog catalog;         ///< what may be chosen
     std::array<TechniqueChoice, 2> choices;
@@ -73,9 +75,6 @@ struct Model {
 
 /// Everything a picture depends on, as text: two equal keys are one picture. `choice` is 0 or 1.
 [[nodiscard]] std::string picture_key(Model& model, size_t choice);
-
-/// What the ground truth depends on of all that: camera, lights, surroundings, skin.
-[[nodiscard]] std::string truth_key(const Scene& scene);
 
 /// The next (or, with -1, the last) of a list of names, round and round.
 [[nodiscard]] std::string neighbour(const std::vector<std::string>& names, const std::string& name, int step);

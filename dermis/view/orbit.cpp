@@ -1,12 +1,12 @@
 #include "dermis/view/orbit.h"
 
 #include <algorithm>
-#include <numbers>
+
+#include "dermis/base/angle.h"
 
 namespace dermis::view {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kMaxPitchRad = 0.495f * kPi;
 
 YawPitch turned(YawPitch angles, Vec2 drag_px, float height_px) {

@@ -126,15 +126,6 @@ class Editor {
 
 }  // namespace
 
-std::string toml_string(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') result += '\\';
-        result += c;
-    }
-    return result + "\"";
-}
-
 std::string edit_toml(std::string_view text, const std::vector<TomlEdit>& edits) {
     Editor editor(text);
     for (const TomlEdit& edit : edits) editor.apply(edit);

@@ -16,16 +16,9 @@ struct TomlEdit {
     int index = 0;
 };
 
-/// In double quotes, as TOML writes a string without line breaks.
-[[nodiscard]] std::string toml_string(std::string_view text);
-
 /// Line by line; a missing section is added at the end. Values over several lines are replaced whole. Not for
 /// inline tables and dotted keys: the caller parses the result and sees.
 [[nodiscard]] std::string edit_toml(std::string_view text, const std::vector<TomlEdit>& edits);
-
-/// What a person may have changed, as edits: technique, settings, exposure, key light, surroundings, camera,
-/// skin.
-[[nodiscard]] std::vector<TomlEdit> model_edits(Model& model);
 
 /// The scene as a file of `directory`: the model's scene file with the edits, or a new one around a mesh or a
 /// built-in. Paths that were relative to the old place become absolute. Errors: the scene's file cannot be

@@ -1,27 +1,16 @@
 #include "dermis/view/scene_look.h"
 
-#include "dermis/base/text.h"
+#include "dermis/scene/scene_words.h"
 
 namespace dermis::view {
 namespace {
 
-// As text, rounded: what is equal there is the same to a person.
-std::string key_of(const std::vector<Light>& lights) {
-    std::string key;
-    for (const Light& light : lights)
-        key +=
-            light.name + std::to_string(int(light.kind)) + light_text(light) + (light.is_key ? " key;" : ";");
-    return key;
-}
-
-std::string key_of(const Environment& environment) {
-    return std::to_string(int(environment.kind)) + environment.file.string() + ' ' +
-           to_text(environment.intensity) + ' ' + to_text(environment.yaw_rad) +
-           (environment.visible ? " visible" : "");
-}
-
-bool same_skin(const Skin& a, const Skin& b) {
-    return a.profile == b.profile && a.albedo_tint_linear == b.albedo_tint_linear;
+// Rounded as words are: what is equal there is the same to a person.
+std::vector<SceneWord> words_in(const std::vector<SceneWord>& words, std::string_view section) {
+    std::vector<SceneWord> some;
+    for (const SceneWord& word : words)
+        if (word.key.starts_with(section)) some.push_back(word);
+    return some;
 }
 
 void put_skin(const Skin& seen, Skin& fresh) {
@@ -31,33 +20,28 @@ void put_skin(const Skin& seen, Skin& fresh) {
 
 }  // namespace
 
-SceneLook look_of(const Scene& scene) {
-    return {.camera = scene.camera,
-            .lights = scene.lights,
-            .environment = scene.environment,
-            .skin = scene.skin,
-            .tone_map = scene.tone_map,
-            .exposure_ev = scene.exposure_ev,
-            .technique = scene.technique,
-            .settings = scene.settings};
+void keep_look(const Scene& file_before, const Scene& seen, Scene& fresh) {
+    const std::vector<SceneWord> before = words_of(file_before), now = words_of(fresh);
+    const auto same = [&](std::string_view section) {
+        return words_in(before, section) == words_in(now, section);
+    };
+    if (same("camera.")) fresh.camera = seen.camera;
+    if (same("light.")) fresh.lights = seen.lights;
+    if (same("environment.")) fresh.environment = seen.environment;
+    if (same("skin.")) put_skin(seen.skin, fresh.skin);
+    if (same("tone_map")) fresh.tone_map = seen.tone_map;
+    if (same("exposure_ev")) fresh.exposure_ev = seen.exposure_ev;
+    if (same("background")) fresh.background_linear = seen.background_linear;
 }
 
-void keep_look(const SceneLook& file_before, const SceneLook& seen, Scene& fresh) {
-    if (camera_text(fresh.camera) == camera_text(file_before.camera)) fresh.camera = seen.camera;
-    if (key_of(fresh.lights) == key_of(file_before.lights)) fresh.lights = seen.lights;
-    if (key_of(fresh.environment) == key_of(file_before.environment)) fresh.environment = seen.environment;
-    if (same_skin(fresh.skin, file_before.skin)) put_skin(seen.skin, fresh.skin);
-    if (fresh.tone_map == file_before.tone_map) fresh.tone_map = seen.tone_map;
-    if (fresh.exposure_ev == file_before.exposure_ev) fresh.exposure_ev = seen.exposure_ev;
-}
-
-void put_look(const SceneLook& seen, Scene& fresh) {
+void put_look(const Scene& seen, Scene& fresh) {
     fresh.camera = seen.camera;
     fresh.lights = seen.lights;
     fresh.environment = seen.environment;
     put_skin(seen.skin, fresh.skin);
     fresh.tone_map = seen.tone_map;
     fresh.exposure_ev = seen.exposure_ev;
+    fresh.background_linear = seen.background_linear;
 }
 
 }  // namespace dermis::view

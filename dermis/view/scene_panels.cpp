@@ -6,17 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/optics/presets.h"
 #include "dermis/view/panel_parts.h"
 #include "dermis/view/widgets.h"
 
 namespace dermis::view {
-namespace {
-
-constexpr float kDegreesPerRadian = 180 / std::numbers::pi_v<float>;
-
-}  // namespace
-
 void show_light(Scene& scene, WidgetMap& widgets) {
     const auto key = std::ranges::find(scene.lights, true, &Light::is_key);
     Rows rows(widgets, "light.");

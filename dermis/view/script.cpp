@@ -29,7 +29,7 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
                                 {"drop", CommandKind::drop, "w", "drop head.glb"},
                                 {"copy", CommandKind::copy, "ww", "copy broken.frag shaders/a/b.frag"},
                                 {"save", CommandKind::save, "w", "save scene.toml"},
-                                {"clipboard", CommandKind::clipboard, "w", "clipboard \"yaw=30 pitch=5\""},
+                                {"clipboard", CommandKind::clipboard, "w", "clipboard \"yaw_deg=30\""},
                                 {"resize", CommandKind::resize, "nn", "resize 640 480"},
                                 {"minimise", CommandKind::minimise, "", "minimise"},
                                 {"restore", CommandKind::restore, "", "restore"},

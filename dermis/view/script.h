@@ -14,7 +14,7 @@
 //     drop head.glb
 //     copy broken.frag shaders/a/b.frag   # files; makes and mends what is watched
 //     save scene.toml                 # the scene with what was changed
-//     clipboard "yaw=30 pitch=5"      # as if copied elsewhere
+//     clipboard "yaw_deg=30"          # as if copied elsewhere
 //     resize 640 480
 //     wait 5                          # frames
 //     settle                          # until the picture is as good as it gets

@@ -91,6 +91,7 @@ Result<ViewerReport> Session::run() {
 
 void Session::hand_over(ViewerOptions& options) {
     Start start = {.scene = *model_.scene,
+                   .loading_words = model_.loading_words,
                    .file_look = file_look_,
                    .handed = Handed{.model = model_, .truth = truth_image_, .truth_view = truth_view_}};
     start.handed->model.scene = nullptr;

@@ -49,7 +49,7 @@ class Session {
     [[nodiscard]] Result<void> take_loaded();
     [[nodiscard]] Result<void> begin_scene(Start start, bool first);
     void take_over(const Handed& handed);
-    void take_technique(const SceneLook& look);
+    void take_technique(const Scene& look);
     void follow_scene();
     /// True when something changed.
     bool follow_files();
@@ -122,7 +122,7 @@ class Session {
     bool reloading_ = false;           ///< the same scene again: what was changed stays
     bool scene_file_changed_ = false;  ///< since the scene was last read, not only its meshes and maps
     FileWatch scene_files_;
-    SceneLook file_look_;  ///< as the scene's files had it
+    Scene file_look_;  ///< as the scene's files had it
     std::optional<Vec3> mean_albedo_;
     Vec3 drawn_tint_;  ///< what the materials on the device were made with
     bool shaders_unproven_ = false;
@@ -132,7 +132,7 @@ class Session {
     std::future<Result<CachedReference>> making_truth_;
     std::string truth_key_;
     std::string asked_view_;
-    std::string truth_view_;  ///< truth_key() of the scene that it was made of; empty for a file
+    std::string truth_view_;  ///< hash_of_views() of the scene that it was made of; empty for a file
     double last_look_s_ = 0;
     std::string probe_text_;
     std::string probe_key_;

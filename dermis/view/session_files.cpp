@@ -9,6 +9,7 @@
 #include "dermis/image/skin_colour.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/skin_tone.h"
+#include "dermis/scene/scene_words.h"
 #include "dermis/view/scene_edit.h"
 #include "dermis/view/session.h"
 #include "dermis/view/view_line.h"

@@ -8,6 +8,7 @@
 #include "dermis/scene/load_scene.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_paths.h"
+#include "dermis/view/scene_look.h"
 #include "dermis/view/session.h"
 
 namespace dermis::view {
@@ -38,11 +39,12 @@ const Technique& compared_with(const Technique& technique, std::span<const Techn
 }
 
 // A scene, ready to draw.
-Result<Start> load_start(const std::string& path, std::span<const Subject> subjects) {
-    Result<Scene> scene = load_scene(path, {.subjects = subjects});
+Result<Start> load_start(const std::string& path, std::span<const Subject> subjects,
+                         const std::vector<SceneWord>& words) {
+    Result<Scene> scene = load_scene(path, {.subjects = subjects, .words = words});
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
-    return Start{.scene = std::move(*scene)};
+    return Start{.scene = std::move(*scene), .loading_words = words};
 }
 
 }  // namespace
@@ -51,7 +53,8 @@ void Session::load(const std::string& path) {
     if (loading_.valid()) return model_.notices.inform("open", "still loading " + loading_path_, now_s());
     loading_path_ = path;
     reloading_ = false;
-    loading_ = std::async(std::launch::async, load_start, path, model_.catalog.subjects);
+    loading_ = std::async(std::launch::async, load_start, path, model_.catalog.subjects,
+                          path == model_.scene_path ? model_.loading_words : std::vector<SceneWord>());
 }
 
 Result<void> Session::take_loaded() {
@@ -70,12 +73,12 @@ Result<void> Session::take_loaded() {
 
 Result<void> Session::begin_scene(Start start, bool first) {
     auto scene = std::make_unique<Scene>(std::move(start.scene));
-    const SceneLook file_look = start.file_look.value_or(look_of(*scene));
+    const Scene file_look = start.file_look.value_or(without_objects(*scene));
     if (reloading_) {
         if (scene_file_changed_)
-            keep_look(file_look_, look_of(*model_.scene), *scene);
+            keep_look(file_look_, *model_.scene, *scene);
         else
-            put_look(look_of(*model_.scene), *scene);
+            put_look(*model_.scene, *scene);
         scene_files_.add(files_of(*scene));  // also when it cannot be drawn
     }
     Result<Stage> stage = Stage::create(device_, shaders_.source(), std::move(scene), options_->samples);
@@ -87,6 +90,7 @@ Result<void> Session::begin_scene(Start start, bool first) {
     stage_.emplace(std::move(*stage));
     model_.scene = &stage_->scene();
     model_.scene_path = loading_path_;
+    model_.loading_words = std::move(start.loading_words);
     drawn_tint_ = model_.scene->skin.albedo_tint_linear;
     mean_albedo_.reset();
     if (first && !start.handed) {
@@ -117,7 +121,7 @@ void Session::take_over(const Handed& handed) {
 }
 
 // What the scene's file asks for; of one that is only read again, what it asks for anew.
-void Session::take_technique(const SceneLook& look) {
+void Session::take_technique(const Scene& look) {
     const bool asks_anew =
         !reloading_ || look.technique != file_look_.technique || look.settings != file_look_.settings;
     if (look.technique.empty() || !asks_anew) return;

@@ -8,6 +8,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 #include "dermis/render/shared_passes.h"
+#include "dermis/scene/scene_words.h"
 #include "dermis/view/session.h"
 
 namespace dermis::view {

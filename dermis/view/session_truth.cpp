@@ -7,6 +7,7 @@
 #include "dermis/image/io.h"
 #include "dermis/image/tone_map.h"
 #include "dermis/judge/comparison.h"
+#include "dermis/scene/scene_hash.h"
 #include "dermis/view/session.h"
 
 namespace dermis::view {
@@ -54,7 +55,7 @@ void Session::ask_for_truth() {
     const ReferenceSettings settings = comparison_settings(size.width, size.height).reference;
     stop_truth_ = false;
     truth_done_ = 0;
-    asked_view_ = truth_key(*model_.scene);
+    asked_view_ = hash_of_views(*model_.scene);
     making_truth_ = std::async(std::launch::async, [this, settings, scene = *model_.scene] {
         return cached_reference(
             scene, settings, [this](double done) { truth_done_ = float(done); }, &stop_truth_);
@@ -91,7 +92,7 @@ Result<void> Session::refresh_truth() {
         model_.truth_is_of_another_view = false;
         return {};
     }
-    model_.truth_is_of_another_view = !truth_view_.empty() && truth_view_ != truth_key(*model_.scene);
+    model_.truth_is_of_another_view = !truth_view_.empty() && truth_view_ != hash_of_views(*model_.scene);
     const std::string key =
         model_.truth_path + to_text(model_.scene->exposure_ev) + std::to_string(int(model_.scene->tone_map));
     if (truth_ && key == truth_key_) return {};

@@ -5,7 +5,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/scene/toml_document.h"
-#include "dermis/view/scene_edit.h"
+#include "dermis/scene/toml_values.h"
 
 namespace dermis::view {
 namespace fs = std::filesystem;

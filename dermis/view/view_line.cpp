@@ -1,11 +1,10 @@
 #include "dermis/view/view_line.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "dermis/base/text.h"
-#include "dermis/optics/presets.h"
 #include "dermis/render/shared_passes.h"
+#include "dermis/scene/scene_words.h"
 #include "dermis/view/words.h"
 
 namespace dermis::view {
@@ -27,15 +26,34 @@ std::string shell_word(std::string_view word) {
     return text + "'";
 }
 
-std::vector<Light>::iterator key_light(std::vector<Light>& lights) {
-    return std::ranges::find(lights, true, &Light::is_key);
+std::string text_of(const SceneWord& word) {
+    return word.key + "=" + word.value;
+}
+
+// What differs from the files: the camera and the key light in their short forms, the rest key by key.
+std::string scene_options(const Scene& scene, const Scene& file) {
+    constexpr std::string_view kCamera = "camera.", kLight = "light.key.";
+    const std::vector<SceneWord> filed = words_of(file);
+    std::string camera, light, others;
+    for (const SceneWord& word : words_of(scene)) {
+        if (std::ranges::find(filed, word) != filed.end()) continue;
+        const std::string text = text_of(word);
+        if (text.starts_with(kCamera))
+            camera += (camera.empty() ? "" : " ") + text.substr(kCamera.size());
+        else if (text.starts_with(kLight) && text.find(' ') == text.npos)
+            light += (light.empty() ? "" : " ") + text.substr(kLight.size());
+        else
+            others += " --scene " + shell_word(text);
+    }
+    return others + (camera.empty() ? "" : " --camera " + shell_word(camera)) +
+           (light.empty() ? "" : " --light " + shell_word(light));
 }
 
 // What a line asks for, checked and not yet in the model.
 struct Wanted {
     std::span<const Technique> techniques;
     TechniqueChoice choice;
-    Scene scene;  ///< without objects
+    std::vector<SceneWord> words;
     std::string view;
     bool anything = false;
 
@@ -49,22 +67,15 @@ struct Wanted {
             const size_t equals = value.find('=');
             if (equals == value.npos) return Error{"--set '" + value + "': write name=value"};
             return choice.values().set(value.substr(0, equals), value.substr(equals + 1));
-        } else if (option == "--camera") {
-            const Result<Camera> parsed = parse_camera(value, scene.camera);
-            if (!parsed) return parsed.error();
-            scene.camera = *parsed;
-        } else if (option == "--light") {
-            const auto key = key_light(scene.lights);
-            if (key == scene.lights.end()) return Error{"--light: the scene has no key light to move"};
-            const Result<Light> parsed = parse_light(value, *key, scene.bounds_center_mm);
-            if (!parsed) return parsed.error();
-            *key = *parsed;
-        } else if (option == "--look") {
-            if (Result<void> parsed = parse_look(value, scene); !parsed) return parsed;
-            if (const auto known = find_profile(scene.skin.profile); !known) return known.error();
-        } else if (option == "--environment") {
-            scene.environment.kind = EnvironmentKind::file;
-            scene.environment.file = value;
+        } else if (option == "--scene") {
+            Result<SceneWord> word = parse_scene_word(value);
+            if (!word) return word.error();
+            words.push_back(std::move(*word));
+        } else if (option == "--camera" || option == "--light") {
+            Result<std::vector<SceneWord>> some =
+                parse_section_words(option == "--camera" ? "camera" : "light.key", value);
+            if (!some) return some.error();
+            words.insert(words.end(), some->begin(), some->end());
         } else {
             view = value;
         }
@@ -72,20 +83,9 @@ struct Wanted {
     }
 };
 
-// A scene has its objects in it, which are large; this has what texts speak of.
-Scene without_objects(const Scene& scene) {
-    return {.lights = scene.lights,
-            .camera = scene.camera,
-            .environment = scene.environment,
-            .skin = scene.skin,
-            .tone_map = scene.tone_map,
-            .exposure_ev = scene.exposure_ev,
-            .bounds_center_mm = scene.bounds_center_mm};
-}
-
 }  // namespace
 
-std::string view_line(Model& model, const SceneLook& file, const DrawSettings& draw) {
+std::string view_line(Model& model, const Scene& file, const DrawSettings& draw) {
     TechniqueChoice& choice = model.choices[0];
     const Scene& scene = *model.scene;
     std::string line = "dermis render " + shell_word(model.scene_path) + " -t " + choice.technique().id;
@@ -97,29 +97,19 @@ std::string view_line(Model& model, const SceneLook& file, const DrawSettings& d
         if (stated || text != defaults.text(parameter))
             line += " --set " + shell_word(parameter.name + "=" + text);
     }
-    line += " --camera '" + camera_text(scene.camera) + "'";
-    const auto key = std::ranges::find(scene.lights, true, &Light::is_key);
-    if (key != scene.lights.end()) line += " --light '" + light_text(*key, scene.bounds_center_mm) + "'";
-    Scene as_filed = without_objects(scene);
-    put_look(file, as_filed);
-    if (const std::string look = look_text(scene, as_filed); !look.empty())
-        line += " --look " + shell_word(look);
-    if (scene.environment.kind == EnvironmentKind::file && scene.environment.file != file.environment.file)
-        line += " --environment " +
-                shell_word(std::filesystem::absolute(scene.environment.file).lexically_normal().string());
+    for (const SceneWord& word : model.loading_words) line += " --scene " + shell_word(text_of(word));
+    line += scene_options(scene, file);
     if (model.view != "final") line += " --view " + model.view;
     if (draw.samples != 1) line += " --samples " + std::to_string(draw.samples);
     return line + " --size " + std::to_string(draw.width) + "x" + std::to_string(draw.height);
 }
 
 Result<void> apply_view_line(Model& model, std::string_view line) {
-    static constexpr std::string_view kOptions[] = {"-t",      "--technique", "--set",         "--camera",
-                                                    "--light", "--look",      "--environment", "--view"};
+    static constexpr std::string_view kOptions[] = {"-t",       "--technique", "--set", "--scene",
+                                                    "--camera", "--light",     "--view"};
     if (line.size() > kMaxLineBytes) return Error{"the clipboard holds no view: it is too long"};
-    Wanted wanted{.techniques = model.catalog.techniques,
-                  .choice = model.choices[0],
-                  .scene = without_objects(*model.scene),
-                  .view = model.view};
+    Wanted wanted{
+        .techniques = model.catalog.techniques, .choice = model.choices[0], .words = {}, .view = model.view};
     // A line that was broken on its way, inside of quotes too, is one line.
     std::string one_line(line);
     std::ranges::replace_if(
@@ -131,16 +121,19 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
             if (const Result<void> taken = wanted.take(words[i], words[i + 1]); !taken) return taken;
             ++i;
         }
-    if (!wanted.anything && line.find("yaw=") != line.npos) {
+    if (!wanted.anything && line.find("yaw_deg=") != line.npos) {
         if (const Result<void> taken = wanted.take("--camera", std::string(trim(one_line))); !taken)
             return taken;
     }
     if (!wanted.anything)
-        return Error{"the clipboard holds no view; copy one with ctrl+C, or write --camera 'yaw=30 pitch=5'"};
+        return Error{"the clipboard holds no view; copy one with ctrl+C, or write --camera 'yaw_deg=30'"};
     const std::vector<std::string> views = view_names(wanted.choice.technique());
     if (!std::ranges::count(views, wanted.view)) return Error{unknown_name("view", wanted.view, views)};
+    std::erase_if(wanted.words, [&](const SceneWord& word) {  // what the scene was loaded with
+        return std::ranges::find(model.loading_words, word) != model.loading_words.end();
+    });
+    if (Result<void> set = set_words(*model.scene, wanted.words); !set) return set;
     model.choices[0] = std::move(wanted.choice);
-    put_look(look_of(wanted.scene), *model.scene);
     model.view = wanted.view;
     return {};
 }

@@ -7,18 +7,17 @@
 
 #include "dermis/render/renderer.h"
 #include "dermis/view/model.h"
-#include "dermis/view/scene_look.h"
 
 namespace dermis::view {
 
-/// dermis render SCENE -t ID --set NAME=VALUE ... --camera "..." --light "..." --look "..." --size WxH; only
-/// what differs from defaults, and from what the scene's files say (`file`), is named. Numbers are rounded:
-/// after apply_view_line() of the same line the window shows exactly what it draws. Of `draw` counts the size
-/// and the samples.
-[[nodiscard]] std::string view_line(Model& model, const SceneLook& file, const DrawSettings& draw);
+/// dermis render SCENE -t ID --set NAME=VALUE ... --scene KEY=VALUE ... --camera "..." --light "..." --size
+/// WxH; only what differs from defaults, and from what the scene's files say (`file`), is named. Numbers are
+/// rounded: after apply_view_line() of the same line the window shows exactly what it draws. Of `draw` counts
+/// the size and the samples.
+[[nodiscard]] std::string view_line(Model& model, const Scene& file, const DrawSettings& draw);
 
-/// Takes -t, --set, --camera, --light, --look, --environment and --view out of such a line (other words are
-/// passed over); "yaw=30 pitch=5" alone is a camera. Nothing changes when any of it is wrong, or when there
+/// Takes -t, --set, --scene, --camera, --light and --view out of such a line (other words are passed over);
+/// "yaw_deg=30 pitch_deg=5" alone is a camera. Nothing changes when any of it is wrong, or when there
 /// is nothing to take.
 [[nodiscard]] Result<void> apply_view_line(Model& model, std::string_view line);
 

@@ -10,7 +10,6 @@
 #include "dermis/scene/scene.h"
 #include "dermis/technique/technique.h"
 #include "dermis/view/model.h"
-#include "dermis/view/scene_look.h"
 #include "dermis/view/script.h"
 #include "dermis/view/window.h"
 
@@ -26,10 +25,11 @@ struct Handed {
 /// What the window opens with.
 struct Start {
     Scene scene;
+    std::vector<SceneWord> loading_words;  ///< see Model
     const Technique* technique = nullptr;
     std::optional<ParameterValues> values;
     std::string view = "final";
-    std::optional<SceneLook> file_look;  ///< of the files, when `scene` has something else
+    std::optional<Scene> file_look;  ///< what the files say, without objects, when `scene` has something else
     std::optional<Handed> handed;
 };
 

@@ -3,11 +3,16 @@
 
 #include "dermis/technique/pass_list.h"
 #include "dermis/view/panels.h"
+#include "shaders/renderer/constants.h"
 
 namespace dermis::view {
 
-/// In the order of shaders/renderer/compose.frag.
-enum class Arrangement { none, one, wipe, side_by_side };
+enum class Arrangement {
+    none = kArrangementNone,
+    one = kArrangementOne,
+    wipe = kArrangementWipe,
+    side_by_side = kArrangementSideBySide
+};
 
 struct WindowFrame {
     int width = 1, height = 1;

@@ -5,12 +5,13 @@
 #ifndef DERMIS_ATLAS_MM_GLSL
 #define DERMIS_ATLAS_MM_GLSL
 
+#include "shaders/atlas/constants.h"
 #include "shaders/include/frame.glsl"
 
-layout(set = 0, binding = 21) uniform texture2D source;
-layout(set = 0, binding = 22) uniform texture2D atlas_metric;
-layout(set = 0, binding = 23) uniform texture2D seam_map;
-layout(set = 0, binding = 24) uniform texture2D chart_map;
+uniform texture2D source;
+uniform texture2D atlas_metric;
+uniform texture2D seam_map;
+uniform texture2D chart_map;
 layout(constant_id = 13) const int carry = 1;  // gutters stand for the chart beyond the seam; else nothing is there
 
 // Where the surface of a gutter texel lies, in texels; negative: nowhere. Stored as multiples of 8 and rests, which half

@@ -3,7 +3,7 @@
 // The largest of the tiles up to `count` away along one axis.
 #include "shaders/include/frame.glsl"
 
-layout(set = 0, binding = 21) uniform texture2D tiles;
+uniform texture2D tiles;
 layout(push_constant, scalar) uniform PassValues {
     int step_x;
     int step_y;

@@ -3,19 +3,18 @@
 // A tile is also needed when one of its gutter texels stands for a needed place beyond a seam.
 #include "shaders/atlas/blur_mm.glsl"
 
-layout(set = 0, binding = 25) uniform texture2D tiles;
-layout(constant_id = 0) const int tile = 8;
+uniform texture2D tiles;
 
 layout(location = 0) out vec4 tile_out;
 
-float tile_at(ivec2 texel) { return texelFetch(sampler2D(tiles, nearest_clamp), texel / tile, 0).r; }
+float tile_at(ivec2 texel) { return texelFetch(sampler2D(tiles, nearest_clamp), texel / kCullTile, 0).r; }
 
 void main() {
     ivec2 last = textureSize(sampler2D(seam_map, nearest_clamp), 0) - 1;
-    ivec2 first = ivec2(gl_FragCoord.xy) * tile;
+    ivec2 first = ivec2(gl_FragCoord.xy) * kCullTile;
     float needed = tile_at(first);
-    for (int y = 0; y < tile && needed == 0.0; ++y)
-        for (int x = 0; x < tile; ++x) {
+    for (int y = 0; y < kCullTile && needed == 0.0; ++y)
+        for (int x = 0; x < kCullTile; ++x) {
             vec2 at = carried_to(min(first + ivec2(x, y), last));
             if (at.x >= 0.0) needed = max(needed, tile_at(ivec2(at)));
         }

@@ -5,13 +5,8 @@
 // alpha is 1 where skin was written, the target is cleared to 0, and the size lies in the atlas's metric.
 #include "shaders/atlas/light.glsl"
 
-layout(set = 0, binding = 1, scalar) uniform Params {
-    float occluded;
-    float trans_shadow_alpha;
-};
-layout(set = 0, binding = 19) uniform texture2D kernel_size_map;
+uniform texture2D kernel_size_map;
 
-const int kSpaceTexels = 0, kSpaceMm = 1;
 layout(constant_id = 12) const int space = kSpaceTexels;
 
 layout(push_constant, scalar) uniform PassValues {
@@ -25,8 +20,7 @@ const float kLargestWritten = 254.0 / 255.0;
 void main() {
     Surface s = load_surface();
     float kernel_size = texture(sampler2D(kernel_size_map, trilinear_repeat), s.uv).r;
-    vec3 exitance = unblurred_exitance(s, occluded, trans_shadow_alpha);
+    vec3 exitance = unblurred_exitance(s);
     if (pre_scatter > 0.0) exitance *= pow(s.albedo_linear, vec3(pre_scatter));
-    light_out = vec4(exitance,
-                     space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten));
+    light_out = vec4(exitance, space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten));
 }

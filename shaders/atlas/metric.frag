@@ -8,7 +8,7 @@ layout(location = 1) in vec3 n_world;
 layout(location = 3) in vec2 uv;
 layout(location = 6) in vec3 du_mm;
 layout(location = 7) in vec3 dv_mm;
-layout(set = 0, binding = 19) uniform texture2D kernel_size_map;
+uniform texture2D kernel_size_map;
 layout(push_constant, scalar) uniform PassValues {
     float size;            // texels a side
     float kernel_scale;    // mm

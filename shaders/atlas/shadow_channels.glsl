@@ -4,13 +4,12 @@
 #ifndef DERMIS_SHADOW_CHANNELS_GLSL
 #define DERMIS_SHADOW_CHANNELS_GLSL
 
+#include "shaders/atlas/constants.h"
 #include "shaders/include/shadow.glsl"
 
-layout(set = 0, binding = 17) uniform texture2D shadow_channels;
+uniform texture2D shadow_channels;
 
-const int kChannelsNone = 0, kChannelsColor = 1, kChannelsTwoLights = 2;
 layout(constant_id = 10) const int channels = kChannelsNone;
-const int kLookupDisk = 0, kLookupSingle = 1;
 layout(constant_id = 11) const int shadow_lookup = kLookupDisk;
 
 const int kTintTaps = 12;

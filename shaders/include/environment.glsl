@@ -4,15 +4,15 @@
 
 #include "shaders/include/frame.glsl"
 
-layout(set = 0, binding = 11) uniform textureCube environment_cube;
+uniform textureCube environment_cube;
 // F0 scale and bias of the split sum: n.v from left to right, roughness from top to bottom (scene/brdf_table.h).
-layout(set = 0, binding = 40) uniform texture2D environment_brdf;
+uniform texture2D environment_brdf;
 
 // Nine radiance coefficients, order (l, m): 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22, real orthonormal basis.
 struct ShTerm {
     vec3 radiance_linear;
 };
-layout(set = 0, binding = 4, scalar) readonly buffer EnvironmentSh { ShTerm sh_terms[]; };
+layout(scalar) readonly buffer EnvironmentSh { ShTerm sh_terms[]; };
 
 vec3 to_environment(vec3 d_world) {
     float c = cos(environment_yaw_rad), s = sin(environment_yaw_rad);

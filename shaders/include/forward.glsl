@@ -13,11 +13,9 @@
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/specular.glsl"
 #include "shaders/include/surface.glsl"
+#include "shaders/include/view.glsl"
 
 layout(location = 0) out vec4 radiance_out;
-
-const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
-layout(constant_id = 1) const int view = kViewFinal;
 
 // With DERMIS_PREPARE_SURFACE defined: called once before anything else, to change the surface and to compute what does
 // not depend on the light.
@@ -47,11 +45,9 @@ void main() {
 #ifdef DERMIS_PREPARE_SURFACE
     prepare_surface(s);
 #endif
+    vec3 own_radiance = vec3(0.0);
 #ifdef DERMIS_OWN_VIEW
-    if (view == kViewOwn) {
-        radiance_out = vec4(own_view(s), 1.0);
-        return;
-    }
+    own_radiance = own_view(s);
 #endif
     vec3 exitance = ambient_response(s) * s.occlusion;
     vec3 specular_radiance =
@@ -70,10 +66,7 @@ void main() {
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
     vec3 diffuse_radiance = s.albedo_linear * exitance / kPi;
-    vec3 radiance = emission_linear;
-    if (view != kViewSpecular) radiance += diffuse_radiance;
-    if (view != kViewDiffuse) radiance += specular_radiance;
-    radiance_out = vec4(radiance, 1.0);
+    radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, own_radiance), 1.0);
 }
 
 #endif

@@ -1,23 +1,23 @@
-// What every shader may know of the frame. Bindings 0 to 20, and from 40 on, are shared by all shaders; a technique's own
-// textures start at 21. Everything is filled by name, so nothing here is written a second time in C++.
+// What every shader may know of the frame. Everything is filled by name, so nothing here is written a second time in C++,
+// and no shader numbers its bindings: glslc gives the numbers, the program finds them by reflection.
 #ifndef DERMIS_FRAME_GLSL
 #define DERMIS_FRAME_GLSL
 
 #extension GL_EXT_scalar_block_layout : require
 
+#include "shaders/include/constants.h"
+
 const float kPi = 3.14159265359;
 
-layout(set = 0, binding = 0, scalar) uniform Frame {
+layout(scalar) uniform Frame {
     mat4 view_projection;
     mat4 inverse_view_projection;
     mat4 light_view_projection;  // of the key light, for the shadow map
     vec3 eye_world_mm;
-    float pixel_angle_rad;       // of one pixel at the middle of the picture
     vec3 bounds_center_mm;
     float bounds_radius_mm;
     vec3 background_linear;
     int environment_visible;
-    vec3 view_forward_world;
     float environment_intensity;
     float environment_yaw_rad;
     float environment_mip_count;
@@ -32,19 +32,19 @@ layout(set = 0, binding = 0, scalar) uniform Frame {
 
 // Directional: intensity_linear is irradiance at normal incidence; point and spot: irradiance at 1 m.
 struct LightSource {
-    int kind;  // 0 directional, 1 point, 2 spot
+    int kind;  // kLightDirectional, ...
     vec3 intensity_linear;
     vec3 to_light_world;
     vec3 position_mm;
     float cos_inner;
     float cos_outer;
 };
-layout(set = 0, binding = 3, scalar) readonly buffer Lights { LightSource lights[]; };
+layout(scalar) readonly buffer Lights { LightSource lights[]; };
 
-layout(set = 0, binding = 5) uniform sampler linear_clamp;
-layout(set = 0, binding = 6) uniform sampler trilinear_repeat;
-layout(set = 0, binding = 7) uniform sampler trilinear_clamp;
-layout(set = 0, binding = 8) uniform samplerShadow shadow_compare;
-layout(set = 0, binding = 9) uniform sampler nearest_clamp;
+uniform sampler linear_clamp;
+uniform sampler trilinear_repeat;
+uniform sampler trilinear_clamp;
+uniform samplerShadow shadow_compare;
+uniform sampler nearest_clamp;
 
 #endif

@@ -13,12 +13,12 @@ struct LightSample {
 // KHR_lights_punctual).
 LightSample sample_light(int index, vec3 p_world_mm) {
     LightSource light = lights[index];
-    if (light.kind == 0) return LightSample(light.intensity_linear, light.to_light_world);
+    if (light.kind == kLightDirectional) return LightSample(light.intensity_linear, light.to_light_world);
     vec3 offset_mm = light.position_mm - p_world_mm;
     float distance_m = max(length(offset_mm) * 1e-3, 1e-3);
     vec3 to_light = normalize(offset_mm);
     float cone = 1.0;
-    if (light.kind == 2) {
+    if (light.kind == kLightSpot) {
         float cos_axis = dot(to_light, light.to_light_world);
         float ramp = clamp((cos_axis - light.cos_outer) / max(light.cos_inner - light.cos_outer, 1e-4), 0.0, 1.0);
         cone = ramp * ramp;

@@ -4,7 +4,7 @@
 
 #include "shaders/include/frame.glsl"
 
-layout(set = 0, binding = 10) uniform texture2D shadow_map;
+uniform texture2D shadow_map;
 
 const int kShadowTaps = 24;
 const float kGoldenAngle = 2.39996323;
@@ -33,41 +33,37 @@ bool outside_shadow_map(vec3 p_light) {
 // The disk of a filtered shadow, round as the light sees it and lying in the tangent plane of the receiver: no flat or
 // bulging surface shadows itself, and no shadow moves when the filter grows, as it does when the lookup is lifted by the
 // filter's radius (Holbert 2011). That is left for grazing light alone, where the disk would be endless; past the
-// terminator it lets through what scatters there. Hollows of a radius above ten times the disk's are lifted over too.
-// dermis/reference/lighting.cpp has the same disk.
+// terminator it lets through what scatters there. Out of cavities whose radius is above ten times its own the disk is
+// lifted too. dermis/reference/lighting.cpp has the same disk.
 struct ShadowDisk {
     vec3 center, axis_x, axis_y;  // in the shadow map
     vec3 lift;                    // a millimetre along the normal, in the shadow map
-    vec3 hollow_mm;               // lift of x^2, y^2, xy
+    vec3 concavity_mm;            // lift of x^2, y^2, xy
 };
-
-const float kHollow = 0.1;      // curvature times the disk's radius
-const float kFacetLift = 0.3;   // in radii: the tangent plane of a smooth normal cuts through the facets
-const float kMostSlope = 4.0;   // of the plane against the light: 76 degrees
 
 ShadowDisk shadow_disk(mat4 light_from_world, vec3 p_mm, vec3 n_world, vec3 to_light_world, float radius_mm) {
     vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     vec3 x = normalize(cross(up, to_light_world)), y = cross(to_light_world, x);
     float n_dot_l = clamp(dot(n_world, to_light_world), 0.0, 1.0), sine = sqrt(1.0 - n_dot_l * n_dot_l);
     // n lies along (slope, 1) in this frame; `lacking` is what the held slope leaves of the disk under the surface.
-    vec2 slope = vec2(dot(x, n_world), dot(y, n_world)) * min(1.0 / max(n_dot_l, 1e-3), kMostSlope / max(sine, 1e-3));
-    float lacking = max(0.0, sine - kMostSlope * n_dot_l);
+    vec2 slope = vec2(dot(x, n_world), dot(y, n_world)) * min(1.0 / max(n_dot_l, 1e-3), kShadowMaxSlope / max(sine, 1e-3));
+    float lacking = max(0.0, sine - kShadowMaxSlope * n_dot_l);
     x = radius_mm * (x - slope.x * to_light_world);
     y = radius_mm * (y - slope.y * to_light_world);
     ShadowDisk disk;
-    float lift_mm = max(1.5 * shadow_texel_mm, kFacetLift * radius_mm) + lacking * min(radius_mm, 0.5 * penumbra_mm);
+    float lift_mm = max(1.5 * shadow_texel_mm, kShadowFacetLift * radius_mm) + lacking * min(radius_mm, 0.5 * penumbra_mm);
     vec3 origin_mm = p_mm + lift_mm * n_world;
     disk.center = shadow_map_position(light_from_world, origin_mm);
     disk.axis_x = shadow_map_position(light_from_world, origin_mm + x) - disk.center;
     disk.axis_y = shadow_map_position(light_from_world, origin_mm + y) - disk.center;
     disk.lift = shadow_map_position(light_from_world, origin_mm + n_world) - disk.center;
-    disk.hollow_mm = 0.5 * kHollow / radius_mm * vec3(dot(x, x), dot(y, y), 2.0 * dot(x, y));
+    disk.concavity_mm = 0.5 * kShadowConcavity / radius_mm * vec3(dot(x, x), dot(y, y), 2.0 * dot(x, y));
     return disk;
 }
 
 // Where tap v of the unit disk reads.
 vec3 shadow_tap_position(ShadowDisk disk, vec2 v) {
-    float lift_mm = dot(disk.hollow_mm, vec3(v * v, v.x * v.y));
+    float lift_mm = dot(disk.concavity_mm, vec3(v * v, v.x * v.y));
     return disk.center + v.x * disk.axis_x + v.y * disk.axis_y + lift_mm * disk.lift;
 }
 

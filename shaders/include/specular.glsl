@@ -2,7 +2,8 @@
 #ifndef DERMIS_SPECULAR_GLSL
 #define DERMIS_SPECULAR_GLSL
 
-const int kSpecularNone = 0, kSpecularBlinnPhong = 1, kSpecularGgx = 2, kSpecularTwoLobe = 3, kSpecularKsk = 4;
+#include "shaders/include/frame.glsl"
+
 layout(constant_id = 0) const int specular_model = kSpecularGgx;
 
 // Schlick 1994.

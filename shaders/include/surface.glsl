@@ -11,7 +11,7 @@ layout(location = 3) in vec2 uv_in;
 layout(location = 4) in float curvature_per_mm_in;
 layout(location = 5) in float occlusion_in;
 
-layout(set = 0, binding = 2, scalar) uniform Material {
+layout(scalar) uniform Material {
     vec3 albedo_linear;
     float roughness;
     vec3 emission_linear;
@@ -19,17 +19,17 @@ layout(set = 0, binding = 2, scalar) uniform Material {
     float f0;
     float metallic;
     float opacity;
-    int normal_space;  // 0 tangent, 1 object, 2 no map
+    int normal_space;  // kNormalSpaceTangent, ...
     float normal_scale;
     int opacity_from_map;
     float curvature_scale_per_mm;  // of a value of 1 in the curvature map
 };
 
-layout(set = 0, binding = 12) uniform texture2D albedo_map;
-layout(set = 0, binding = 13) uniform texture2D normal_map;
-layout(set = 0, binding = 14) uniform texture2D specular_map;
-layout(set = 0, binding = 15) uniform texture2D roughness_map;
-layout(set = 0, binding = 16) uniform texture2D occlusion_map;
+uniform texture2D albedo_map;
+uniform texture2D normal_map;
+uniform texture2D specular_map;
+uniform texture2D roughness_map;
+uniform texture2D occlusion_map;
 
 struct Surface {
     vec3 p_world_mm;
@@ -46,9 +46,9 @@ struct Surface {
 
 // The normal map at a level of detail; a positive bias reads a smoother one (Penner 2011).
 vec3 mapped_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
-    if (normal_space == 2) return n_geometry_world;
+    if (normal_space == kNormalSpaceAbsent) return n_geometry_world;
     vec3 n = texture(sampler2D(normal_map, trilinear_repeat), uv, lod_bias).xyz * 2.0 - 1.0;
-    if (normal_space == 1) return normalize(mix(n_geometry_world, n, normal_scale));
+    if (normal_space == kNormalSpaceObject) return normalize(mix(n_geometry_world, n, normal_scale));
     n.xy *= normal_scale;
     vec3 t = normalize(t_world_in.xyz - n_geometry_world * dot(n_geometry_world, t_world_in.xyz));
     vec3 b = t_world_in.w * cross(n_geometry_world, t);

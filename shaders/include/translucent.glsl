@@ -5,7 +5,7 @@
 
 #include "shaders/include/surface.glsl"
 
-layout(set = 0, binding = 20) uniform texture2D opacity_map;
+uniform texture2D opacity_map;
 
 vec3 surface_transmittance() {
     if (opacity_from_map == 0) return albedo_linear * (1.0 - opacity);

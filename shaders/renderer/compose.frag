@@ -1,5 +1,8 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
 // The pictures in their part of the window: one, two with a line that wipes between them, or two side by side.
+#include "shaders/renderer/constants.h"
+
 layout(push_constant) uniform Push {
     vec4 region_px;   // x, y, width, height
     vec4 frame_color; // around the pictures, sRGB-encoded
@@ -8,11 +11,10 @@ layout(push_constant) uniform Push {
     float line_px;
     int mode;
 };
-const int kOne = 1, kWipe = 2, kSideBySide = 3;
 
-layout(set = 0, binding = 5) uniform sampler linear_clamp;
-layout(set = 0, binding = 21) uniform texture2D picture_a;
-layout(set = 0, binding = 22) uniform texture2D picture_b;
+uniform sampler linear_clamp;
+uniform texture2D picture_a;
+uniform texture2D picture_b;
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 window_out;
@@ -31,16 +33,16 @@ void main() {
     bool outside = any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(1.0)));
     window_out = frame_color;
     if (outside) return;
-    float line_distance_px = abs(at.x - (mode == kWipe ? split : 0.5)) * region_px.z;
-    if (mode == kOne) {
+    float line_distance_px = abs(at.x - (mode == kArrangementWipe ? split : 0.5)) * region_px.z;
+    if (mode == kArrangementOne) {
         window_out = contained(picture_a, at, region_px.zw);
-    } else if (mode == kWipe) {
+    } else if (mode == kArrangementWipe) {
         window_out = at.x < split ? contained(picture_a, at, region_px.zw) : contained(picture_b, at, region_px.zw);
     } else {
         vec2 half_box = vec2(0.5, 1.0) * region_px.zw;
         window_out = at.x < 0.5 ? contained(picture_a, vec2(at.x * 2.0, at.y), half_box)
                                 : contained(picture_b, vec2(at.x * 2.0 - 1.0, at.y), half_box);
     }
-    if (mode != kOne && line_distance_px < line_px * 0.5) window_out = vec4(vec3(0.85), 1.0);
+    if (mode != kArrangementOne && line_distance_px < line_px * 0.5) window_out = vec4(vec3(0.85), 1.0);
     window_out.a = 1.0;
 }

@@ -1,7 +1,7 @@
 #version 460
 // sRGB-encoded colours, blended as they are: what the interface library expects.
-layout(set = 0, binding = 5) uniform sampler linear_clamp;
-layout(set = 0, binding = 21) uniform texture2D glyphs;
+uniform sampler linear_clamp;
+uniform texture2D glyphs;
 
 layout(location = 0) in vec2 glyph_uv;
 layout(location = 1) in vec4 tint;

@@ -7,7 +7,7 @@
 #include "shaders/include/specular.glsl"
 #include "shaders/include/surface.glsl"
 
-layout(set = 0, binding = 21) uniform texture2D metallic_map;
+uniform texture2D metallic_map;
 
 layout(location = 0) out vec4 radiance_out;
 

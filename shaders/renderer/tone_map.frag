@@ -4,8 +4,8 @@
 #include "shaders/include/frame.glsl"
 #include "shaders/renderer/tone_map.glsl"
 
-layout(set = 0, binding = 21) uniform texture2D radiance;
-layout(constant_id = 0) const int tone_map = 1;
+uniform texture2D radiance;
+layout(constant_id = 0) const int tone_map = kToneMapHable;
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 display_out;

@@ -2,7 +2,7 @@
 #ifndef DERMIS_TONE_MAP_GLSL
 #define DERMIS_TONE_MAP_GLSL
 
-const int kToneMapNone = 0, kToneMapHable = 1, kToneMapAces = 2, kToneMapPbrNeutral = 3;
+#include "shaders/renderer/constants.h"
 
 // Hable 2010, "Uncharted 2: HDR Lighting": ratio of two quadratics, shoulder .15, linear .5 at angle .1, toe .2,
 // numerator .02, denominator .3; white 11.2; exposure bias 2.

@@ -1,21 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The G-buffer made visible. Signed curvature: blue hollow, grey flat, red bulging, full at 1/8 mm; the legend at the
-// bottom says so, with ticks and unit.
+// The G-buffer made visible. Signed curvature: blue concave, grey flat, red convex; the legend at the bottom says so,
+// with ticks and unit.
 #include "shaders/include/frame.glsl"
+#include "shaders/renderer/constants.h"
 #include "shaders/renderer/tone_map.glsl"
 
-layout(set = 0, binding = 21) uniform texture2D gbuffer_position;
-layout(set = 0, binding = 22) uniform texture2D gbuffer_normal;
-layout(set = 0, binding = 23) uniform texture2D gbuffer_geometry;
-layout(set = 0, binding = 24) uniform texture2D gbuffer_albedo;
-layout(set = 0, binding = 25) uniform texture2D gbuffer_light;
-layout(set = 0, binding = 26) uniform texture2D view_legend;  // ink of ticks and words: dermis/render/legend.h
+uniform texture2D gbuffer_position;
+uniform texture2D gbuffer_normal;
+uniform texture2D gbuffer_geometry;
+uniform texture2D gbuffer_albedo;
+uniform texture2D gbuffer_light;
+uniform texture2D view_legend;  // ink of ticks and words: dermis/render/legend.h
 
-const int kNormal = 0, kGeometryNormal = 1, kAlbedo = 2, kRoughness = 3, kCurvature = 4, kOcclusion = 5, kShadow = 6,
-          kNDotL = 7, kDepth = 8, kUv = 9, kPosition = 10;
-layout(constant_id = 0) const int shown = kNormal;
-const float kFullCurvaturePerMm = 0.125;
+layout(constant_id = 0) const int shown = kShownNormal;
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 display_out;
@@ -23,23 +21,23 @@ layout(location = 0) out vec4 display_out;
 vec4 fetch(texture2D image) { return texelFetch(sampler2D(image, nearest_clamp), ivec2(gl_FragCoord.xy), 0); }
 
 vec3 signed_color(float x) {
-    const vec3 hollow = vec3(0.13, 0.35, 0.75), flat_color = vec3(0.86), bulging = vec3(0.75, 0.12, 0.10);
-    return mix(flat_color, x < 0.0 ? hollow : bulging, clamp(abs(x), 0.0, 1.0));
+    const vec3 concave = vec3(0.13, 0.35, 0.75), flat_color = vec3(0.86), convex = vec3(0.75, 0.12, 0.10);
+    return mix(flat_color, x < 0.0 ? concave : convex, clamp(abs(x), 0.0, 1.0));
 }
 
 vec3 view_color(vec4 position, vec4 light) {
     switch (shown) {
-        case kNormal: return fetch(gbuffer_normal).xyz * 0.5 + 0.5;
-        case kGeometryNormal: return fetch(gbuffer_geometry).xyz * 0.5 + 0.5;
-        case kAlbedo: return srgb_encode(fetch(gbuffer_albedo).rgb);
-        case kRoughness: return vec3(fetch(gbuffer_albedo).a);
-        case kCurvature: return signed_color(fetch(gbuffer_normal).a / kFullCurvaturePerMm);
-        case kOcclusion: return vec3(fetch(gbuffer_geometry).a);
-        case kShadow: return vec3(light.a);
-        case kNDotL: return signed_color(light.b);
-        case kDepth: return vec3(1.0 - clamp((position.w - distance(eye_world_mm, bounds_center_mm)) /
+        case kShownNormal: return fetch(gbuffer_normal).xyz * 0.5 + 0.5;
+        case kShownGeometryNormal: return fetch(gbuffer_geometry).xyz * 0.5 + 0.5;
+        case kShownAlbedo: return srgb_encode(fetch(gbuffer_albedo).rgb);
+        case kShownRoughness: return vec3(fetch(gbuffer_albedo).a);
+        case kShownCurvature: return signed_color(fetch(gbuffer_normal).a / kFullCurvaturePerMm);
+        case kShownOcclusion: return vec3(fetch(gbuffer_geometry).a);
+        case kShownShadow: return vec3(light.a);
+        case kShownNDotL: return signed_color(light.b);
+        case kShownDepth: return vec3(1.0 - clamp((position.w - distance(eye_world_mm, bounds_center_mm)) /
                                              (2.0 * bounds_radius_mm) + 0.5, 0.0, 1.0));
-        case kUv: return vec3(light.xy, 0.0);
+        case kShownUv: return vec3(light.xy, 0.0);
         default: return (position.xyz - bounds_center_mm) / (2.0 * bounds_radius_mm) + 0.5;
     }
 }
@@ -52,7 +50,7 @@ vec3 with_legend(vec3 color) {
     vec2 corner = vec2(0.5 * (picture.x - size.x * scale), picture.y - (size.y + 4.0) * scale);
     vec2 p = (gl_FragCoord.xy - corner) / scale;
     if (any(lessThan(p, vec2(0.0))) || any(greaterThan(p, size))) return color;
-    const vec2 bar_low = vec2(24.0, 4.0), bar_high = vec2(264.0, 18.0);
+    const vec2 bar_low = vec2(kLegendBarLeft, kLegendBarTop), bar_high = vec2(kLegendBarRight, kLegendBarBottom);
     vec2 bar = (p - bar_low) / (bar_high - bar_low);
     bool inside = all(greaterThan(bar, vec2(0.0))) && all(lessThan(bar, vec2(1.0)));
     vec3 paper = inside ? signed_color(bar.x * 2.0 - 1.0) : vec3(0.06);
@@ -62,6 +60,6 @@ vec3 with_legend(vec3 color) {
 void main() {
     vec4 position = fetch(gbuffer_position);
     vec3 color = position.w > 0.0 ? view_color(position, fetch(gbuffer_light)) : vec3(0.12);
-    if (shown == kCurvature || shown == kNDotL) color = with_legend(color);
+    if (shown == kShownCurvature || shown == kShownNDotL) color = with_legend(color);
     display_out = vec4(color, 1.0);
 }

@@ -6,11 +6,6 @@
 namespace dermis::bust {
 namespace {
 
-double bump(double t) {
-    const double rest = std::max(0.0, 1 - t * t);
-    return rest * rest * rest;
-}
-
 // Height of the lids' margins over the ball: the upper lid ends in an edge that overhangs the lower one.
 double lid_margins(Point q) {
     const double ends = smooth_step(15.5, 23, q.x) * (1 - smooth_step(41, 48.5, q.x));

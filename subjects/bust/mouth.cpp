@@ -33,11 +33,6 @@ double lower_profile(double t) {
            (1 - smooth_step(0.9, 2.4, t));
 }
 
-double bump(double t) {
-    const double rest = std::max(0.0, 1 - t * t);
-    return rest * rest * rest;
-}
-
 }  // namespace
 
 LipShape lip_shape(double x) {

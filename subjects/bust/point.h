@@ -35,6 +35,9 @@ inline Point unit(Point a) {
 constexpr Point mirrored(Point a) {
     return {-a.x, a.y, a.z};
 }
+constexpr float mixf(float a, float b, float t) {
+    return a + (b - a) * t;
+}
 constexpr double mix(double a, double b, double t) {
     return a + (b - a) * t;
 }
@@ -42,6 +45,11 @@ constexpr Point mix(Point a, Point b, double t) {
     return a + (b - a) * t;
 }
 
+/// 1 at 0, falling smoothly to 0 at -1 and 1.
+constexpr double bump(double t) {
+    const double rest = std::max(0.0, 1 - t * t);
+    return rest * rest * rest;
+}
 /// 0 below `low`, 1 above `high`, with continuous first and second derivatives (Perlin 2002, quintic fade).
 constexpr double smooth_step(double low, double high, double v) {
     const double t = std::clamp((v - low) / (high - low), 0.0, 1.0);

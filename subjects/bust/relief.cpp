@@ -11,10 +11,6 @@
 namespace dermis::bust {
 namespace {
 
-float mixf(float a, float b, float t) {
-    return a + (b - a) * t;
-}
-
 // A furrow's cross-section: 1 on its line, 0 from `width` away.
 float groove(double away, double width) {
     const double rest = std::max(0.0, 1 - away * away / (width * width));

@@ -12,9 +12,6 @@
 namespace dermis::bust {
 namespace {
 
-float mixf(float a, float b, float t) {
-    return a + (b - a) * t;
-}
 Vec3 mixc(Vec3 a, Vec3 b, float t) {
     return a + (b - a) * t;
 }

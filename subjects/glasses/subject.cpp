@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "dermis/base/angle.h"
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/tangents.h"
 #include "dermis/scene/subject.h"
@@ -16,7 +16,6 @@
 namespace dermis {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kRimSteps = 64, kTubeSides = 10, kLensRings = 8, kTintSide = 64;
 constexpr Vec2 kLensCenterMm = {36, 20}, kLensHalfMm = {26, 21};
 constexpr float kRimRadiusMm = 1.9f, kTempleRadiusMm = 1.7f;

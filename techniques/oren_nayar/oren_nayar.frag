@@ -3,7 +3,7 @@
 // Oren, Nayar 1994, "Generalization of Lambert's reflectance model", equation 30 (the qualitative model).
 #include "shaders/include/forward.glsl"
 
-layout(set = 0, binding = 1, scalar) uniform Params { float facet_sigma_rad; };
+layout(scalar) uniform Params { float facet_sigma_rad; };
 
 // A = 1 - .5 s^2 / (s^2 + .33), B = .45 s^2 / (s^2 + .09); L / L_Lambert = A + B max(0, cos dphi) sin a tan b, with a
 // the larger and b the smaller of the polar angles.

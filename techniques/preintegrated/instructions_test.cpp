@@ -44,13 +44,14 @@ Count compiled(const std::string& include, const std::string& expression) {
     const auto source = directory.path / "count.frag", output = directory.path / "count.spv";
     const std::string text = "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"" +
                              include +
-                             "\"\nlayout(binding = 0) uniform texture2D table;\n"
-                             "layout(binding = 1) uniform sampler table_sampler;\n"
+                             "\"\nuniform texture2D table;\n"
+                             "uniform sampler table_sampler;\n"
                              "layout(location = 0) in vec3 t;\nlayout(location = 1) in float k;\n"
                              "layout(location = 0) out vec3 o;\nvoid main() { o = " +
                              expression + "; }\n";
     EXPECT_TRUE(write_text_file(source, text));
-    const std::string command = "glslc -O --target-env=vulkan1.3 -I " DERMIS_SOURCE_DIR " " +
+    const std::string command = "glslc -O --target-env=vulkan1.3 -fauto-bind-uniforms -I " DERMIS_SOURCE_DIR
+                                " " +
                                 source.string() + " -o " + output.string();
     EXPECT_EQ(std::system(command.c_str()), 0);
     const auto bytes = read_file(output);

@@ -3,8 +3,9 @@
 // Pre-integrated skin: scattering as a function of N.L and curvature, of small bumps as one normal a channel, and of
 // shadow edges as a function of where in the penumbra one is (Penner 2011).
 #include "shaders/include/frame.glsl"
+#include "techniques/preintegrated/constants.h"
 
-layout(set = 0, binding = 1, scalar) uniform Params {
+layout(scalar) uniform Params {
     float curvature_gain;
     float tune_curvature;
     float normal_lod_bias;
@@ -12,9 +13,9 @@ layout(set = 0, binding = 1, scalar) uniform Params {
     float oiliness;
     float roughness_scale;
 };
-layout(constant_id = 3) const int shadow = 1;
+layout(constant_id = 3) const int shadow = kShadowScattered;
 // A plain shadow keeps the scene's penumbra, so that both variants filter what they should.
-#define DERMIS_SHADOW_WIDTH_MM (shadow == 1 ? shadow_width_mm : penumbra_mm)
+#define DERMIS_SHADOW_WIDTH_MM (shadow == kShadowScattered ? shadow_width_mm : penumbra_mm)
 #define DERMIS_PREPARE_SURFACE
 #define DERMIS_BECKMANN_TABLE
 #define DERMIS_OWN_VIEW
@@ -26,30 +27,21 @@ layout(constant_id = 3) const int shadow = 1;
 #include "techniques/preintegrated/transmission.glsl"
 #include "techniques/preintegrated/zonal.glsl"
 
-const int kDiffuseLut = 0, kDiffuseCurve2015 = 1, kDiffuseClosedForm = 2;
 layout(constant_id = 2) const int diffuse = kDiffuseLut;
-const int kShadowPlain = 0, kShadowScattered = 1;
-const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
 layout(constant_id = 4) const int curvature = kCurvatureVertex;
-const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2;
 layout(constant_id = 5) const int normals = kNormalsBlended;
-const int kAmbientExact = 0, kAmbientLut = 1, kAmbientCurve2015 = 2;
 layout(constant_id = 6) const int ambient = kAmbientLut;
-const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
 layout(constant_id = 7) const int transmission = kTransmissionNone;
 
-layout(set = 0, binding = 18) uniform texture2D curvature_map;
-layout(set = 0, binding = 21) uniform texture2D skin_lut;           // N.L * .5 + .5, curvature
-layout(set = 0, binding = 22) uniform texture2D skin_zonal;         // curvature, order 0 to 2
-layout(set = 0, binding = 23) uniform texture2D skin_shadow;        // visibility, under shadow_width_mm
-layout(set = 0, binding = 24) uniform texture2D skin_closed_form;   // curvature, rows of coefficients
-layout(set = 0, binding = 25) uniform texture2D skin_gaussians;     // a texel a term: weights, variance in mm^2
-layout(set = 0, binding = 26) uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
-layout(set = 0, binding = 27) uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
-layout(set = 0, binding = 28) uniform texture2D skin_transmission;  // distance
-
-const float kMaxCurvaturePerMm = 1.0;
-const float kLeastLogMm = -8.0, kMostLogMm = 4.0;  // of skin_normal_blend
+uniform texture2D curvature_map;
+uniform texture2D skin_lut;           // N.L * .5 + .5, curvature
+uniform texture2D skin_zonal;         // curvature, order 0 to 2
+uniform texture2D skin_shadow;        // visibility, under shadow_width_mm
+uniform texture2D skin_closed_form;   // curvature, rows of coefficients
+uniform texture2D skin_gaussians;     // a texel a term: weights, variance in mm^2
+uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
+uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
+uniform texture2D skin_transmission;  // distance
 
 // What prepare_surface() found; the same for every light.
 float skin_curvature_per_mm;
@@ -69,7 +61,7 @@ float derivative_curvature(Surface s) {
     return clamp(length(fwidth(s.n_geometry_world)), 0.0, 1.0) / (length(fwidth(s.p_world_mm)) * tune_curvature);
 }
 
-// Hollows scatter as bulges of the same curvature do.
+// Concave skin scatters as convex skin of the same curvature does.
 float chosen_curvature_per_mm(Surface s) {
     float k = s.curvature_per_mm;
     if (curvature == kCurvatureDerivative) k = derivative_curvature(s);
@@ -94,7 +86,7 @@ void blend_normals(Surface s) {
     float lod = max(textureQueryLod(sampler2D(normal_map, trilinear_repeat), s.uv).x, 0.0);
     float log_mm = log2(max(normal_texel_mm(s), 1e-8)) + lod;
     float size = float(textureSize(sampler2D(skin_normal_blend, linear_clamp), 0).x);
-    float u = texel_centres((log_mm - kLeastLogMm) / (kMostLogMm - kLeastLogMm), size);
+    float u = texel_centres((log_mm - kMinLogMm) / (kMaxLogMm - kMinLogMm), size);
     vec4 blend = textureLod(sampler2D(skin_normal_blend, linear_clamp), vec2(u, 0.5), 0.0);
     smooth_weight = blend.rgb;
     n_smooth_world = mapped_normal_world(s.n_geometry_world, s.uv, blend.a);

@@ -16,8 +16,6 @@ namespace {
 
 constexpr int kLutWidth = 512, kLutHeight = 256, kRows = 257;
 constexpr int kBeckmannWidth = 256, kBeckmannHeight = 256;
-// Of the sharp read of the normal map, as powers of two: 4 microns to 16 mm. The shader knows both.
-constexpr double kLeastLogMm = -8, kMostLogMm = 4;
 constexpr int kBlendTexels = 97;
 
 TableImage to_image(std::string name, int width, int height, const std::vector<float>& values,
@@ -79,7 +77,7 @@ Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContex
 Result<TableImage> zonal_table(const TableSettings& settings, const SkinContext& skin) {
     std::vector<float> rgba(size_t(kRows) * 3 * 4, 1.0f);
     for (int i = 0; i < kRows; ++i) {
-        const double curvature = std::max(kMaxCurvaturePerMm * i / (kRows - 1), 1e-6);
+        const double curvature = std::max(double(kMaxCurvaturePerMm) * i / (kRows - 1), 1e-6);
         const auto zh = preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature,
                                                       {.construction = settings.construction});
         for (size_t l = 0; l < 3; ++l)
@@ -130,7 +128,7 @@ Result<TableImage> gaussian_table(const TableSettings&, const SkinContext& skin)
 Result<TableImage> normal_blend_table(const TableSettings& settings, const SkinContext& skin) {
     std::vector<float> rgba;
     for (int i = 0; i < kBlendTexels; ++i) {
-        const double log_mm = kLeastLogMm + (kMostLogMm - kLeastLogMm) * i / (kBlendTexels - 1);
+        const double log_mm = kMinLogMm + double(kMaxLogMm - kMinLogMm) * i / (kBlendTexels - 1);
         const NormalBlend blend = normal_blend(skin.gaussians, std::exp2(log_mm), settings.normal_lod_bias);
         for (const double weight : blend.weight) rgba.push_back(float(weight));
         rgba.push_back(float(blend.lod_bias));
@@ -158,7 +156,7 @@ Result<TableImage> transmission_table(const TableSettings&, const SkinContext& s
     const Profile profile = {.name = "", .source = "", .model = skin.gaussians};
     std::vector<float> rgba;
     for (int i = 0; i < kRows; ++i) {
-        const double distance_mm = std::max(kMostDistanceMm * i / (kRows - 1), kLeastDistanceMm);
+        const double distance_mm = std::max(double(kMaxDistanceMm) * i / (kRows - 1), kMinDistanceMm);
         for (int c = 0; c < 3; ++c) {
             const double albedo = diffuse_albedo(profile, c);
             rgba.push_back(albedo > 0 ? float(reflectance_per_mm2(profile, c, distance_mm) / albedo) : 0.0f);

@@ -4,16 +4,12 @@
 #include "dermis/optics/closed_form.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/technique/technique.h"
+#include "techniques/preintegrated/constants.h"
 
 namespace dermis::preintegrated {
 
-/// Curvatures from 0 to this fill the tables; preintegrated.frag knows the same number.
-inline constexpr double kMaxCurvaturePerMm = 1;
-
-/// Distances from 0 to this fill the transmission table; transmission.glsl knows the same number.
-inline constexpr double kMostDistanceMm = 12;
-/// Nearer points count as this far: taps are half a millimetre apart.
-inline constexpr double kLeastDistanceMm = 0.4;
+/// Points nearer than this count as this far in the transmission table: taps are half a millimetre apart.
+inline constexpr double kMinDistanceMm = 0.4;
 
 struct TableSettings {
     Construction construction = Construction::sphere;  ///< of every table; the published ring is half_ring

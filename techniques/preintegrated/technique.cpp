@@ -10,13 +10,23 @@
 namespace dermis {
 namespace {
 
-enum class Diffuse : int32_t { lut, curve_2015, closed_form };
+enum class Diffuse : int32_t {
+    lut = kDiffuseLut,
+    curve_2015 = kDiffuseCurve2015,
+    closed_form = kDiffuseClosedForm
+};
 enum class TableConstruction : int32_t { sphere, ring };
-enum class Curvature : int32_t { vertex, derivative, image };
-enum class Normals : int32_t { sharp, smooth, blended };
-enum class Shadow : int32_t { plain, scattered };
-enum class Transmission : int32_t { none, shadow_map };
-enum class Ambient : int32_t { exact, lut, curve_2015 };
+enum class Curvature : int32_t {
+    vertex = kCurvatureVertex,
+    derivative = kCurvatureDerivative,
+    image = kCurvatureImage
+};
+enum class Normals : int32_t { sharp = kNormalsSharp, smooth = kNormalsSmooth, blended = kNormalsBlended };
+enum class Shadow : int32_t { plain = kShadowPlain, scattered = kShadowScattered };
+enum class Transmission : int32_t { none = kTransmissionNone, shadow_map = kTransmissionShadowMap };
+enum class Ambient : int32_t { exact = kAmbientExact, lut = kAmbientLut, curve_2015 = kAmbientCurve2015 };
+
+constexpr const char* kOwnView = "skin_curvature";
 
 struct Params {
     Diffuse diffuse = Diffuse::lut;
@@ -68,8 +78,7 @@ ParameterTable parameters() {
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
-    Pass pass = forward_skin_pass("preintegrated/preintegrated.frag", params.specular, frame);
-    if (frame.view == "skin_curvature") pass.constants = {{"view", 3}};
+    Pass pass = forward_skin_pass("preintegrated/preintegrated.frag", params.specular, frame, kOwnView);
     pass.constants.insert(pass.constants.end(), {{"diffuse", int32_t(params.diffuse)},
                                                  {"shadow", int32_t(params.shadow)},
                                                  {"curvature", int32_t(params.curvature)},
@@ -105,7 +114,7 @@ Technique make_preintegrated_technique() {
             .summary = "scattering by curvature, by bumps and into shadows, from tables or a closed form",
             .source = "Penner 2011, Pre-Integrated Skin Shading, GPU Pro 2; curves: Yeung 2015",
             .parameters = parameters(),
-            .views = {"skin_curvature"},
+            .views = {kOwnView},
             .build = build,
             .tables = tables,
             .figures = figures};

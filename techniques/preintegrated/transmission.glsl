@@ -7,20 +7,20 @@
 
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/texel_centres.glsl"
+#include "techniques/preintegrated/constants.h"
 
-const float kMostDistanceMm = 12.0;  // tables.h has it too
 const float kWidestRingMm = 6.0;
 const int kTransmissionTaps = 20;
 
 // In units of the light's irradiance at normal incidence; `table` holds R per mm^2 over the distance. Taps lie in rings at
-// even steps of radius, which is closer than even cover where R is large; each stands for its ring's area. Where
+// even steps of radius, which is closer than even cover where R is large; each counts for its ring's area. Where
 // nothing lit lies near along the light, as on most of a head's dark side, one tap is all.
 vec3 transmitted_light(texture2D table, vec3 p_mm, vec3 to_light_world) {
     vec3 here = shadow_map_position(light_view_projection, p_mm);
     if (outside_shadow_map(here)) return vec3(0.0);
     float mm_per_z = 1.0 / (here.z - shadow_map_position(light_view_projection, p_mm + to_light_world).z);
     float lit_z = textureLod(sampler2D(shadow_map, nearest_clamp), here.xy, 0.0).r;
-    if ((here.z - lit_z) * mm_per_z >= kMostDistanceMm) return vec3(0.0);
+    if ((here.z - lit_z) * mm_per_z >= kMaxDistanceMm) return vec3(0.0);
     // Axes of a millimetre across the light.
     ShadowDisk disk = shadow_disk(light_view_projection, p_mm, to_light_world, to_light_world, 1.0);
     float size = float(textureSize(sampler2D(table, linear_clamp), 0).x);
@@ -33,7 +33,7 @@ vec3 transmitted_light(texture2D table, vec3 p_mm, vec3 to_light_world) {
         if (tap_z == 1.0) continue;  // no skin
         float depth_mm = (here.z - tap_z) * mm_per_z;
         float distance_mm = sqrt(radius_mm * radius_mm + depth_mm * depth_mm);
-        float u = texel_centres(distance_mm / kMostDistanceMm, size);
+        float u = texel_centres(distance_mm / kMaxDistanceMm, size);
         light += radius_mm * textureLod(sampler2D(table, linear_clamp), vec2(u, 0.5), 0.0).rgb;
     }
     return light * 2.0 * kPi * step_mm;

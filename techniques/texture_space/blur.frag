@@ -4,13 +4,12 @@
 #include "shaders/include/frame.glsl"
 #include "techniques/texture_space/taps.glsl"
 
-layout(set = 0, binding = 1, scalar) uniform Params {
+layout(scalar) uniform Params {
     float blur_scale;
     float blur_bias;
 };
-layout(set = 0, binding = 21) uniform texture2D source;
+uniform texture2D source;
 
-const int kDilateOff = 0, kDilateSource = 1, kDilateWrittenOnly = 2;
 layout(constant_id = 1) const int dilate = kDilateWrittenOnly;
 
 layout(location = 0) in vec2 uv;

@@ -100,7 +100,7 @@ Figure dilation_figure() {
                       cell("the source's copy in the first pass", "source", dilate("source")),
                       cell("average of written texels", "written", dilate("written_only"))}};
     row.cells[1].compare_to = row.cells[2].compare_to = "off";
-    for (FigureCell& one : row.cells) one.camera = "yaw=120 pitch=10";
+    for (FigureCell& one : row.cells) one.camera = "yaw_deg=120 pitch_deg=10";
     return {.id = "dilation",
             .title = "With and without dilation at chart borders",
             .source = kSource + "2.8.6",
@@ -140,7 +140,7 @@ Figure millimetres_figure() {
          cell("2 mm, taps over seams dropped", "drop", drop),
          cell("2 mm, carried over seams", "carry", carry), cell("sum of Gaussians", "gaussians", {})}};
     row.cells[3].technique = "texture_space_gaussians";
-    for (FigureCell& one : row.cells) one.view = "light_map", one.camera = "yaw=60 pitch=8";
+    for (FigureCell& one : row.cells) one.view = "light_map", one.camera = "yaw_deg=60 pitch_deg=8";
     row.cells[2].compare_to = "drop";
     return {.id = "millimetres",
             .title = "The blurred light, in texels and in millimetres",

@@ -2,10 +2,11 @@
 #ifndef DERMIS_TEXTURE_SPACE_TAPS_GLSL
 #define DERMIS_TEXTURE_SPACE_TAPS_GLSL
 
+#include "techniques/texture_space/constants.h"
+
 layout(push_constant, scalar) uniform PassValues { float pass_index; };
 
-const int kPoisson = 0, kGaussian = 1, kBox = 2, kKawase = 3;
-layout(constant_id = 0) const int blur_filter = kPoisson;
+layout(constant_id = 0) const int blur_filter = kFilterPoisson;
 
 // The twelve points of a Poisson disk that the source lists; the centre is the thirteenth tap.
 const vec2 kPoissonDisk[12] =
@@ -13,20 +14,20 @@ const vec2 kPoissonDisk[12] =
            vec2(0.96234, -0.194983), vec2(0.473434, -0.480026), vec2(0.519456, 0.767022), vec2(0.185461, -0.893124),
            vec2(0.507431, 0.064425), vec2(0.89642, 0.412458), vec2(-0.32194, -0.932615), vec2(-0.791559, -0.59771));
 
-int tap_count() { return blur_filter == kPoisson ? 12 : blur_filter == kKawase ? 4 : 8; }
+int tap_count() { return blur_filter == kFilterPoisson ? 12 : blur_filter == kFilterKawase ? 4 : 8; }
 
 // Offset in radii and weight of a tap around the centre.
 vec3 tap(int i) {
-    if (blur_filter == kPoisson) return vec3(kPoissonDisk[i], 1.0);
+    if (blur_filter == kFilterPoisson) return vec3(kPoissonDisk[i], 1.0);
     // Kawase 2003: four diagonal taps, each pass further out.
-    if (blur_filter == kKawase) return vec3(vec2((i & 1) * 2 - 1, (i & 2) - 1) * (0.5 + 0.5 * pass_index), 1.0);
+    if (blur_filter == kFilterKawase) return vec3(vec2((i & 1) * 2 - 1, (i & 2) - 1) * (0.5 + 0.5 * pass_index), 1.0);
     int cell = i < 4 ? i : i + 1;  // the eight cells around the middle of 3 x 3
     vec2 offset = vec2(cell % 3, cell / 3) - 1.0;
     // 1 2 1 in both axes, against a centre of 4.
-    float weight = blur_filter == kGaussian ? (2.0 - abs(offset.x)) * (2.0 - abs(offset.y)) : 1.0;
+    float weight = blur_filter == kFilterGaussian ? (2.0 - abs(offset.x)) * (2.0 - abs(offset.y)) : 1.0;
     return vec3(offset, weight);
 }
 
-float centre_weight() { return blur_filter == kGaussian ? 4.0 : 1.0; }
+float centre_weight() { return blur_filter == kFilterGaussian ? 4.0 : 1.0; }
 
 #endif

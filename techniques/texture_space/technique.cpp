@@ -5,23 +5,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dermis/technique/atlas_light.h"
 #include "dermis/technique/forward.h"
+#include "techniques/texture_space/constants.h"
 #include "techniques/texture_space/figures.h"
 
 namespace dermis {
 namespace {
 
-enum class Filter : int32_t { poisson, gaussian, box, kawase };
-enum class Dilate : int32_t { off, source, written_only };
-enum class Space : int32_t { texels, mm };
+enum class Filter : int32_t {
+    poisson = kFilterPoisson,
+    gaussian = kFilterGaussian,
+    box = kFilterBox,
+    kawase = kFilterKawase
+};
+enum class Dilate : int32_t { off = kDilateOff, source = kDilateSource, written_only = kDilateWrittenOnly };
+enum class Space : int32_t { texels = kSpaceTexels, mm = kSpaceMm };
 enum class Seams : int32_t { drop, carry };
 
+constexpr const char* kOwnView = "light_map";
 constexpr float kMaxBlurRadius = 64;
 
 struct Params {
-    int32_t light_map_size = 1024;
+    AtlasParams atlas;
     Filter filter = Filter::poisson;
     int32_t blur_passes = 2;
     float blur_scale = 2;
@@ -29,15 +37,9 @@ struct Params {
     Dilate dilate = Dilate::written_only;
     Space space = Space::texels;
     Seams seams = Seams::carry;
-    bool translucent_shadows = true;
-    float occluded = 0;
-    float trans_shadow_alpha = 1;
     bool single_channel_opacity = false;
     bool second_light_shadow = false;
     ShadowLookup shadow_lookup = ShadowLookup::disk;
-    bool cull_frustum = true;
-    bool cull_back_face = true;
-    float cull_bias = 0.3f;
     float exempt_1_u = 0, exempt_1_v = 0, exempt_1_radius = 0;
     float exempt_2_u = 0, exempt_2_v = 0, exempt_2_radius = 0;
     bool cull_distance = false;
@@ -50,7 +52,7 @@ struct Params {
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
-        .integer(&Params::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
+        .part(&Params::atlas, atlas_parameters())
         .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"}, "taps of the blur")
         .integer(&Params::blur_passes, "blur_passes", "", 0, 16, "how often the light map is blurred")
         .number(&Params::blur_scale, "blur_scale", "texels or mm", 0, kMaxBlurRadius,
@@ -63,19 +65,12 @@ ParameterTable parameters() {
                 "the blur's radius is in texels, as in the source, or in mm on the skin, whatever the unwrap")
         .choice(&Params::seams, "seams", {"drop", "carry"},
                 "in mm: taps that leave a chart are dropped, or carried into the chart beyond the seam")
-        .toggle(&Params::translucent_shadows, "translucent_shadows", "translucent objects tint the key light")
-        .number(&Params::occluded, "occluded", "", 0, 1, "share of the light that full shadow leaves")
-        .number(&Params::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
-                "exponent of a translucent shadow; larger is darker")
         .toggle(&Params::single_channel_opacity, "single_channel_opacity",
                 "translucent shadows without colour, from the red channel")
         .toggle(&Params::second_light_shadow, "second_light_shadow",
                 "the second light casts a shadow too, from the channels that one light leaves free")
         .choice(&Params::shadow_lookup, "shadow_lookup", {"disk", "single"},
                 "filtered over the penumbra, or the source's one texel with a bias of 0.01")
-        .toggle(&Params::cull_frustum, "cull_frustum", "leave out texels outside the view")
-        .toggle(&Params::cull_back_face, "cull_back_face", "leave out texels that face away")
-        .number(&Params::cull_bias, "cull_bias", "", 0, 2, "added to the cosine between view and normal")
         .number(&Params::exempt_1_u, "exempt_1_u", "uv", 0, 1, "an ear that is never culled: middle")
         .number(&Params::exempt_1_v, "exempt_1_v", "uv", 0, 1, "the same")
         .number(&Params::exempt_1_radius, "exempt_1_radius", "uv", 0, 1, "its radius; 0: none")
@@ -104,31 +99,27 @@ int reach_texels(const Params& params, float radius_texels) {
     for (int i = 0; i < params.blur_passes; ++i)
         reach +=
             std::ceil(widest_tap(params, i) * radius_texels * (params.space == Space::mm ? 2.0f : 1.0f)) + 1;
-    return int(std::min(reach, float(params.light_map_size)));
+    return int(std::min(reach, float(params.atlas.light_map_size)));
 }
 
 AtlasLightSettings atlas_settings(const Params& params, const FrameContext& frame, bool whole) {
-    const bool in_mm = params.space == Space::mm, carry = params.seams == Seams::carry;
+    const bool carry = params.seams == Seams::carry;
     const float radius = params.blur_scale + params.blur_bias;
-    const float longest = longest_step_texels(radius, params.light_map_size, frame);
-    return {.shadow = {.translucent = params.translucent_shadows,
-                       .second_light = params.second_light_shadow,
-                       .single_channel = params.single_channel_opacity,
-                       .lookup = params.shadow_lookup},
-            .cull = {.frustum = params.cull_frustum && !whole,
-                     .back_face = params.cull_back_face && !whole,
-                     .bias = params.cull_bias,
-                     .exempt = {{params.exempt_1_u, params.exempt_1_v, params.exempt_1_radius},
-                                {params.exempt_2_u, params.exempt_2_v, params.exempt_2_radius}},
-                     .reach_texels = reach_texels(params, in_mm ? longest : radius),
-                     .size = params.light_map_size,
-                     .across_seams = in_mm && carry},
-            .size = params.light_map_size,
-            .in_mm = in_mm,
-            .carry_seams = carry,
-            .kernel_scale_mm = params.blur_scale,
-            .kernel_bias_mm = params.blur_bias,
-            .longest_texels = longest};
+    AtlasLightSettings settings = atlas_light_settings(params.atlas);
+    settings.in_mm = params.space == Space::mm;
+    settings.shadow.second_light = params.second_light_shadow;
+    settings.shadow.single_channel = params.single_channel_opacity;
+    settings.shadow.lookup = params.shadow_lookup;
+    if (whole) settings.cull.frustum = settings.cull.back_face = false;
+    settings.cull.exempt[0] = {params.exempt_1_u, params.exempt_1_v, params.exempt_1_radius};
+    settings.cull.exempt[1] = {params.exempt_2_u, params.exempt_2_v, params.exempt_2_radius};
+    settings.longest_texels = longest_step_texels(radius, settings.size, frame);
+    settings.cull.reach_texels = reach_texels(params, settings.in_mm ? settings.longest_texels : radius);
+    settings.cull.across_seams = settings.in_mm && carry;
+    settings.carry_seams = carry;
+    settings.kernel_scale_mm = params.blur_scale;
+    settings.kernel_bias_mm = params.blur_bias;
+    return settings;
 }
 
 constexpr std::array<float, 4> kNothingWritten = {0, 0, 0, 1};
@@ -179,7 +170,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const bool far = is_far(frame.camera_distance_mm);
     const bool kept = far && is_far(frame.previous_camera_distance_mm);
 
-    const ImageSize size = {params.light_map_size, params.light_map_size};
+    const ImageSize size = {params.atlas.light_map_size, params.atlas.light_map_size};
     const std::string result = params.blur_passes % 2 == 0 ? "light_map_a" : "light_map_b";
     // In mm charts and gutters must agree to a thousandth, which halves lose in a few passes.
     const ImageFormat format = params.space == Space::mm ? ImageFormat::rgba32f : ImageFormat::rgba16f;
@@ -194,18 +185,10 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     add_shadow_channels(list, atlas.shadow, frame);
     if (!kept) add_light_map(list, params, atlas, frame);
 
-    const int32_t view = frame.view == "light_map" ? 3 : forward_view(frame.view);
-    Pass skin = {.name = "skin",
-                 .kind = PassKind::geometry_screen,
-                 .shader = "texture_space/final.frag",
-                 .reads = {{"light_map", result}},
-                 .colors = {{.image = "radiance", .load = LoadOp::load}},
-                 .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
-                 .geometry = GeometryFilter::skin,
-                 .constants = {{"specular_model", int32_t(params.specular)},
-                               {"view", view},
-                               {"specular_shadow", int32_t(params.specular_shadow)},
-                               {"space", int32_t(params.space)}}};
+    Pass skin = forward_skin_pass("texture_space/final.frag", params.specular, frame, kOwnView);
+    skin.reads = {{"light_map", result}};
+    skin.constants.insert(skin.constants.end(), {{"specular_shadow", int32_t(params.specular_shadow)},
+                                                 {"space", int32_t(params.space)}});
     read_shadow_channels(skin, atlas.shadow, frame);
     list.passes.push_back(std::move(skin));
     return list;
@@ -215,12 +198,11 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 // blurs add, so that n passes of radius r and m of r sqrt(n / m) are one width. Kawase's filter has its radii
 // from the number of the pass and keeps them.
 ParameterValues coarse(ParameterValues values, float scale) {
-    constexpr int32_t kSmallest = 256;
     auto params = values.as<Params>();
-    const int32_t size =
-        std::max(int32_t(float(params.light_map_size) * scale), std::min(params.light_map_size, kSmallest));
-    float wider = params.space == Space::texels ? float(size) / float(params.light_map_size) : 1.0f;
-    params.light_map_size = size;
+    const AtlasParams whole = std::exchange(params.atlas, coarse_light_map(params.atlas, scale));
+    float wider = params.space == Space::texels
+                      ? float(params.atlas.light_map_size) / float(whole.light_map_size)
+                      : 1.0f;
     if (params.filter != Filter::kawase && params.blur_passes > 1) {
         const int32_t passes = (params.blur_passes + 1) / 2;
         wider *= std::sqrt(float(params.blur_passes) / float(passes));
@@ -239,7 +221,7 @@ Technique make_texture_space_technique() {
             .summary = "diffuse light blurred in the texture atlas, by a painted kernel size",
             .source = "Gosselin, Sander, Mitchell 2004, Real-Time Texture-Space Skin Rendering",
             .parameters = parameters(),
-            .views = {"light_map"},
+            .views = {kOwnView},
             .build = build,
             .coarse = coarse,
             .figures = texture_space_figures};

@@ -15,37 +15,26 @@
 namespace dermis {
 namespace {
 
+constexpr const char* kOwnView = "light_map";
+
 struct Params {
-    int32_t light_map_size = 1024;
+    AtlasParams atlas;
     float width = 1;
     int32_t half_taps = 3;
     bool carry_seams = true;
     float pre_scatter = 0;
-    bool translucent_shadows = true;
-    float occluded = 0;
-    float trans_shadow_alpha = 1;
-    bool cull_frustum = true;
-    bool cull_back_face = true;
-    float cull_bias = 0.3f;
     SpecularModel specular = SpecularModel::ggx;
 };
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
-        .integer(&Params::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
+        .part(&Params::atlas, atlas_parameters())
         .number(&Params::width, "width", "", 0, 10, "scales the profile's lengths")
         .integer(&Params::half_taps, "half_taps", "", 2, 12, "taps on each side of a Gaussian's middle")
         .toggle(&Params::carry_seams, "carry_seams",
                 "blur across the atlas's seams; off: taps that leave a chart are dropped")
         .number(&Params::pre_scatter, "pre_scatter", "", 0, 1,
                 "share of the base colour, as an exponent, that the light takes before it is blurred")
-        .toggle(&Params::translucent_shadows, "translucent_shadows", "translucent objects tint the key light")
-        .number(&Params::occluded, "occluded", "", 0, 1, "share of the light that full shadow leaves")
-        .number(&Params::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
-                "exponent of a translucent shadow; larger is darker")
-        .toggle(&Params::cull_frustum, "cull_frustum", "leave out texels outside the view")
-        .toggle(&Params::cull_back_face, "cull_back_face", "leave out texels that face away")
-        .number(&Params::cull_bias, "cull_bias", "", 0, 2, "added to the cosine between view and normal")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
 }
@@ -83,22 +72,16 @@ std::vector<Step> steps_of(const GaussianSum& sum, float width) {
 
 AtlasLightSettings atlas_settings(const Params& params, const std::vector<Step>& steps,
                                   const FrameContext& frame) {
-    AtlasLightSettings settings = {.shadow = {.translucent = params.translucent_shadows},
-                                   .cull = {.frustum = params.cull_frustum,
-                                            .back_face = params.cull_back_face,
-                                            .bias = params.cull_bias,
-                                            .size = params.light_map_size,
-                                            .across_seams = params.carry_seams},
-                                   .size = params.light_map_size,
-                                   .in_mm = true,
-                                   .carry_seams = params.carry_seams,
-                                   .pre_scatter = params.pre_scatter,
-                                   .longest_texels = longest_step_texels(1, params.light_map_size, frame)};
+    AtlasLightSettings settings = atlas_light_settings(params.atlas);
+    settings.cull.across_seams = settings.carry_seams = params.carry_seams;
+    settings.in_mm = true;
+    settings.pre_scatter = params.pre_scatter;
+    settings.longest_texels = longest_step_texels(1, settings.size, frame);
     // Taps go to 3 sigma along each of two steps; a bilinear neighbour each, and one of the final mesh.
     double reach = 2;
     for (const Step& step : steps)
         reach += 2 * std::ceil(3.1 * step.sigma_mm * double(settings.longest_texels)) + 2;
-    settings.cull.reach_texels = int(std::min(reach, double(params.light_map_size)));
+    settings.cull.reach_texels = int(std::min(reach, double(settings.size)));
     return settings;
 }
 
@@ -129,7 +112,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
     const std::vector<Step> steps = steps_of(frame.skin_gaussians, params.width);
     const AtlasLightSettings atlas = atlas_settings(params, steps, frame);
-    const ImageSize size = {params.light_map_size, params.light_map_size};
+    const ImageSize size = {params.atlas.light_map_size, params.atlas.light_map_size};
     PassList list;
     // Floats: a dozen roundings to half in a row are seen.
     for (const char* name : {"light_map_a", "light_map_b"})
@@ -140,22 +123,18 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     add_atlas_light(list, atlas, frame);
     for (size_t i = 0; i < steps.size(); ++i) add_gaussian(list, params, atlas, steps[i], i, steps.size());
 
-    Pass skin = forward_skin_pass("texture_space_gaussians/final.frag", params.specular, frame);
+    Pass skin = forward_skin_pass("texture_space_gaussians/final.frag", params.specular, frame, kOwnView);
     skin.reads = {{"light_map", steps.empty() ? "light_map_a" : "light_sum"}};
     read_shadow_channels(skin, atlas.shadow, frame);
-    if (frame.view == "light_map")
-        for (auto& [name, value] : skin.constants)
-            if (name == "view") value = 3;
     list.passes.push_back(std::move(skin));
     return list;
 }
 
 // A smaller light map and the fewest taps; lengths are in mm and stay.
 ParameterValues coarse(ParameterValues values, float scale) {
-    constexpr int32_t kSmallest = 256, kFewestTaps = 2;
+    constexpr int32_t kFewestTaps = 2;
     auto params = values.as<Params>();
-    params.light_map_size =
-        std::max(int32_t(float(params.light_map_size) * scale), std::min(params.light_map_size, kSmallest));
+    params.atlas = coarse_light_map(params.atlas, scale);
     params.half_taps = kFewestTaps;
     values.put_all(params);
     return values;
@@ -168,7 +147,7 @@ Technique make_texture_space_gaussians_technique() {
             .summary = "diffuse light blurred over the surface by every Gaussian of the diffusion profile",
             .source = "d'Eon, Luebke 2007, Advanced Techniques for Realistic Real-Time Skin Rendering",
             .parameters = parameters(),
-            .views = {"light_map"},
+            .views = {kOwnView},
             .build = build,
             .coarse = coarse};
 }

@@ -3,7 +3,7 @@
 // Wrapped diffuse: light reaches past the terminator, in a colour of its own there (Green 2004, GPU Gems, chapter 16).
 #include "shaders/include/forward.glsl"
 
-layout(set = 0, binding = 1, scalar) uniform Params {
+layout(scalar) uniform Params {
     float wrap;
     float scatter_width;
     vec3 scatter_color_linear;

@@ -86,3 +86,36 @@ TEST(Parameters, wrong_values_are_named_with_what_would_be_right) {
               "parameter 'tint_linear': '2' is not in its range, 0 to 1 linear");
     EXPECT_EQ(set_error("tint_linear", "1,1"), "parameter 'tint_linear': '1,1' is not one number or three");
 }
+
+namespace {
+
+// A part that several techniques share, and one that has it with another default.
+struct Shared {
+    int32_t size = 64;
+    bool on = true;
+};
+struct Whole {
+    float width_mm = 3;
+    Shared shared = {.size = 32};
+};
+
+}  // namespace
+
+TEST(Parameters, of_a_shared_part_reach_the_whole) {
+    const ParameterTable rows = ParameterTableBuilder<Shared>()
+                                    .integer(&Shared::size, "size", "texels", 1, 128, "side")
+                                    .toggle(&Shared::on, "on", "whether at all")
+                                    .build();
+    const ParameterTable whole = ParameterTableBuilder<Whole>()
+                                     .number(&Whole::width_mm, "width_mm", "mm", 0, 10, "width")
+                                     .part(&Whole::shared, rows)
+                                     .build();
+    EXPECT_EQ(whole.find("size")->default_value[0], 32);
+    ParameterValues values(whole);
+    ASSERT_TRUE(values.set("size", "100"));
+    ASSERT_TRUE(values.set("on", "off"));
+    EXPECT_EQ(values.as<Whole>().shared.size, 100);
+    EXPECT_FALSE(values.as<Whole>().shared.on);
+    EXPECT_EQ(values.as<Whole>().width_mm, 3);
+    EXPECT_FALSE(values.set("size", "129"));
+}

@@ -54,8 +54,8 @@ TEST_F(BadInput, options_that_are_wrong_say_what_would_be_right) {
     expect_error("render builtin:spheres --technique wrap --set wrap", "--set 'wrap': write name=value");
     expect_error("render builtin:spheres --samples 3", "--samples 3: 1 or 4");
     expect_error("render builtin:spheres --view norml", "did you mean 'normal'?");
-    expect_error("render builtin:spheres --camera 'yaw=x'", "yaw");
-    expect_error("render builtin:spheres --light 'pitch=1000'", "pitch");
+    expect_error("render builtin:spheres --camera 'yaw_deg=x'", "yaw_deg is a number");
+    expect_error("render builtin:spheres --light 'pitch_deg=1000'", "pitch_deg is a number");
     expect_error("render builtin:spheres --frames 0", "--frames 0: 1 to 100000");
     expect_error("figures lambart", "did you mean 'lambert'?");
     expect_error("figures lambert", "technique 'lambert' has no figures");

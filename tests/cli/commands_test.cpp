@@ -123,12 +123,11 @@ TEST_F(Commands, a_new_technique_is_a_folder_that_compiles_as_it_is) {
                                      "/tools/new_technique my_skin 'a test'");
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const std::string folder = path("my_skin");
-    const ProgramResult shader = shell("glslc --target-env=vulkan1.3 -Werror -I " + root + "/shaders -o " +
-                                       path("a.spv") + " " + folder + "/my_skin.frag");
+    const ProgramResult shader = shell("glslc --target-env=vulkan1.3 -fauto-bind-uniforms -Werror -I " +
+                                       root + " -o " + path("a.spv") + " " + folder + "/my_skin.frag");
     EXPECT_EQ(shader.exit_code, 0) << shader.err;
-    const ProgramResult code =
-        shell(std::string(DERMIS_COMPILER) + " -std=c++20 -fsyntax-only -I " DERMIS_BINARY_DIR "/include " +
-              folder + "/technique.cpp");
+    const ProgramResult code = shell(std::string(DERMIS_COMPILER) + " -std=c++20 -fsyntax-only -I " + root +
+                                     " " + folder + "/technique.cpp");
     EXPECT_EQ(code.exit_code, 0) << code.err;
     EXPECT_NE(
         shell("DERMIS_TECHNIQUES=" + directory_.path.string() + " " + root + "/tools/new_technique my_skin x")

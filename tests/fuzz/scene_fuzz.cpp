@@ -8,6 +8,7 @@
 
 #include "catalog/catalog.h"
 #include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_words.h"
 
 namespace {
 
@@ -30,13 +31,19 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         expect(scene.error().message.starts_with("fuzz.toml:"));
         expect(scene.error().message.find('\n') == std::string::npos);
     }
-    if (const auto camera = dermis::parse_camera(text, dermis::Camera{}))
-        expect(dermis::parse_camera(dermis::camera_text(*camera), *camera).ok());
-    dermis::Scene look;
-    if (dermis::parse_look(text, look)) {
-        const dermis::Scene plain;
+    if (const auto word = dermis::parse_scene_word(text)) {
+        dermis::Scene seen{.lights = {{.is_key = true}}};
+        if (dermis::set_words(seen, std::span(&*word, 1))) {
+            dermis::Scene again{.lights = {{.is_key = true}}};
+            expect(dermis::set_words(again, dermis::words_of(seen)).ok());
+        }
+        dermis::SceneDescription any{.meshes = {{}}};
+        (void)dermis::set_word(any, *word, dermis::built_in_catalog().subjects);
+    }
+    dermis::Scene seen;
+    if (dermis::set_section(seen, "camera", text)) {
         dermis::Scene again;
-        expect(dermis::parse_look(dermis::look_text(look, plain), again).ok());
+        expect(dermis::set_section(again, "camera", dermis::camera_text(seen.camera)).ok());
     }
     return 0;
 }

@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static const Scene kScene = *load_scene("builtin:spheres", {.subjects = built_in_catalog().subjects});
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     Scene scene = {.lights = kScene.lights, .camera = kScene.camera, .environment = kScene.environment};
-    const SceneLook file = look_of(scene);
+    const Scene file = without_objects(scene);
     const Technique& technique = built_in_catalog().techniques.front();
     Model model{.scene_path = "a",
                 .scene = &scene,

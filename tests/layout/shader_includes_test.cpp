@@ -19,7 +19,12 @@ const fs::path kRoot = DERMIS_SOURCE_DIR;
 struct ShaderFile {
     std::string folder;                 // "shaders/atlas", "techniques/wrap"
     std::vector<std::string> includes;  // as they are written
+    bool numbers_bindings = false;
 };
+
+bool numbers_bindings(const std::string& text) {
+    return std::regex_search(text, std::regex(R"re(\bbinding *=)re"));
+}
 
 std::vector<std::string> includes_of(const std::string& text) {
     static const std::regex include(R"re(#include "([^"]+)")re");
@@ -36,8 +41,9 @@ std::vector<ShaderFile> shader_files() {
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree)) {
             if (!kExtensions.contains(entry.path().extension())) continue;
             std::ifstream file(entry.path());
+            const std::string text = {std::istreambuf_iterator<char>(file), {}};
             files.push_back({fs::relative(entry.path().parent_path(), kRoot).generic_string(),
-                             includes_of({std::istreambuf_iterator<char>(file), {}})});
+                             includes_of(text), numbers_bindings(text)});
         }
     return files;
 }
@@ -82,4 +88,10 @@ TEST(ShaderIncludes, of_the_wrong_folder_are_found) {
     EXPECT_NE(objection("shaders/renderer", "shaders/atlas/light.glsl"), "");
     EXPECT_NE(objection("shaders/atlas", "techniques/texture_space/taps.glsl"), "");
     EXPECT_NE(objection("techniques/wrap", "include/frame.glsl"), "");
+}
+
+// They would be ignored: bindings are found by name.
+TEST(Shaders, do_not_number_their_bindings) {
+    for (const ShaderFile& file : shader_files()) EXPECT_FALSE(file.numbers_bindings) << file.folder;
+    EXPECT_TRUE(numbers_bindings("layout(set = 0, binding = 3) uniform texture2D a;"));
 }

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
+#include <map>
+#include <regex>
 
 #include "dermis/base/file.h"
 #include "dermis/scene/scene_paths.h"
@@ -114,4 +116,44 @@ TEST(GetHead, fetches_checks_and_credits_and_does_not_fetch_twice) {
     EXPECT_EQ(files_in(target.path), 8u) << "seven files and their directory";
     const Outcome again = get_head(address, target.path);
     EXPECT_EQ(again.status, 0) << "the server is gone, but nothing is missing: " << again.output;
+}
+
+TEST(GetHead, a_second_address_is_tried_when_the_first_lacks_the_file_or_sends_another) {
+    if (!have("python3") || !(have("curl") || have("wget"))) GTEST_SKIP() << kMissing;
+    const Result<fs::path> asset = resolve_path("assets:lee_perry_smith/head_quads.obj", "");
+    if (!asset) GTEST_SKIP() << asset.error().message;
+    const TemporaryDirectory first, target;
+    ASSERT_TRUE(write_text_file(first.path / "color_2048.jpg", "not the scan"));
+    const FileServer bad(first.path), good(asset->parent_path());
+    ASSERT_TRUE(bad.runs() && good.runs());
+    const Outcome outcome = get_head(bad.address() + " " + good.address(), target.path);
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_NE(outcome.output.find("color_2048.jpg: what " + bad.address()), std::string::npos);
+    EXPECT_NE(outcome.output.find("head.obj: cannot fetch " + bad.address()), std::string::npos);
+    EXPECT_NE(outcome.output.find("CC BY 3.0"), std::string::npos);
+    EXPECT_EQ(*read_file(target.path / "lee_perry_smith" / "color_2048.jpg"),
+              *read_file(asset->parent_path() / "color_2048.jpg"));
+    EXPECT_EQ(files_in(target.path), 8u) << "seven files and their directory";
+}
+
+// The table of the script: every file has an address that names a fixed version, and scenes want no other
+// file.
+TEST(GetHead, every_file_of_the_head_that_a_scene_uses_has_an_address) {
+    const std::string script = *read_text_file(DERMIS_SOURCE_DIR "/tools/get_head");
+    static const std::regex row(R"(\n(\w+\.\w+) +[0-9a-f|]{64,129}((?: \$(?:three|mean)/[\w./-]+)*)(?=\n))");
+    std::map<std::string, std::string> addresses;
+    for (std::sregex_iterator it(script.begin(), script.end(), row), end; it != end; ++it)
+        addresses[(*it)[1]] = (*it)[2];
+    EXPECT_EQ(addresses.size(), 7u);
+    for (const auto& [name, list] : addresses) EXPECT_NE(list, "") << name;
+    EXPECT_NE(addresses["color_2048.jpg"].find("$mean/"), std::string::npos);
+    EXPECT_NE(addresses["specular_2048.jpg"].find("$mean/"), std::string::npos);
+    static const std::regex used(R"(assets:lee_perry_smith/([\w.]+))");
+    size_t uses = 0;
+    for (const auto& entry : fs::directory_iterator(DERMIS_SOURCE_DIR "/scenes")) {
+        const std::string scene = *read_text_file(entry.path());
+        for (std::sregex_iterator it(scene.begin(), scene.end(), used), end; it != end; ++it, ++uses)
+            EXPECT_TRUE(addresses.contains((*it)[1])) << entry.path() << ": " << (*it)[1];
+    }
+    EXPECT_GT(uses, 5u);
 }

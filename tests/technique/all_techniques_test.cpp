@@ -73,10 +73,8 @@ TEST(AllTechniques, build_sound_frames_for_every_setting_view_and_sample_count) 
             for (const std::string& view : view_names(technique))
                 for (const int samples : {1, 4}) {
                     const bool glass = samples == 4;  // with something translucent, and without
-                    const PassList own = technique.build(values, {.samples = samples,
-                                                                  .view = view,
-                                                                  .has_translucent = glass,
-                                                                  .has_second_light = glass});
+                    const PassList own = technique.build(
+                        values, {.view = view, .has_translucent = glass, .has_second_light = glass});
                     const PassList frame = frame_passes(
                         own, {.samples = samples, .view = view, .has_other = true, .has_translucent = glass});
                     for (const std::string& problem : problems(frame, inputs))

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "dermis/scene/scene_words.h"
+
 namespace dermis::view {
 namespace {
 
@@ -13,7 +15,7 @@ struct Read {
     Read() {
         before = *load_built_in_scene("builtin:spheres");
         seen = fresh = before;
-        seen.camera = *parse_camera("yaw=40", seen.camera);
+        EXPECT_TRUE(set_section(seen, "camera", "yaw_deg=40"));
         seen.lights[0].intensity = 2;
         seen.environment.yaw_rad = 1;
         seen.skin.profile = "jensen_skin1";
@@ -24,7 +26,7 @@ struct Read {
 TEST(SceneLook, what_the_file_does_not_touch_stays_as_it_was_seen) {
     Read read;
     read.fresh.name = "renamed";
-    keep_look(look_of(read.before), look_of(read.seen), read.fresh);
+    keep_look(read.before, read.seen, read.fresh);
     EXPECT_EQ(camera_text(read.fresh.camera), camera_text(read.seen.camera));
     EXPECT_EQ(read.fresh.lights[0].intensity, 2);
     EXPECT_EQ(read.fresh.environment.yaw_rad, 1);
@@ -35,13 +37,13 @@ TEST(SceneLook, what_the_file_does_not_touch_stays_as_it_was_seen) {
 
 TEST(SceneLook, what_the_file_says_anew_wins) {
     Read read;
-    read.fresh.camera = *parse_camera("pitch=10", read.fresh.camera);
+    EXPECT_TRUE(set_section(read.fresh, "camera", "pitch_deg=10"));
     read.fresh.lights[0].intensity = 5;
     read.fresh.environment.intensity = 0.5f;
     read.fresh.skin.albedo_tint_linear = {0.5f, 1, 1};
     read.fresh.exposure_ev = -1;
     const Scene said = read.fresh;
-    keep_look(look_of(read.before), look_of(read.seen), read.fresh);
+    keep_look(read.before, read.seen, read.fresh);
     EXPECT_EQ(camera_text(read.fresh.camera), camera_text(said.camera));
     EXPECT_EQ(read.fresh.lights[0].intensity, 5);
     EXPECT_EQ(read.fresh.environment.yaw_rad, 0);
@@ -51,8 +53,8 @@ TEST(SceneLook, what_the_file_says_anew_wins) {
 
 TEST(SceneLook, another_mesh_moves_no_camera) {
     Read read;
-    read.fresh.camera = *parse_camera("distance_mm=999", read.fresh.camera);  // as framing a larger one does
-    put_look(look_of(read.seen), read.fresh);
+    EXPECT_TRUE(set_section(read.fresh, "camera", "distance_mm=999"));  // as framing a larger one does
+    put_look(read.seen, read.fresh);
     EXPECT_EQ(camera_text(read.fresh.camera), camera_text(read.seen.camera));
 }
 

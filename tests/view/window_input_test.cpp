@@ -84,7 +84,7 @@ TEST_F(ViewWindow, a_copied_view_is_a_command_that_draws_the_same_bytes) {
         drop DIR/around.hdr
         tone 4
         set wrap=0.3125
-        clipboard "--look 'surroundings=0.41234 turned=33.33333'"
+        clipboard "--scene environment.intensity=0.41234 --scene environment.yaw_deg=33.33333"
         key ctrl+V
         key ]
         key ctrl+C
@@ -96,8 +96,9 @@ TEST_F(ViewWindow, a_copied_view_is_a_command_that_draws_the_same_bytes) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     std::string line = value_of(result, "clipboard");
     ASSERT_TRUE(line.starts_with("dermis render builtin:spheres -t wrap ")) << line;
-    EXPECT_THAT(line, HasSubstr(" --look 'exposure_ev="));
-    EXPECT_THAT(line, HasSubstr(" surroundings=0.4123 turned=33.3333 "));
+    EXPECT_THAT(line, HasSubstr(" --scene exposure_ev="));
+    EXPECT_THAT(line,
+                HasSubstr(" --scene environment.intensity=0.4123 --scene environment.yaw_deg=33.3333 "));
     const ProgramResult drawn = shell(DERMIS_PROGRAM + line.substr(6) + " -o " + path("drawn.png"));
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const Image seen = image("seen.png"), again = image("drawn.png");
@@ -111,11 +112,11 @@ TEST_F(ViewWindow, a_copied_view_is_a_command_that_draws_the_same_bytes) {
 
 TEST_F(ViewWindow, a_view_is_pasted) {
     const ProgramResult result = view(square() + " --size 560x320 --samples 1 -t wrap", R"(
-        clipboard "-t oren_nayar --camera 'yaw=12 pitch=3' --look 'exposure_ev=2 profile=jensen_skin1'"
+        clipboard "-t oren_nayar --camera 'yaw_deg=12 pitch_deg=3' --scene exposure_ev=2 --scene skin.profile=jensen_skin1"
         key ctrl+V
         wait 1
         print
-        clipboard "--environment /nowhere.hdr"
+        clipboard "--scene environment.file=/nowhere.hdr"
         key ctrl+V
         wait 1
         print
@@ -124,7 +125,7 @@ TEST_F(ViewWindow, a_view_is_pasted) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string last = last_state(result);
     EXPECT_THAT(last, HasSubstr("technique oren_nayar\n"));
-    EXPECT_THAT(last, HasSubstr("camera yaw=12 pitch=3 "));
+    EXPECT_THAT(last, HasSubstr("camera yaw_deg=12 pitch_deg=3 "));
     EXPECT_THAT(last, HasSubstr("exposure_ev 2\n"));
     EXPECT_THAT(last, HasSubstr("profile jensen_skin1\n"));
     EXPECT_THAT(last, HasSubstr("surroundings studio\n"));

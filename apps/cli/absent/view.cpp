@@ -5,7 +5,7 @@
 namespace dermis::cli {
 
 void add_view_command(CommandLine& line) {
-    CLI::App* command =
+    Command* command =
         line.add("view", "look at a scene in a window (not in this build)", "dermis view bust");
     command->allow_extras();
     line.when_chosen(command, []() -> Result<int> {

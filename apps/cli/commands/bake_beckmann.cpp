@@ -35,7 +35,7 @@ Result<int> run(const Options& options) {
 
 void add_bake_beckmann_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
+    Command* command =
         line.add("beckmann", "Beckmann's distribution for Kelemen/Szirmay-Kalos specular light",
                  "dermis bake beckmann --storage float -o beckmann.exr\n"
                  "  dermis bake beckmann --layout gems --size 512 -o beckmann.png",

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "bake_options.h"
+#include "dermis/bake/fit_errors.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
-#include "dermis/bake/fit_errors.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 
@@ -71,7 +71,7 @@ Result<int> run(const Options& options) {
 
 void add_bake_closed_form_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = line.add(
+    Command* command = line.add(
         "closed_form", "Coefficients of the fit that needs no table, and its errors",
         "dermis bake closed_form --profile jensen_skin1 -o skin.csv --plot errors.svg", bake_group(line));
     command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");

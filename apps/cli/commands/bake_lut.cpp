@@ -81,7 +81,7 @@ Result<int> run(const Options& options) {
 
 void add_bake_lut_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
+    Command* command =
         line.add("lut", "Pre-integrated diffuse light over N.L and curvature",
                  "dermis bake lut --profile jensen_skin1 --size 256 -o skin.exr --plot skin.svg\n"
                  "  dermis bake lut --convention unity_2011 -o old.png",

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "bake_options.h"
 #include "catalog/catalog.h"
-#include "command.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/presets.h"
@@ -58,7 +58,7 @@ Result<int> run(Options options) {
     return 0;
 }
 
-void add_common(CLI::App* command, Options& options) {
+void add_common(Command* command, Options& options) {
     BakeMapSettings& s = options.settings;
     command->add_option("mesh", options.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
     command->add_option("-o,--output", options.output, "FILE.exr; sidecar and preview come beside it")
@@ -69,7 +69,7 @@ void add_common(CLI::App* command, Options& options) {
     command->add_option("--unit-mm", options.unit_mm, "millimetres a unit of a bare OBJ");
 }
 
-void add_rays(CLI::App* command, BakeMapSettings& s) {
+void add_rays(Command* command, BakeMapSettings& s) {
     command->add_option("--rays", s.rays, "rays a texel")->capture_default_str();
     command
         ->add_option("--ray-size", s.ray_size, "rays are traced on a grid of at most so many texels a side")
@@ -80,14 +80,14 @@ void add_rays(CLI::App* command, BakeMapSettings& s) {
         ->capture_default_str();
 }
 
-void add_map(CommandLine& line, CLI::App* group, MapKind kind, const std::string& summary,
+void add_map(CommandLine& line, Command* group, MapKind kind, const std::string& summary,
              const std::string& example) {
     auto options = std::make_shared<Options>();
     BakeMapSettings& s = options->settings;
     s.kind = kind;
     const bool depth = kind == MapKind::thickness || kind == MapKind::kernel_size;
     if (kind == MapKind::occlusion) s.max_mm = 0;
-    CLI::App* command = line.add(std::string(map_kind_name(kind)), summary, example, group);
+    Command* command = line.add(std::string(map_kind_name(kind)), summary, example, group);
     add_common(command, *options);
     if (depth || kind == MapKind::occlusion) add_rays(command, s);
     if (depth)
@@ -104,14 +104,7 @@ void add_map(CommandLine& line, CLI::App* group, MapKind kind, const std::string
 }  // namespace
 
 void add_bake_maps_command(CommandLine& line) {
-    const auto is_bake = [](const CLI::App* command) { return command->get_name() == "bake"; };
-    const std::vector<CLI::App*> groups = line.app.get_subcommands(is_bake);
-    CLI::App* group = groups.empty() ? nullptr : groups[0];
-    if (!group) {
-        group = line.add("bake", "Tables and maps for the techniques",
-                         "dermis bake curvature head_scan -o curvature.exr");
-        group->require_subcommand(1);
-    }
+    Command* group = bake_group(line);
     add_map(line, group, MapKind::curvature, "Signed mean curvature in 1/mm over the UV atlas",
             "dermis bake curvature head_scan --smoothing-mm 2 -o curvature.exr");
     add_map(line, group, MapKind::thickness, "Millimetres of material under the surface",

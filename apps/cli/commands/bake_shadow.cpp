@@ -41,7 +41,7 @@ Result<int> run(const Options& options) {
 
 void add_bake_shadow_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = line.add(
+    Command* command = line.add(
         "shadow", "Light that scatters into a penumbra, over its position and width",
         "dermis bake shadow --range 1,40 --sharpening 3 -o shadow.exr --plot shadow.svg", bake_group(line));
     command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");

@@ -59,10 +59,10 @@ Result<int> run(const Options& options) {
 
 void add_bake_zh_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = line.add("zh", "Zonal harmonics 0 to 2 of pre-integrated skin over curvature",
-                                 "dermis bake zh --profile gpu_gems_3 -o skin_zh.exr\n"
-                                 "  dermis bake zh --layout remapped --construction ring -o skin_zh.png",
-                                 bake_group(line));
+    Command* command = line.add("zh", "Zonal harmonics 0 to 2 of pre-integrated skin over curvature",
+                                "dermis bake zh --profile gpu_gems_3 -o skin_zh.exr\n"
+                                "  dermis bake zh --layout remapped --construction ring -o skin_zh.png",
+                                bake_group(line));
     command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");
     command->add_option("--construction", options->construction, "sphere, ring or half_ring");
     command->add_option("--axis", options->axis, "curvature (1/mm) or radius (mm)");

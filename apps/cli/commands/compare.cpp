@@ -15,7 +15,6 @@
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/report.h"
 #include "dermis/render/complete_scene.h"
-#include "dermis/scene/load_scene.h"
 #include "render_options.h"
 
 namespace dermis::cli {
@@ -26,7 +25,8 @@ namespace fs = std::filesystem;
 constexpr int kMostGrid = 16;
 
 struct Options {
-    std::string scene, techniques, output, size = "512x512", camera, light, device;
+    SceneChoice scene;
+    std::string techniques, output, size = "512x512", device;
     std::string integrator = "surface", ambient = "renderer";
     ComparisonSettings defaults;
     double noise = defaults.noise;
@@ -83,10 +83,8 @@ Result<void> try_directory(const fs::path& directory) {
 }
 
 Result<Scene> scene_of(const Options& options) {
-    Result<Scene> scene = load_scene(options.scene, {.subjects = built_in_catalog().subjects});
+    Result<Scene> scene = options.scene.load();
     if (!scene) return scene;
-    if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
-        return applied.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     return scene;
 }
@@ -146,7 +144,7 @@ std::vector<std::string> warnings_of(const Comparison& comparison, const Compari
 
 nlohmann::ordered_json to_json(const Options& options, const Scene& scene, const Comparison& comparison) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const ScoreRow& row : score_rows(options.scene, comparison)) {
+    for (const ScoreRow& row : score_rows(options.scene.name, comparison)) {
         nlohmann::ordered_json entry = {{"technique", row.technique}, {"settings", row.settings}};
         for (const ScoreColumn& column : score_columns()) {
             const std::optional<double> value = column.get(row);
@@ -168,9 +166,10 @@ nlohmann::ordered_json to_json(const Options& options, const Scene& scene, const
 Result<int> run(const Options& options) {
     const Result<ComparisonSettings> settings = settings_of(options);
     if (!settings) return settings.error();
+    const std::span<const Technique> techniques = built_in_catalog().techniques;
     const Result<std::vector<Contestant>> contestants =
-        options.techniques.empty() ? default_contestants(built_in_catalog().techniques)
-                                   : parse_technique_list(built_in_catalog().techniques, options.techniques);
+        options.techniques.empty() ? default_contestants(techniques)
+                                   : parse_technique_list(techniques, options.techniques);
     if (!contestants) return contestants.error();
     if (Result<void> good = try_directory(options.output); !good) return good.error();
     const Result<Scene> scene = scene_of(options);
@@ -186,8 +185,8 @@ Result<int> run(const Options& options) {
     const fs::path directory(options.output);
     if (Result<void> written = write_text_file(directory / "report.html", *page); !written)
         return written.error();
-    if (Result<void> written =
-            write_text_file(directory / "scores.csv", scores_csv(score_rows(options.scene, *comparison)));
+    if (Result<void> written = write_text_file(directory / "scores.csv",
+                                               scores_csv(score_rows(options.scene.name, *comparison)));
         !written)
         return written.error();
     if (options.json) {
@@ -204,19 +203,17 @@ Result<int> run(const Options& options) {
 
 void add_compare_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = line.add(
+    Command* command = line.add(
         "compare", "techniques held against the ground truth: a page with a wipe slider, a table of errors",
         "dermis compare head_scan --techniques "
         "\"lambert,wrap,preintegrated[diffuse=curve_2015,shadow=plain]\" "
         "-o out/compare");
-    command->add_option("scene", options->scene, "scene file, mesh, scene name or builtin:NAME")->required();
+    options->scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
     command->add_option("-o,--output", options->output, "directory for report.html and scores.csv")
         ->required();
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command->add_option("--camera", options->camera, "\"yaw=30 pitch=5 distance_mm=600 fov_deg=30\"");
-    command->add_option("--light", options->light, "\"yaw=-60 pitch=20 intensity=3\" for the key light");
     command->add_option("--integrator", options->integrator, "of the ground truth: surface or walk")
         ->capture_default_str();
     command

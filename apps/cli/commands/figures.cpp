@@ -8,12 +8,14 @@
 #include "dermis/base/progress.h"
 #include "dermis/figures/figures.h"
 #include "dermis/image/io.h"
+#include "scene_choice.h"
 
 namespace dermis::cli {
 namespace {
 
 struct Options {
-    std::string technique, output = "out/figures", scene, only, device;
+    SceneChoice scene;
+    std::string technique, output = "out/figures", only, device;
     int size = 320, samples = 4;
 };
 
@@ -42,6 +44,8 @@ Result<int> make_figures(const Options& options) {
     if (!technique) return technique.error();
     const Result<std::vector<Figure>> figures = figures_of(**technique, options.only);
     if (!figures) return figures.error();
+    const Result<std::vector<SceneWord>> words = options.scene.all_words();
+    if (!words) return words.error();
     const Result<Font> font = Font::load();
     if (!font) return font.error();
     Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
@@ -51,7 +55,11 @@ Result<int> make_figures(const Options& options) {
     for (const Figure& figure : *figures)
         for (const FigureRow& row : figure.rows) cells += row.cells.size();
     Progress progress("figures", cells);
-    CellRenderer renderer(*device, built_in_catalog(), {.scene = options.scene, .samples = options.samples});
+    CellRenderer renderer(*device, built_in_catalog(),
+                          {.scene = options.scene.name,
+                           .samples = options.samples,
+                           .loading_words = words_for(*words, true),
+                           .words = words_for(*words, false)});
     for (const Figure& figure : *figures) {
         const Result<FigureResult> result =
             draw_figure(renderer, *font, figure, options.size, [&] { progress.advance(); });
@@ -69,12 +77,13 @@ Result<int> make_figures(const Options& options) {
 
 void add_figures_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = line.add("figures", "Makes the figures of a technique's source again, with numbers",
-                                 "dermis figures preintegrated -o out/figures --size 400");
+    Command* command = line.add("figures", "Makes the figures of a technique's source again, with numbers",
+                                "dermis figures preintegrated -o out/figures --size 400");
     command->add_option("technique", options->technique, "see dermis techniques")->required();
+    command->add_option("scene", options->scene.name, "draw this scene instead of each figure's own");
+    options->scene.add_options_to(*command);
     command->add_option("-o,--output", options->output, "directory; one PNG a figure")->capture_default_str();
     command->add_option("--size", options->size, "height of a cell in pixels")->capture_default_str();
-    command->add_option("--scene", options->scene, "draw this scene instead of each figure's own");
     command->add_option("--only", options->only, "the id of one figure");
     command->add_option("--samples", options->samples, "a pixel: 1 or 4")->capture_default_str();
     command->add_option("--device", options->device, "part of a Vulkan device's name");

@@ -219,12 +219,11 @@ Result<int> run_info(const InfoArguments& arguments) {
 
 void add_info_command(CommandLine& line) {
     const auto arguments = std::make_shared<InfoArguments>();
-    CLI::App* command =
-        line.add("info", "What a mesh holds, and what its UV layout is worth for maps of skin",
-                 "dermis info head.obj --unit-mm 45");
+    Command* command = line.add("info", "What a mesh holds, and what its UV layout is worth for maps of skin",
+                                "dermis info head.obj --unit-mm 45");
     command->add_option("MESH", arguments->mesh, ".obj, .gltf, .glb, or builtin:NAME")->required();
     command->add_option("--unit-mm", arguments->unit_mm, "millimetres a file unit (glTF: 1000, OBJ: 1)")
-        ->check(CLI::PositiveNumber);
+        ->check_positive();
     command->add_flag("--json", arguments->json, "one JSON object on standard output");
     line.when_chosen(command, [arguments] { return run_info(*arguments); });
 }

@@ -9,9 +9,8 @@
 namespace dermis::cli {
 
 void add_keys_command(CommandLine& line) {
-    CLI::App* command =
-        line.add("keys", "Prints every key of the scene file with its unit, range and default",
-                 "dermis keys > docs/scene_file.md");
+    Command* command = line.add("keys", "Prints every key of the scene file with its unit, range and default",
+                                "dermis keys > docs/scene_file.md");
     line.when_chosen(command, []() -> Result<int> {
         const std::string manual = scene_file_manual(built_in_catalog().subjects);
         std::fwrite(manual.data(), 1, manual.size(), stdout);

@@ -20,8 +20,8 @@ Result<int> run(const std::string& path) {
 
 void add_lint_command(CommandLine& line) {
     auto path = std::make_shared<std::string>();
-    CLI::App* command = line.add("lint", "What a pre-integrated table from anywhere is, and how wrong",
-                                 "dermis lint DiffuseScatteringOnRing.png");
+    Command* command = line.add("lint", "What a pre-integrated table from anywhere is, and how wrong",
+                                "dermis lint DiffuseScatteringOnRing.png");
     command->add_option("file", *path, "PNG, EXR, DDS or KTX2")->required();
     line.when_chosen(command, [path] { return run(*path); });
 }

@@ -13,7 +13,7 @@ namespace dermis::cli {
 namespace {
 
 struct Options {
-    std::string technique, size = "1024x1024", view = "final";
+    std::string technique, view = "final";
     std::vector<std::string> settings;
     int samples = 1;
 };
@@ -25,13 +25,7 @@ Result<int> print_passes(const Options& options) {
     ParameterValues values((*technique)->parameters);
     for (const std::string& setting : options.settings)
         if (Result<void> set = apply_setting(values, setting); !set) return set.error();
-    const Result<std::pair<int, int>> size = parse_size(options.size);
-    if (!size) return size.error();
-    const PassList own = (*technique)
-                             ->build(values, {.width = size->first,
-                                              .height = size->second,
-                                              .samples = options.samples,
-                                              .view = options.view});
+    const PassList own = (*technique)->build(values, {.view = options.view});
     std::printf("%s",
                 describe(frame_passes(own, {.samples = options.samples, .view = options.view})).c_str());
     return 0;
@@ -41,12 +35,11 @@ Result<int> print_passes(const Options& options) {
 
 void add_passes_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = line.add("passes", "Prints the passes of a technique's frame, without a GPU",
-                                 "dermis passes lambert --set specular=blinn_phong");
+    Command* command = line.add("passes", "Prints the passes of a technique's frame, without a GPU",
+                                "dermis passes lambert --set specular=blinn_phong");
     command->add_option("id", options->technique, "the technique")->required();
     command->add_option("--set", options->settings, "a parameter, name=value; may be repeated")
         ->allow_extra_args(false);
-    command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     command->add_option("--samples", options->samples, "a pixel: 1 or 4")->capture_default_str();
     command->add_option("--view", options->view, "debug view")->capture_default_str();
     line.when_chosen(command, [options] { return print_passes(*options); });

@@ -252,20 +252,20 @@ std::string tool_list() {
 }  // namespace
 
 void add_profile_command(CommandLine& line) {
-    CLI::App* profile =
+    Command* profile =
         line.add("profile", "Diffusion profiles: the published skins and their numbers in other tools",
                  "dermis profile convert jensen_skin1 --to hdrp");
-    profile->require_subcommand(1);
+    profile->require_subcommand();
     const auto options = std::make_shared<Options>();
     const char* name_help = "a preset's name, a CSV file, or burley:R,G,B (d in mm)";
 
-    CLI::App* list_command = line.add("list", "The published skins", "dermis profile list --json", profile);
+    Command* list_command = line.add("list", "The published skins", "dermis profile list --json", profile);
     list_command->add_option("--plot", options->plot, "all of them in one plot (.svg)");
     list_command->add_flag("--json", options->json, "print JSON");
     line.when_chosen(list_command, [options] { return list(*options); });
 
-    CLI::App* show_command = line.add("show", "A profile's lengths, albedo and Gaussians",
-                                      "dermis profile show jensen_skin1 --plot skin1.svg", profile);
+    Command* show_command = line.add("show", "A profile's lengths, albedo and Gaussians",
+                                     "dermis profile show jensen_skin1 --plot skin1.svg", profile);
     show_command->add_option("name", options->name, name_help)->required();
     show_command->add_option("--plot", options->plot, "its curves (.svg)");
     show_command->add_option("--terms", options->terms, "Gaussians a channel of the fit, 1 to 12")
@@ -273,7 +273,7 @@ void add_profile_command(CommandLine& line) {
     show_command->add_flag("--json", options->json, "print JSON");
     line.when_chosen(show_command, [options] { return show(*options); });
 
-    CLI::App* convert_command = line.add(
+    Command* convert_command = line.add(
         "convert", "The same skin in another tool's words: quantity, unit, boundary assumption",
         "dermis profile convert --from unreal --set mean_free_path_distance=3 --to blender_burley", profile);
     convert_command->add_option("name", options->name, name_help);
@@ -287,8 +287,8 @@ void add_profile_command(CommandLine& line) {
     convert_command->add_flag("--json", options->json, "print JSON");
     line.when_chosen(convert_command, [options] { return convert(*options); });
 
-    CLI::App* table_command = line.add("table", "The generated tables of docs/profiles.md, as Markdown",
-                                       "dermis profile table > tables.md", profile);
+    Command* table_command = line.add("table", "The generated tables of docs/profiles.md, as Markdown",
+                                      "dermis profile table > tables.md", profile);
     line.when_chosen(table_command, [] {
         print(profile_tables_markdown());
         return Result<int>(0);

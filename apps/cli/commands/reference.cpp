@@ -9,7 +9,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
@@ -17,14 +16,14 @@
 #include "dermis/image/tone_map.h"
 #include "dermis/reference/picture.h"
 #include "dermis/render/complete_scene.h"
-#include "dermis/scene/load_scene.h"
 #include "render_options.h"
 
 namespace dermis::cli {
 namespace {
 
 struct Options {
-    std::string scene, output, preview, size = "512x512", camera, light, profile;
+    SceneChoice scene;
+    std::string output, preview, size = "512x512", profile;
     std::string integrator = "surface", filter = "box", shadows = "key", ambient = "traced", specular = "ggx";
     std::string normalisation = "area", cavities = "flesh", medium;
     int samples = 64, probes = 16;
@@ -144,10 +143,8 @@ Result<ReferenceSettings> settings_of(const Options& options) {
 }
 
 Result<Scene> scene_of(const Options& options) {
-    Result<Scene> scene = load_scene(options.scene, {.subjects = built_in_catalog().subjects});
+    Result<Scene> scene = options.scene.load();
     if (!scene) return scene;
-    if (Result<void> applied = apply_views(*scene, options.camera, options.light); !applied)
-        return applied.error();
     // The renderer's approximation wants the vertices' occlusion.
     if (options.ambient == "renderer")
         if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
@@ -157,7 +154,7 @@ Result<Scene> scene_of(const Options& options) {
 
 nlohmann::ordered_json description(const Options& options, const ReferenceSettings& settings,
                                    const ReferencePicture& picture, bool stopped) {
-    return {{"scene", options.scene},
+    return {{"scene", options.scene.name},
             {"integrator", options.integrator},
             {"width", settings.width},
             {"height", settings.height},
@@ -242,14 +239,14 @@ Result<int> run(const Options& options) {
 
 void add_reference_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = line.add(
+    Command* command = line.add(
         "reference",
         "The ground truth of a scene: surface integral of the diffusion profile, or random walks",
         "dermis reference head_scan -o truth.exr --noise 0.01\n"
         "  dermis reference head_scan --integrator walk --profile jensen_skin1 --samples 256 -o walk.exr\n"
         "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin\n"
         "  Ctrl-C writes the picture so far and says how noisy it is");
-    command->add_option("scene", options->scene, "scene file, mesh, scene name or builtin:NAME")->required();
+    options->scene.add_to(*command)->required();
     command->add_option("-o,--output", options->output, "FILE.exr")->required();
     command->add_option("--preview", options->preview, "FILE.png, tone-mapped as the scene says");
     command->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
@@ -260,8 +257,6 @@ void add_reference_command(CommandLine& line) {
     command->add_option("--noise", options->noise, "stop at this relative error, such as 0.01");
     command->add_option("--seed", options->seed, "same seed, same picture")->capture_default_str();
     command->add_option("--probes", options->probes, "probes or walks a sample, even")->capture_default_str();
-    command->add_option("--camera", options->camera, "\"yaw=30 pitch=5 distance_mm=600 fov_deg=30\"");
-    command->add_option("--light", options->light, "\"yaw=-60 pitch=20 intensity=3\" for the key light");
     command->add_option("--profile", options->profile, "diffusion profile instead of the scene's");
     command->add_option(
         "--medium", options->medium,

@@ -9,6 +9,7 @@
 #include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/render/output.h"
+#include "dermis/scene/scene_words.h"
 #include "render_options.h"
 #include "turntable.h"
 
@@ -90,7 +91,6 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     for (int frame = 0; frame < frames; ++frame) {
         const double turn_rad = options.turn_deg * 3.14159265358979 / 180 * frame / frames;
         turn_camera(prepared.scene, start, turn_rad);
-        prepared.draw.frame_index = frame;
         Result<gpu::FrameResult> drawn = renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
         if (!drawn) return drawn.error();
         results.push_back(std::move(*drawn));
@@ -146,7 +146,7 @@ Result<int> render(Options options) {
 
 void add_render_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command =
+    Command* command =
         line.add("render", "Draws a scene with a technique",
                  "dermis render head_scan --technique wrap --set wrap=0.4 -o out/head.png --timings");
     options->render.add_to(*command);

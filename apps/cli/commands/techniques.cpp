@@ -46,7 +46,7 @@ void add_techniques_command(CommandLine& line) {
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App* command = line.add("techniques", "Techniques with their parameters", "dermis techniques wrap");
+    Command* command = line.add("techniques", "Techniques with their parameters", "dermis techniques wrap");
     command->add_option("id", options->only, "only this one");
     command->add_flag("--json", options->json, "as JSON");
     line.when_chosen(command, [options] { return list_techniques(options->only, options->json); });

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <utility>
 
 #include "catalog/catalog.h"
 #include "command.h"
@@ -32,23 +31,18 @@ Result<int> turn_scene(const Options& options) {
     return run_turntable(turntable);
 }
 
-// What the files say is kept apart from what --camera, --light and --look say: it decides what stays when
-// they change.
-Result<view::Start> first_scene(RenderOptions options) {
-    const std::string camera = std::exchange(options.camera, ""), light = std::exchange(options.light, ""),
-                      look = std::exchange(options.look, ""),
-                      environment = std::exchange(options.environment, "");
+// What the files say is kept apart from what --scene, --camera and --light say: it decides what stays when
+// the files change.
+Result<view::Start> first_scene(const RenderOptions& options) {
     Result<Prepared> prepared = prepare(options);
     if (!prepared) return prepared.error();
-    const view::SceneLook file_look = view::look_of(prepared->scene);
-    if (Result<void> applied = apply_views(prepared->scene, camera, light); !applied) return applied.error();
-    if (Result<void> applied = apply_looks(prepared->scene, look, environment); !applied)
-        return applied.error();
+    const Result<std::vector<SceneWord>> words = options.scene.all_words();
     return view::Start{.scene = std::move(prepared->scene),
+                       .loading_words = words_for(*words, true),
                        .technique = prepared->technique,
                        .values = std::move(prepared->values),
                        .view = prepared->draw.view,
-                       .file_look = file_look};
+                       .file_look = std::move(prepared->as_filed)};
 }
 
 Result<int> view_scene(Options options) {
@@ -60,7 +54,7 @@ Result<int> view_scene(Options options) {
     const Result<std::pair<int, int>> size = parse_size(options.render.size);
     if (!size) return size.error();
     view::ViewerOptions viewer = {.catalog = built_in_catalog(),
-                                  .scene_path = options.render.scene,
+                                  .scene_path = options.render.scene.name,
                                   .load = [&options] { return first_scene(options.render); },
                                   .size = {size->first, size->second},
                                   .device = options.render.device,
@@ -93,8 +87,8 @@ void add_view_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     options->render.size = "";  // the last window's
     options->render.samples = 4;
-    CLI::App* command = line.add("view", "look at a scene in a window, in real time (F1 there: help)",
-                                 "dermis view head_scan --technique preintegrated");
+    Command* command = line.add("view", "look at a scene in a window, in real time (F1 there: help)",
+                                "dermis view head_scan --technique preintegrated");
     options->render.add_to(*command);
     command->add_option("--interface-scale", options->interface_scale,
                         "size of letters and widgets (default: from the display)");

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<uint8_t, 12> kIdentifier = {0xab, 'K',  'T',  'X',  ' ',  '2',
                                                  '0',  0xbb, '\r', '\n', 0x1a, '\n'};
-constexpr size_t kHeaderBytes = 80, kLevelBytes = 24;
+constexpr size_t kKtx2HeaderBytes = 80, kLevelBytes = 24;
 constexpr std::string_view kWriter = "KTXwriter", kOrientation = "KTXorientation", kSwizzle = "KTXswizzle";
 
 // Khronos Data Format Specification 1.3, basic descriptor block: model RGBSDA (1), primaries BT.709 (1),
@@ -101,15 +101,15 @@ Result<Image> as_oriented(Image stored, const TexelFormat& format, ImageText& te
     return image;
 }
 
-struct Header {
+struct Ktx2Header {
     uint32_t format = 0, width = 0, height = 0;
     uint32_t text_offset = 0, text_bytes = 0;
     uint64_t level_offset = 0, level_bytes = 0;
 };
 
-Result<Header> read_header(Bytes file) {
+Result<Ktx2Header> read_header(Bytes file) {
     ByteReader in(file, kIdentifier.size());
-    Header header;
+    Ktx2Header header;
     header.format = in.u32();
     in.u32();  // type size
     header.width = in.u32();
@@ -130,7 +130,7 @@ Result<Header> read_header(Bytes file) {
     return header;
 }
 
-Error unread_format(uint32_t vulkan) {
+Error unread_vulkan_format(uint32_t vulkan) {
     // VK_FORMAT_BC1_RGB_UNORM_BLOCK to VK_FORMAT_ASTC_12x12_SRGB_BLOCK; VK_FORMAT_UNDEFINED is Basis
     // Universal.
     const bool compressed = vulkan == 0 || (vulkan >= 131 && vulkan <= 184);
@@ -146,10 +146,10 @@ bool is_ktx2(Bytes file) {
 }
 
 Result<LoadedImage> decode_ktx2(Bytes file, ImageUse) {
-    Result<Header> header = read_header(file);
+    Result<Ktx2Header> header = read_header(file);
     if (!header) return header.error();
     const TexelFormat* format = find_vulkan(header->format);
-    if (!format) return unread_format(header->format);
+    if (!format) return unread_vulkan_format(header->format);
     if (Result<void> size = check_image_size(header->width, header->height, format->channels); !size)
         return size.error();
     const uint64_t count = uint64_t(header->width) * header->height * uint64_t(format->channels) *
@@ -174,7 +174,7 @@ Result<LoadedImage> decode_ktx2(Bytes file, ImageUse) {
 Buffer encode_ktx2(const Image& image, const ImageText& text) {
     const std::array<uint32_t, 23> descriptor = rgba16f_descriptor();
     const Buffer pairs = key_values(text);
-    const size_t descriptor_at = kHeaderBytes + kLevelBytes, pairs_at = descriptor_at + sizeof(descriptor);
+    const size_t descriptor_at = kKtx2HeaderBytes + kLevelBytes, pairs_at = descriptor_at + sizeof(descriptor);
     const size_t texels_at = (pairs_at + pairs.size() + 7) / 8 * 8;  // a multiple of the texel's size
 
     ByteWriter out;

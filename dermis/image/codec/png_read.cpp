@@ -58,7 +58,7 @@ bool says_linear(png_structp png, png_infop info) {
            gamma == PNG_FP_1;
 }
 
-void read_header(Reader* r, ImageUse use) {
+void read_png_header(Reader* r, ImageUse use) {
     png_set_read_fn(r->png, &r->source, on_read);
     png_set_user_limits(r->png, kMaxImageSide, kMaxImageSide);
     png_set_chunk_malloc_max(r->png, kMostTextBytes);
@@ -127,7 +127,7 @@ Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
     r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r.source, on_error, on_warning);
     r.info = r.png ? png_create_info_struct(r.png) : nullptr;
     if (!r.info) return Error{"libpng has no memory"};
-    if (!guarded(r.png, read_header, &r, use)) return corrupt(r);
+    if (!guarded(r.png, read_png_header, &r, use)) return corrupt(r);
 
     const uint32_t width = png_get_image_width(r.png, r.info), height = png_get_image_height(r.png, r.info);
     const int channels = png_get_channels(r.png, r.info);

@@ -19,7 +19,7 @@ constexpr int kShortestCodedRow = 8, kLongestCodedRow = 32767;
 // decoded bytes a texel.
 constexpr uint64_t kMostRunRatio = kMaxImageSide * 12 / 8;
 
-struct Header {
+struct RadianceHeader {
     int width = 0, height = 0;
     bool bottom_up = false, right_to_left = false;
 };
@@ -38,7 +38,7 @@ std::string_view take_line(Bytes& rest, bool& ok) {
 
 // "-Y 512 +X 1024": rows first, from the top, columns from the left. The forms that store columns first are
 // not in use and not read.
-Result<Header> parse_resolution(std::string_view line) {
+Result<RadianceHeader> parse_resolution(std::string_view line) {
     const std::vector<std::string_view> words = split(trim(line), ' ');
     const Error wrong{"corrupt HDR: the resolution line '" + std::string(line.substr(0, 40)) +
                       "' should read like '-Y 512 +X 1024'"};
@@ -50,10 +50,10 @@ Result<Header> parse_resolution(std::string_view line) {
         return wrong;
     const auto side = [](double value) { return uint64_t(std::min(value, 1e9)); };
     if (Result<void> size = check_image_size(side(*width), side(*height), 3); !size) return size.error();
-    return Header{int(*width), int(*height), words[0][0] == '+', words[2][0] == '-'};
+    return RadianceHeader{int(*width), int(*height), words[0][0] == '+', words[2][0] == '-'};
 }
 
-Result<Header> parse_header(Bytes& rest) {
+Result<RadianceHeader> parse_header(Bytes& rest) {
     bool ok = true;
     (void)take_line(rest, ok);  // "#?RADIANCE", seen by is_radiance
     bool rgbe = false;
@@ -178,7 +178,7 @@ bool is_radiance(Bytes file) {
 
 Result<LoadedImage> decode_radiance(Bytes file, ImageUse) {
     Bytes rest = file;
-    Result<Header> header = parse_header(rest);
+    Result<RadianceHeader> header = parse_header(rest);
     if (!header) return header.error();
     const auto [width, height, bottom_up, right_to_left] = *header;
     const uint64_t decoded = uint64_t(width) * uint64_t(height) * 12;

@@ -13,7 +13,7 @@
 namespace dermis::preintegration {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kNegligible = 1e-11;
 
 size_t order_count(double concentration) {
@@ -39,9 +39,9 @@ void ring_series(double concentration, EvenSeries& series) {
     std::array<double, kMaxOrder + 1> ratio = {};
     const size_t orders = order_count(concentration);
     bessel_ratios(BesselOrders::whole, concentration, std::span(ratio).first(orders));
-    series.coefficient[0] = 1 / kPi;
+    series.coefficient[0] = 1 / pi;
     for (size_t n = 2; n < orders; n += 2)
-        series.coefficient[n / 2] = -2 / kPi * ratio[n] / (double(n) * double(n) - 1);
+        series.coefficient[n / 2] = -2 / pi * ratio[n] / (double(n) * double(n) - 1);
     series.count = (orders + 1) / 2;
 }
 
@@ -75,8 +75,8 @@ HalfRing half_ring(double concentration) {
     HalfRing half;
     half.orders = order_count(concentration);
     scaled_bessels(concentration, std::span(half.scaled).first(half.orders + 1));
-    half.mass = half.scaled[0] * kPi / 2;
-    half.moment = half.scaled[1] * kPi / 2;
+    half.mass = half.scaled[0] * pi / 2;
+    half.moment = half.scaled[1] * pi / 2;
     double sign = 1;  // sin(n pi / 2) for odd n
     for (size_t n = 1; n < half.orders; n += 2, sign = -sign) {
         half.mass += 2 * sign * half.scaled[n] / double(n);
@@ -183,7 +183,7 @@ double scaled_bessel(const Asymptotic& coefficients, double x) {
     const double inverse = 1 / x;
     double sum = 0;
     for (size_t m = coefficients.size(); m-- > 0;) sum = sum * inverse + coefficients[m];
-    return sum * std::sqrt(inverse / (2 * kPi));
+    return sum * std::sqrt(inverse / (2 * pi));
 }
 
 double sphere_mean_cosine(double concentration) {
@@ -211,7 +211,7 @@ Lobe lobe(Construction construction, double concentration) {
         return {sphere_mean_cosine(concentration), -std::expm1(-2 * concentration)};
     if (narrow) {
         const double i0 = scaled_bessel_i0(concentration);
-        return {scaled_bessel_i1(concentration) / i0, kPi * i0};
+        return {scaled_bessel_i1(concentration) / i0, pi * i0};
     }
     if (construction == Construction::half_ring) {
         const HalfRing half = half_ring(concentration);
@@ -219,7 +219,7 @@ Lobe lobe(Construction construction, double concentration) {
     }
     std::array<double, kMaxOrder + 1> scaled = {};
     scaled_bessels(concentration, scaled);
-    return {scaled[1] / scaled[0], kPi * scaled[0]};
+    return {scaled[1] / scaled[0], pi * scaled[0]};
 }
 
 }  // namespace dermis::preintegration

@@ -1,0 +1,126 @@
+#include "command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <utility>
+
+#include "dermis/base/text.h"
+
+namespace dermis::cli {
+
+Option* Option::required() {
+    option_->required();
+    return this;
+}
+
+Option* Option::check_positive() {
+    option_->check(CLI::PositiveNumber);
+    return this;
+}
+
+Option* Option::capture_default_str() {
+    option_->capture_default_str();
+    return this;
+}
+
+Option* Option::allow_extra_args(bool allowed) {
+    option_->allow_extra_args(allowed);
+    return this;
+}
+
+template <class Value>
+Option* Command::add_any(const std::string& names, Value& value, const std::string& help) {
+    return &options_.emplace_back(app_->add_option(names, value, help));
+}
+
+Option* Command::add_option(const std::string& names, std::string& value, const std::string& help) {
+    return add_any(names, value, help);
+}
+
+Option* Command::add_option(const std::string& names, std::vector<std::string>& value,
+                            const std::string& help) {
+    return add_any(names, value, help);
+}
+
+Option* Command::add_option(const std::string& names, std::optional<double>& value, const std::string& help) {
+    return add_any(names, value, help);
+}
+
+Option* Command::add_option(const std::string& names, double& value, const std::string& help) {
+    return add_any(names, value, help);
+}
+
+Option* Command::add_option(const std::string& names, float& value, const std::string& help) {
+    return add_any(names, value, help);
+}
+
+Option* Command::add_option(const std::string& names, int& value, const std::string& help) {
+    return add_any(names, value, help);
+}
+
+Option* Command::add_option(const std::string& names, uint32_t& value, const std::string& help) {
+    return add_any(names, value, help);
+}
+
+Option* Command::add_option(const std::string& names, uint64_t& value, const std::string& help) {
+    return add_any(names, value, help);
+}
+
+Option* Command::add_flag(const std::string& names, bool& value, const std::string& help) {
+    return &options_.emplace_back(app_->add_flag(names, value, help));
+}
+
+void Command::require_subcommand() {
+    app_->require_subcommand(1);
+}
+
+void Command::allow_extras() {
+    app_->allow_extras();
+}
+
+CommandLine::CommandLine(const std::string& version, const std::string& summary, const std::string& example)
+    : app_(std::make_unique<CLI::App>(summary, "dermis")) {
+    app_->set_version_flag("--version", version);
+    app_->require_subcommand(1);
+    app_->footer("Example:\n  " + example);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command* CommandLine::add(const std::string& name, const std::string& summary, const std::string& example,
+                          Command* parent) {
+    CLI::App* command = (parent ? parent->app_ : app_.get())->add_subcommand(name, summary);
+    command->footer("Example:\n  " + example);
+    return &commands_.emplace_back(command);
+}
+
+Command* CommandLine::find(const std::string& name) {
+    for (Command& command : commands_)
+        if (command.app_->get_parent() == app_.get() && command.app_->get_name() == name) return &command;
+    return nullptr;
+}
+
+void CommandLine::when_chosen(Command* command, Action run) {
+    command->app_->callback([this, run = std::move(run)] { action = run; });
+}
+
+std::optional<int> CommandLine::parse(int argc, char** argv) {
+    // CLI11 would say only that a subcommand is missing.
+    if (argc >= 2 && argv[1][0] != '-' && !find(argv[1])) {
+        std::vector<std::string> names;
+        for (const CLI::App* command : app_->get_subcommands({})) names.push_back(command->get_name());
+        std::fprintf(stderr, "dermis: %s\n", unknown_name("command", argv[1], names).c_str());
+        return 2;
+    }
+    try {
+        app_->parse(argc, argv);
+    } catch (const CLI::Success& done) {  // --help, --version
+        return app_->exit(done);
+    } catch (const CLI::ParseError& wrong) {
+        std::fprintf(stderr, "dermis: %s (see dermis --help)\n", wrong.what());
+        return 2;
+    }
+    return std::nullopt;
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,61 @@
+#include "scene_choice.h"
+
+#include <algorithm>
+
+#include "catalog/catalog.h"
+#include "dermis/scene/load_scene.h"
+
+namespace dermis::cli {
+
+Option* SceneChoice::add_to(Command& command) {
+    add_options_to(command);
+    return command.add_option("scene", name,
+                              "scene file, mesh (.glb .gltf .obj), name of a scene, or builtin:NAME");
+}
+
+void SceneChoice::add_options_to(Command& command) {
+    command
+        .add_option("--scene", words,
+                    "a key of the scene file (dermis keys), KEY=VALUE: environment.yaw_deg=30, "
+                    "light.key.intensity=2, skin.profile=NAME, exposure_ev=0.5; may be repeated")
+        ->allow_extra_args(false);
+    command.add_option("--camera", camera,
+                       "short for camera keys: \"yaw_deg=30 pitch_deg=5 distance_mm=600 fov_deg=30\"");
+    command.add_option("--light", light,
+                       "short for light.key keys: \"yaw_deg=-60 pitch_deg=20 intensity=3\"");
+}
+
+Result<std::vector<SceneWord>> SceneChoice::all_words() const {
+    std::vector<SceneWord> all;
+    for (const std::string& text : words) {
+        Result<SceneWord> word = parse_scene_word(text);
+        if (!word) return Error{"--scene: " + word.error().message};
+        all.push_back(std::move(*word));
+    }
+    for (const auto& [section, text] : {std::pair("camera", &camera), std::pair("light.key", &light)}) {
+        Result<std::vector<SceneWord>> some = parse_section_words(section, *text);
+        if (!some) return some.error();
+        all.insert(all.end(), some->begin(), some->end());
+    }
+    return all;
+}
+
+std::vector<SceneWord> words_for(const std::vector<SceneWord>& words, bool loading) {
+    std::vector<SceneWord> some;
+    std::ranges::copy_if(words, std::back_inserter(some),
+                         [&](const SceneWord& word) { return is_loading_key(word.key) == loading; });
+    return some;
+}
+
+Result<Scene> SceneChoice::load(Scene* as_filed) const {
+    const Result<std::vector<SceneWord>> all = all_words();
+    if (!all) return all.error();
+    Result<Scene> scene =
+        load_scene(name, {.subjects = built_in_catalog().subjects, .words = words_for(*all, true)});
+    if (!scene) return scene;
+    if (as_filed) *as_filed = without_objects(*scene);
+    if (Result<void> changed = set_words(*scene, words_for(*all, false)); !changed) return changed.error();
+    return scene;
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,33 @@
+#pragma once
+// Which scene a command draws and what of it is changed: SCENE --scene KEY=VALUE ... --camera "..." --light
+// "...".
+
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "dermis/scene/scene_words.h"
+
+namespace dermis::cli {
+
+struct SceneChoice {
+    std::string name, camera, light;
+    std::vector<std::string> words;
+
+    /// The scene as the first argument, and the three options.
+    Option* add_to(Command& command);
+    /// The options alone.
+    void add_options_to(Command& command);
+
+    /// Loads and changes it. `as_filed` gets what the scene's files say, without objects: which --scene keys
+    /// are read while loading counts as theirs. Errors as load_scene() and set_words().
+    [[nodiscard]] Result<Scene> load(Scene* as_filed = nullptr) const;
+
+    /// All words; those that are read while loading, or the others.
+    [[nodiscard]] Result<std::vector<SceneWord>> all_words() const;
+};
+
+/// Those of `words` that is_loading_key() says are, or are not, read while a scene is loaded.
+[[nodiscard]] std::vector<SceneWord> words_for(const std::vector<SceneWord>& words, bool loading);
+
+}  // namespace dermis::cli

@@ -1,0 +1,108 @@
+#include "dermis/scene/scene_hash.h"
+
+#include <span>
+
+#include "dermis/base/file.h"
+#include "dermis/base/hash.h"
+
+namespace dermis {
+namespace {
+
+void add(Hasher& hasher, Vec3 v) {
+    hasher.add(v.x).add(v.y).add(v.z);
+}
+
+template <class T>
+void add_all(Hasher& hasher, const std::vector<T>& values) {
+    hasher.add(std::as_bytes(std::span(values)));
+}
+
+// Pixels and embedded bytes as they are, files by what is in them.
+Result<void> add(Hasher& hasher, const ImageSource& source) {
+    hasher.add(source.present());
+    if (!source.present()) return {};
+    hasher.add(source.width).add(source.height).add(source.channels);
+    hasher.add(std::span(source.encoded)).add(std::span(source.pixels));
+    if (!source.encoded.empty() || !source.pixels.empty()) return {};
+    const Result<std::vector<std::byte>> file = read_file(source.name);
+    if (!file) return file.error();
+    hasher.add(std::span(*file));
+    return {};
+}
+
+Result<void> add(Hasher& hasher, const Material& m) {
+    add(hasher, m.base_color_linear);
+    add(hasher, m.emission_linear);
+    hasher.add(m.opacity).add(m.alpha_mode).add(m.roughness).add(m.metallic).add(m.specular).add(m.ior);
+    hasher.add(m.double_sided).add(m.normal_space).add(m.normal_scale).add(m.dilate_texels);
+    for (const ImageSource* source : {&m.base_color_map, &m.normal_map, &m.metallic_roughness_map,
+                                      &m.specular_map, &m.occlusion_map, &m.opacity_map, &m.roughness_map})
+        if (Result<void> added = add(hasher, *source); !added) return added;
+    return {};
+}
+
+Result<void> add(Hasher& hasher, const SceneObject& object) {
+    const Mesh& mesh = object.mesh;
+    add_all(hasher, mesh.positions_mm);
+    add_all(hasher, mesh.normals);
+    add_all(hasher, mesh.tangents);
+    add_all(hasher, mesh.uvs);
+    add_all(hasher, mesh.occlusions);
+    add_all(hasher, mesh.indices);
+    for (const Submesh& part : mesh.submeshes)
+        hasher.add(part.first_index).add(part.index_count).add(part.material);
+    for (const MaterialClass material_class : object.classes) hasher.add(material_class);
+    for (const Material& material : mesh.materials)
+        if (Result<void> added = add(hasher, material); !added) return added;
+    return {};
+}
+
+void add(Hasher& hasher, const Light& light) {
+    add(hasher, light.color_linear);
+    add(hasher, light.to_light_world);
+    add(hasher, light.position_mm);
+    hasher.add(light.kind).add(light.intensity).add(light.inner_angle_rad).add(light.outer_angle_rad);
+    hasher.add(light.is_key);
+}
+
+void add(Hasher& hasher, const Camera& camera) {
+    add(hasher, camera.eye_mm);
+    add(hasher, camera.target_mm);
+    add(hasher, camera.up_world);
+    hasher.add(camera.vertical_fov_rad).add(camera.near_mm).add(camera.far_mm);
+}
+
+// All but the objects and the panorama.
+void add_views(Hasher& hasher, const Scene& scene) {
+    for (const Light& light : scene.lights) add(hasher, light);
+    add(hasher, scene.camera);
+    const Environment& environment = scene.environment;
+    hasher.add(environment.kind).add(environment.intensity).add(environment.yaw_rad).add(environment.visible);
+    add(hasher, scene.background_linear);
+    hasher.add(scene.skin.profile);
+    add(hasher, scene.skin.albedo_tint_linear);
+}
+
+}  // namespace
+
+std::string hash_of_views(const Scene& scene) {
+    Hasher hasher;
+    add_views(hasher, scene);
+    hasher.add(scene.environment.file.string());
+    return hasher.hex();
+}
+
+Result<std::string> hash_of(const Scene& scene) {
+    Hasher hasher;
+    for (const SceneObject& object : scene.objects)
+        if (Result<void> added = add(hasher, object); !added) return added.error();
+    add_views(hasher, scene);
+    if (scene.environment.kind == EnvironmentKind::file) {
+        const Result<std::vector<std::byte>> file = read_file(scene.environment.file);
+        if (!file) return file.error();
+        hasher.add(std::span(*file));
+    }
+    return hasher.hex();
+}
+
+}  // namespace dermis

@@ -1,0 +1,24 @@
+// What C++ and the shaders of the atlas agree on. Valid C++ and GLSL, compiled by both, so that a number is
+// written once; a change needs a build, as hot reload follows .glsl only.
+#ifndef DERMIS_SHADERS_ATLAS_CONSTANTS_H
+#define DERMIS_SHADERS_ATLAS_CONSTANTS_H
+#ifdef __cplusplus
+namespace dermis {
+#endif
+
+// Specialisation constant space: of the blur's lengths.
+const int kSpaceTexels = 0, kSpaceMm = 1;
+
+// Specialisation constant channels: what the colour shadow map holds.
+const int kChannelsNone = 0, kChannelsColor = 1, kChannelsTwoLights = 2;
+
+// Specialisation constant shadow_lookup.
+const int kLookupDisk = 0, kLookupSingle = 1;
+
+// Texels a side of the tiles that are kept or dropped whole.
+const int kCullTile = 8;
+
+#ifdef __cplusplus
+}  // namespace dermis
+#endif
+#endif

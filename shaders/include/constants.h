@@ -1,0 +1,30 @@
+// What C++ and every shader agree on. Valid C++ and GLSL, compiled by both, so that a number is written
+// once; a change needs a build, as hot reload follows .glsl only.
+#ifndef DERMIS_SHADERS_INCLUDE_CONSTANTS_H
+#define DERMIS_SHADERS_INCLUDE_CONSTANTS_H
+#ifdef __cplusplus
+namespace dermis {
+#endif
+
+// LightSource::kind.
+const int kLightDirectional = 0, kLightPoint = 1, kLightSpot = 2;
+
+// Material::normal_space; absent: no normal map.
+const int kNormalSpaceTangent = 0, kNormalSpaceObject = 1, kNormalSpaceAbsent = 2;
+
+// Specialisation constant specular_model.
+const int kSpecularNone = 0, kSpecularBlinnPhong = 1, kSpecularGgx = 2, kSpecularTwoLobe = 3,
+          kSpecularKsk = 4;
+
+// Specialisation constant view. Own: the technique's own debug view.
+const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
+
+// The disk of a filtered shadow, in the renderer and in the ground truth (shadow.glsl says what it is).
+const float kShadowConcavity = 0.1;  // curvature times the disk's radius, up to which the disk is lifted
+const float kShadowFacetLift = 0.3;  // in radii: the tangent plane of a smooth normal cuts through the facets
+const float kShadowMaxSlope = 4.0;   // of the plane against the light: 76 degrees
+
+#ifdef __cplusplus
+}  // namespace dermis
+#endif
+#endif
