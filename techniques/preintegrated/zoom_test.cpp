@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/grid_scene.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -11,7 +12,7 @@ namespace {
 
 // The bust without its maps: whatever changes is not their minification.
 Scene bare_bust() {
-    Result<Scene> scene = load_scene("bust");
+    Result<Scene> scene = load_built_in_scene("bust");
     EXPECT_TRUE(scene && complete_scene(*scene));
     for (SceneObject& object : scene->objects)
         for (Material& material : object.mesh.materials) material = Material{};
@@ -21,7 +22,7 @@ Scene bare_bust() {
 // The built-in spheres with their curvature in an image too: each sphere's quarter of the atlas has its own
 // value.
 Scene spheres_with_map() {
-    Result<Scene> scene = load_scene("builtin:spheres");
+    Result<Scene> scene = load_built_in_scene("builtin:spheres");
     EXPECT_TRUE(scene && complete_scene(*scene));
     constexpr float kScalePerMm = 0.5f;
     for (SceneObject& object : scene->objects) {

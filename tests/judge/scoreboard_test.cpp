@@ -6,6 +6,7 @@
 
 #include "dermis/base/file.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 #include "test_paths.h"
 
 using namespace dermis;
@@ -75,19 +76,21 @@ TEST(Scoreboard, the_table_is_sorted_by_captured_share_and_the_plot_has_a_panel_
 }
 
 TEST(Scoreboard, all_it_lists_can_be_set) {
-    EXPECT_GT(scoreboard_contestants().size(), all_techniques().size());
+    EXPECT_GT(scoreboard_contestants(built_in_catalog().techniques).size(),
+              built_in_catalog().techniques.size());
 }
 
 TEST_F(Scoreboards, no_technique_captures_less_than_it_did) {
     std::vector<ScoreRow> made;
     for (const char* name : {"spheres", "bust"}) {
         const Scene scene = load(name);
-        std::vector<Contestant> list = default_contestants();
+        std::vector<Contestant> list = default_contestants(built_in_catalog().techniques);
         const auto more = parse_technique_list(
+            built_in_catalog().techniques,
             "preintegrated[diffuse=closed_form,shadow=plain],preintegrated[diffuse=curve_2015,shadow=plain]");
         ASSERT_TRUE(more) << more.error().message;
         list.insert(list.end(), more->begin(), more->end());
-        const auto comparison = compare_techniques(device(), scene, list, small());
+        const auto comparison = compare_techniques(device(), built_in_catalog(), scene, list, small());
         ASSERT_TRUE(comparison) << comparison.error().message;
         for (ScoreRow& r : score_rows(name, *comparison)) made.push_back(std::move(r));
     }

@@ -9,6 +9,7 @@
 
 #include "dermis/scene/environment.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 namespace dermis {
 
@@ -62,7 +63,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 class PreintegratedTest : public RenderTest {
   protected:
-    static const Technique& technique() { return **find_technique("preintegrated"); }
+    static const Technique& technique() { return built_in_technique("preintegrated"); }
     static ParameterValues values_of(const Settings& settings) {
         ParameterValues values(technique().parameters);
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
