@@ -20,5 +20,6 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
     return vec3(n_dot_l * (a + b * facets) * visibility);
 }
 
-// Under even light from all around the model stays within a few percent of Lambert; its own ambient term is A.
+// Lambert's. The model itself, which leaves out reflections between facets, returns 92 % of even light from all around at
+// the default sigma.
 vec3 ambient_response(Surface s) { return environment_irradiance(s.n_world); }
