@@ -59,6 +59,8 @@ constexpr Evidence kPackageEvidence[] = {
     {"python3", "", "", "python3 -u"},
     {"curl", "", "", "curl --fail"},
     {"ffmpeg", "", "", "ffmpeg"},
+    {"dpkg-dev", "dpkg-shlibdeps", "", ""},
+    {"file", "file", "", ""},
 };
 
 // What needs no package of its own: part of CMake, optional, or of the repository.
