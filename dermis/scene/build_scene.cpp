@@ -106,6 +106,7 @@ Result<void> apply_maps(const SceneDescription& description, const MapsDescripti
     assign(maps.normal_scale, material.normal_scale);
     assign(maps.thickness_scale_mm, material.thickness_scale_mm);
     assign(maps.curvature_scale_per_mm, material.curvature_scale_per_mm);
+    assign(maps.curvature_mid, material.curvature_mid);
     assign(maps.displacement_mid, material.displacement_mid);
     assign(maps.displacement_amplitude_mm, material.displacement_amplitude_mm);
     assign(maps.dilate_texels, material.dilate_texels);
