@@ -2,9 +2,9 @@
 // the light map is blurred by each Gaussian of the diffusion profile, every one from the one before, in two
 // passes along the surface, and the results are summed by the profile's weights. Changed: the steps of the
 // blur follow shear as well as stretch and agree across seams (shaders/atlas/blur_mm.glsl); gutter texels
-// hold the light from across the UV seam; the sum is accumulated by blending, so that any number of Gaussians needs
-// three images. Not here: transmission through thin parts by the modified translucent shadow map, and the
-// energy that the specular takes.
+// hold the light from across the UV seam; the sum is accumulated by blending, so that any number of Gaussians
+// needs three images. Not here: transmission through thin parts by the modified translucent shadow map, and
+// the energy that the specular takes.
 
 #include <algorithm>
 #include <cmath>
