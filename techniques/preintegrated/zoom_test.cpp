@@ -115,11 +115,18 @@ TEST_F(PreintegratedZoom, keeps_scattering_at_bumps_in_a_close_up) {
     for (int i = 0; i < kSize * kSize; ++i) {
         // Ridges two texels wide.
         const int tilt = (i / 2 + i / kSize / 2) % 2 ? 96 : 160;
-        for (const int value : {tilt, 128, 250}) texels.push_back(std::byte(value));
+        for (const int value : {tilt, 128, 223}) texels.push_back(std::byte(value));
     }
     for (SceneObject& object : scene.objects)
         object.mesh.materials[0].normal_map = {
             .name = "ridges", .width = kSize, .height = kSize, .channels = 3, .pixels = texels};
+    // At the front of the largest sphere, all of the picture skin.
+    const std::vector<Vec3>& positions_mm = scene.objects.back().mesh.positions_mm;
+    Vec3 center_mm;
+    for (const Vec3 p : positions_mm) center_mm += p * (1.0f / float(positions_mm.size()));
+    const Vec3 to_eye_mm = scene.camera.eye_mm - scene.camera.target_mm;
+    scene.camera.target_mm = center_mm;
+    scene.camera.eye_mm = center_mm + to_eye_mm;
     scene.camera.vertical_fov_rad /= 40;
     Renderer renderer = make_renderer(scene);
     const DrawSettings settings = {.width = 64, .height = 64, .view = "diffuse"};
