@@ -155,7 +155,7 @@ Result<int> print_report() {
 }  // namespace
 
 void add_report_command(CommandLine& line) {
-    CLI::App* command =
+    Command* command =
         line.add("report",
                  "Version, devices, drivers and packages as text to paste into a fault report; sends nothing",
                  "dermis report > report.txt");
