@@ -61,6 +61,9 @@ constexpr Evidence kPackageEvidence[] = {
     {"ffmpeg", "", "", "ffmpeg"},
     {"dpkg-dev", "dpkg-shlibdeps", "", ""},
     {"file", "file", "", ""},
+    {"clang", "", "", "clang++"},
+    {"clang-format", "", "", "clang-format"},
+    {"libclang-rt-14-dev", "", "", "libclang-rt-14-dev"},
 };
 
 // What needs no package of its own: part of CMake, optional, or of the repository.
