@@ -50,11 +50,11 @@ void add_export_mesh_command(CommandLine& line) {
     command->add_option("mesh", options->mesh, "builtin:bust");
     command->add_option("-o,--output", options->path, "file to write, .glb or .obj")->required();
     command->add_option("--maps", options->maps, "folder for all maps as PNG, the kernel size among them");
-    for (const Parameter& row : bust_parameters().parameters)
-        command->add_option_function<std::string>(
-            flag_of(row.name),
-            [options, name = row.name](const std::string& text) { options->parameters[name] = text; },
-            row.doc + ", " + range_text(row));
+    const ParameterValues defaults(bust_parameters());
+    for (const Parameter& row : bust_parameters().parameters) {
+        std::string& text = options->parameters[row.name] = defaults.text(row);
+        command->add_option(flag_of(row.name), text, row.doc + ", " + range_text(row));
+    }
     line.when_chosen(command, [options] { return run(*options); });
 }
 
