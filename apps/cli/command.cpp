@@ -8,6 +8,15 @@
 
 namespace dermis::cli {
 
+void print_message(std::string_view text) {
+    constexpr size_t kMaxBytes = 4000;  // lists of known names are long
+    std::fprintf(stderr, "dermis: %s\n", printable_line(text, kMaxBytes).c_str());
+}
+
+void print_warning(std::string_view text) {
+    print_message("warning: " + std::string(text));
+}
+
 Option* Option::required() {
     option_->required();
     return this;
@@ -109,7 +118,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     if (argc >= 2 && argv[1][0] != '-' && !find(argv[1])) {
         std::vector<std::string> names;
         for (const CLI::App* command : app_->get_subcommands({})) names.push_back(command->get_name());
-        std::fprintf(stderr, "dermis: %s\n", unknown_name("command", argv[1], names).c_str());
+        print_message(unknown_name("command", argv[1], names));
         return 2;
     }
     try {
@@ -117,7 +126,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     } catch (const CLI::Success& done) {  // --help, --version
         return app_->exit(done);
     } catch (const CLI::ParseError& wrong) {
-        std::fprintf(stderr, "dermis: %s (see dermis --help)\n", wrong.what());
+        print_message(std::string(wrong.what()) + " (see dermis --help)");
         return 2;
     }
     return std::nullopt;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dermis/base/result.h"
@@ -89,6 +90,10 @@ class CommandLine {
     std::unique_ptr<CLI::App> app_;
     std::deque<Command> commands_;
 };
+
+/// One line on the error stream, whatever file names and values it quotes (printable_line).
+void print_message(std::string_view text);
+void print_warning(std::string_view text);
 
 /// Generated: calls add_NAME_command of every commands/NAME.cpp.
 void add_all_commands(CommandLine& line);

@@ -1,7 +1,5 @@
 // dermis: parses, calls, prints. What a command does is in dermis/.
 
-#include <cstdio>
-
 #include "command.h"
 
 int main(int argc, char** argv) {
@@ -13,7 +11,7 @@ int main(int argc, char** argv) {
     if (const std::optional<int> exit_code = line.parse(argc, argv)) return *exit_code;
     const dermis::Result<int> exit_code = line.action();
     if (!exit_code) {
-        std::fprintf(stderr, "dermis: %s\n", exit_code.error().message.c_str());
+        dermis::cli::print_message(exit_code.error().message);
         return 1;
     }
     return *exit_code;

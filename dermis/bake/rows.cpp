@@ -100,11 +100,9 @@ Result<std::vector<float>> cached_radial_rows(const Profile& profile, std::span<
         return std::vector<std::byte>(bytes.begin(), bytes.end());
     };
     const Result<std::vector<std::byte>> bytes =
-        cached(kCacheKind, hash_of(profile, n_dot_l, radii_mm), make);
+        cached(kCacheKind, hash_of(profile, n_dot_l, radii_mm), count * sizeof(float), make);
     if (!bytes) return bytes.error();
     std::vector<float> data(count);
-    if (bytes->size() != count * sizeof(float))
-        return Error{"the cached rows have another size than was asked"};
     std::memcpy(data.data(), bytes->data(), bytes->size());
     return data;
 }

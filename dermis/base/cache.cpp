@@ -12,8 +12,9 @@ namespace {
 
 constexpr size_t kChecksumBytes = 32;
 
-std::string checksum(std::span<const std::byte> bytes) {
-    return Hasher().add(bytes).hex();
+// The name is part of it: an entry that was moved to another's place reads as absent.
+std::string checksum(std::string_view kind, std::string_view hash, std::span<const std::byte> bytes) {
+    return Hasher().add(kind).add(hash).add(bytes).hex();
 }
 
 fs::path entry_path(std::string_view kind, std::string_view hash) {
@@ -42,20 +43,21 @@ std::optional<std::vector<std::byte>> cache_load(std::string_view kind, std::str
     const size_t content_bytes = file->size() - kChecksumBytes;
     const std::string stored(reinterpret_cast<const char*>(file->data()) + content_bytes, kChecksumBytes);
     file->resize(content_bytes);
-    if (stored != checksum(*file)) return std::nullopt;
+    if (stored != checksum(kind, hash, *file)) return std::nullopt;
     return std::move(*file);
 }
 
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes) {
     std::vector<std::byte> file = bytes;
-    const std::string sum = checksum(bytes);
+    const std::string sum = checksum(kind, hash, bytes);
     file.insert(file.end(), as_bytes(sum).begin(), as_bytes(sum).end());
     return write_file(entry_path(kind, hash), file).ok();
 }
 
-Result<std::vector<std::byte>> cached(std::string_view kind, std::string_view hash,
+Result<std::vector<std::byte>> cached(std::string_view kind, std::string_view hash, size_t expected_bytes,
                                       const std::function<Result<std::vector<std::byte>>()>& make) {
-    if (auto found = cache_load(kind, hash)) return std::move(*found);
+    if (auto found = cache_load(kind, hash); found && found->size() == expected_bytes)
+        return std::move(*found);
     Result<std::vector<std::byte>> made = make();
     if (made) cache_store(kind, hash, *made);
     return made;

@@ -15,16 +15,17 @@ namespace dermis {
 
 [[nodiscard]] std::filesystem::path cache_directory();
 
-/// The bytes stored as `kind`/`hash`, or nothing. The stored file carries its own checksum: damage reads as
-/// absence.
+/// The bytes stored as `kind`/`hash`, or nothing. The stored file carries a checksum of its name and content:
+/// damage, and another entry's content, read as absence.
 [[nodiscard]] std::optional<std::vector<std::byte>> cache_load(std::string_view kind, std::string_view hash);
 
 /// Best effort; false when nothing could be stored (a full disk, a read-only home).
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);
 
-/// Loads, or makes and stores.
+/// Loads, or makes and stores. An entry of another size than `expected_bytes` is made anew. For content that
+/// can be wrong in other ways: cache_load, decode, and cache_store again if that fails.
 [[nodiscard]] Result<std::vector<std::byte>> cached(
-    std::string_view kind, std::string_view hash,
+    std::string_view kind, std::string_view hash, size_t expected_bytes,
     const std::function<Result<std::vector<std::byte>>()>& make);
 
 }  // namespace dermis

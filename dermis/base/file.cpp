@@ -56,14 +56,17 @@ Result<void> make_parent(const fs::path& path) {
     return {};
 }
 
-// Reads up to `size` bytes (0 for files whose size the system does not say, such as pipes: reads to the end).
+// Reads to the end: the system says 0 for the size of some files (/proc).
 template <class Container>
 Result<Container> read_into(const fs::path& path) {
-    Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    // Opening a pipe would wait for its writer.
+    Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     if (file.fd < 0) return Error{path.string() + ": cannot open: " + errno_text()};
     struct stat status {};
     if (::fstat(file.fd, &status) != 0) return Error{path.string() + ": cannot read: " + errno_text()};
     if (S_ISDIR(status.st_mode)) return Error{path.string() + ": is a directory, not a file"};
+    if (!S_ISREG(status.st_mode))
+        return Error{path.string() + ": is a pipe, device or socket, not a file; copy it to a file first"};
     Container content;
     size_t filled = 0;
     for (;;) {

@@ -17,8 +17,8 @@ namespace dermis {
 /// Largest file any loader reads, so that a wrong path (a device, a disk image) cannot exhaust memory.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 
-/// The whole file. Errors: missing, a directory, unreadable, larger than kMaxFileBytes; the message names the
-/// path.
+/// The whole file. Errors: missing, a directory, a pipe or device, unreadable, larger than kMaxFileBytes; the
+/// message names the path.
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path);
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path);
 

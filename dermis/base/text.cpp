@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -13,6 +14,26 @@ std::string shortest_text(Number value) {
     char buffer[64];
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
     return std::string(buffer, end.ptr);
+}
+
+// Bytes of the UTF-8 character at the front; 0 when there is none.
+size_t character_length(std::string_view text) {
+    const auto byte = [&](size_t i) { return i < text.size() ? uint8_t(text[i]) : uint8_t{0}; };
+    const size_t length = byte(0) < 0x80                      ? 1
+                          : byte(0) >= 0xc2 && byte(0) < 0xe0 ? 2
+                          : byte(0) >= 0xe0 && byte(0) < 0xf0 ? 3
+                          : byte(0) >= 0xf0 && byte(0) < 0xf5 ? 4
+                                                              : 0;
+    for (size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    return length;
+}
+
+// C0, DEL, and C1 (U+0080 to U+009F), whose U+009B starts an escape sequence too.
+bool is_control(std::string_view character) {
+    const auto first = uint8_t(character[0]);
+    if (character.size() == 1) return first < 0x20 || first == 0x7f;
+    return first == 0xc2 && uint8_t(character[1]) < 0xa0;
 }
 
 // Levenshtein distance, one row at a time.
@@ -78,6 +99,21 @@ std::string to_lower(std::string_view text) {
     std::string lower(text);
     std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     return lower;
+}
+
+std::string printable_line(std::string_view text, size_t max_bytes) {
+    std::string line;
+    while (!text.empty()) {
+        const size_t length = character_length(text);
+        const std::string_view character = text.substr(0, std::max<size_t>(length, 1));
+        if (line.size() + character.size() > max_bytes) return line + "...";
+        if (length == 0 || is_control(character))
+            line += '?';
+        else
+            line += character;
+        text.remove_prefix(character.size());
+    }
+    return line;
 }
 
 std::optional<std::string> closest_name(std::string_view wrong, std::span<const std::string> names) {

@@ -23,6 +23,10 @@ namespace dermis {
 [[nodiscard]] std::string join(std::span<const std::string> parts, std::string_view separator);
 [[nodiscard]] std::string to_lower(std::string_view text);
 
+/// The text as one line for a terminal, whatever is in it: control characters (line breaks, escape sequences)
+/// and bytes that are not UTF-8 become '?', and what is beyond `max_bytes` "...".
+[[nodiscard]] std::string printable_line(std::string_view text, size_t max_bytes = 1000);
+
 /// The candidate a person most likely meant (edit distance at most a third of the word, or the word and a
 /// unit behind an underscore), if there is one.
 [[nodiscard]] std::optional<std::string> closest_name(std::string_view wrong,

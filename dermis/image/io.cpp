@@ -24,10 +24,7 @@ constexpr Decoder kDecoders[] = {
 template <class T>
 Result<T> named(Result<T> result, std::string_view name) {
     if (result) return result;
-    std::string reason = result.error().message;
-    std::ranges::replace_if(
-        reason, [](char c) { return (c >= 0 && c < 32) || c == 127; }, '?');
-    return Error{std::string(name) + ": " + reason};
+    return Error{std::string(name) + ": " + printable_line(result.error().message)};
 }
 
 // One channel is grey, two are red and green (grey and alpha when sRGB-encoded), alpha is 1 where there is

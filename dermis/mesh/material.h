@@ -10,6 +10,9 @@
 
 namespace dermis {
 
+/// How an image goes on beyond its edges.
+enum class TextureWrap { repeat, clamp, mirror };
+
 /// An image named by a mesh file or a scene: a path, the encoded bytes of an embedded one, or the pixels of
 /// one that was made by code.
 struct ImageSource {
@@ -17,6 +20,7 @@ struct ImageSource {
     std::vector<std::byte> encoded;  ///< empty: read `name` from disk
     int width = 0, height = 0, channels = 0;
     std::vector<std::byte> pixels;  ///< 8 bit, rows from the top; sRGB where the map is a colour
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 
     [[nodiscard]] bool present() const { return !name.empty() || !encoded.empty(); }
 };
@@ -30,7 +34,8 @@ struct Material {
     Vec3 base_color_linear = {0.8f, 0.8f, 0.8f};
     float opacity = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float roughness = 0.5f;  ///< perceptual, alpha = roughness^2
+    float alpha_cutoff = 0.5f;  ///< of AlphaMode::mask: less opacity is none
+    float roughness = 0.5f;     ///< perceptual, alpha = roughness^2
     float metallic = 0;
     float specular = 1;  ///< scales the dielectric F0
     float ior = 1.5f;
@@ -40,7 +45,8 @@ struct Material {
     NormalSpace normal_space = NormalSpace::tangent;
     float normal_scale = 1;
 
-    ImageSource base_color_map;          ///< sRGB
+    ImageSource base_color_map;          ///< sRGB; A multiplies opacity unless the mode is opaque
+    ImageSource emission_map;            ///< sRGB
     ImageSource normal_map;              ///< data
     ImageSource metallic_roughness_map;  ///< roughness in G, metallic in B
     ImageSource specular_map;            ///< factor in A when from glTF, in R otherwise
@@ -51,10 +57,11 @@ struct Material {
     ImageSource transmission_map;        ///< A
     ImageSource roughness_map;           ///< perceptual, R; when present it wins over metallic_roughness_map
     ImageSource kernel_size_map;         ///< R, multiplies the width of scattering
-    ImageSource curvature_map;           ///< R, signed; times curvature_scale_per_mm
+    ImageSource curvature_map;           ///< R; (value - curvature_mid) * curvature_scale_per_mm
 
     float thickness_scale_mm = 1;         ///< thickness of a map value of 1
     float curvature_scale_per_mm = 1;     ///< curvature of a map value of 1
+    float curvature_mid = 0;              ///< the map value of flat skin
     float displacement_mid = 0.5f;        ///< the map value that moves nothing
     float displacement_amplitude_mm = 0;  ///< along the normal, for a step of 1 in map value
     int dilate_texels = 0;                ///< maps without a gutter: grow the UV islands by so much on load

@@ -27,6 +27,7 @@ struct Mesh {
     std::vector<Vec4> tangents;  ///< unit xyz along +u; w = +1 or -1, bitangent = w * cross(normal, tangent)
                                  ///< points up in the texture image (towards smaller v), as glTF has it
     std::vector<Vec2> uvs;
+    std::vector<Vec4> colors_linear;       ///< multiply base colour and opacity
     std::vector<float> curvatures_per_mm;  ///< signed mean curvature, positive where convex
     std::vector<float> occlusions;         ///< ambient visibility, 0 closed in, 1 open
     std::vector<uint32_t> indices;         ///< three a triangle

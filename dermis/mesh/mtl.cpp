@@ -1,8 +1,11 @@
-// Wavefront MTL with the usual PBR additions (Pr, Pm, norm). Blinn-Phong exponents become GGX roughness.
+// Wavefront MTL with the usual PBR additions (Pr, Pm, Ke, norm and their maps). Blinn-Phong exponents become
+// GGX roughness.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <span>
 
 #include "dermis/base/text.h"
 #include "dermis/mesh/obj.h"
@@ -24,29 +27,43 @@ std::optional<Vec3> read_color(TextCursor& cursor) {
     return Vec3{*r, g.value_or(*r), b.value_or(*r)};
 }
 
-// Words before the file name: options and how many values each may take.
+// Words before the file name: options, how many values each may take, and the values that change nothing
+// (others are warned of; none: it never matters here).
 struct MapOption {
     std::string_view name;
     int values;
+    std::string_view neutral;
 };
-constexpr std::array<MapOption, 13> kMapOptions = {{{"-blendu", 1},
-                                                    {"-blendv", 1},
-                                                    {"-boost", 1},
-                                                    {"-mm", 2},
-                                                    {"-o", 3},
-                                                    {"-s", 3},
-                                                    {"-t", 3},
-                                                    {"-texres", 1},
-                                                    {"-clamp", 1},
-                                                    {"-bm", 1},
-                                                    {"-imfchan", 1},
-                                                    {"-type", 1},
-                                                    {"-cc", 1}}};
+constexpr std::array<MapOption, 14> kMapOptions = {{{"-blendu", 1, ""},
+                                                    {"-blendv", 1, ""},
+                                                    {"-boost", 1, ""},
+                                                    {"-mm", 2, "0 1"},
+                                                    {"-o", 3, "0 0 0"},
+                                                    {"-s", 3, "1 1 1"},
+                                                    {"-t", 3, "0 0 0"},
+                                                    {"-texres", 1, ""},
+                                                    {"-clamp", 1, "off"},
+                                                    {"-bm", 1, ""},
+                                                    {"-imfchan", 1, ""},
+                                                    {"-type", 1, ""},
+                                                    {"-cc", 1, "off"},
+                                                    {"-colorspace", 1, ""}}};
 
 struct MapLine {
-    std::string file;
-    float bump_scale = 1;
+    std::string file, color_space;
+    std::optional<float> bump_scale;
+    std::vector<std::string_view> ignored;  // options with a value that would change the map
 };
+
+// Whether the values are the neutral ones, or fewer of them.
+bool is_neutral(std::string_view neutral, std::span<const std::string_view> values) {
+    const std::vector<std::string_view> words = split(neutral, ' ');
+    for (size_t i = 0; i < values.size() && i < words.size(); ++i)
+        if (parse_number(values[i]) ? parse_number(values[i]) != parse_number(words[i])
+                                    : values[i] != words[i])
+            return false;
+    return true;
+}
 
 MapLine read_map(TextCursor cursor) {
     MapLine map;
@@ -56,15 +73,21 @@ MapLine read_map(TextCursor cursor) {
         const auto option = std::ranges::find(kMapOptions, word, &MapOption::name);
         if (option == kMapOptions.end()) break;
         cursor = ahead;
+        std::vector<std::string_view> values;
         for (int i = 0; i < option->values; ++i) {
             TextCursor value_ahead = cursor;
-            const auto number = finite(value_ahead.number());
+            const std::string_view value = value_ahead.word();
+            const auto number = parse_number(value);
             const bool takes_words = option->values == 1;
             if (!number && !takes_words) break;  // -o, -s and -t may leave v and w out
-            if (!number) value_ahead.word();
-            if (number && option->name == "-bm") map.bump_scale = *number;
+            if (option->name == "-bm")
+                map.bump_scale = finite(number ? std::optional(float(*number)) : std::nullopt);
+            if (option->name == "-colorspace") map.color_space = to_lower(value);
+            values.push_back(value);
             cursor = value_ahead;
         }
+        if (!option->neutral.empty() && !is_neutral(option->neutral, values))
+            map.ignored.push_back(option->name);
     }
     cursor.skip_blanks();
     map.file = trim(cursor.rest());
@@ -126,35 +149,66 @@ class MtlParser {
         material.alpha_mode = material.opacity < 1 ? AlphaMode::blend : AlphaMode::opaque;
     }
 
-    void read_map_line(std::string_view keyword, const TextCursor& cursor) {
+    // What a keyword's map goes to; nothing for maps that are not used.
+    ImageSource* target_of(std::string_view keyword, const MapLine& map) {
         Material& material = materials_.back();
-        ImageSource* target = nullptr;
-        if (keyword == "map_kd") target = &material.base_color_map;
-        if (keyword == "map_ks") target = &material.specular_map;
-        if (keyword == "norm" || keyword == "map_kn") target = &material.normal_map;
-        if (keyword == "disp") target = &material.displacement_map;
-        if (keyword == "map_d") target = &material.opacity_map;
+        if (keyword == "map_kd") return &material.base_color_map;
+        if (keyword == "map_ks") return &material.specular_map;
+        if (keyword == "map_ke") return &material.emission_map;
+        if (keyword == "map_pr") return &material.roughness_map;
+        if (keyword == "norm" || keyword == "map_kn") return &material.normal_map;
+        if (keyword == "disp" || keyword == "map_disp") return &material.displacement_map;
+        if (keyword == "map_d") return &material.opacity_map;
+        if (keyword != "map_bump" && keyword != "bump") return nullptr;
         // "bump" holds heights by the book and tangent-space normals in half of all files: the name decides.
-        const bool bump = keyword == "map_bump" || keyword == "bump";
+        const std::string lower = to_lower(map.file);
+        const bool is_normal =
+            lower.find("norm") != std::string::npos || lower.find("nrm") != std::string::npos;
+        return is_normal ? &material.normal_map : &material.displacement_map;
+    }
+
+    // Maps multiply the constant beside them, but exporters write a map beside the 0 (or nothing at all) that
+    // their program shows while a map is linked.
+    void set_constant_beside(std::string_view keyword) {
+        Material& material = materials_.back();
+        if (keyword == "map_ke" && material.emission_linear == Vec3{}) material.emission_linear = {1, 1, 1};
+        if (keyword == "map_pr") material.roughness = 1;
+    }
+
+    void read_map_line(std::string_view keyword, const TextCursor& cursor) {
+        const bool is_map = keyword.starts_with("map_") || keyword == "norm" || keyword == "disp" ||
+                            keyword == "bump" || keyword == "decal" || keyword == "refl";
+        if (!is_map) return;
         const MapLine map = read_map(cursor);
-        if (bump) {
-            const std::string lower = to_lower(map.file);
-            const bool is_normal =
-                lower.find("norm") != std::string::npos || lower.find("nrm") != std::string::npos;
-            target = is_normal ? &material.normal_map : &material.displacement_map;
-            if (is_normal) material.normal_scale = map.bump_scale;
-        }
-        if (!target || map.file.empty()) return;
+        if (map.file.empty()) return;
+        ImageSource* target = target_of(keyword, map);
+        // The renderer has no ambient colour; every other map left out may be missed.
+        if (!target) return keyword == "map_ka" ? void() : warn_once(std::string(keyword) + " is not used");
         if (!stays_inside(map.file))
-            warnings_.push_back(name_ + ": map '" + map.file +
-                                "' lies outside the mesh's directory; not used");
-        else
-            target->name = (directory_ / map.file).string();
+            return warn_once("map '" + map.file + "' lies outside the mesh's directory; not used");
+        for (const std::string_view option : map.ignored)
+            warn_once("the option " + std::string(option) + " of " + std::string(keyword) + " is ignored");
+        const bool is_color =
+            target == &materials_.back().base_color_map || target == &materials_.back().emission_map;
+        const bool linear =
+            map.color_space == "linear" || map.color_space == "raw" || map.color_space == "non-color";
+        if (!map.color_space.empty() && map.color_space != "auto" && is_color == linear)
+            warn_once("-colorspace " + map.color_space + " of " + std::string(keyword) +
+                      " is ignored: colours are read as sRGB, all else as data");
+        if (target == &materials_.back().normal_map && map.bump_scale)
+            materials_.back().normal_scale = *map.bump_scale;
+        set_constant_beside(keyword);
+        target->name = (directory_ / map.file).string();
+    }
+
+    void warn_once(const std::string& text) {
+        if (warned_.insert(text).second) warnings_.push_back(name_ + ": " + text);
     }
 
     std::string name_;
     std::filesystem::path directory_;
     std::vector<std::string>& warnings_;
+    std::set<std::string> warned_;
     std::vector<Material> materials_;
 };
 

@@ -47,7 +47,7 @@ class ObjParser {
         if (keyword == "vn") return read_normal(cursor);
         if (keyword == "f") return read_face(cursor);
         if (keyword == "usemtl") return use_material(std::string(trim(cursor.rest())));
-        if (keyword == "mtllib") return read_library(cursor);
+        if (keyword == "mtllib") return read_libraries(cursor);
         if (keyword == "curv" || keyword == "curv2" || keyword == "surf") ++free_form_;
     }
 
@@ -138,8 +138,22 @@ class ObjParser {
         material_ = at->second;
     }
 
-    void read_library(TextCursor& cursor) {
-        const std::string library(trim(cursor.rest()));
+    // One line may name several libraries, and a name may have blanks: each ends with ".mtl".
+    void read_libraries(TextCursor& cursor) {
+        const std::string_view line = trim(cursor.rest());
+        const std::string lower = to_lower(line);
+        size_t from = 0;
+        for (size_t at = 0; (at = lower.find(".mtl", at)) != std::string::npos;) {
+            at += 4;
+            if (at < line.size() && line[at] != ' ' && line[at] != '\t') continue;
+            read_library(std::string(trim(line.substr(from, at - from))));
+            from = at;
+        }
+        if (const std::string_view rest = trim(line.substr(from)); !rest.empty() || from == 0)
+            read_library(std::string(rest));
+    }
+
+    void read_library(const std::string& library) {
         if (!libraries_read_.insert(library).second || !read_sibling_) return;
         if (libraries_read_.size() > 64) return;
         if (!stays_inside(library))
@@ -187,6 +201,11 @@ class ObjParser {
         if (small_faces_ > 0)
             warn(std::to_string(small_faces_) + " faces with fewer than three corners skipped");
         if (bad_uvs_ > 0) warn(std::to_string(bad_uvs_) + " UVs were not finite; they get (0, 0)");
+        const auto fans =
+            std::ranges::count_if(polygons_.face_sizes, [](uint32_t size) { return size > kMaxEarClipping; });
+        if (fans > 0)
+            warn(std::to_string(fans) + " faces of more than " + std::to_string(kMaxEarClipping) +
+                 " corners are cut as fans, which is right only if they are convex");
         if (free_form_ > 0) warn(std::to_string(free_form_) + " free-form curves or surfaces skipped");
         std::vector<std::string> unknown;
         for (Material& material : polygons_.materials) {

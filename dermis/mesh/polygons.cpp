@@ -4,14 +4,13 @@
 #include "dermis/mesh/polygons.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "dermis/mesh/weld.h"
 
 namespace dermis {
 namespace {
-
-constexpr size_t kMaxEarClipping = 512;
 
 // Twice the vector area, in double: scanned faces are small and far from the origin.
 Vec3 newell_normal(std::span<const Vec3> corners) {
@@ -55,29 +54,68 @@ void cut_quad(std::span<const Vec3> p, std::vector<uint32_t>& triangles) {
         triangles.insert(triangles.end(), {0, 1, 3, 1, 2, 3});
 }
 
-void clip_ears(std::span<const Vec3> corners, std::vector<uint32_t>& triangles) {
-    const std::vector<Vec2> points = project(corners, newell_normal(corners));
-    std::vector<uint32_t> ring(corners.size());
-    std::iota(ring.begin(), ring.end(), 0u);
-    const auto is_ear = [&](size_t at) {
-        const uint32_t a = ring[(at + ring.size() - 1) % ring.size()], b = ring[at],
-                       c = ring[(at + 1) % ring.size()];
-        if (cross(points[b] - points[a], points[c] - points[b]) <= 0) return false;
-        return std::ranges::none_of(ring, [&](uint32_t other) {
-            return other != a && other != b && other != c &&
-                   inside_triangle(points[other], points[a], points[b], points[c]);
-        });
-    };
-    while (ring.size() > 3) {
-        size_t at = 0;
-        while (at < ring.size() && !is_ear(at)) ++at;
-        at %= ring.size();  // a self-crossing face has no ear: cut anywhere
-        triangles.insert(triangles.end(), {ring[(at + ring.size() - 1) % ring.size()], ring[at],
-                                           ring[(at + 1) % ring.size()]});
-        ring.erase(ring.begin() + std::ptrdiff_t(at));
-    }
-    triangles.insert(triangles.end(), ring.begin(), ring.end());
+// Whether the direction leads from the second of three corners into the triangle.
+bool leads_inside(Vec2 direction, Vec2 before, Vec2 corner, Vec2 after) {
+    return cross(after - corner, direction) > 0 && cross(direction, before - corner) > 0;
 }
+
+class EarClipper {
+  public:
+    explicit EarClipper(std::span<const Vec3> corners)
+        : points_(project(corners, newell_normal(corners))), ring_(corners.size()) {
+        std::iota(ring_.begin(), ring_.end(), 0u);
+    }
+
+    void run(std::vector<uint32_t>& triangles) {
+        while (ring_.size() > 3) {
+            const size_t at = next_cut();
+            triangles.insert(triangles.end(), {corner(at, -1), corner(at, 0), corner(at, 1)});
+            ring_.erase(ring_.begin() + std::ptrdiff_t(at));
+        }
+        triangles.insert(triangles.end(), ring_.begin(), ring_.end());
+    }
+
+  private:
+    [[nodiscard]] uint32_t corner(size_t at, int step) const {
+        return ring_[(at + ring_.size() + size_t(step)) % ring_.size()];
+    }
+    [[nodiscard]] Vec2 point(size_t at, int step) const { return points_[corner(at, step)]; }
+    [[nodiscard]] float turn(size_t at) const {
+        return cross(point(at, 0) - point(at, -1), point(at, 1) - point(at, 0));
+    }
+
+    // An ear; else a corner without area, which is what remains of an edge run along twice; else, in a face
+    // that crosses itself, any.
+    [[nodiscard]] size_t next_cut() const {
+        for (size_t at = 0; at < ring_.size(); ++at)
+            if (is_ear(at)) return at;
+        for (size_t at = 0; at < ring_.size(); ++at)
+            if (turn(at) == 0) return at;
+        return 0;
+    }
+
+    [[nodiscard]] bool is_ear(size_t at) const {
+        if (turn(at) <= 0) return false;
+        const std::array<Vec2, 3> ear = {point(at, -1), point(at, 0), point(at, 1)};
+        for (size_t other = 0; other < ring_.size(); ++other)
+            if (blocks(other, ear)) return false;
+        return true;
+    }
+
+    // A corner that lies in the triangle, or at a corner of it with an edge into it: the outline comes twice
+    // to where it goes over to a hole.
+    [[nodiscard]] bool blocks(size_t other, const std::array<Vec2, 3>& ear) const {
+        const Vec2 p = point(other, 0);
+        for (size_t k = 0; k < 3; ++k)
+            if (p == ear[k])
+                return leads_inside(point(other, -1) - p, ear[(k + 2) % 3], p, ear[(k + 1) % 3]) ||
+                       leads_inside(point(other, 1) - p, ear[(k + 2) % 3], p, ear[(k + 1) % 3]);
+        return inside_triangle(p, ear[0], ear[1], ear[2]);
+    }
+
+    std::vector<Vec2> points_;
+    std::vector<uint32_t> ring_;  // corners that are left
+};
 
 struct CornerValues {
     Vec2 uv;
@@ -122,7 +160,7 @@ void triangulate_polygon(std::span<const Vec3> corners, std::vector<uint32_t>& t
     else if (corners.size() == 4)
         cut_quad(corners, triangles);
     else if (corners.size() <= kMaxEarClipping)
-        clip_ears(corners, triangles);
+        EarClipper(corners).run(triangles);
     else
         for (uint32_t i = 1; i + 1 < corners.size(); ++i) triangles.insert(triangles.end(), {0, i, i + 1});
 }

@@ -36,8 +36,12 @@ struct PolygonMesh {
 /// 0).
 [[nodiscard]] Mesh triangulate(const PolygonMesh& polygons);
 
-/// Cuts one polygon into triangles of local corner numbers, three a triangle, size - 2 triangles always,
-/// appended to `triangles`. Ear clipping is quadratic; polygons over 512 corners are cut as a fan.
+/// Polygons of more corners are cut as a fan: ear clipping takes the cube of their number.
+inline constexpr uint32_t kMaxEarClipping = 512;
+
+/// Cuts one polygon into triangles of local corner numbers, three a triangle, size - 2 triangles always (some
+/// without area), appended to `triangles`. A hole is given as files do: the outline runs to it and back along
+/// the same edge.
 void triangulate_polygon(std::span<const Vec3> corners, std::vector<uint32_t>& triangles);
 
 /// The way back, for meshes that were read as triangles: every triangle a face, positions and UVs welded by

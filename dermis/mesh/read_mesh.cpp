@@ -26,14 +26,6 @@ namespace {
 constexpr double kHeadMin_mm = 150, kHeadMax_mm = 500;
 
 // Names in a file may hold anything, a message is one line for a terminal.
-std::string one_line(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    constexpr size_t kMost = 1000;
-    if (text.size() > kMost) text.resize(kMost), text += "...";
-    return text;
-}
-
 void tidy(std::vector<std::string>& warnings) {
     constexpr size_t kMost = 50;
     if (warnings.size() > kMost) {
@@ -41,7 +33,7 @@ void tidy(std::vector<std::string>& warnings) {
         warnings.resize(kMost);
         warnings.push_back("and " + rest + " more warnings");
     }
-    for (std::string& warning : warnings) warning = one_line(std::move(warning));
+    for (std::string& warning : warnings) warning = printable_line(warning);
 }
 
 Result<MeshFormat> format_of(const fs::path& path) {
@@ -71,6 +63,8 @@ Result<LoadedMesh> load_gltf(std::span<const std::byte> bytes, const fs::path& n
     if (!loaded || options.subdivision_level == 0) return loaded;
     const Result<PolygonMesh> refined = subdivide(polygons_of(loaded->mesh), options.subdivision_level);
     if (!refined) return Error{name.string() + ": " + refined.error().message};
+    if (!loaded->mesh.colors_linear.empty())
+        loaded->warnings.push_back(name.string() + ": vertex colours are lost by subdivision");
     loaded->mesh = triangulate(*refined);
     return loaded;
 }
@@ -92,7 +86,7 @@ Result<void> check_finite(Mesh& mesh, const fs::path& name, std::vector<std::str
 void warn_of_height(const Mesh& mesh, const fs::path& name, const MeshOptions& options, bool is_obj,
                     std::vector<std::string>& warnings) {
     const auto [low, high] = std::ranges::minmax(mesh.positions_mm, {}, &Vec3::y);
-    const double height_mm = double(high.y) - low.y;
+    const double height_mm = (double(high.y) - low.y) * options.scale_after;
     if (height_mm >= kHeadMin_mm && height_mm <= kHeadMax_mm) return;
     std::array<char, 32> rounded{};
     std::snprintf(rounded.data(), rounded.size(), "%.4g", height_mm);
@@ -156,7 +150,7 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     const bool is_obj = format == MeshFormat::obj;
     Result<LoadedMesh> loaded =
         is_obj ? load_obj(bytes, name, read_sibling, options) : load_gltf(bytes, name, read_sibling, options);
-    if (!loaded) return Error{one_line(loaded.error().message)};
+    if (!loaded) return Error{printable_line(loaded.error().message)};
     Mesh& mesh = loaded->mesh;
     std::vector<std::string>& warnings = loaded->warnings;
     if (Result<void> checked = check_finite(mesh, name, warnings); !checked) return checked.error();
@@ -165,7 +159,7 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     warn_of_height(mesh, name, options, is_obj, warnings);
     warn_of_tiles(mesh, name, warnings);
     finish_normals(mesh, name, warnings);
-    if (mesh.tangents.empty() || !orthonormalize_tangents(mesh)) compute_tangents(mesh);
+    complete_tangents(mesh);
     tidy(warnings);
     return loaded;
 }

@@ -18,12 +18,16 @@ namespace dermis {
 struct MeshOptions {
     /// Millimetres a file unit; none: 1000 for glTF (metres), 1 for OBJ.
     std::optional<double> unit_mm;
+    /// By how much the caller enlarges the mesh after loading: the warning about its height counts it.
+    double scale_after = 1;
     /// Catmull-Clark refinements (subdivide.h); OBJ keeps its quads for them.
     int subdivision_level = 0;
     /// The caller brings maps and materials of its own: an MTL that is not there is no news.
     bool ignore_missing_materials = false;
-    /// More, also through instancing, is an error and not a swapping machine.
+    /// More, also through instancing, is an error before any of them is read.
     size_t max_vertices = 50'000'000;
+    /// Most nodes of a glTF file.
+    size_t max_nodes = 65'536;
 };
 
 struct LoadedMesh {
@@ -41,9 +45,12 @@ using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::stri
 /// Every value of the result is finite and every index in range. Normals are unit, computed where the file
 /// has none (normals.h), and so are tangents (tangents.h).
 ///
+/// Of glTF: skins in the pose of the file's nodes, morph targets by their weights, the UV set and
+/// KHR_texture_transform of each material's first texture (maps with others are left out, with a warning).
+///
 /// Errors (one line, naming file and place): unreadable or truncated files, no triangles, positions that are
 /// not finite, indices out of range, missing buffers, URIs that leave the directory, required extensions
-/// unknown here.
+/// unknown here, more vertices or nodes than the options allow.
 ///
 /// Warnings: missing MTL, UDIM tiles, UVs absent, a height that no head has, anything in the file that was
 /// skipped.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "dermis/mesh/topology.h"
 
@@ -63,7 +64,9 @@ Weld weld_vertices(const Mesh& mesh) {
 
 class TangentBuilder {
   public:
-    explicit TangentBuilder(Mesh& mesh) : mesh_(mesh), weld_(weld_vertices(mesh)) {
+    // `given`: empty, or one a vertex, zero where there is none.
+    TangentBuilder(Mesh& mesh, std::vector<Vec4> given)
+        : mesh_(mesh), weld_(weld_vertices(mesh)), given_(std::move(given)) {
         vertices_ = welded_indices(mesh.indices, weld_);
         for (size_t i = 0; i < mesh.indices.size(); i += 3) frames_.push_back(face_frame(mesh, i));
     }
@@ -73,6 +76,7 @@ class TangentBuilder {
         group_of_corner_.resize(mesh_.indices.size());
         tangent_of_corner_.resize(mesh_.indices.size());
         for (uint32_t vertex = 0; vertex < weld_.count(); ++vertex) build_around(table.corners(vertex));
+        if (!given_.empty()) keep_given();
         split_vertices(mesh_, group_of_corner_);
         mesh_.tangents.assign(mesh_.positions_mm.size(), Vec4{1, 0, 0, 1});
         for (size_t corner = 0; corner < mesh_.indices.size(); ++corner)
@@ -127,6 +131,16 @@ class TangentBuilder {
         }
     }
 
+    // The corners of a vertex with a tangent stay together.
+    void keep_given() {
+        for (size_t corner = 0; corner < mesh_.indices.size(); ++corner) {
+            const Vec4 t = given_[mesh_.indices[corner]];
+            if (t.w == 0) continue;
+            group_of_corner_[corner] = ~0u;
+            tangent_of_corner_[corner] = t;
+        }
+    }
+
     std::optional<uint32_t> widest_set(size_t count) {
         std::optional<uint32_t> widest;
         for (uint32_t i = 0; i < count; ++i)
@@ -148,6 +162,7 @@ class TangentBuilder {
 
     Mesh& mesh_;
     Weld weld_;
+    std::vector<Vec4> given_;
     std::vector<uint32_t> vertices_;  // welded, of every corner
     std::vector<FaceFrame> frames_;
     std::vector<uint32_t> group_of_corner_;
@@ -161,25 +176,27 @@ class TangentBuilder {
 }  // namespace
 
 void compute_tangents(Mesh& mesh) {
-    mesh.tangents.clear();
-    if (!mesh.uvs.empty()) return TangentBuilder(mesh).run();
-    for (const Vec3& n : mesh.normals) {
-        const Vec3 t = any_perpendicular(n);
-        mesh.tangents.push_back({t.x, t.y, t.z, 1});
-    }
+    mesh.tangents.assign(mesh.positions_mm.size(), Vec4{0, 0, 0, 0});
+    complete_tangents(mesh);
 }
 
-bool orthonormalize_tangents(Mesh& mesh) {
-    std::vector<Vec4> tangents;
-    tangents.reserve(mesh.tangents.size());
+void complete_tangents(Mesh& mesh) {
+    mesh.tangents.resize(mesh.positions_mm.size(), Vec4{0, 0, 0, 0});
+    size_t missing = 0;
     for (size_t i = 0; i < mesh.tangents.size(); ++i) {
         const Vec4 given = mesh.tangents[i];
         const Vec3 t = project_to_plane(normalize({given.x, given.y, given.z}), mesh.normals[i]);
-        if (!(std::abs(length(t) - 1) < 1e-3f)) return false;
-        tangents.push_back({t.x, t.y, t.z, given.w < 0 ? -1.0f : 1.0f});
+        const bool usable = std::abs(length(t) - 1) < 1e-3f;
+        missing += !usable;
+        mesh.tangents[i] = usable ? Vec4{t.x, t.y, t.z, given.w < 0 ? -1.0f : 1.0f} : Vec4{0, 0, 0, 0};
     }
-    mesh.tangents = std::move(tangents);
-    return true;
+    if (missing == 0) return;
+    if (!mesh.uvs.empty()) return TangentBuilder(mesh, std::exchange(mesh.tangents, {})).run();
+    for (size_t i = 0; i < mesh.tangents.size(); ++i) {
+        if (mesh.tangents[i].w != 0) continue;
+        const Vec3 t = any_perpendicular(mesh.normals[i]);
+        mesh.tangents[i] = {t.x, t.y, t.z, 1};
+    }
 }
 
 }  // namespace dermis

@@ -81,7 +81,10 @@ class TextCursor {
 /// `joined`).
 class LineReader {
   public:
-    explicit LineReader(std::string_view text) : rest_(text) {}
+    explicit LineReader(std::string_view text) : rest_(text) {
+        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+        if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+    }
 
     [[nodiscard]] bool done() const { return rest_.empty(); }
     [[nodiscard]] size_t line_number() const { return number_; }  ///< of the line last read, from 1

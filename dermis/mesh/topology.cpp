@@ -50,6 +50,7 @@ void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
     gather(mesh.uvs, from);
     gather(mesh.curvatures_per_mm, from);
     gather(mesh.occlusions, from);
+    gather(mesh.colors_linear, from);
 }
 
 void collect_spokes(std::span<const uint32_t> corners, std::span<const uint32_t> vertices,

@@ -29,74 +29,125 @@ bool owns_edge(Fixed a, Fixed b) {
     return (a[1] == b[1] && b[0] > a[0]) || b[1] < a[1];
 }
 
+int64_t floor_divide(int64_t a, int64_t positive) {
+    return a >= 0 ? a / positive : -((-a + positive - 1) / positive);
+}
+
+// Counts how many triangles cover each texel centre. A triangle costs a step a row, however large it is: only
+// where its span begins and ends is noted, and one sweep adds up.
 class TexelCounter {
   public:
     explicit TexelCounter(int resolution)
-        : resolution_(resolution), counts_(size_t(resolution) * resolution) {}
+        : resolution_(resolution), changes_(size_t(resolution + 1) * size_t(resolution)) {}
 
     /// Corners in units of the tile, origin top-left.
     void add(std::array<Vec2, 3> corners) {
         std::array<Fixed, 3> p;
         for (size_t k = 0; k < 3; ++k) {
-            const double x = double(corners[k].x) * resolution_, y = double(corners[k].y) * resolution_;
+            const double x = double(corners[k].x) * double(resolution_),
+                         y = double(corners[k].y) * double(resolution_);
             if (!(std::abs(x) < 1e6 && std::abs(y) < 1e6)) return;
             p[k] = {std::llround(x * kSubTexels), std::llround(y * kSubTexels)};
         }
         const int64_t area = edge(p[0], p[1], p[2]);
         if (area == 0) return;
         if (area < 0) std::swap(p[1], p[2]);
-        const auto [x0, x1] = texel_range(p, 0);
-        const auto [y0, y1] = texel_range(p, 1);
-        for (int64_t y = y0; y <= y1; ++y)
-            for (int64_t x = x0; x <= x1; ++x)
-                if (covers(p, {x * kSubTexels + kSubTexels / 2, y * kSubTexels + kSubTexels / 2}))
-                    if (uint8_t& count = counts_[size_t(y * resolution_ + x)]; count < 255) ++count;
+        const auto [low, high] = std::minmax({p[0][1], p[1][1], p[2][1]});
+        const int64_t first = std::max<int64_t>(0, low / kSubTexels - 1),
+                      last = std::min<int64_t>(resolution_ - 1, high / kSubTexels + 1);
+        for (int64_t y = first; y <= last; ++y) add_row(p, y);
     }
 
-    [[nodiscard]] size_t at_least(int count) const {
-        return size_t(std::ranges::count_if(counts_, [&](uint8_t c) { return c >= count; }));
+    struct Covered {
+        size_t once = 0, more = 0;  ///< texels under at least one triangle, and under more
+    };
+    [[nodiscard]] Covered count() const {
+        Covered covered;
+        for (int64_t y = 0; y < resolution_; ++y) {
+            int64_t depth = 0;
+            for (int64_t x = 0; x < resolution_; ++x) {
+                depth += changes_[size_t(y * (resolution_ + 1) + x)];
+                covered.once += depth >= 1;
+                covered.more += depth >= 2;
+            }
+        }
+        return covered;
     }
 
   private:
-    [[nodiscard]] std::pair<int64_t, int64_t> texel_range(const std::array<Fixed, 3>& p, size_t axis) const {
-        const auto [low, high] = std::minmax({p[0][axis], p[1][axis], p[2][axis]});
-        return {std::max<int64_t>(0, low / kSubTexels - 1),
-                std::min<int64_t>(resolution_ - 1, high / kSubTexels + 1)};
-    }
-    static bool covers(const std::array<Fixed, 3>& p, Fixed centre) {
+    // The texels of a row whose centres are inside of all three edges: each is linear in x.
+    void add_row(const std::array<Fixed, 3>& p, int64_t y) {
+        int64_t first = 0, last = resolution_ - 1;
         for (size_t k = 0; k < 3; ++k) {
             const Fixed a = p[k], b = p[(k + 1) % 3];
-            const int64_t side = edge(a, b, centre);
-            if (side < 0 || (side == 0 && !owns_edge(a, b))) return false;
+            const int64_t side = edge(a, b, {kSubTexels / 2, y * kSubTexels + kSubTexels / 2});
+            const int64_t step = (a[1] - b[1]) * kSubTexels;  // from texel to texel
+            const int64_t needed = (owns_edge(a, b) ? 0 : 1) - side;
+            if (step > 0)
+                first = std::max(first, -floor_divide(-needed, step));
+            else if (step < 0)
+                last = std::min(last, floor_divide(-needed, -step));
+            else if (needed > 0)
+                return;
         }
-        return true;
+        if (first > last) return;
+        ++changes_[size_t(y * (resolution_ + 1) + first)];
+        --changes_[size_t(y * (resolution_ + 1) + last + 1)];
     }
 
     int64_t resolution_;
-    std::vector<uint8_t> counts_;
+    std::vector<int32_t> changes_;  // of the depth, before each texel
 };
 
-std::vector<uint32_t> triangles_of(const Mesh& mesh, std::optional<uint32_t> material) {
-    std::vector<uint32_t> triangles;
-    for (const Submesh& submesh : mesh.submeshes)
-        if (!material || submesh.material == *material)
-            for (uint32_t i = 0; i < submesh.index_count / 3; ++i)
-                triangles.push_back(submesh.first_index / 3 + i);
-    return triangles;
+// Positions, UVs and triangles of one material alone, so that a report on each of hundreds does not cost the
+// whole mesh each time.
+Mesh part_of(const Mesh& mesh, uint32_t material) {
+    std::vector<uint32_t> indices;
+    for (const Submesh& submesh : mesh.submeshes) {
+        const auto first = mesh.indices.begin() + submesh.first_index;
+        if (submesh.material == material) indices.insert(indices.end(), first, first + submesh.index_count);
+    }
+    std::vector<uint32_t> vertices = indices;
+    std::ranges::sort(vertices);
+    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    Mesh part;
+    for (const uint32_t vertex : vertices) {
+        part.positions_mm.push_back(mesh.positions_mm[vertex]);
+        part.uvs.push_back(mesh.uvs[vertex]);
+    }
+    for (const uint32_t index : indices)
+        part.indices.push_back(uint32_t(std::ranges::lower_bound(vertices, index) - vertices.begin()));
+    return part;
 }
 
 std::array<Vec2, 3> uvs_of(const Mesh& mesh, uint32_t triangle) {
-    const uint32_t* i = &mesh.indices[3 * size_t{triangle}];
+    const uint32_t* i = &mesh.indices[3 * size_t(triangle)];
     return {mesh.uvs[i[0]], mesh.uvs[i[1]], mesh.uvs[i[2]]};
 }
 
-void count_texels(const Mesh& mesh, std::span<const uint32_t> triangles, int resolution, UvReport& report) {
+// Halved while the triangles cross more rows than take a few seconds.
+int affordable_resolution(const Mesh& mesh, int resolution) {
+    constexpr double kMaxRows = 2e8;
+    constexpr int kCoarsest = 64;
+    double tiles = 0;  // heights of all triangles
+    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        const auto uv = uvs_of(mesh, t);
+        const double height =
+            double(std::max({uv[0].y, uv[1].y, uv[2].y})) - double(std::min({uv[0].y, uv[1].y, uv[2].y}));
+        tiles += std::min(height, 1.0);
+    }
+    while (resolution > kCoarsest && tiles * resolution > kMaxRows) resolution /= 2;
+    return resolution;
+}
+
+void count_texels(const Mesh& mesh, int wanted_resolution, UvReport& report) {
     std::map<int, std::vector<uint32_t>> by_tile;
-    for (const uint32_t t : triangles) {
+    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         const auto uv = uvs_of(mesh, t);
         by_tile[udim_tile((uv[0] + uv[1] + uv[2]) * (1.0f / 3))].push_back(t);
     }
     by_tile.erase(0);
+    const int resolution = affordable_resolution(mesh, wanted_resolution);
     size_t covered = 0, overlapped = 0;
     for (const auto& [tile, members] : by_tile) {
         report.tiles.push_back(tile);
@@ -107,8 +158,9 @@ void count_texels(const Mesh& mesh, std::span<const uint32_t> triangles, int res
             const auto uv = uvs_of(mesh, t);
             counter.add({uv[0] - corner, uv[1] - corner, uv[2] - corner});
         }
-        covered += counter.at_least(1);
-        overlapped += counter.at_least(2);
+        const TexelCounter::Covered texels = counter.count();
+        covered += texels.once;
+        overlapped += texels.more;
     }
     const double texels = double(resolution) * resolution * double(std::min(by_tile.size(), kMaxTiles));
     report.coverage = texels > 0 ? double(covered) / texels : 0;
@@ -119,20 +171,19 @@ void count_texels(const Mesh& mesh, std::span<const uint32_t> triangles, int res
 struct EdgeSide {
     uint32_t a, b;        // positions
     uint32_t uv_a, uv_b;  // welded position and UV
-    uint32_t triangle;    // number within the list
+    uint32_t triangle;
 };
 
-std::vector<EdgeSide> edge_sides(const Mesh& mesh, std::span<const uint32_t> triangles,
-                                 const Weld& positions) {
+std::vector<EdgeSide> edge_sides(const Mesh& mesh, const Weld& positions) {
     std::vector<uint32_t> words;
     for (size_t i = 0; i < mesh.uvs.size(); ++i)
         for (const uint32_t word : {positions.ids[i], weld_key(mesh.uvs[i].x), weld_key(mesh.uvs[i].y)})
             words.push_back(word);
     const Weld uvs = weld_records(words, 3);
     std::vector<EdgeSide> sides;
-    for (uint32_t n = 0; n < triangles.size(); ++n)
+    for (uint32_t n = 0; n < mesh.triangle_count(); ++n)
         for (uint32_t k = 0; k < 3; ++k) {
-            uint32_t i = mesh.indices[3 * triangles[n] + k], j = mesh.indices[3 * triangles[n] + (k + 1) % 3];
+            uint32_t i = mesh.indices[3 * n + k], j = mesh.indices[3 * n + (k + 1) % 3];
             if (positions.ids[i] > positions.ids[j]) std::swap(i, j);
             sides.push_back({positions.ids[i], positions.ids[j], uvs.ids[i], uvs.ids[j], n});
         }
@@ -142,10 +193,10 @@ std::vector<EdgeSide> edge_sides(const Mesh& mesh, std::span<const uint32_t> tri
     return sides;
 }
 
-void find_charts(const Mesh& mesh, std::span<const uint32_t> triangles, UvReport& report) {
+void find_charts(const Mesh& mesh, UvReport& report) {
     const Weld positions = weld_positions(mesh.positions_mm);
-    const std::vector<EdgeSide> sides = edge_sides(mesh, triangles, positions);
-    DisjointSets charts(triangles.size());
+    const std::vector<EdgeSide> sides = edge_sides(mesh, positions);
+    DisjointSets charts(mesh.triangle_count());
     for (size_t i = 1; i < sides.size(); ++i) {
         const EdgeSide &x = sides[i - 1], &y = sides[i];
         if (x.a != y.a || x.b != y.b) continue;
@@ -155,7 +206,7 @@ void find_charts(const Mesh& mesh, std::span<const uint32_t> triangles, UvReport
             report.seam_length_mm +=
                 length(mesh.positions_mm[positions.first[x.a]] - mesh.positions_mm[positions.first[x.b]]);
     }
-    for (uint32_t n = 0; n < triangles.size(); ++n) report.charts += charts.find(n) == n;
+    for (uint32_t n = 0; n < mesh.triangle_count(); ++n) report.charts += charts.find(n) == n;
 }
 
 struct Weighted {
@@ -175,12 +226,12 @@ Percentiles percentiles_of(std::vector<Weighted> samples) {
     return {at(0.05), at(0.5), at(0.95)};
 }
 
-void measure_stretch(const Mesh& mesh, std::span<const uint32_t> triangles, UvReport& report) {
+void measure_stretch(const Mesh& mesh, UvReport& report) {
     const std::vector<UvMetric> metrics = triangle_uv_metrics(mesh);
     const std::vector<float> areas = triangle_areas_mm2(mesh);
     std::vector<Weighted> lengths, anisotropies;
     double area = 0, mirrored = 0, outside = 0;
-    for (const uint32_t t : triangles) {
+    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) {
         const auto uv = uvs_of(mesh, t);
         area += areas[t];
         if (udim_tile((uv[0] + uv[1] + uv[2]) * (1.0f / 3)) == 0) outside += areas[t];
@@ -209,11 +260,11 @@ int udim_tile(Vec2 uv) {
 }
 
 UvReport analyze_uvs(const Mesh& mesh, std::optional<uint32_t> material, int resolution) {
+    if (material) return analyze_uvs(part_of(mesh, *material), std::nullopt, resolution);
     UvReport report;
-    const std::vector<uint32_t> triangles = triangles_of(mesh, material);
-    count_texels(mesh, triangles, resolution, report);
-    find_charts(mesh, triangles, report);
-    measure_stretch(mesh, triangles, report);
+    count_texels(mesh, resolution, report);
+    find_charts(mesh, report);
+    measure_stretch(mesh, report);
     return report;
 }
 

@@ -83,6 +83,21 @@ const ImageSource* map_source(const MaterialMap& map, const Material& material) 
     return nullptr;
 }
 
+std::vector<std::string> missing_map_warnings(const Scene& scene, std::string_view texture) {
+    const auto map = std::ranges::find(material_maps(), texture, &MaterialMap::texture);
+    std::string key(texture.substr(0, texture.rfind("_map")));
+    std::vector<std::string> warnings;
+    for (const SceneObject& object : scene.objects)
+        for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
+            if (object.classes[i] != MaterialClass::skin || map_source(*map, object.mesh.materials[i]))
+                continue;
+            warnings.push_back("material '" + object.mesh.materials[i].name + "' has no " + key +
+                               " map, which these settings read: give one as " + key +
+                               " under [maps] of a scene file, or choose another setting");
+        }
+    return warnings;
+}
+
 gpu::TextureData neutral_map(const MaterialMap& map) {
     gpu::TextureData data = {.name = map.texture + " (neutral)",
                              .format = map.is_single ? ImageFormat::r8 : ImageFormat::rgba8,

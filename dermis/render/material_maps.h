@@ -4,6 +4,7 @@
 #include "dermis/gpu/device.h"
 #include "dermis/image/image.h"
 #include "dermis/mesh/mesh.h"
+#include "dermis/scene/scene.h"
 
 namespace dermis {
 
@@ -28,6 +29,9 @@ struct MaterialMap {
 /// islands of the mesh's atlas grow into their gutter. Errors name the file.
 [[nodiscard]] Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material,
                                                          const Mesh& mesh);
+
+/// One line for each skin material of the scene that has no image for `texture`.
+[[nodiscard]] std::vector<std::string> missing_map_warnings(const Scene& scene, std::string_view texture);
 
 /// A 1 x 1 stand-in.
 [[nodiscard]] gpu::TextureData neutral_map(const MaterialMap& map);

@@ -9,6 +9,7 @@
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
+#include "dermis/render/material_maps.h"
 
 namespace dermis {
 namespace {
@@ -143,9 +144,17 @@ Result<void> Renderer::check_atlas() {
     if (atlas_checked_ || std::ranges::none_of(list_.passes, draws_atlas)) return {};
     Result<std::vector<std::string>> checked = check_skin_atlas(*scene_);
     if (!checked) return checked.error();
-    warnings_ = std::move(*checked);
+    warnings_.insert(warnings_.end(), checked->begin(), checked->end());
     atlas_checked_ = true;
     return {};
+}
+
+// Once for each material and map.
+void Renderer::check_maps() {
+    for (const std::string& name : list_.needed_maps)
+        for (std::string& warning : missing_map_warnings(*scene_, name))
+            if (std::ranges::find(warnings_, warning) == warnings_.end())
+                warnings_.push_back(std::move(warning));
 }
 
 Result<void> Renderer::prepare_seams() {
@@ -211,6 +220,7 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
     list_ = frame_passes(technique.build(values, frame), shared);
     radiance_name_ = radiance_image(shared);
     if (Result<void> good = check_atlas(); !good) return good.error();
+    check_maps();
     if (Result<void> ready = prepare_seams(); !ready) return ready.error();
     Result<gpu::FrameResult> drawn = executor_.run(list_, inputs(values, settings));
     history_key_ = drawn ? key : "";

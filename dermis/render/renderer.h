@@ -61,6 +61,7 @@ class Renderer {
     Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
     Result<void> prepare_legend(const std::string& view);
     Result<void> check_atlas();
+    void check_maps();
     Result<void> prepare_seams();
     [[nodiscard]] Result<const SkinContext*> skin_context();
     [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;

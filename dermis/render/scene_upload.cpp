@@ -77,7 +77,8 @@ gpu::Values material_values(const Material& material, Vec3 tint) {
             {"normal_space", normal_space},
             {"normal_scale", material.normal_scale},
             {"opacity_from_map", int32_t(material.opacity_map.present())},
-            {"curvature_scale_per_mm", material.curvature_scale_per_mm}};
+            {"curvature_scale_per_mm", material.curvature_scale_per_mm},
+            {"curvature_mid", material.curvature_mid}};
 }
 
 gpu::DrawClass draw_class(MaterialClass material_class) {

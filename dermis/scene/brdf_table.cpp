@@ -57,8 +57,12 @@ Vec2 ggx_scale_and_bias(float roughness, float n_dot_v, int samples) {
     return {float(scale / samples), float(bias / samples)};
 }
 
+size_t table_bytes(int size) {
+    return size_t(size) * size_t(size) * 2 * sizeof(uint16_t);
+}
+
 std::vector<std::byte> make_brdf_table(int size) {
-    std::vector<std::byte> table(size_t(size) * size_t(size) * 2 * sizeof(uint16_t));
+    std::vector<std::byte> table(table_bytes(size));
     parallel_for(size_t(size), 1, [&](size_t begin, size_t end) {
         for (size_t row = begin; row < end; ++row)
             for (size_t x = 0; x < size_t(size); ++x) {
@@ -74,7 +78,7 @@ std::vector<std::byte> make_brdf_table(int size) {
 Result<std::vector<std::byte>> stored_brdf_table() {
     // Raise with every change to what the table holds.
     constexpr int kVersion = 1;
-    return cached("brdf", Hasher().add(kVersion).add(kBrdfTableSize).hex(),
+    return cached("brdf", Hasher().add(kVersion).add(kBrdfTableSize).hex(), table_bytes(kBrdfTableSize),
                   []() -> Result<std::vector<std::byte>> { return make_brdf_table(kBrdfTableSize); });
 }
 

@@ -31,6 +31,7 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
     if (!path) return path.error();
     Result<LoadedMesh> loaded =
         read_mesh(*path, {.unit_mm = mesh.unit_mm,
+                          .scale_after = mesh.scale,
                           .subdivision_level = mesh.subdivision,
                           .ignore_missing_materials = description.maps.albedo.given()});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
@@ -103,6 +104,7 @@ Result<void> apply_maps(const SceneDescription& description, const MapsDescripti
     assign(maps.normal_scale, material.normal_scale);
     assign(maps.thickness_scale_mm, material.thickness_scale_mm);
     assign(maps.curvature_scale_per_mm, material.curvature_scale_per_mm);
+    assign(maps.curvature_mid, material.curvature_mid);
     assign(maps.displacement_mid, material.displacement_mid);
     assign(maps.displacement_amplitude_mm, material.displacement_amplitude_mm);
     assign(maps.dilate_texels, material.dilate_texels);

@@ -35,8 +35,9 @@ Result<void> add(Hasher& hasher, const Material& m) {
     add(hasher, m.emission_linear);
     hasher.add(m.opacity).add(m.alpha_mode).add(m.roughness).add(m.metallic).add(m.specular).add(m.ior);
     hasher.add(m.double_sided).add(m.normal_space).add(m.normal_scale).add(m.dilate_texels);
-    for (const ImageSource* source : {&m.base_color_map, &m.normal_map, &m.metallic_roughness_map,
-                                      &m.specular_map, &m.occlusion_map, &m.opacity_map, &m.roughness_map})
+    for (const ImageSource* source :
+         {&m.base_color_map, &m.emission_map, &m.normal_map, &m.metallic_roughness_map, &m.specular_map,
+          &m.occlusion_map, &m.opacity_map, &m.roughness_map})
         if (Result<void> added = add(hasher, *source); !added) return added;
     return {};
 }

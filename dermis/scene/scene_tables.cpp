@@ -156,6 +156,9 @@ const KeyTable<MapsDescription>& maps_keys() {
                                                  .max = 1e3})
             .file(&D::displacement,
                   {.name = "displacement", .doc = "moves vertices along the normal; red channel"})
+            .number(&D::curvature_mid,
+                    {.name = "curvature_mid",
+                     .doc = "the map value of flat skin; 0.5 for maps whose mid-grey is flat"})
             .number(&D::displacement_mid,
                     {.name = "displacement_mid", .doc = "the map value (0..1) that moves nothing"})
             .number(&D::displacement_amplitude_mm, {.name = "displacement_amplitude_mm",

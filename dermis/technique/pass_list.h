@@ -1,6 +1,6 @@
 #pragma once
-// A frame as data: the images it needs and the passes that fill them. dermis/gpu executes it; nothing here knows
-// Vulkan.
+// A frame as data: the images it needs and the passes that fill them. dermis/gpu executes it; nothing here
+// knows Vulkan.
 //
 // Names tie it together. A texture, block or specialisation constant in a shader is bound to what carries its
 // name: an image of this list, an input of the frame (shadow_map, environment_cube, ...), a map of the
@@ -125,6 +125,9 @@ struct PassList {
     std::vector<ImageDeclaration> images;
     std::vector<Pass> passes;
     std::optional<SeamRequest> seams;
+    /// Textures of material maps without which these settings show nothing; a skin material without one is a
+    /// warning.
+    std::vector<std::string> needed_maps;
 
     [[nodiscard]] const ImageDeclaration* find_image(std::string_view name) const;
 };

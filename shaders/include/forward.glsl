@@ -51,7 +51,7 @@ void main() {
 #endif
     vec3 exitance = ambient_response(s) * s.occlusion;
     vec3 specular_radiance =
-        environment_specular(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
+        reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         float visibility = 1.0;

@@ -2,6 +2,7 @@
 #ifndef DERMIS_SPECULAR_GLSL
 #define DERMIS_SPECULAR_GLSL
 
+#include "shaders/include/environment.glsl"
 #include "shaders/include/frame.glsl"
 
 layout(constant_id = 0) const int specular_model = kSpecularGgx;
@@ -65,6 +66,12 @@ float specular_reflection(vec3 n_world, vec3 to_eye_world, vec3 to_light_world, 
     if (specular_model == kSpecularTwoLobe) return fresnel * two_lobe_ggx(n_dot_h, n_dot_l, n_dot_v, roughness);
     if (specular_model == kSpecularKsk) return fresnel * kelemen_szirmay_kalos(n_dot_h, n_dot_l, h_dot_v, alpha);
     return fresnel * ggx(n_dot_h, n_dot_l, n_dot_v, alpha);
+}
+
+// Of the environment: prefiltered for GGX, which every other model takes as its approximation; none reflects nothing.
+vec3 reflected_environment(vec3 n_world, vec3 to_eye_world, float roughness, float f0, float occlusion) {
+    if (specular_model == kSpecularNone) return vec3(0.0);
+    return environment_specular(n_world, to_eye_world, roughness, f0, occlusion);
 }
 
 #endif

@@ -22,7 +22,8 @@ layout(scalar) uniform Material {
     int normal_space;  // kNormalSpaceTangent, ...
     float normal_scale;
     int opacity_from_map;
-    float curvature_scale_per_mm;  // of a value of 1 in the curvature map
+    float curvature_scale_per_mm;  // of a difference of 1 in the curvature map
+    float curvature_mid;           // its value on flat skin
 };
 
 uniform texture2D albedo_map;
@@ -43,6 +44,12 @@ struct Surface {
     float occlusion;
     float curvature_per_mm;
 };
+
+// Levels that the normal map is magnified by, 0 when it is not. A bias adds to the level before it is clamped to 0, so
+// under magnification a smoother read has to add these too.
+float magnification_levels(vec2 uv) {
+    return max(-textureQueryLod(sampler2D(normal_map, trilinear_repeat), uv).y, 0.0);
+}
 
 // The normal map at a level of detail; a positive bias reads a smoother one (Penner 2011).
 vec3 mapped_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {

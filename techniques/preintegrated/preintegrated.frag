@@ -66,7 +66,7 @@ float chosen_curvature_per_mm(Surface s) {
     float k = s.curvature_per_mm;
     if (curvature == kCurvatureDerivative) k = derivative_curvature(s);
     if (curvature == kCurvatureImage)
-        k = curvature_scale_per_mm * texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r;
+        k = curvature_scale_per_mm * (texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r - curvature_mid);
     return clamp(abs(k) * curvature_gain, 0.0, kMaxCurvaturePerMm);
 }
 
@@ -89,14 +89,16 @@ void blend_normals(Surface s) {
     float u = texel_centres((log_mm - kMinLogMm) / (kMaxLogMm - kMinLogMm), size);
     vec4 blend = textureLod(sampler2D(skin_normal_blend, linear_clamp), vec2(u, 0.5), 0.0);
     smooth_weight = blend.rgb;
-    n_smooth_world = mapped_normal_world(s.n_geometry_world, s.uv, blend.a);
+    n_smooth_world = mapped_normal_world(s.n_geometry_world, s.uv, blend.a + magnification_levels(s.uv));
 }
 
 void prepare_surface(inout Surface s) {
     s.f0 *= oiliness;
     s.roughness = clamp(s.roughness * roughness_scale, 0.03, 1.0);
     skin_curvature_per_mm = chosen_curvature_per_mm(s);
-    if (normals == kNormalsSmooth) n_smooth_world = mapped_normal_world(s.n_geometry_world, s.uv, normal_lod_bias);
+    if (normals == kNormalsSmooth)
+        n_smooth_world =
+            mapped_normal_world(s.n_geometry_world, s.uv, normal_lod_bias + magnification_levels(s.uv));
     if (normals == kNormalsBlended) blend_normals(s);
     if (diffuse == kDiffuseClosedForm) {
         float size = float(textureSize(sampler2D(skin_closed_form, linear_clamp), 0).x);

@@ -88,7 +88,9 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_closed_form", "skin_gaussians",
                               "skin_normal_blend", "skin_beckmann", "skin_transmission"})
         pass.reads.push_back(table);
-    return {.passes = {pass}};
+    PassList list = {.passes = {pass}};
+    if (params.curvature == Curvature::image) list.needed_maps = {"curvature_map"};
+    return list;
 }
 
 Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {

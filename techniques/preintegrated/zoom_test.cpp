@@ -106,3 +106,59 @@ TEST_F(PreintegratedZoom, finds_the_same_skin_from_an_image_as_from_the_vertices
     // An 8-bit map holds 1/16 mm within 3 %.
     EXPECT_LT(relative_difference(vertex, image, 1), 0.03);
 }
+
+// From 60 mm a texel of the normal map covers several pixels, and the smoother reads have to stay smoother.
+TEST_F(PreintegratedZoom, keeps_scattering_at_bumps_in_a_close_up) {
+    Scene scene = *load_scene("builtin:spheres");
+    ASSERT_TRUE(complete_scene(scene));
+    constexpr int kSize = 512;
+    std::vector<std::byte> texels;
+    for (int i = 0; i < kSize * kSize; ++i) {
+        // Ridges two texels wide.
+        const int tilt = (i / 2 + i / kSize / 2) % 2 ? 96 : 160;
+        for (const int value : {tilt, 128, 250}) texels.push_back(std::byte(value));
+    }
+    for (SceneObject& object : scene.objects)
+        object.mesh.materials[0].normal_map = {
+            .name = "ridges", .width = kSize, .height = kSize, .channels = 3, .pixels = texels};
+    scene.camera.vertical_fov_rad /= 40;
+    Renderer renderer = make_renderer(scene);
+    const DrawSettings settings = {.width = 64, .height = 64, .view = "diffuse"};
+    const auto drawn = [&](const char* normals) {
+        return radiance(renderer, technique(), values_of({{"normals", normals}, {"shadow", "plain"}}),
+                        settings);
+    };
+    const Image sharp = drawn("sharp"), smooth = drawn("smooth"), blended = drawn("blended");
+    EXPECT_GT(relative_difference(sharp, smooth, 1), 0.05);
+    EXPECT_GT(relative_difference(sharp, blended, 1), 0.05);
+}
+
+TEST_F(PreintegratedZoom, warns_where_curvature_is_to_come_from_an_image_that_is_not_there) {
+    const Scene scene = *load_scene("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    const DrawSettings settings = {.width = 8, .height = 8};
+    radiance(renderer, technique(), values_of({{"curvature", "vertex"}}), settings);
+    EXPECT_TRUE(renderer.warnings().empty());
+    radiance(renderer, technique(), values_of({{"curvature", "image"}}), settings);
+    ASSERT_EQ(renderer.warnings().size(), 1u);
+    EXPECT_NE(renderer.warnings()[0].find("material 'skin' has no curvature map"), std::string::npos);
+}
+
+// Maps of other tools have flat skin in mid-grey.
+TEST_F(PreintegratedZoom, reads_an_image_of_curvature_around_its_value_of_flat_skin) {
+    Scene scene = spheres_with_map();
+    Renderer plain_renderer = make_renderer(scene);
+    const DrawSettings settings = {.width = 32, .height = 32, .view = "diffuse"};
+    const ParameterValues values = values_of({{"curvature", "image"}});
+    const Image plain = radiance(plain_renderer, technique(), values, settings);
+    for (SceneObject& object : scene.objects) {
+        Material& skin = object.mesh.materials[0];
+        skin.curvature_mid = 0.2f;
+        skin.curvature_map.pixels[0] = std::byte(std::lround(
+            255 * (0.2f + object.mesh.curvatures_per_mm[0] / skin.curvature_scale_per_mm) * 0.5f));
+        skin.curvature_mid *= 0.5f;
+        skin.curvature_scale_per_mm *= 2;
+    }
+    Renderer renderer = make_renderer(scene);
+    EXPECT_LT(relative_difference(plain, radiance(renderer, technique(), values, settings), 1), 0.06);
+}

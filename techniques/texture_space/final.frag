@@ -17,7 +17,7 @@ void main() {
     Surface s = load_surface();
     vec3 exitance;
     if (!read_light_map(s, space == kSpaceMm, exitance)) exitance = unblurred_exitance(s);
-    vec3 specular_radiance = environment_specular(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
+    vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         float dimmed = 1.0;

@@ -10,7 +10,7 @@ void main() {
     vec3 exitance;
     if (!read_light_map(s, true, exitance))
         exitance = unblurred_exitance(s) * pow(s.albedo_linear, vec3(pre_scatter));
-    vec3 specular_radiance = environment_specular(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
+    vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         vec3 arriving = light.irradiance_linear;

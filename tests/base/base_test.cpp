@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <atomic>
@@ -48,6 +49,47 @@ TEST(Text, an_unknown_name_proposes_the_closest) {
     EXPECT_EQ(closest_name("subsurface", names), std::nullopt);
     const std::vector<std::string> keys = {"exposure_ev", "explosion"};
     EXPECT_EQ(closest_name("exposure", keys), "exposure_ev");
+}
+
+TEST(Text, what_is_printed_is_one_line_whatever_it_quotes) {
+    struct Case {
+        std::string_view text, printed;
+    };
+    using namespace std::string_view_literals;
+    const Case cases[] = {
+        {"a b", "a b"},
+        {"a\nb\rc\td", "a?b?c?d"},
+        {"\x1b[31mred", "?[31mred"},
+        {"\x7f\0x"sv, "??x"},
+        {"h\xc3\xa4ut \xe2\x82\xac \xf0\x9f\x98\x80", "h\xc3\xa4ut \xe2\x82\xac \xf0\x9f\x98\x80"},
+        {"\xc2\x9b"
+         "31m",
+         "?31m"},
+        {"\x9b"
+         "31m",
+         "?31m"},
+        {"\xc3", "?"},
+        {"\xe2\x82", "??"},
+        {"\xff\xfe", "??"}};
+    for (const Case& c : cases) EXPECT_EQ(printable_line(c.text), c.printed) << c.printed;
+    EXPECT_EQ(printable_line("abcdef", 3), "abc...");
+    EXPECT_EQ(printable_line("ab\xc3\xa4", 3), "ab...") << "no half of a character";
+    EXPECT_LT(printable_line(std::string(100000, 'x')).size(), 1100u);
+}
+
+TEST(File, pipes_and_devices_are_refused_at_once) {
+    const TemporaryDirectory dir;
+    ASSERT_EQ(::mkfifo((dir.path / "pipe").c_str(), 0600), 0);
+    const auto message = [](const fs::path& path) {
+        const auto read = read_text_file(path);
+        return read ? "read it" : read.error().message;
+    };
+    EXPECT_NE(message(dir.path / "pipe").find("is a pipe, device or socket"), std::string::npos);
+    EXPECT_NE(message("/dev/zero").find("is a pipe, device or socket"), std::string::npos);
+    EXPECT_NE(message("/dev/null").find("is a pipe, device or socket"), std::string::npos);
+    if (fs::exists("/proc/self/status")) {
+        EXPECT_GT(read_text_file("/proc/self/status")->size(), 100u);
+    }
 }
 
 TEST(File, reading_what_is_no_file_names_the_path) {
@@ -102,6 +144,40 @@ TEST(Cache, returns_what_was_stored_and_nothing_from_a_damaged_file) {
     damaged[1] = std::byte{9};
     ASSERT_TRUE(write_file(dir.path / "kind" / "hash", damaged));
     EXPECT_FALSE(cache_load("kind", "hash"));
+    ::unsetenv("DERMIS_CACHE");
+}
+
+TEST(Cache, an_entry_under_anothers_name_is_made_anew) {
+    const TemporaryDirectory dir;
+    ::setenv("DERMIS_CACHE", dir.path.c_str(), 1);
+    const std::vector<std::byte> bytes(8, std::byte{1});
+    ASSERT_TRUE(cache_store("kind", "one", bytes));
+    ASSERT_TRUE(cache_store("other", "two", bytes));
+    const auto move_here = [&](const char* from, const char* to) {
+        fs::create_directories((dir.path / to).parent_path());
+        fs::copy_file(dir.path / from, dir.path / to, fs::copy_options::overwrite_existing);
+    };
+    move_here("kind/one", "kind/two");
+    move_here("kind/one", "other/one");
+    EXPECT_EQ(cache_load("kind", "one"), bytes);
+    EXPECT_FALSE(cache_load("kind", "two"));
+    EXPECT_FALSE(cache_load("other", "one"));
+    ::unsetenv("DERMIS_CACHE");
+}
+
+TEST(Cache, an_entry_of_another_size_is_made_anew) {
+    const TemporaryDirectory dir;
+    ::setenv("DERMIS_CACHE", dir.path.c_str(), 1);
+    ASSERT_TRUE(cache_store("kind", "hash", std::vector<std::byte>(3)));
+    int made = 0;
+    const auto make = [&]() -> Result<std::vector<std::byte>> {
+        ++made;
+        return std::vector<std::byte>(8, std::byte{7});
+    };
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(cached("kind", "hash", 8, make)->size(), 8u);
+        EXPECT_EQ(made, 1);
+    }
     ::unsetenv("DERMIS_CACHE");
 }
 

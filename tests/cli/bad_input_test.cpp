@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -42,6 +43,23 @@ class BadInput : public testing::Test {
 constexpr const char* kQuick = "render builtin:spheres --size 16x16 -o ";
 
 }  // namespace
+
+TEST_F(BadInput, names_of_files_and_in_files_reach_the_terminal_as_one_printable_line) {
+    const std::string name = file("a\x1b[31m\nb.obj", "v 0 0\n");
+    expect_error("info '" + name + "'", "a?[31m?b.obj:1: a vertex needs three numbers");
+    expect_error("render 'no\x1b[31m\nname'", "no?[31m?name");
+    const std::string good = file("c\n\x1b.obj", "usemtl x\x1b[31my\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const ProgramResult info = dermis("info '" + good + "'");
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("x?[31my: 1 triangles"));
+    EXPECT_EQ(info.out.find('\x1b'), std::string::npos);
+}
+
+TEST_F(BadInput, pipes_and_devices_are_refused_at_once) {
+    ASSERT_EQ(::mkfifo(path("pipe.obj").c_str(), 0600), 0);
+    expect_error("info " + path("pipe.obj"), "pipe.obj: is a pipe, device or socket");
+    expect_error("lint /dev/zero", "/dev/zero: is a pipe, device or socket");
+}
 
 TEST_F(BadInput, options_that_are_wrong_say_what_would_be_right) {
     expect_error("", "A subcommand is required");

@@ -59,6 +59,9 @@ constexpr Evidence kPackageEvidence[] = {
     {"python3", "", "", "python3 -u"},
     {"curl", "", "", "curl --fail"},
     {"ffmpeg", "", "", "ffmpeg"},
+    {"clang", "", "", "clang++"},
+    {"clang-format", "", "", "clang-format"},
+    {"libclang-rt-14-dev", "", "", "libclang-rt-14-dev"},
 };
 
 // What needs no package of its own: part of CMake, optional, or of the repository.

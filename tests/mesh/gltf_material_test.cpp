@@ -51,6 +51,54 @@ TEST(GltfMaterial, absent_values_are_those_of_the_specification) {
     EXPECT_EQ(m.specular, 1);
 }
 
+TEST(GltfMaterial, opacity_counts_as_the_alpha_mode_says) {
+    struct Case {
+        std::string mode;
+        AlphaMode read;
+        float opacity, cutoff;
+    };
+    const Case cases[] = {{"", AlphaMode::opaque, 1, 0.5f},
+                          {R"("alphaMode":"OPAQUE",)", AlphaMode::opaque, 1, 0.5f},
+                          {R"("alphaMode":"MASK",)", AlphaMode::mask, 0.25f, 0.5f},
+                          {R"("alphaMode":"MASK","alphaCutoff":0.1,)", AlphaMode::mask, 0.25f, 0.1f},
+                          {R"("alphaMode":"BLEND",)", AlphaMode::blend, 0.25f, 0.5f}};
+    for (const Case& c : cases) {
+        const Material m =
+            material_of("{" + c.mode + R"("pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25]}})");
+        EXPECT_EQ(m.alpha_mode, c.read) << c.mode;
+        EXPECT_EQ(m.opacity, c.opacity) << c.mode;
+        EXPECT_EQ(m.alpha_cutoff, c.cutoff) << c.mode;
+    }
+    EXPECT_TRUE(
+        any_contains(load_with(R"({"alphaMode":"HASH"})").warnings, "'HASH' is not OPAQUE, MASK or BLEND"));
+}
+
+TEST(GltfMaterial, emissive_maps_are_read) {
+    const Material m =
+        material_of(R"({"emissiveFactor":[1,0.5,0],"emissiveTexture":{"index":0},)"
+                    R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}})");
+    EXPECT_EQ(m.emission_map.name, "dir/skin colour.png");
+    EXPECT_EQ(m.emission_linear, (Vec3{4, 2, 0}));
+}
+
+TEST(GltfMaterial, samplers_say_how_a_map_goes_on) {
+    const auto map = [](const std::string& sampler) {
+        const auto loaded = parse_gltf_text(
+            square_gltf("",
+                        R"(,"samplers":[)" + sampler +
+                            R"(],"textures":[{"source":0,"sampler":0}],"images":[{"uri":"a.png"}],)"
+                            R"("materials":[{"emissiveTexture":{"index":0}}])",
+                        R"(,"material":0)"));
+        EXPECT_TRUE(loaded) << loaded.error().message;
+        return loaded ? loaded->mesh.materials[0].emission_map : ImageSource{};
+    };
+    EXPECT_EQ(map("{}").wrap_u, TextureWrap::repeat);
+    EXPECT_EQ(map(R"({"wrapS":33071,"wrapT":33648})").wrap_u, TextureWrap::clamp);
+    EXPECT_EQ(map(R"({"wrapS":33071,"wrapT":33648})").wrap_v, TextureWrap::mirror);
+    EXPECT_EQ(map(R"({"wrapS":10497,"wrapT":10497})").wrap_v, TextureWrap::repeat);
+    EXPECT_EQ(map(R"({"wrapS":1})").wrap_u, TextureWrap::repeat) << "with a warning";
+}
+
 TEST(GltfMaterial, translucent_bodies_are_read_in_millimetres) {
     const Material m = material_of(
         R"({"extensions":{"KHR_materials_volume":{"thicknessFactor":0.01,"thicknessTexture":{"index":0},)"
@@ -96,7 +144,18 @@ TEST(GltfMaterial, what_is_odd_is_warned_of_and_what_is_wrong_is_refused) {
                              "materials[0].pbrMetallicRoughness.roughnessFactor: is outside of its range"));
     EXPECT_TRUE(
         any_contains(load_with(R"({"normalTexture":{"index":2}})").warnings, "no PNG or JPEG source"));
-    EXPECT_TRUE(any_contains(load_with(R"({"normalTexture":{"index":0,"texCoord":1}})").warnings, "UV set"));
+    const std::string two_sets =
+        R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"occlusionTexture":{"index":0,"texCoord":1}})";
+    EXPECT_TRUE(
+        any_contains(load_with(two_sets).warnings,
+                     "materials[0].occlusionTexture: is for UV set 1, the material's first map for set 0"));
+    EXPECT_FALSE(material_of(two_sets).occlusion_map.present());
+    const std::string two_scales =
+        R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"normalTexture":{"index":0,)"
+        R"("extensions":{"KHR_texture_transform":{"scale":[8,8]}}}})";
+    EXPECT_TRUE(
+        any_contains(load_with(two_scales).warnings, "normalTexture: has another KHR_texture_transform"));
+    EXPECT_FALSE(material_of(two_scales).normal_map.present());
     const auto wrong = [](const std::string& material) {
         const auto loaded = parse_gltf_text(square_gltf(
             "",

@@ -73,12 +73,15 @@ TEST(Gltf, a_mirrored_node_keeps_its_front_outside) {
 }
 
 TEST(Gltf, normals_of_a_mirrored_node_are_mirrored_and_not_turned_round) {
-    const std::string binary =
-        Binary().add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}).add<float>({0.6f, 0, 0.8f, 0.6f, 0, 0.8f, 0.6f, 0, 0.8f}).bytes();
-    const std::string text = gltf_of(R"({"attributes":{"POSITION":0,"NORMAL":1}})",
-                                     R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
-                                     R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"})",
-                                     R"({"buffer":0,"byteLength":72})", binary);
+    const std::string binary = Binary()
+                                   .add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0})
+                                   .add<float>({0.6f, 0, 0.8f, 0.6f, 0, 0.8f, 0.6f, 0, 0.8f})
+                                   .bytes();
+    const std::string text =
+        gltf_of(R"({"attributes":{"POSITION":0,"NORMAL":1}})",
+                R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"})",
+                R"({"buffer":0,"byteLength":72})", binary);
     const Mesh mesh = load(replaced(text, R"({"mesh":0})", R"({"mesh":0,"scale":[-1,1,1]})"));
     EXPECT_NEAR(mesh.normals[0].x, -0.6, 1e-6);
     EXPECT_NEAR(mesh.normals[0].z, 0.8, 1e-6);
@@ -196,7 +199,7 @@ TEST(Gltf, wrong_files_give_one_line_that_names_the_place) {
     fails_with(replaced(square_gltf(), R"("indices":1)", R"("indices":"x")"),
                "must be a non-negative integer");
     fails_with(replaced(square_gltf(), R"("count":4)", R"("count":5)"), "passes the end of its buffer view");
-    fails_with(replaced(square_gltf(), R"("count":4)", R"("count":4e15)"), "more than dermis loads");
+    fails_with(replaced(square_gltf(), R"("count":4)", R"("count":4e15)"), "more vertices than dermis loads");
     fails_with(replaced(square_gltf(), R"("count":4)", R"("count":3)"), "index 3 is out of range");
     fails_with(replaced(square_gltf(), R"("byteLength":48)", R"("byteLength":9007199254740992)"),
                "passes the end");
@@ -231,7 +234,8 @@ TEST(Gltf, messages_stay_one_line_whatever_the_file_is_named_inside) {
     const auto refused = parse_gltf_text(square_gltf("", "", "", "../" + name));
     ASSERT_FALSE(refused);
     const auto warned = parse_gltf_text(square_gltf(
-        "", R"(,"materials":[{"name":")" + name + R"(","pbrMetallicRoughness":{"roughnessFactor":2}}])", R"(,"material":0)"));
+        "", R"(,"materials":[{"name":")" + name + R"(","pbrMetallicRoughness":{"roughnessFactor":2}}])",
+        R"(,"material":0)"));
     ASSERT_TRUE(warned);
     std::vector<std::string> lines = warned->warnings;
     lines.push_back(refused.error().message);
@@ -243,13 +247,9 @@ TEST(Gltf, messages_stay_one_line_whatever_the_file_is_named_inside) {
 }
 
 TEST(Gltf, a_thousand_warnings_become_fifty) {
-    std::string rest;
-    for (int i = 0; i < 1000; ++i) rest += R"(,{"skin":0})";
-    std::string list = "0";
-    for (int i = 1; i <= 1000; ++i) list += "," + std::to_string(i);
-    const std::string text = replaced(replaced(square_gltf(), R"({"mesh":0})", R"({"mesh":0})" + rest), R"({"nodes":[0]})",
-                                      R"({"nodes":[)" + list + "]}");
-    const auto loaded = parse_gltf_text(text);
+    std::string list;
+    for (int i = 0; i < 1000; ++i) list += (i > 0 ? ",\"X_" : "\"X_") + std::to_string(i) + "\"";
+    const auto loaded = parse_gltf_text(square_gltf("", R"(,"extensionsUsed":[)" + list + "]"));
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(loaded->warnings.size(), 51u);
 }

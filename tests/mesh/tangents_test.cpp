@@ -178,14 +178,25 @@ TEST(Tangents, unbelievable_uvs_and_slivers_never_give_nan) {
     }
 }
 
-TEST(Tangents, given_ones_are_straightened_or_refused) {
+TEST(Tangents, given_ones_are_straightened_and_the_others_computed) {
     Mesh mesh = wavy_grid(2, {1, 0}, {0, -1});
     mesh.tangents.assign(mesh.positions_mm.size(), Vec4{2, 0, 0.5f, -0.3f});
-    ASSERT_TRUE(orthonormalize_tangents(mesh));
+    complete_tangents(mesh);
     expect_sound(mesh);
     EXPECT_EQ(mesh.tangents[0].w, -1);
-    mesh.tangents[1] = {};
-    EXPECT_FALSE(orthonormalize_tangents(mesh));
+    const std::vector<Vec4> straightened = mesh.tangents;
+    Mesh computed = mesh;
+    compute_tangents(computed);
+    EXPECT_EQ(computed.tangents[1].w, 1) << "which tells them apart";
+    for (const Vec4 unusable :
+         {Vec4{}, Vec4{NAN, 0, 0, 1}, Vec4{mesh.normals[1].x, mesh.normals[1].y, mesh.normals[1].z, 1}}) {
+        mesh.tangents = straightened;
+        mesh.tangents[1] = unusable;
+        complete_tangents(mesh);
+        EXPECT_NEAR(mesh.tangents[0].x, straightened[0].x, 1e-6);
+        EXPECT_EQ(mesh.tangents[0].w, -1);
+        EXPECT_EQ(mesh.tangents[1], computed.tangents[1]);
+    }
 }
 
 TEST(Tangents, the_scanned_head_gets_sound_frames_of_the_right_hand_and_few_splits) {

@@ -112,6 +112,40 @@ TEST(UvReport, counts_overlap_as_a_share_of_what_is_covered) {
     EXPECT_NEAR(report.seam_length_mm, 120, 1e-3);
 }
 
+TEST(UvReport, of_thousands_of_triangles_over_the_whole_tile_ends) {
+    // Two triangles a copy, every copy over the others: a step a texel and triangle would be 4e10.
+    Mesh mesh;
+    constexpr uint32_t kCopies = 20000;
+    for (uint32_t copy = 0; copy < kCopies; ++copy) {
+        const auto z = float(copy);
+        for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) {
+            mesh.positions_mm.push_back({uv.x, uv.y, z});
+            mesh.uvs.push_back(uv);
+        }
+        for (const uint32_t corner : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(4 * copy + corner);
+    }
+    mesh.submeshes = {{.index_count = uint32_t(mesh.indices.size())}};
+    const UvReport report = analyze_uvs(mesh);
+    EXPECT_EQ(report.coverage, 1);
+    EXPECT_EQ(report.overlap, 1);
+    EXPECT_EQ(report.charts, kCopies);
+}
+
+TEST(UvReport, of_each_of_many_materials_is_that_of_its_triangles_alone) {
+    Mesh mesh = make_box({10, 10, 10});
+    const size_t faces = 6;
+    mesh.submeshes.clear();
+    mesh.materials.assign(faces, {});
+    for (uint32_t face = 0; face < faces; ++face)
+        mesh.submeshes.push_back({.first_index = 6 * face, .index_count = 6, .material = face});
+    for (uint32_t face = 0; face < faces; ++face) {
+        const UvReport report = analyze_uvs(mesh, face);
+        EXPECT_NEAR(report.coverage, 1.0 / 6, 0.002) << face;
+        EXPECT_EQ(report.charts, 1u);
+        EXPECT_EQ(report.seam_length_mm, 0);
+    }
+}
+
 TEST(UvReport, sees_mirrored_and_outlying_parts) {
     Mesh mesh = make_box({10, 10, 10});
     for (size_t i = 0; i < 4; ++i) mesh.uvs[i].x = 1.0f / 3 - mesh.uvs[i].x;

@@ -41,6 +41,15 @@ Scene key_light_only(Scene scene) {
     return scene;
 }
 
+double largest_value(const Image& image) {
+    double largest = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if (image.at(x, y, 3) == 1)
+                for (int c = 0; c < 3; ++c) largest = std::max(largest, double(image.at(x, y, c)));
+    return largest;
+}
+
 }  // namespace
 
 TEST_F(Properties, every_technique_is_linear_in_light) {
@@ -83,6 +92,19 @@ TEST_F(Properties, baselines_know_no_length) {
     }
 }
 
+TEST_F(Properties, without_a_specular_model_nothing_is_reflected) {
+    const Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    DrawSettings settings = kSmall;
+    settings.view = "specular";
+    for (const Technique& technique : all_techniques()) {
+        ParameterValues values(technique.parameters);
+        if (!values.set("specular", "none")) continue;
+        const Image image = radiance(renderer, technique, values, settings);
+        EXPECT_EQ(largest_value(image), 0) << technique.id;
+    }
+}
+
 TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
     // The diffuse light of a white sphere under even light from all around is 1, whatever the scattering.
     Scene scene = load("builtin:spheres");
@@ -108,7 +130,10 @@ TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
             std::ranges::fill(filled.floats(), 1.0f);
             return filled;
         }();
-        EXPECT_LT(relative_difference(image, ones, 1), 0.02) << technique.id;
+        // Oren and Nayar's model loses light that facets send to one another; its own test has the amount.
+        if (technique.id != "oren_nayar")
+            EXPECT_LT(relative_difference(image, ones, 1), 0.02) << technique.id;
+        EXPECT_LT(largest_value(image), 1.02) << technique.id;
     }
     std::filesystem::remove(panorama);
 }

@@ -24,18 +24,19 @@ inline ShaderSource glsl_shaders(std::map<std::string, std::string, std::less<>>
         const auto found = sources.find(name);
         if (found == sources.end()) return Error{"no test shader '" + std::string(name) + "'"};
         const std::string hash = Hasher().add(name).add(found->second).hex();
-        const Result<std::vector<std::byte>> bytes =
-            cached("test-shaders", hash, [&]() -> Result<std::vector<std::byte>> {
-                const auto root = std::filesystem::temp_directory_path() / ("dermis-test-" + hash);
-                Result<void> written = write_text_file(root / "shaders" / name, found->second);
-                if (!written) return written.error();
-                const Result<std::vector<uint32_t>> words = disk_shaders(root)(name);
-                std::filesystem::remove_all(root);
-                if (!words) return words.error();
-                const auto view = std::as_bytes(std::span(*words));
-                return std::vector<std::byte>(view.begin(), view.end());
-            });
-        if (!bytes) return bytes.error();
+        // The size is known after the compilation only, so this is cached() by hand.
+        std::optional<std::vector<std::byte>> bytes = cache_load("test-shaders", hash);
+        if (!bytes) {
+            const auto root = std::filesystem::temp_directory_path() / ("dermis-test-" + hash);
+            if (Result<void> written = write_text_file(root / "shaders" / name, found->second); !written)
+                return written.error();
+            const Result<std::vector<uint32_t>> compiled = disk_shaders(root)(name);
+            std::filesystem::remove_all(root);
+            if (!compiled) return compiled.error();
+            const auto view = std::as_bytes(std::span(*compiled));
+            bytes.emplace(view.begin(), view.end());
+            cache_store("test-shaders", hash, *bytes);
+        }
         std::vector<uint32_t> words(bytes->size() / 4);
         std::memcpy(words.data(), bytes->data(), bytes->size());
         return words;

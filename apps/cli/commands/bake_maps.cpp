@@ -49,8 +49,7 @@ Result<int> run(Options options) {
     if (!map) return map.error();
     if (Result<void> written = write_map(options.output, *map, {options.mesh, settings}); !written)
         return written.error();
-    for (const std::string& warning : map->warnings)
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    for (const std::string& warning : map->warnings) print_warning(warning);
     std::printf("%s: %s, %dx%d, %s to %s %s\n%s\n", options.output.c_str(),
                 std::string(map_kind_name(settings.kind)).c_str(), map->values.width, map->values.height,
                 to_text(map->min).c_str(), to_text(map->max).c_str(), map->unit.c_str(),

@@ -174,12 +174,10 @@ Result<int> run(const Options& options) {
     if (Result<void> good = try_directory(options.output); !good) return good.error();
     const Result<Scene> scene = scene_of(options);
     if (!scene) return scene.error();
-    for (const std::string& warning : scene->warnings)
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    for (const std::string& warning : scene->warnings) print_warning(warning);
     const Result<Comparison> comparison = compare(options, *scene, *contestants, *settings);
     if (!comparison) return comparison.error();
-    for (const std::string& warning : warnings_of(*comparison, *settings))
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    for (const std::string& warning : warnings_of(*comparison, *settings)) print_warning(warning);
     const Result<std::string> page = report_html(*scene, *comparison, *settings);
     if (!page) return page.error();
     const fs::path directory(options.output);

@@ -10,6 +10,7 @@
 
 #include "catalog/catalog.h"
 #include "command.h"
+#include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/uv_report.h"
 #include "dermis/rays/flesh.h"
@@ -39,6 +40,7 @@ struct MapRow {
 
 std::vector<MapRow> maps_of(const Material& m) {
     std::vector<MapRow> rows = {{"base color", &m.base_color_map},
+                                {"emission", &m.emission_map},
                                 {"normal", &m.normal_map},
                                 {"metallic roughness", &m.metallic_roughness_map},
                                 {"roughness", &m.roughness_map},
@@ -150,7 +152,8 @@ void print_text(const std::string& path, const LoadedMesh& loaded, const Flesh& 
     const Mesh& mesh = loaded.mesh;
     const auto [low, high] = bounding_box(mesh);
     const Vec3 size = high - low;
-    fmt::print("{}\n  {} vertices, {} triangles\n", path, mesh.positions_mm.size(), mesh.triangle_count());
+    fmt::print("{}\n  {} vertices, {} triangles\n", printable_line(path), mesh.positions_mm.size(),
+               mesh.triangle_count());
     fmt::print(
         "  box {:.1f} x {:.1f} x {:.1f} mm, from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n",
         size.x, size.y, size.z, low.x, low.y, low.z, high.x, high.y, high.z);
@@ -158,12 +161,12 @@ void print_text(const std::string& path, const LoadedMesh& loaded, const Flesh& 
     for (uint32_t i = 0; i < mesh.materials.size(); ++i) {
         const size_t triangles = triangles_of(mesh, i);
         if (triangles == 0) continue;
-        fmt::print("  {}: {} triangles\n", mesh.materials[i].name, triangles);
+        fmt::print("  {}: {} triangles\n", printable_line(mesh.materials[i].name), triangles);
         if (!mesh.uvs.empty()) print_uv(analyze_uvs(mesh, i));
         for (const MapRow& map : maps_of(mesh.materials[i]))
-            fmt::print("    {:<13} {} ({})\n", map.kind, map.image->name, map.state());
+            fmt::print("    {:<13} {} ({})\n", map.kind, printable_line(map.image->name), map.state());
     }
-    for (const std::string& warning : loaded.warnings) fmt::print("  warning: {}\n", warning);
+    for (const std::string& warning : loaded.warnings) fmt::print("  warning: {}\n", printable_line(warning));
 }
 
 struct NamedMesh {

@@ -224,8 +224,7 @@ Result<int> run(const Options& options) {
     if (Result<void> written = write_picture(options, *scene, *picture, json.dump()); !written)
         return written.error();
     if (Result<void> written = write_preview(options, *scene, *picture); !written) return written.error();
-    for (const std::string& warning : picture->warnings)
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    for (const std::string& warning : picture->warnings) print_warning(warning);
     if (options.json)
         std::printf("%s\n", json.dump(2).c_str());
     else

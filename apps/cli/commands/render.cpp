@@ -111,8 +111,7 @@ Result<int> render(Options options) {
         return Error{"--frames " + std::to_string(options.frames) + ": 1 to 100000"};
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
-    for (const std::string& warning : prepared->scene.warnings)
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    for (const std::string& warning : prepared->scene.warnings) print_warning(warning);
     Result<gpu::Device> device = gpu::Device::create(
         {.validation = options.render.validation, .name_contains = options.render.device});
     if (!device) return device.error();
@@ -126,8 +125,7 @@ Result<int> render(Options options) {
     const Result<std::vector<gpu::FrameResult>> frames = draw_frames(*renderer, *prepared, options);
     if (!frames) return frames.error();
 
-    for (const std::string& warning : renderer->warnings())
-        std::fprintf(stderr, "dermis: warning: %s\n", warning.c_str());
+    for (const std::string& warning : renderer->warnings()) print_warning(warning);
     const gpu::FrameResult timings = median_timings(*frames);
     if (options.json) {
         std::printf("%s\n", to_json(*prepared, options, *device, timings).dump(2).c_str());

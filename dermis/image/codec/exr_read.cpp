@@ -216,8 +216,8 @@ bool ExrInput::read(char to[], int count) {
 }
 
 bool is_exr(Bytes file) {
-    constexpr uint32_t kMagic = 20000630;
-    return ByteReader(file).u32() == kMagic;
+    constexpr uint32_t kExrMagic = 20000630;
+    return ByteReader(file).u32() == kExrMagic;
 }
 
 Result<LoadedImage> decode_exr(Bytes file, ImageUse use) {

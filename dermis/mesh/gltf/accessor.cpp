@@ -32,6 +32,7 @@ size_t components_of(std::string_view type) {
     if (type == "VEC2") return 2;
     if (type == "VEC3") return 3;
     if (type == "VEC4") return 4;
+    if (type == "MAT4") return 16;
     return 0;
 }
 
@@ -173,6 +174,10 @@ std::vector<uint32_t> read_indices(Document& document, uint64_t index) {
     std::vector<uint32_t> values(layout.count);
     for_each_element(document, accessor, layout,
                      [&](size_t i, const std::byte* at) { values[i] = load_index(at, layout.type); });
+    const uint32_t largest = layout.type == kU8 ? 0xff : layout.type == kU16 ? 0xffff : kRestart;
+    if (std::ranges::find(values, largest) != values.end())
+        accessor.warn("has the largest index, which glTF forbids; taken as the start of a new primitive");
+    std::ranges::replace(values, largest, kRestart);
     return accessor.failed() ? std::vector<uint32_t>{} : values;
 }
 

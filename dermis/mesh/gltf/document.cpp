@@ -92,30 +92,35 @@ void parse_json(std::string_view text, Document& document) {
     if (!document.root.is_object()) document.complaints.fail("", "the JSON must be an object");
 }
 
-// Extensions whose absence changes geometry; unknown material extensions only change the look.
+// Extensions that are not read: an error where the file cannot do without, else a warning for each.
 void check_extensions(Document& document) {
-    static const std::set<std::string> kKnown = {"KHR_materials_volume",
-                                                 "KHR_materials_diffuse_transmission",
-                                                 "KHR_materials_volume_scatter",
-                                                 "KHR_materials_scatter",
-                                                 "KHR_materials_specular",
-                                                 "KHR_materials_ior",
-                                                 "KHR_mesh_quantization",
-                                                 "KHR_texture_transform",
-                                                 "KHR_materials_unlit",
-                                                 "KHR_lights_punctual",
-                                                 "KHR_materials_emissive_strength",
-                                                 "KHR_materials_transmission",
-                                                 "KHR_materials_sheen",
-                                                 "KHR_materials_clearcoat",
-                                                 "KHR_materials_anisotropy",
-                                                 "KHR_materials_iridescence"};
-    const JsonView required = document.view()["extensionsRequired"];
+    static const std::set<std::string> kRead = {
+        "KHR_materials_volume",           "KHR_materials_diffuse_transmission",
+        "KHR_materials_volume_scatter",   "KHR_materials_scatter",
+        "KHR_materials_specular",         "KHR_materials_ior",
+        "KHR_mesh_quantization",          "KHR_texture_transform",
+        "KHR_materials_emissive_strength"};
+    const JsonView required = document.view()["extensionsRequired"], used = document.view()["extensionsUsed"];
     for (size_t i = 0; i < required.size(); ++i) {
         const std::string name = required[i].text("");
-        if (!kKnown.contains(name))
+        if (!kRead.contains(name))
             required[i].fail("the file needs " + name + ", which is not supported; export it without");
     }
+    std::set<std::string> named;
+    for (size_t i = 0; i < used.size(); ++i)
+        if (const std::string name = used[i].text(""); !kRead.contains(name) && named.insert(name).second)
+            used.warn(name + " is ignored");
+}
+
+// "2.0" and later minor versions, which may be read as 2.0 unless minVersion says otherwise.
+void check_version(Document& document) {
+    const JsonView asset = document.view()["asset"];
+    const std::string version = asset["version"].text(""), needed = asset["minVersion"].text("2.0");
+    if (document.complaints.error) return;
+    if (!version.starts_with("2."))
+        asset["version"].fail("'" + version.substr(0, 20) + "'; only glTF 2.x is read");
+    if (needed != "2.0")
+        asset["minVersion"].fail("the file needs glTF " + needed.substr(0, 20) + "; 2.0 is read");
 }
 
 void load_buffer(const JsonView& buffer, std::optional<std::span<const std::byte>> binary,
@@ -150,6 +155,7 @@ void open_document(std::span<const std::byte> bytes, const std::filesystem::path
     document.complaints.file = name.string();
     document.directory = name.parent_path();
     document.max_vertices = options.max_vertices;
+    document.max_nodes = options.max_nodes;
     Complaints& complaints = document.complaints;
     Container container{as_text(bytes), {}};
     // By content: exporters name files wrongly.
@@ -157,9 +163,7 @@ void open_document(std::span<const std::byte> bytes, const std::filesystem::path
     if (complaints.error) return;
     parse_json(container.json, document);
     if (complaints.error) return;
-    const std::string version = document.view()["asset"]["version"].text("");
-    if (!complaints.error && !version.starts_with("2."))
-        complaints.fail("asset.version", "'" + version.substr(0, 20) + "'; only glTF 2.x is read");
+    check_version(document);
     check_extensions(document);
     const JsonView buffers = document.view()["buffers"];
     for (size_t i = 0; i < buffers.size() && !complaints.error; ++i)
@@ -184,7 +188,12 @@ std::span<const std::byte> buffer_view(Document& document, uint64_t index) {
 
 std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
     const size_t comma = uri.find(',');
-    if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) return std::nullopt;
+    if (comma == std::string_view::npos) return std::nullopt;
+    if (!uri.substr(0, comma).ends_with(";base64")) {
+        const std::string text = decode_percent(uri.substr(comma + 1));
+        const auto raw = std::as_bytes(std::span(text));
+        return std::vector<std::byte>(raw.begin(), raw.end());
+    }
     static constexpr std::string_view kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     static constexpr auto kValues = [] {

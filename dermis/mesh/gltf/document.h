@@ -17,7 +17,7 @@ struct Document {
     std::vector<std::vector<std::byte>> buffers;
     std::filesystem::path directory;  ///< of the file, for image paths
     Complaints complaints;
-    size_t max_vertices = 0;
+    size_t max_vertices = 0, max_nodes = 0;
 
     [[nodiscard]] JsonView view() { return {&root, "", complaints}; }
 };
@@ -30,7 +30,8 @@ void open_document(std::span<const std::byte> bytes, const std::filesystem::path
 /// The bytes of a buffer view, checked against its buffer; empty after an error.
 [[nodiscard]] std::span<const std::byte> buffer_view(Document& document, uint64_t index);
 
-/// A "data:" URI's bytes; nothing when it is malformed. And a relative URI with its percent escapes undone.
+/// A "data:" URI's bytes, in base64 or percent-encoded; nothing when it is malformed. And a relative URI with
+/// its percent escapes undone.
 [[nodiscard]] std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 [[nodiscard]] std::string decode_percent(std::string_view uri);
 

@@ -10,8 +10,8 @@
 
 namespace dermis::gltf {
 
-/// The default scene in millimetres. Primitives that lack normals have zero vectors there if another
-/// primitive has some; UVs likewise (0, 0); tangents are kept only when every primitive has them.
+/// The default scene in millimetres, skins posed as its nodes are. Primitives that lack normals or tangents
+/// have zero vectors there if another primitive has some; UVs likewise (0, 0), colours (1, 1, 1, 1).
 [[nodiscard]] Result<LoadedMesh> parse_gltf(std::span<const std::byte> bytes,
                                             const std::filesystem::path& name,
                                             const ReadSibling& read_sibling, const MeshOptions& options);

@@ -3,6 +3,9 @@
 #include "dermis/mesh/gltf/material.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "dermis/mesh/gltf/texture.h"
 
 namespace dermis::gltf {
 namespace {
@@ -17,6 +20,7 @@ class MaterialReader {
 
     Material read(const JsonView& source, size_t index, double node_scale) {
         Material material;
+        mapping_ = uv_mapping_of_material(source);
         material.name = source["name"].text("");
         if (material.name.empty()) material.name = "material " + std::to_string(index);
         read_core(source, material);
@@ -43,7 +47,6 @@ class MaterialReader {
         const JsonView pbr = source["pbrMetallicRoughness"];
         const auto base = pbr["baseColorFactor"].numbers<4>({1, 1, 1, 1});
         material.base_color_linear = {float(base[0]), float(base[1]), float(base[2])};
-        material.opacity = float(std::clamp(base[3], 0.0, 1.0));
         material.metallic = number(pbr["metallicFactor"], 1, 0, 1);
         material.roughness = number(pbr["roughnessFactor"], 1, 0, 1);
         material.base_color_map = texture(pbr["baseColorTexture"]);
@@ -52,10 +55,20 @@ class MaterialReader {
         material.normal_scale = float(source["normalTexture"]["scale"].number(1));
         material.occlusion_map = texture(source["occlusionTexture"]);
         material.emission_linear = color(source["emissiveFactor"], {0, 0, 0});
+        material.emission_map = texture(source["emissiveTexture"]);
         material.double_sided = source["doubleSided"].boolean(false);
+        read_alpha(source, base[3], material);
+    }
+
+    static void read_alpha(const JsonView& source, double factor, Material& material) {
         const std::string mode = source["alphaMode"].text("OPAQUE");
         if (mode == "MASK") material.alpha_mode = AlphaMode::mask;
         if (mode == "BLEND") material.alpha_mode = AlphaMode::blend;
+        if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
+            source["alphaMode"].warn("'" + mode.substr(0, 20) + "' is not OPAQUE, MASK or BLEND; opaque");
+        material.alpha_cutoff = float(source["alphaCutoff"].number(0.5));
+        // Opaque surfaces ignore the factor's alpha as they do the map's.
+        if (material.alpha_mode != AlphaMode::opaque) material.opacity = float(std::clamp(factor, 0.0, 1.0));
     }
 
     void read_surface(const JsonView& extensions, Material& material) {
@@ -104,18 +117,41 @@ class MaterialReader {
     // A textureInfo object to the image behind it.
     ImageSource texture(const JsonView& info) {
         if (!info.exists()) return {};
-        if (info["texCoord"].integer(0) != 0)
-            info.warn("uses a UV set other than the first, the one that is read");
-        if (info["extensions"].exists() && info["extensions"]["KHR_texture_transform"].exists())
-            info.warn("has a KHR_texture_transform, which is ignored");
+        const UvMapping mapping = uv_mapping(info);
         const uint64_t index = info["index"].integer(UINT64_MAX);
         if (info.failed()) return {};
         if (index == UINT64_MAX) return info.fail("has no index"), ImageSource{};
+        if (mapping != mapping_)
+            return info.warn(
+                       mapping.set != mapping_.set
+                           ? "is for UV set " + std::to_string(mapping.set) +
+                                 ", the material's first map for set " + std::to_string(mapping_.set) +
+                                 "; not used"
+                           : "has another KHR_texture_transform than the material's first map; not used"),
+                   ImageSource{};
         const JsonView chosen = document_.view()["textures"][size_t(index)];
         if (chosen.failed()) return {};
         if (!chosen["source"].exists())
             return chosen.warn("has no PNG or JPEG source; not used"), ImageSource{};
-        return image(document_.view()["images"][size_t(chosen["source"].integer(0))]);
+        ImageSource found = image(document_.view()["images"][size_t(chosen["source"].integer(0))]);
+        if (chosen["sampler"].exists()) {
+            const JsonView sampler = document_.view()["samplers"][size_t(chosen["sampler"].integer(0))];
+            if (sampler.failed()) return {};
+            found.wrap_u = wrap(sampler["wrapS"]), found.wrap_v = wrap(sampler["wrapT"]);
+            if ((found.wrap_u != TextureWrap::repeat || found.wrap_v != TextureWrap::repeat) &&
+                !std::exchange(warned_of_wrap_, true))
+                sampler.warn("clamps or mirrors; maps are drawn repeating");
+        }
+        return found;
+    }
+
+    static TextureWrap wrap(const JsonView& mode) {
+        constexpr uint64_t kRepeat = 10497, kClamp = 33071, kMirror = 33648;
+        const uint64_t number = mode.integer(kRepeat);
+        if (number == kClamp) return TextureWrap::clamp;
+        if (number == kMirror) return TextureWrap::mirror;
+        if (number != kRepeat) mode.warn(std::to_string(number) + " is no wrap mode; repeats");
+        return TextureWrap::repeat;
     }
 
     ImageSource image(const JsonView& source) {
@@ -149,6 +185,8 @@ class MaterialReader {
 
     Document& document_;
     double mm_per_unit_;
+    UvMapping mapping_;  // of the material being read
+    bool warned_of_wrap_ = false;
     size_t embedded_bytes_ = 0;
 };
 

@@ -1,0 +1,87 @@
+// Walks the default scene first and then what is left: a node's place does not depend on being drawn.
+
+#include "dermis/mesh/gltf/node_tree.h"
+
+#include <utility>
+
+namespace dermis::gltf {
+namespace {
+
+class TreeReader {
+  public:
+    TreeReader(Document& document, const Affine& to_mm) : document_(document), to_mm_(to_mm) {}
+
+    NodeTree run() {
+        const JsonView nodes = document_.view()["nodes"];
+        if (nodes.size() > document_.max_nodes)
+            nodes.fail("are " + std::to_string(nodes.size()) + ", more than the " +
+                       std::to_string(document_.max_nodes) + " that dermis loads");
+        if (document_.complaints.error) return {};
+        tree_.world.assign(nodes.size(), Affine{});
+        visited_.assign(nodes.size(), false);
+        const std::vector<uint64_t> parentless = find_parentless();
+        const JsonView scenes = document_.view()["scenes"];
+        if (scenes.size() > 0) {
+            const JsonView list = scenes[size_t(document_.view()["scene"].integer(0))]["nodes"];
+            for (size_t i = 0; i < list.size(); ++i) visit(list[i].integer(0), true);
+        }
+        for (const uint64_t root : parentless)
+            if (!visited_[size_t(root)]) visit(root, scenes.size() == 0);
+        return std::move(tree_);
+    }
+
+  private:
+    std::vector<uint64_t> find_parentless() {
+        const JsonView nodes = document_.view()["nodes"];
+        std::vector<bool> is_child(nodes.size(), false);
+        for (size_t i = 0; i < nodes.size(); ++i) {
+            const JsonView children = nodes[i]["children"];
+            for (size_t k = 0; k < children.size(); ++k)
+                if (const uint64_t child = children[k].integer(0); child < is_child.size())
+                    is_child[size_t(child)] = true;
+        }
+        std::vector<uint64_t> found;
+        for (size_t i = 0; i < nodes.size(); ++i)
+            if (!is_child[i]) found.push_back(i);
+        return found;
+    }
+
+    static Affine local_transform(const JsonView& node) {
+        if (node["matrix"].exists())
+            return affine_of_matrix(
+                node["matrix"].numbers<16>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
+        return affine_of_trs(node["translation"].numbers<3>({0, 0, 0}),
+                             node["rotation"].numbers<4>({0, 0, 0, 1}), node["scale"].numbers<3>({1, 1, 1}));
+    }
+
+    void visit(uint64_t root, bool drawn) {
+        std::vector<std::pair<uint64_t, Affine>> open = {{root, to_mm_}};
+        while (!open.empty() && !document_.complaints.error) {
+            const auto [index, parent] = open.back();
+            open.pop_back();
+            const JsonView node = document_.view()["nodes"][size_t(index)];
+            if (node.failed()) return;
+            // A node has one parent at most; otherwise a few nodes could unfold into billions.
+            if (visited_[size_t(index)]) return node.fail("is reached twice; nodes must form a tree");
+            visited_[size_t(index)] = true;
+            const Affine world = compose(parent, local_transform(node));
+            tree_.world[size_t(index)] = world;
+            if (drawn && node["mesh"].exists()) tree_.drawn.push_back(index);
+            const JsonView children = node["children"];
+            for (size_t i = children.size(); i-- > 0;) open.emplace_back(children[i].integer(0), world);
+        }
+    }
+
+    Document& document_;
+    Affine to_mm_;
+    NodeTree tree_;
+    std::vector<bool> visited_;
+};
+
+}  // namespace
+
+NodeTree read_nodes(Document& document, const Affine& to_mm) {
+    return TreeReader(document, to_mm).run();
+}
+
+}  // namespace dermis::gltf

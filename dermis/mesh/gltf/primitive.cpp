@@ -1,0 +1,163 @@
+#include "dermis/mesh/gltf/primitive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dermis/mesh/gltf/accessor.h"
+
+namespace dermis::gltf {
+namespace {
+
+enum PrimitiveMode : uint64_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
+
+// One run of indices without a restart.
+void append_triangles(std::span<const uint32_t> run, uint64_t mode, std::vector<uint32_t>& list) {
+    if (mode == kTriangles) {
+        list.insert(list.end(), run.begin(), run.begin() + std::ptrdiff_t(run.size() / 3 * 3));
+        return;
+    }
+    for (size_t i = 2; i < run.size(); ++i) {
+        if (mode == kTriangleFan)
+            list.insert(list.end(), {run[i - 1], run[i], run[0]});
+        else if (i % 2 == 0)
+            list.insert(list.end(), {run[i - 2], run[i - 1], run[i]});
+        else
+            list.insert(list.end(), {run[i - 1], run[i - 2], run[i]});
+    }
+}
+
+std::vector<uint32_t> triangle_list(std::span<const uint32_t> indices, uint64_t mode) {
+    std::vector<uint32_t> list;
+    for (size_t first = 0; first < indices.size();) {
+        const auto rest = indices.subspan(first);
+        const auto run = size_t(std::ranges::find(rest, kRestart) - rest.begin());
+        append_triangles(rest.first(run), mode, list);
+        first += run + 1;
+    }
+    return list;
+}
+
+bool all_finite(std::span<const float> values) {
+    return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
+}
+
+class PrimitiveReader {
+  public:
+    PrimitiveReader(Document& document, const JsonView& source, const PrimitiveOptions& options,
+                    Primitive& primitive)
+        : document_(document),
+          source_(source),
+          attributes_(source["attributes"]),
+          options_(options),
+          primitive_(primitive) {}
+
+    bool run() {
+        const uint64_t mode = source_["mode"].integer(kTriangles);
+        if (mode < kTriangles) return source_.warn("is points or lines; skipped"), false;
+        if (mode > kTriangleFan) return source_["mode"].fail("must be 0 to 6"), false;
+        if (!attributes_["POSITION"].exists()) return source_.warn("has no POSITION; skipped"), false;
+        primitive_.positions = read(attributes_["POSITION"], 3);
+        if (source_.failed()) return false;
+        count_ = primitive_.positions.size() / 3;
+        primitive_.normals = read(attributes_["NORMAL"], 3);
+        // Without normals tangents do not count (section 3.7.2.1).
+        if (attributes_["NORMAL"].exists()) primitive_.tangents = read(attributes_["TANGENT"], 4);
+        read_uvs();
+        read_colors();
+        if (options_.joint_count > 0 && !source_.failed())
+            primitive_.influences = read_influences(document_, attributes_, count_, options_.joint_count);
+        add_morph_targets();
+        if (source_.failed()) return false;
+        if (!all_finite(primitive_.positions)) return attributes_["POSITION"].fail("must be finite"), false;
+        read_triangles(mode);
+        return !source_.failed();
+    }
+
+  private:
+    // As many elements as there are positions.
+    std::vector<float> read(const JsonView& view, size_t components) {
+        if (!view.exists() || view.failed()) return {};
+        const uint64_t accessor = view.integer(0);
+        if (view.failed()) return {};
+        std::vector<float> values = read_floats(document_, accessor, components);
+        const size_t found = values.size() / components;
+        if (count_ != 0 && found != count_ && !view.failed())
+            view.fail("has " + std::to_string(found) + " elements for " + std::to_string(count_) +
+                      " positions");
+        return values;
+    }
+
+    void read_uvs() {
+        const UvMapping& mapping = options_.uv_mapping;
+        primitive_.uvs = read(attributes_[("TEXCOORD_" + std::to_string(mapping.set)).c_str()], 2);
+        for (size_t i = 0; i + 1 < primitive_.uvs.size(); i += 2) {
+            const Vec2 uv = mapping.apply({primitive_.uvs[i], primitive_.uvs[i + 1]});
+            primitive_.uvs[i] = uv.x, primitive_.uvs[i + 1] = uv.y;
+        }
+        // The file's tangents follow the UVs before they are turned.
+        if (!mapping.keeps_directions()) primitive_.tangents.clear();
+    }
+
+    void read_colors() {
+        const JsonView view = attributes_["COLOR_0"];
+        if (!view.exists() || view.failed()) return;
+        const JsonView accessor = document_.view()["accessors"][size_t(view.integer(0))];
+        const bool alpha = !accessor.failed() && accessor["type"].text("") == "VEC4";
+        const std::vector<float> values = read(view, alpha ? 4 : 3);
+        if (view.failed()) return;
+        for (size_t i = 0; i < values.size(); i += alpha ? 4 : 3) {
+            for (size_t c = 0; c < 3; ++c) primitive_.colors.push_back(values[i + c]);
+            primitive_.colors.push_back(alpha ? values[i + 3] : 1.0f);
+        }
+        for (float& value : primitive_.colors)
+            if (!(value >= 0 && std::isfinite(value))) value = 0;
+    }
+
+    void add_morph_targets() {
+        const JsonView targets = source_["targets"];
+        for (size_t i = 0; i < std::min(targets.size(), options_.morph.size()); ++i) {
+            const float weight = options_.morph[i];
+            if (weight == 0 || source_.failed()) continue;
+            add_scaled(read(targets[i]["POSITION"], 3), weight, primitive_.positions, 3);
+            add_scaled(read(targets[i]["NORMAL"], 3), weight, primitive_.normals, 3);
+            add_scaled(read(targets[i]["TANGENT"], 3), weight, primitive_.tangents, 4);
+        }
+    }
+
+    static void add_scaled(const std::vector<float>& change, float weight, std::vector<float>& values,
+                           size_t components) {
+        for (size_t i = 0; i < change.size() && i / 3 * components < values.size(); ++i)
+            values[i / 3 * components + i % 3] += weight * change[i];
+    }
+
+    void read_triangles(uint64_t mode) {
+        std::vector<uint32_t> indices;
+        if (source_["indices"].exists()) {
+            const uint64_t accessor = source_["indices"].integer(0);
+            if (source_.failed()) return;
+            indices = read_indices(document_, accessor);
+            for (const uint32_t index : indices)
+                if (index >= count_ && index != kRestart)
+                    return source_["indices"].fail("index " + std::to_string(index) + " is out of range (" +
+                                                   std::to_string(count_) + " vertices)");
+        } else {
+            for (uint32_t i = 0; i < count_; ++i) indices.push_back(i);
+        }
+        primitive_.indices = triangle_list(indices, mode);
+    }
+
+    Document& document_;
+    JsonView source_, attributes_;
+    const PrimitiveOptions& options_;
+    Primitive& primitive_;
+    size_t count_ = 0;
+};
+
+}  // namespace
+
+bool read_primitive(Document& document, const JsonView& source, const PrimitiveOptions& options,
+                    Primitive& primitive) {
+    return PrimitiveReader(document, source, options, primitive).run();
+}
+
+}  // namespace dermis::gltf

@@ -1,0 +1,33 @@
+#pragma once
+// Skins in the pose that the file's nodes hold. Internal to dermis/mesh.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dermis/mesh/gltf/document.h"
+#include "dermis/mesh/gltf/transform.h"
+
+namespace dermis::gltf {
+
+/// Every joint's matrix: from the mesh's own space, in which the skin was bound, to where the joint is now.
+/// `world` has every node's transform. Empty after an error.
+[[nodiscard]] std::vector<Affine> joint_matrices(Document& document, uint64_t skin,
+                                                 std::span<const Affine> world);
+
+/// Joints and weights of a primitive's vertices, `per_vertex` each; weights sum to 1 (or are all 0).
+struct Influences {
+    size_t per_vertex = 0;  ///< 0: the primitive is not skinned
+    std::vector<uint32_t> joints;
+    std::vector<float> weights;
+};
+
+/// All sets JOINTS_n and WEIGHTS_n; joints are checked against `joint_count`.
+[[nodiscard]] Influences read_influences(Document& document, const JsonView& attributes, size_t vertex_count,
+                                         size_t joint_count);
+
+/// The weighted sum of the matrices; `unskinned` for a vertex without weights.
+[[nodiscard]] Affine blend(std::span<const Affine> joints, const Influences& influences, size_t vertex,
+                           const Affine& unskinned);
+
+}  // namespace dermis::gltf

@@ -1,0 +1,34 @@
+#pragma once
+// Which UVs a texture of a glTF material takes, and how it goes on beyond its edges. Internal to dermis/mesh.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dermis/base/vec.h"
+#include "dermis/mesh/gltf/json_view.h"
+
+namespace dermis::gltf {
+
+/// A UV set and KHR_texture_transform's change of it: scaled, turned, moved.
+struct UvMapping {
+    uint64_t set = 0;
+    std::array<double, 2> offset = {0, 0}, scale = {1, 1};
+    double rotation_rad = 0;  ///< counter-clockwise in the picture, in which v points down
+
+    friend bool operator==(const UvMapping&, const UvMapping&) = default;
+    [[nodiscard]] Vec2 apply(Vec2 uv) const;
+    /// Whether the axes of a tangent frame stay what they are.
+    [[nodiscard]] bool keeps_directions() const { return rotation_rad == 0 && scale[0] > 0 && scale[1] > 0; }
+};
+
+/// Of one textureInfo object.
+[[nodiscard]] UvMapping uv_mapping(const JsonView& texture_info);
+
+/// A mesh has one set of UVs, so a material has one mapping: that of its first texture in the order base
+/// colour, normal, roughness, emission, occlusion, extensions. Textures with another are left out by the
+/// reader of materials.
+[[nodiscard]] UvMapping uv_mapping_of_material(const JsonView& material);
+
+}  // namespace dermis::gltf
