@@ -109,7 +109,7 @@ TEST_F(PreintegratedZoom, finds_the_same_skin_from_an_image_as_from_the_vertices
 
 // From 60 mm a texel of the normal map covers several pixels, and the smoother reads have to stay smoother.
 TEST_F(PreintegratedZoom, keeps_scattering_at_bumps_in_a_close_up) {
-    Scene scene = *load_scene("builtin:spheres");
+    Scene scene = *load_built_in_scene("builtin:spheres");
     ASSERT_TRUE(complete_scene(scene));
     constexpr int kSize = 512;
     std::vector<std::byte> texels;
@@ -134,7 +134,7 @@ TEST_F(PreintegratedZoom, keeps_scattering_at_bumps_in_a_close_up) {
 }
 
 TEST_F(PreintegratedZoom, warns_where_curvature_is_to_come_from_an_image_that_is_not_there) {
-    const Scene scene = *load_scene("builtin:spheres");
+    const Scene scene = *load_built_in_scene("builtin:spheres");
     Renderer renderer = make_renderer(scene);
     const DrawSettings settings = {.width = 8, .height = 8};
     radiance(renderer, technique(), values_of({{"curvature", "vertex"}}), settings);

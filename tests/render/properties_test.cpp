@@ -97,7 +97,7 @@ TEST_F(Properties, without_a_specular_model_nothing_is_reflected) {
     Renderer renderer = make_renderer(scene);
     DrawSettings settings = kSmall;
     settings.view = "specular";
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         ParameterValues values(technique.parameters);
         if (!values.set("specular", "none")) continue;
         const Image image = radiance(renderer, technique, values, settings);
