@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 namespace dermis {
 namespace {
@@ -30,41 +29,53 @@ struct Sums {
     }
 };
 
-Sums sums_of(const Image& technique, const EffectHalves& truth, const Image& mask, size_t channel) {
-    Sums sums;
-    const std::span<const float> t = technique.floats(), a = truth.a.floats(), b = truth.b.floats();
-    for (size_t i = 0; i < mask.pixel_count(); ++i) {
-        if (mask.floats()[i] <= 0) continue;
-        const size_t at = 3 * i + channel;
-        const double halves = double(a[at]) - double(b[at]);
-        sums.left += (double(t[at]) - double(a[at])) * (double(t[at]) - double(b[at]));
-        sums.effect += double(a[at]) * double(b[at]);
-        sums.halves_squared += halves * halves;
-        ++sums.count;
+// One channel of one pixel.
+struct Texel {
+    double t_a, t_b, s_a, s_b;
+};
+
+// A technique without noise has one picture for both halves.
+struct Pictures {
+    const Image &technique_a, &technique_b, &truth_a, &truth_b, &mask;
+
+    template <class Use>
+    void each(size_t channel, Use use) const {
+        for (size_t i = 0; i < mask.pixel_count(); ++i) {
+            if (mask.floats()[i] <= 0) continue;
+            const size_t at = 3 * i + channel;
+            use(Texel{technique_a.floats()[at], technique_b.floats()[at], truth_a.floats()[at],
+                      truth_b.floats()[at]});
+        }
     }
+};
+
+Sums sums_of(const Pictures& pictures, size_t channel) {
+    Sums sums;
+    pictures.each(channel, [&](const Texel& x) {
+        sums.left += (x.t_a - x.s_a) * (x.t_b - x.s_b);
+        sums.effect += x.s_a * x.s_b;
+        sums.halves_squared += (x.s_a - x.s_b) * (x.s_a - x.s_b);
+        ++sums.count;
+    });
     return sums;
 }
 
-// The variance that noise gives the sum left - q * effect, q being their ratio. With S_a = S + e_a, S_b = S +
-// e_b and d = T - S it is, a pixel,
+// The variance that noise gives the sum left - q * effect, q being their ratio. With S_a = S + e_a, T_a = T +
+// f_a and d = T - S it is, a pixel,
 //
-//     -(e_a + e_b) (d + q S) + (1 - q) e_a e_b
+//     (f_a + f_b) d - (e_a + e_b) (d + q S) + (f_a - e_a) (f_b - e_b) - q e_a e_b
 //
-// whose variance is (d + q S)^2 2 v + (1 - q)^2 v^2, v the variance of e_a. (S_a - S_b)^2 estimates 2 v, and
-// its square 12 v^2 (a normal's fourth moment).
-double variance_of_sum(const Image& technique, const EffectHalves& truth, const Image& mask, size_t channel,
-                       double q) {
+// whose variance is 2 f d^2 + 2 e (d + q S)^2 + (e + f)^2 - 2 q e^2 + q^2 e^2, with e and f the variances of
+// e_a and f_a. (S_a - S_b)^2 estimates 2 e, and its square 12 e^2 (a normal's fourth moment).
+double variance_of_sum(const Pictures& pictures, size_t channel, double q) {
     double sum = 0;
-    const std::span<const float> t = technique.floats(), a = truth.a.floats(), b = truth.b.floats();
-    for (size_t i = 0; i < mask.pixel_count(); ++i) {
-        if (mask.floats()[i] <= 0) continue;
-        const size_t at = 3 * i + channel;
-        const double effect = 0.5 * (double(a[at]) + double(b[at])), d = double(t[at]) - effect;
-        const double halves = double(a[at]) - double(b[at]), doubled_variance = halves * halves;
-        const double lever = d + q * effect;
-        sum +=
-            lever * lever * doubled_variance + (1 - q) * (1 - q) * doubled_variance * doubled_variance / 12;
-    }
+    pictures.each(channel, [&](const Texel& x) {
+        const double effect = 0.5 * (x.s_a + x.s_b), d = 0.5 * (x.t_a + x.t_b) - effect,
+                     lever = d + q * effect;
+        const double two_e = (x.s_a - x.s_b) * (x.s_a - x.s_b), two_f = (x.t_a - x.t_b) * (x.t_a - x.t_b);
+        sum += two_f * d * d + two_e * lever * lever;
+        sum += (two_e * two_e * (1 - q) * (1 - q) + two_f * two_f) / 12 + two_e * two_f / 2;
+    });
     return sum;
 }
 
@@ -83,16 +94,32 @@ CapturedShare share_of(const Sums& sums, double variance) {
     return result;
 }
 
-Result<void> check(const Image& technique, const EffectHalves& truth, const Image& mask) {
-    for (const Image* image : {&technique, &truth.a, &truth.b}) {
-        if (image->width != mask.width || image->height != mask.height || image->channels != 3)
+Result<void> check(const Pictures& p) {
+    for (const Image* image : {&p.technique_a, &p.technique_b, &p.truth_a, &p.truth_b}) {
+        if (image->width != p.mask.width || image->height != p.mask.height || image->channels != 3)
             return Error{"effects and mask differ in size or are not RGB"};
         if (!std::ranges::all_of(image->floats(), [](float v) { return std::isfinite(v); }))
             return Error{"a picture of the effect holds NaN or infinity"};
     }
-    if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
+    if (std::ranges::none_of(p.mask.floats(), [](float v) { return v > 0; }))
         return Error{"the mask is empty: no pixel to measure the effect at"};
     return {};
+}
+
+Result<Captured> captured_of(const Pictures& pictures) {
+    if (Result<void> good = check(pictures); !good) return good.error();
+    Captured result;
+    std::array<Sums, 3> sums;
+    Sums all;
+    for (size_t c = 0; c < 3; ++c) all += sums[c] = sums_of(pictures, c);
+    double variance = 0;
+    for (size_t c = 0; c < 3; ++c) {
+        result.channels[c] = share_of(sums[c], variance_of_sum(pictures, c, sums[c].ratio()));
+        variance += variance_of_sum(pictures, c, all.ratio());
+    }
+    result.all = share_of(all, variance);
+    result.pixels = size_t(sums[0].count);
+    return result;
 }
 
 }  // namespace
@@ -102,25 +129,16 @@ bool CapturedShare::known() const {
 }
 
 Result<Captured> captured(const Image& technique_effect, const EffectHalves& truth, const Image& mask) {
-    if (Result<void> good = check(technique_effect, truth, mask); !good) return good.error();
-    Captured result;
-    std::array<Sums, 3> sums;
-    Sums all;
-    for (size_t c = 0; c < 3; ++c) all += sums[c] = sums_of(technique_effect, truth, mask, c);
-    double variance = 0;
-    for (size_t c = 0; c < 3; ++c) {
-        result.channels[c] =
-            share_of(sums[c], variance_of_sum(technique_effect, truth, mask, c, sums[c].ratio()));
-        variance += variance_of_sum(technique_effect, truth, mask, c, all.ratio());
-    }
-    result.all = share_of(all, variance);
-    result.pixels = size_t(sums[0].count);
-    return result;
+    return captured_of({technique_effect, technique_effect, truth.a, truth.b, mask});
+}
+
+Result<Captured> captured(const EffectHalves& technique, const EffectHalves& truth, const Image& mask) {
+    return captured_of({technique.a, technique.b, truth.a, truth.b, mask});
 }
 
 EffectNoise effect_noise(const EffectHalves& truth, const Image& mask) {
     Sums all;
-    for (size_t c = 0; c < 3; ++c) all += sums_of(truth.a, truth, mask, c);
+    for (size_t c = 0; c < 3; ++c) all += sums_of({truth.a, truth.a, truth.a, truth.b, mask}, c);
     if (all.count == 0) return {};
     return {.effect_rms = std::sqrt(std::max(all.effect / all.count, 0.0)),
             .noise_rms = std::sqrt(all.halves_squared / all.count / 4)};

@@ -13,7 +13,8 @@
 //
 //     <|T - S|^2> - n^2 = <(T - S_a) (T - S_b)>        <|S|^2> - n^2 = <S_a S_b>
 //
-// so nothing is assumed of the noise but that the halves do not share it.
+// so nothing is assumed of the noise but that the halves do not share it. A technique that is noisy itself
+// comes in halves too: <(T_a - S_a) (T_b - S_b)>.
 
 #include <array>
 #include <optional>
@@ -23,7 +24,7 @@
 
 namespace dermis {
 
-/// Two independent estimates of the effect, f32 RGB, of one size.
+/// Two independent estimates of an effect, f32 RGB, of one size.
 struct EffectHalves {
     Image a, b;
 };
@@ -50,6 +51,10 @@ struct Captured {
 
 /// Errors: sizes that differ, NaN, an empty mask.
 [[nodiscard]] Result<Captured> captured(const Image& technique_effect, const EffectHalves& truth,
+                                        const Image& mask);
+
+/// Of a technique that is noisy itself, as another truth is: its noise is taken out like the truth's.
+[[nodiscard]] Result<Captured> captured(const EffectHalves& technique, const EffectHalves& truth,
                                         const Image& mask);
 
 /// RMS of the effect and of its noise alone, for deciding how long the truth must go on.

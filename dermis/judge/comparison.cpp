@@ -25,6 +25,7 @@ EffectTruthSettings truth_settings(const ComparisonSettings& settings) {
     truth.reference.width = settings.width;
     truth.reference.height = settings.height;
     truth.reference.grid = settings.grid;
+    truth.reference.probes = settings.probes;
     return truth;
 }
 
@@ -37,6 +38,10 @@ Result<void> judge(const Comparison& comparison, const Scene& scene, Compared& r
     const Result<Captured> share = captured(row.effect, comparison.truth.effect, comparison.masks.skin);
     if (!share) return failed(share.error());
     row.captured = *share;
+    Result<std::vector<RegionShare>> regions =
+        captured_by_region(row.effect, comparison.truth.effect, comparison.regions);
+    if (!regions) return failed(regions.error());
+    row.regions = std::move(*regions);
     const Result<Scores> scores = score(row.radiance, truth, comparison.masks, display);
     if (!scores) return failed(scores.error());
     row.scores = *scores;
@@ -127,6 +132,9 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
             draw_techniques(*renderer, catalog, scene, contestants, settings, hooks, comparison);
         !drawn)
         return drawn.error();
+    Result<RegionMasks> regions = find_regions(scene, comparison.masks.skin);
+    if (!regions) return regions.error();
+    comparison.regions = std::move(*regions);
     comparison.reference_rmse = noise_rmse(comparison.truth, comparison.masks.skin);
     for (Compared& row : comparison.rows)
         if (Result<void> judged = judge(comparison, scene, row); !judged) return judged.error();

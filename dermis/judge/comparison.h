@@ -14,6 +14,7 @@
 
 #include "dermis/gpu/device.h"
 #include "dermis/judge/effect_truth.h"
+#include "dermis/judge/regions.h"
 #include "dermis/judge/scores.h"
 #include "dermis/judge/technique_cost.h"
 #include "dermis/judge/technique_list.h"
@@ -29,8 +30,11 @@ struct ComparisonSettings {
     int grid = 4;        ///< both sides take grid x grid points of a pixel
     double noise = 0.2;  ///< of the effect's RMS at which the truth is fine enough
     int samples = 2048;  ///< of the truth a pixel, at most
-    int frames = 5;      ///< timed ones, after one that compiles; 0: none are
-    /// Integrator, lighting, probes and seed of the truth. Its size is the comparison's. As it is, a truth
+    /// Of the truth a sample. The bias of its quotient of two integrals falls as 1 / probes^2: with 16 a
+    /// twentieth of the effect on spheres of 2 and 8 mm was missing, with 64 it is below the noise.
+    int probes = 64;
+    int frames = 5;  ///< timed ones, after one that compiles; 0: none are
+    /// Integrator, lighting and seed of the truth. Its size is the comparison's. As it is, a truth
     /// that is looked at beside one frame, pixel middle against pixel middle.
     ReferenceSettings reference;
 };
@@ -45,6 +49,7 @@ struct Compared {
     Image flip,
         distance;  ///< one channel: FLIP of the tone-mapped pictures, largest difference of linear channels
     Captured captured;
+    std::vector<RegionShare> regions;  ///< in the order of kRegions
     Scores scores;
     TechniqueCost cost;
 };
@@ -53,6 +58,7 @@ struct Comparison {
     EffectTruth truth;
     Image truth_radiance;  ///< mean of its halves
     SkinMasks masks;
+    RegionMasks regions;
     double reference_rmse = 0;  ///< standard error of the ground truth over the skin: no rmse is known better
     std::vector<Compared> rows;
     std::string device;
@@ -73,5 +79,10 @@ struct ComparisonHooks {
                                                     const ComparisonHooks& hooks = {});
 
 [[nodiscard]] std::vector<ScoreRow> score_rows(const std::string& scene, const Comparison& comparison);
+
+/// scene,technique,settings,region,pixels,captured,captured_r,captured_g,captured_b,captured_error,effect_rms,
+/// truth_noise: a row for every technique and region that the scene has; a share whose truth is too noisy is
+/// empty.
+[[nodiscard]] std::string regions_csv(const std::string& scene, const Comparison& comparison);
 
 }  // namespace dermis

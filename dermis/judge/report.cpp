@@ -92,6 +92,7 @@ Result<Json> images_of(const Scene& scene, const Comparison& comparison, const I
     add("picture", "ground truth", picture_uri(comparison.truth_radiance, scene));
     for (const Compared& row : comparison.rows)
         add("picture", row.contestant.name(), picture_uri(row.radiance, scene));
+    add("regions", "regions of the skin", data_uri(region_picture(comparison.regions, skin)));
     add("effect", "ground truth", signed_uri(effect));
     for (const Compared& row : comparison.rows) add("effect", row.contestant.name(), signed_uri(row.effect));
     for (const Compared& row : comparison.rows)
@@ -123,6 +124,26 @@ Json rows_of(const Comparison& comparison) {
     return rows;
 }
 
+Json regions_of(const Comparison& comparison) {
+    Json regions = Json::array();
+    for (const Region region : kRegions) {
+        const Vec3 c = region_color(region) * 255;
+        Json shares = Json::array();
+        for (const Compared& row : comparison.rows) {
+            const std::optional<Captured>& found = row.regions[size_t(region)].captured;
+            shares.push_back(found && found->all.known() ? Json(found->all.share) : Json(nullptr));
+        }
+        const std::optional<Captured>& first = comparison.rows.front().regions[size_t(region)].captured;
+        regions.push_back({{"name", region_name(region)},
+                           {"text", region_text(region)},
+                           {"color", {std::lround(c.x), std::lround(c.y), std::lround(c.z)}},
+                           {"pixels", first ? first->pixels : 0},
+                           {"effect_rms", first ? json_number(first->all.effect_rms) : Json(nullptr)},
+                           {"shares", std::move(shares)}});
+    }
+    return regions;
+}
+
 std::string_view integrator_text(Integrator integrator) {
     if (integrator == Integrator::walk) return "random walks through the volume";
     if (integrator == Integrator::lambert) return "no transport: light leaves where it entered";
@@ -143,7 +164,7 @@ Json facts_of(const Scene& scene, const Comparison& comparison, const Comparison
             {"ambient", traced ? "traced" : "as the renderer approximates it, on both sides"},
             {"samples", comparison.truth.samples},
             {"grid", settings.grid},
-            {"probes", reference.probes},
+            {"probes", settings.probes},
             {"effect_rms", comparison.truth.noise.effect_rms},
             {"truth_noise", comparison.truth.noise.noise_rms},
             {"reference_rmse", comparison.reference_rmse},
@@ -211,9 +232,13 @@ Result<std::string> report_html(const Scene& scene, const Comparison& comparison
                         .effect = effect_full(comparison, effect)};
     Result<Json> images = images_of(scene, comparison, effect, scales);
     if (!images) return images.error();
-    const Json data = {{"scene", scene.name},          {"credit", scene.credit},
-                       {"warnings", scene.warnings},   {"images", std::move(*images)},
-                       {"rows", rows_of(comparison)},  {"facts", facts_of(scene, comparison, settings)},
+    const Json data = {{"scene", scene.name},
+                       {"credit", scene.credit},
+                       {"warnings", scene.warnings},
+                       {"images", std::move(*images)},
+                       {"rows", rows_of(comparison)},
+                       {"regions", regions_of(comparison)},
+                       {"facts", facts_of(scene, comparison, settings)},
                        {"scales", scales_json(scales)}};
     // No text of the data may end the script element or start another.
     std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);

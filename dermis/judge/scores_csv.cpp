@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "dermis/base/text.h"
+#include "dermis/judge/comparison.h"
 #include "dermis/judge/scores.h"
 
 namespace dermis {
@@ -160,6 +161,26 @@ std::string scores_csv(const std::vector<ScoreRow>& rows) {
         for (const ScoreColumn& column : kColumns) fields.push_back(number(column.get(row)));
         text += join(fields, ",") + "\n";
     }
+    return text;
+}
+
+std::string regions_csv(const std::string& scene, const Comparison& comparison) {
+    constexpr size_t kShareColumns = 7;  // captured to truth_noise
+    std::string text = "scene,technique,settings,region,pixels";
+    for (const ScoreColumn& column : score_columns().first(kShareColumns))
+        text += "," + std::string(column.name);
+    text += "\n";
+    for (const Compared& row : comparison.rows)
+        for (const RegionShare& share : row.regions) {
+            if (!share.captured) continue;
+            std::vector<std::string> fields = {
+                csv_field(scene), csv_field(row.contestant.technique->id), csv_field(row.contestant.settings),
+                std::string(region_name(share.region)), std::to_string(share.captured->pixels)};
+            const ScoreRow numbers{.captured = *share.captured};
+            for (const ScoreColumn& column : score_columns().first(kShareColumns))
+                fields.push_back(number(column.get(numbers)));
+            text += join(fields, ",") + "\n";
+        }
     return text;
 }
 

@@ -37,7 +37,7 @@ class Comparisons : public RenderTest {
         settings.grid = 2;
         settings.samples = 16;
         settings.noise = 1;
-        settings.reference.probes = 8;
+        settings.probes = 16;
         return settings;
     }
     static std::vector<Contestant> contestants(std::string_view text) {

@@ -34,6 +34,7 @@ TEST_F(Page, opens_in_a_browser_and_the_picture_follows_the_slider) {
     settings.frames = 1;
     settings.grid = 2;
     settings.samples = 8;
+    settings.probes = 8;
     const auto contestants = parse_technique_list(built_in_catalog().techniques, "lambert,wrap");
     ASSERT_TRUE(contestants);
     const auto comparison = compare_techniques(device(), built_in_catalog(), scene, *contestants, settings);

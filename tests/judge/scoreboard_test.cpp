@@ -34,6 +34,7 @@ ComparisonSettings small() {
     settings.grid = 3;
     settings.samples = 540;
     settings.noise = 0.15;
+    settings.probes = 16;
     settings.shadow_map_size = 2048;
     settings.frames = 0;
     return settings;

@@ -181,18 +181,18 @@ Result<int> run(const Options& options) {
     const Result<std::string> page = report_html(*scene, *comparison, *settings);
     if (!page) return page.error();
     const fs::path directory(options.output);
-    if (Result<void> written = write_text_file(directory / "report.html", *page); !written)
-        return written.error();
-    if (Result<void> written = write_text_file(directory / "scores.csv",
-                                               scores_csv(score_rows(options.scene.name, *comparison)));
-        !written)
-        return written.error();
+    const std::pair<const char*, std::string> files[] = {
+        {"report.html", *page},
+        {"scores.csv", scores_csv(score_rows(options.scene.name, *comparison))},
+        {"regions.csv", regions_csv(options.scene.name, *comparison)}};
+    for (const auto& [name, text] : files)
+        if (Result<void> written = write_text_file(directory / name, text); !written) return written.error();
     if (options.json) {
         std::printf("%s\n", to_json(options, *scene, *comparison).dump(2).c_str());
         return 0;
     }
     print_table(*comparison);
-    std::printf("%s, %s\n", (directory / "report.html").c_str(), (directory / "scores.csv").c_str());
+    std::printf("%s, scores.csv, regions.csv\n", (directory / "report.html").c_str());
     if (!scene->credit.empty()) std::printf("%s\n", scene->credit.c_str());
     return 0;
 }
@@ -209,7 +209,8 @@ void add_compare_command(CommandLine& line) {
     options->scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
-    command->add_option("-o,--output", options->output, "directory for report.html and scores.csv")
+    command
+        ->add_option("-o,--output", options->output, "directory for report.html, scores.csv and regions.csv")
         ->required();
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     command->add_option("--integrator", options->integrator, "of the ground truth: surface or walk")
