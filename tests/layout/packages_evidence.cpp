@@ -59,11 +59,11 @@ constexpr Evidence kPackageEvidence[] = {
     {"python3", "", "", "python3 -u"},
     {"curl", "", "", "curl --fail"},
     {"ffmpeg", "", "", "ffmpeg"},
-    {"dpkg-dev", "dpkg-shlibdeps", "", ""},
-    {"file", "file", "", ""},
     {"clang", "", "", "clang++"},
     {"clang-format", "", "", "clang-format"},
     {"libclang-rt-14-dev", "", "", "libclang-rt-14-dev"},
+    {"dpkg-dev", "dpkg-shlibdeps", "", ""},
+    {"file", "file", "", ""},
 };
 
 // What needs no package of its own: part of CMake, optional, or of the repository.
