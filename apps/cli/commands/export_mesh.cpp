@@ -14,7 +14,7 @@ namespace {
 
 struct Options {
     std::string mesh = "builtin:bust", path, maps;
-    std::map<std::string, std::string> parameters;
+    std::map<std::string, std::optional<std::string>> parameters;
 };
 
 Result<int> run(const Options& options) {
@@ -22,7 +22,8 @@ Result<int> run(const Options& options) {
     if (name != "bust") return Error{unknown_name("built-in mesh", name, std::vector<std::string>{"bust"})};
     ParameterValues values(bust_parameters());
     for (const auto& [parameter, text] : options.parameters)
-        if (const Result<void> set = values.set(parameter, text); !set) return set.error();
+        if (text)
+            if (const Result<void> set = values.set(parameter, *text); !set) return set.error();
     const Result<Bust> bust = make_bust(values.as<BustParams>());
     if (!bust) return bust.error();
     if (const auto written = write_bust(options.path, *bust); !written) return written.error();
@@ -50,11 +51,9 @@ void add_export_mesh_command(CommandLine& line) {
     command->add_option("mesh", options->mesh, "builtin:bust");
     command->add_option("-o,--output", options->path, "file to write, .glb or .obj")->required();
     command->add_option("--maps", options->maps, "folder for all maps as PNG, the kernel size among them");
-    const ParameterValues defaults(bust_parameters());
-    for (const Parameter& row : bust_parameters().parameters) {
-        std::string& text = options->parameters[row.name] = defaults.text(row);
-        command->add_option(flag_of(row.name), text, row.doc + ", " + range_text(row));
-    }
+    for (const Parameter& row : bust_parameters().parameters)
+        command->add_option(flag_of(row.name), options->parameters[row.name],
+                            row.doc + ", " + range_text(row));
     line.when_chosen(command, [options] { return run(*options); });
 }
 
