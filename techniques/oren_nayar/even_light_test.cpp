@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "render/render_test.h"
-#include "support/built_in.h"
 
 using namespace dermis;
 
