@@ -78,7 +78,7 @@ TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
     const auto data = nlohmann::json::parse(page->substr(at, page->find(";\n", at) - at), nullptr, false);
     ASSERT_TRUE(data.is_object());
     EXPECT_EQ(data["scene"], scene.name);
-    EXPECT_EQ(data["images"].size(), 2 + 5 * list.size());
+    EXPECT_EQ(data["images"].size(), 3 + 5 * list.size());
     for (const auto& image : data["images"])
         EXPECT_TRUE(image["uri"].get<std::string>().starts_with("data:image/png;base64,iVBOR"));
     EXPECT_EQ(data["rows"][1]["settings"], "diffuse=closed_form");

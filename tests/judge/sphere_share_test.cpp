@@ -8,8 +8,8 @@
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
-#include "dermis/scene/builtin.h"
 #include "render/render_test.h"
+#include "subjects/spheres/spheres.h"
 
 using namespace dermis;
 
@@ -83,9 +83,9 @@ TEST_F(SphereShares, preintegrated_captures_all_of_the_effect_on_a_sphere) {
     settings.samples = 180;
     settings.noise = 0.06;
     settings.frames = 0;
-    const auto list = parse_technique_list("lambert,preintegrated");
+    const auto list = parse_technique_list(built_in_catalog().techniques, "lambert,preintegrated");
     ASSERT_TRUE(list);
-    const auto comparison = compare_techniques(device(), scene, *list, settings);
+    const auto comparison = compare_techniques(device(), built_in_catalog(), scene, *list, settings);
     ASSERT_TRUE(comparison) << comparison.error().message;
     const Image& skin = comparison->masks.skin;
     const Image exact = exact_effect(scene, kSphereRadiiMm[kSphere], settings);
