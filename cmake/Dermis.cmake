@@ -6,7 +6,7 @@ set_property(GLOBAL PROPERTY DERMIS_LAYERS "")
 
 # Most of compiling is parsing headers, again in every file. What nearly every file includes is parsed once (a
 # precompiled header; -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON goes without), and the compiler is given the files of a
-# library eight at a time (DERMIS_UNITY). Together they leave about a third of the processor time of a first build.
+# library eight at a time (DERMIS_UNITY). Together they halve the processor time of a first build.
 set(DERMIS_STANDARD_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <cstdio> <cstring> <filesystem> <functional>
     <map> <memory> <numbers> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/standard_headers.cpp CONTENT
