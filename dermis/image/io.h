@@ -25,8 +25,8 @@ struct LoadedImage {
 
 /// PNG (1 to 16 bit, palette; u8 or u16), JPEG (u8), Radiance HDR (f32), OpenEXR (any compression; f16 or
 /// f32), DDS and KTX2 (uncompressed, the largest mip; swizzle and orientation as the file says). A 2048x2048
-/// JPEG takes 15 to 45 ms, the same as PNG 80 ms. Errors name the file: unreadable, truncated, corrupt, larger
-/// than check_image_size() allows, an unknown format.
+/// JPEG takes 15 to 45 ms, the same as PNG 80 ms. Errors name the file: unreadable, truncated, corrupt,
+/// larger than check_image_size() allows, an unknown format.
 [[nodiscard]] Result<LoadedImage> read_image(const std::filesystem::path& path, ImageUse use);
 /// The same from memory (embedded glTF images); `name` stands in errors.
 [[nodiscard]] Result<LoadedImage> decode_image(std::span<const std::byte> bytes, std::string_view name,
@@ -58,9 +58,8 @@ struct LayeredImage {
     ImageText text;
 };
 /// All layers of an EXR file's first part, by name. A layer is f16 if all its channels are, else f32;
-/// channels in the order R G B, or Y, then others alphabetically (X Y Z), then A; at most four. The picture is
-/// the display window. read_image takes the layer
-/// without a name.
+/// channels in the order R G B, or Y, then others alphabetically (X Y Z), then A; at most four. The picture
+/// is the display window. read_image takes the layer without a name.
 [[nodiscard]] Result<LayeredImage> read_layered_exr(const std::filesystem::path& path);
 
 }  // namespace dermis

@@ -48,8 +48,8 @@ struct Spoke {
     uint32_t local;    ///< which of the corners around
 };
 
-/// Both edges of every corner around a vertex, sorted, so that corners which share an edge are neighbours. `vertices` has
-/// the vertex of every corner of the mesh.
+/// Both edges of every corner around a vertex, sorted, so that corners which share an edge are neighbours.
+/// `vertices` has the vertex of every corner of the mesh.
 void collect_spokes(std::span<const uint32_t> corners, std::span<const uint32_t> vertices,
                     std::vector<Spoke>& spokes);
 

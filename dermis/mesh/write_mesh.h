@@ -23,8 +23,8 @@ struct NamedImage {
 /// from the material's own bytes. Errors: a map without bytes or neither PNG nor JPEG, more than 4 GiB, an
 /// unwritable file. read_mesh reads it back.
 ///
-/// What glTF has no place for is left out: curvature and occlusion, object-space normal maps, maps of roughness
-/// alone, displacement, opacity, kernel size and curvature.
+/// What glTF has no place for is left out: curvature and occlusion, object-space normal maps, maps of
+/// roughness alone, displacement, opacity, kernel size and curvature.
 [[nodiscard]] Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
                                      std::span<const NamedImage> images = {});
 

@@ -22,8 +22,8 @@ std::string curvature_hash(const Mesh& mesh) {
 
 Result<std::vector<float>> cached_curvature(const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
-    const Result<std::vector<std::byte>> bytes =
-        cached("curvature", curvature_hash(mesh), count * sizeof(float), [&]() -> Result<std::vector<std::byte>> {
+    const Result<std::vector<std::byte>> bytes = cached(
+        "curvature", curvature_hash(mesh), count * sizeof(float), [&]() -> Result<std::vector<std::byte>> {
             const std::vector<float> curvatures = compute_curvature(mesh, kCurvatureSmoothingMm);
             const auto view = std::as_bytes(std::span(curvatures));
             return std::vector<std::byte>(view.begin(), view.end());

@@ -24,8 +24,8 @@ struct MapsDescription {
     NamedFile albedo, normal, specular, roughness, occlusion, thickness, kernel_size, curvature, displacement,
         opacity;
     std::optional<NormalSpace> normal_space;
-    std::optional<float> normal_scale, thickness_scale_mm, curvature_scale_per_mm, curvature_mid, displacement_mid,
-        displacement_amplitude_mm;
+    std::optional<float> normal_scale, thickness_scale_mm, curvature_scale_per_mm, curvature_mid,
+        displacement_mid, displacement_amplitude_mm;
     std::optional<int> dilate_texels;
 };
 

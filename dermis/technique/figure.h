@@ -86,8 +86,8 @@ struct Figure {
     std::string note;    ///< what to see, and what differs from the source; one to three sentences
     std::string scene = kHeadScene;
     bool only_in_its_scene = false;  ///< no other scene has what it shows
-    std::string technique;  ///< empty: the one that lists it
-    float aspect = 1;       ///< width over height of a cell
+    std::string technique;           ///< empty: the one that lists it
+    float aspect = 1;                ///< width over height of a cell
     std::vector<FigureRow> rows;
 };
 

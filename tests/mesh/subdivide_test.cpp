@@ -69,9 +69,10 @@ TEST(Subdivide, limit_normals_agree_with_the_triangles) {
 
 TEST(Subdivide, uv_borders_stay_where_they_were) {
     // Two quads whose chart bends at (1, 0) and (1, 1) of the file: a smooth border would cut the bend.
-    const auto refined = subdivide(cage_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
-                                           "vt 2 0.5\nvt 0 1\nvt 1 1\nvt 2 1.5\nf 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/5\n"),
-                                   2);
+    const auto refined =
+        subdivide(cage_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
+                          "vt 2 0.5\nvt 0 1\nvt 1 1\nvt 2 1.5\nf 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6 5/5\n"),
+                  2);
     ASSERT_TRUE(refined);
     for (const Vec2 corner : {Vec2{0, 1}, {1, 1}, {2, 0.5f}, {0, 0}, {1, 0}, {2, -0.5f}}) {
         float nearest = 1;

@@ -2,8 +2,8 @@
 // Golden pictures: EXPECT_TRUE(matches_golden(picture, "sphere_lambert")) holds a picture against
 // tests/golden/sphere_lambert.png. Where it does not match, the new picture, the old one and their difference
 // (eight times as bright) are written below the build directory and the message names them.
-// DERMIS_UPDATE_GOLDENS=1 writes the new picture over the golden instead, DERMIS_UPDATE_GOLDENS=missing only where there
-// is none; look at it before committing it.
+// DERMIS_UPDATE_GOLDENS=1 writes the new picture over the golden instead, DERMIS_UPDATE_GOLDENS=missing only
+// where there is none; look at it before committing it.
 
 #include <gtest/gtest.h>
 

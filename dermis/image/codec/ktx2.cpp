@@ -174,7 +174,8 @@ Result<LoadedImage> decode_ktx2(Bytes file, ImageUse) {
 Buffer encode_ktx2(const Image& image, const ImageText& text) {
     const std::array<uint32_t, 23> descriptor = rgba16f_descriptor();
     const Buffer pairs = key_values(text);
-    const size_t descriptor_at = kKtx2HeaderBytes + kLevelBytes, pairs_at = descriptor_at + sizeof(descriptor);
+    const size_t descriptor_at = kKtx2HeaderBytes + kLevelBytes,
+                 pairs_at = descriptor_at + sizeof(descriptor);
     const size_t texels_at = (pairs_at + pairs.size() + 7) / 8 * 8;  // a multiple of the texel's size
 
     ByteWriter out;
