@@ -122,6 +122,26 @@ Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) 
     return write_beside(path, [&](const fs::path& temporary) { return write_all(temporary, bytes); });
 }
 
+Result<void> try_output(const fs::path& path) {
+    std::error_code ec;
+    if (fs::is_directory(path, ec)) return Error{path.string() + ": is a directory; give a file name"};
+    // Nothing of a device or a pipe may be used up.
+    if (fs::exists(path, ec) && !fs::is_regular_file(path, ec)) return {};
+    std::vector<fs::path> missing;
+    for (fs::path at = fs::absolute(path, ec).parent_path(); !at.empty() && !fs::exists(at, ec);
+         at = at.parent_path())
+        missing.push_back(at);
+    const fs::path trial = temporary_name(path);
+    Result<void> tried = make_parent(path);
+    if (tried) {
+        tried = write_all(trial, {});
+        if (!tried) tried = Error{path.string() + ": cannot write: " + tried.error().message};
+    }
+    fs::remove(trial, ec);
+    for (const fs::path& made : missing) fs::remove(made, ec);
+    return tried;
+}
+
 Result<void> write_text_file(const fs::path& path, std::string_view text) {
     return write_file(path, as_bytes(text));
 }

@@ -33,6 +33,10 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
     const std::filesystem::path& path,
     const std::function<Result<void>(const std::filesystem::path&)>& write);
 
+/// Whether write_file() could write there, before hours of work: makes a file beside the target and removes
+/// it again with every directory that it needed. Errors as those of write_file().
+[[nodiscard]] Result<void> try_output(const std::filesystem::path& path);
+
 [[nodiscard]] inline std::span<const std::byte> as_bytes(std::string_view text) {
     return std::as_bytes(std::span(text.data(), text.size()));
 }

@@ -96,6 +96,15 @@ ScatteringMedium medium_of(const BurleyProfile& burley, double g, double eta) {
     return medium_of(burley.albedo, path_mm, g, eta);
 }
 
+ScatteringMedium walk_medium_of(const Profile& profile) {
+    constexpr double kMostAlbedo = 0.8, kBlurAlbedo = 0.5;
+    if (const auto* dipole = std::get_if<DipoleProfile>(&profile.model)) return dipole->medium;
+    BurleyProfile burley = burley_equivalent(profile);
+    for (double& albedo : burley.albedo)
+        if (albedo > kMostAlbedo) albedo = kBlurAlbedo;
+    return medium_of(burley, 0, 1);
+}
+
 BurleyProfile burley_of(const ScatteringMedium& medium) {
     BurleyProfile burley;
     for (size_t c = 0; c < 3; ++c) {

@@ -6,6 +6,7 @@
 
 #include "dermis/base/parallel.h"
 #include "dermis/image/colour.h"
+#include "dermis/optics/conversions.h"
 #include "dermis/optics/presets.h"
 #include "dermis/reference/pixel_sampler.h"
 
@@ -178,8 +179,8 @@ Result<void> check_settings(const ReferenceSettings& s) {
         return Error{std::string(what) + " is " + std::to_string(value) + ", not within " +
                      std::string(range)};
     };
-    if (Result<void> good = check_image_size(uint64_t(std::max(s.width, 0)), uint64_t(std::max(s.height, 0)),
-                                             4);
+    if (Result<void> good =
+            check_image_size(uint64_t(std::max(s.width, 0)), uint64_t(std::max(s.height, 0)), 4);
         !good)
         return good.error();
     if (s.samples < 2 || s.samples > 65536) return out_of_range("samples a pixel", s.samples, "2..65536");
@@ -215,9 +216,7 @@ double share_done(const ReferenceSettings& settings, int pass, double error) {
 Result<ScatteringMedium> medium_of_scene(const Scene& scene) {
     Result<Profile> profile = find_profile(scene.skin.profile);
     if (!profile) return profile.error();
-    if (const auto* dipole = std::get_if<DipoleProfile>(&profile->model)) return dipole->medium;
-    return Error{"the profile '" + scene.skin.profile + "' (" + model_name(*profile) +
-                 ") says nothing of a volume; give a medium, or a dipole profile such as jensen_skin1"};
+    return walk_medium_of(*profile);
 }
 
 Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
@@ -248,6 +247,7 @@ Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSet
     if (pass == 0) return Error{"stopped before the first pass was complete: there is no picture yet"};
     ReferencePicture picture = develop(canvas);
     picture.relative_error = error;
+    picture.reached_noise = !settings.noise || error <= *settings.noise;
     picture.passes = pass;
     picture.walks = counts.walks;
     picture.lost_walks = counts.lost;

@@ -36,13 +36,13 @@ struct ReferenceSettings {
     std::optional<double> noise;    ///< stop when the picture's relative error is at most this
     uint32_t seed = 1;
     int probes = 16;         ///< probes or walks a sample
-    double width_scale = 1;  ///< stretches the profile; 0 is lambert
+    double width_scale = 1;  ///< stretches the profile or all lengths of the medium; 0 is lambert
     Normalisation normalisation = Normalisation::by_area;
     Cavities cavities = Cavities::flesh;
     PixelFilter filter = PixelFilter::box;
     int grid = 4;  ///< PixelFilter::grid: cells on a side, 1..16; samples are a multiple of its square
     LightingSettings lighting;               ///< entry_eta is set from the medium
-    std::optional<ScatteringMedium> medium;  ///< walk: else the dipole of the scene's profile
+    std::optional<ScatteringMedium> medium;  ///< walk: else walk_medium_of the scene's profile
 };
 
 /// What a picture is right now. Linear f32. The error of a pixel is the standard error of its mean luminance
@@ -55,6 +55,7 @@ struct ReferencePicture {
     Image samples;            ///< one channel: how many each pixel took
     Image skin;               ///< one channel: the share of the pixel that is skin, seen through nothing
     double relative_error = 0;
+    bool reached_noise = true;  ///< false: the wanted noise was not reached within the samples allowed
     int passes = 0;
     double time_ms = 0;
     size_t lost_walks = 0, walks = 0;
@@ -72,7 +73,7 @@ using ReferenceProgress = std::function<void(double done)>;
                                                         const ReferenceProgress& progress = {},
                                                         const std::atomic<bool>* stop = nullptr);
 
-/// The medium that `walk` takes when none is given. Errors: the scene's profile says nothing of a volume.
+/// The medium that `walk` takes when none is given. Errors: the scene's profile is not known.
 [[nodiscard]] Result<ScatteringMedium> medium_of_scene(const Scene& scene);
 
 }  // namespace dermis

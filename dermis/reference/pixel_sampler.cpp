@@ -92,11 +92,15 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
         if (Result<void> good = check(*found); !good) return good.error();
         medium = *found;
         lighting.entry_eta = medium.eta;
+        for (size_t c = 0; c < 3 && settings.width_scale > 0; ++c) {
+            medium.sigma_s_per_mm[c] /= settings.width_scale;
+            medium.sigma_a_per_mm[c] /= settings.width_scale;
+        }
     }
     std::unique_ptr<PixelSampler> sampler(new PixelSampler(scene, settings, std::move(*rays),
                                                            std::move(*materials), std::move(*environment),
                                                            std::move(*reflection), lighting));
-    if (walks) sampler->use_medium(medium);
+    if (walks && settings.width_scale > 0) sampler->use_medium(medium);
     if (settings.integrator == Integrator::surface && settings.width_scale > 0) {
         Result<Profile> profile = find_profile(scene.skin.profile);
         if (!profile) return profile.error();

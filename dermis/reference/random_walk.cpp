@@ -18,17 +18,16 @@ Vec3 exp_of(Vec3 v) {
     return {std::exp(v.x), std::exp(v.y), std::exp(v.z)};
 }
 
-// Chances of the channels to lead: by what the path carries of each.
-Vec3 hero_chances(Vec3 throughput) {
-    const float sum = throughput.x + throughput.y + throughput.z;
-    return sum > 0 ? throughput * (1 / sum) : Vec3{1.0f / 3, 1.0f / 3, 1.0f / 3};
-}
-
 float fresnel_from_inside(float cosine, float eta) {
     return eta == 1 ? 0.0f : float(fresnel_dielectric(cosine, 1 / double(eta)));
 }
 
 }  // namespace
+
+Vec3 hero_chances(Vec3 throughput) {
+    const float sum = throughput.x + throughput.y + throughput.z;
+    return sum > 0 ? throughput * (1 / sum) : Vec3{1.0f / 3, 1.0f / 3, 1.0f / 3};
+}
 
 WalkMedium walk_medium(const ScatteringMedium& medium) {
     const auto channel = [&](int c) { return float(medium.sigma_s_per_mm[size_t(c)]); };

@@ -50,6 +50,8 @@ inline constexpr int kMostCollisions = 100'000;
 /// normal.
 [[nodiscard]] Vec3 sample_entry_direction(Vec3 n_out, float eta, Pcg32& random);
 
+/// The chance of each channel to lead the next step: by what the path carries of it.
+[[nodiscard]] Vec3 hero_chances(Vec3 throughput);
 /// The free flight of one collision: scatter or leave.
 struct Flight {
     float distance_mm;

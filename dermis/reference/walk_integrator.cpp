@@ -59,7 +59,7 @@ WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, Vec3 
         FleshBoundary boundary(rays_);
         Pcg32 random(seed, uint32_t(i));
         const Vec3 direction = sample_entry_direction(n_face, medium_.eta, random);
-        const WalkEnd end = random_walk(medium_, boundary, point.p_mm, direction, random);
+        const WalkEnd end = guided_walk(medium_, guide_, boundary, point.p_mm, n_face, direction, random);
         result.lost += end.lost;
         if (end.lost || end.throughput == Vec3{}) continue;
         SurfaceAttributes surface = rays_.surface_at(boundary.last());

@@ -1,8 +1,8 @@
 #pragma once
 // Random walks inside the scene's skin: the exitance of a visible point from the light that enters elsewhere.
 
+#include "dermis/reference/guided_walk.h"
 #include "dermis/reference/lighting.h"
-#include "dermis/reference/random_walk.h"
 #include "dermis/reference/surface_integrator.h"
 
 namespace dermis {
@@ -23,6 +23,7 @@ class WalkIntegrator {
           materials_(materials),
           lighting_(lighting),
           medium_(walk_medium(medium)),
+          guide_(walk_guide(medium)),
           settings_(settings) {}
 
     struct Result {
@@ -36,6 +37,7 @@ class WalkIntegrator {
     const MaterialSet& materials_;
     const Lighting& lighting_;
     WalkMedium medium_;
+    WalkGuide guide_;
     WalkIntegratorSettings settings_;
 };
 

@@ -111,6 +111,14 @@ TEST_F(BadInput, ground_truths_that_cannot_be_made_leave_nothing) {
     expect_error("reference builtin:spheres --noise 2" + to, "noise is 2");
     expect_error("reference builtin:spheres --size 0x8" + to, "0");
     expect_error("reference builtin:spheres --profile jensen" + to, "jensen");
+    // A picture that would take hours is not begun when it cannot be kept.
+    const std::string hours = "reference builtin:spheres --samples 65536 --size 1024x1024 ";
+    expect_error(hours + "-o /proc/truth.exr", "/proc/truth.exr: cannot write");
+    expect_error(hours + "--preview " + path("truth.gif") + to, "--preview");
+    fs::create_directory(path("folder.exr"));
+    expect_error(hours + "-o " + path("folder.exr"), "is a directory");
+    fs::create_directory(path("folder.png"));
+    expect_error(hours + "--preview " + path("folder.png") + to, "is a directory");
     EXPECT_FALSE(fs::exists(path("truth.exr")));
 }
 

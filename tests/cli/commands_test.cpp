@@ -87,18 +87,32 @@ TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_truth_once) {
                 HasSubstr("\nbuiltin:spheres,preintegrated,diffuse=closed_form,"));
 }
 
-TEST_F(Commands, ctrl_c_leaves_the_picture_so_far_and_says_how_noisy_it_is) {
-    const std::string file = path("truth.exr");
-    // The signal arrives when the command is at work: its whole time limit would be minutes.
-    const ProgramResult stopped =
-        shell("timeout --preserve-status -s INT 3 " + std::string(DERMIS_PROGRAM) +
-              " reference builtin:spheres --size 128x128 --samples 60000 -o " + file);
-    EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
-    EXPECT_THAT(stopped.out,
-                testing::ContainsRegex("stopped after [0-9]+ passes, relative error 0\\.[0-9]+"));
-    const auto layers = read_layered_exr(file);
-    ASSERT_TRUE(layers) << layers.error().message;
-    EXPECT_GT(layers->layers.size(), 4u);
+TEST_F(Commands, a_signal_leaves_the_picture_so_far_and_says_how_noisy_it_is) {
+    for (const auto& [signal, exit_code] : {std::pair{"INT", 130}, {"TERM", 143}}) {
+        const std::string file = path(std::string(signal) + ".exr");
+        // The signal arrives when the command is at work: its whole time limit would be minutes.
+        const ProgramResult stopped =
+            shell("timeout --preserve-status -s " + std::string(signal) + " 3 " + DERMIS_PROGRAM +
+                  " reference builtin:spheres --size 32x32 --samples 60000 -o " + file);
+        EXPECT_EQ(stopped.exit_code, exit_code) << stopped.err;
+        EXPECT_THAT(stopped.out,
+                    testing::ContainsRegex("stopped after [0-9]+ passes, relative error 0\\.[0-9]+"));
+        const auto layers = read_layered_exr(file);
+        ASSERT_TRUE(layers) << layers.error().message;
+        EXPECT_GT(layers->layers.size(), 4u);
+    }
+}
+
+TEST_F(Commands, a_ground_truth_that_misses_its_noise_is_written_and_says_so) {
+    const std::string file = path("truth.exr"), line = std::string(DERMIS_PROGRAM) +
+                                                       " reference builtin:spheres --size 16x16 -o " + file;
+    const ProgramResult missed = shell(line + " --noise 0.0001 --samples 16");
+    EXPECT_EQ(missed.exit_code, 3) << missed.err;
+    EXPECT_THAT(missed.err, HasSubstr("after 16 samples a pixel, not the 0.0001 of --noise"));
+    EXPECT_TRUE(read_layered_exr(file));
+    const ProgramResult reached = shell(line + " --noise 0.05 --json");
+    EXPECT_EQ(reached.exit_code, 0) << reached.err;
+    EXPECT_EQ(nlohmann::json::parse(reached.out)["noise_reached"], true);
 }
 
 TEST_F(Commands, passes_and_techniques_need_no_device) {

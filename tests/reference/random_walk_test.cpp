@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "dermis/base/parallel.h"
+#include "dermis/optics/conversions.h"
 #include "dermis/optics/presets.h"
 
 namespace dermis {
@@ -111,6 +113,47 @@ TEST(RandomWalk, the_skins_of_jensen_have_the_albedo_that_the_page_says) {
     };
     expect("jensen_skin1", {0.457, 0.227, 0.124});
     expect("jensen_skin2", {0.650, 0.454, 0.356});
+}
+
+// Albedo inversion and mean free path of dermis/optics/conversions.h against the walk itself.
+TEST(RandomWalk, a_medium_made_for_a_profile_blurs_as_the_profile_does) {
+    for (const double a : {0.1, 0.3, 0.5, 0.6, 0.8}) {
+        const BurleyProfile burley{.albedo = {a, a, a}, .d_mm = {1, 1, 1}};
+        const Profile profile{.name = "test", .source = {}, .model = burley};
+        const WalkMedium medium = walk_medium(walk_medium_of(profile));
+        std::vector<std::pair<double, double>> exits;  // radius, weight
+        double weights = 0, radii = 0;
+        constexpr int kWalks = 60'000;
+        for (uint32_t i = 0; i < kWalks; ++i) {
+            Pcg32 random(1, i);
+            const Vec3 start = sample_entry_direction({0, 0, 1}, 1, random);
+            const WalkEnd end = random_walk(medium, HalfSpace{}, {}, start, random);
+            if (end.throughput.x <= 0) continue;
+            exits.emplace_back(std::hypot(end.p_mm.x, end.p_mm.y), end.throughput.x);
+            weights += end.throughput.x;
+            radii += end.throughput.x * exits.back().first;
+        }
+        EXPECT_NEAR(weights / kWalks, a, 0.008) << a;
+        EXPECT_NEAR(radii / weights, mean_radius_mm(profile, kRed), 0.08 * mean_radius_mm(profile, kRed))
+            << a;
+        std::ranges::sort(exits);
+        double within = 0, worst = 0;
+        for (const auto& [radius_mm, weight] : exits) {
+            within += weight / weights;
+            worst = std::max(worst, std::abs(within - cdf(profile, kRed, radius_mm)));
+        }
+        EXPECT_LT(worst, 0.03) << a;
+    }
+}
+
+TEST(RandomWalk, a_dipole_walks_its_own_medium_and_a_pure_blur_one_of_middling_albedo) {
+    const ScatteringMedium skin = walk_medium_of(*find_profile("jensen_skin1"));
+    EXPECT_DOUBLE_EQ(skin.eta, 1.3);
+    EXPECT_DOUBLE_EQ(skin.sigma_a_per_mm[0], 0.032);
+    const ScatteringMedium blur = walk_medium_of(*find_profile("gpu_gems_3"));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(multiscatter_albedo(single_scatter_albedo(blur, c), 0), 0.5, 1e-3);
+    EXPECT_LT(mean_free_path_mm(blur, kBlue), mean_free_path_mm(blur, kRed));
 }
 
 TEST(RandomWalk, the_number_of_threads_changes_nothing) {

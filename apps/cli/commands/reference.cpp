@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "dermis/base/file.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
@@ -26,19 +27,43 @@ struct Options {
     std::string output, preview, size = "512x512", profile;
     std::string integrator = "surface", filter = "box", shadows = "key", ambient = "traced", specular = "ggx";
     std::string normalisation = "area", cavities = "flesh", medium;
-    int samples = 64, probes = 16;
+    int samples = 0, probes = 16;  // 0: kSamples, or as many as the noise takes
     uint32_t seed = 1;
     double noise = 0, width_scale = 1;
     float penumbra_mm = 2;
     bool json = false;
 };
 
-// Set by Ctrl-C: the picture so far is written, then the program ends. A second one ends it at once.
+constexpr int kSamples = 64, kMostSamples = 65536;
+// The picture is written, but noisier than asked.
+constexpr int kNoiseMissed = 3;
+
+// Set by Ctrl-C or a request to end: the picture so far is written, then the program ends. A second one ends
+// it at once. The signal, or 0.
+std::atomic<int> g_signal = 0;
 std::atomic<bool> g_stop = false;
 
-extern "C" void stop_on_signal(int) {
+extern "C" void stop_on_signal(int signal) {
+    g_signal = signal;
     g_stop = true;
-    std::signal(SIGINT, SIG_DFL);
+    std::signal(signal, SIG_DFL);
+}
+
+void on_signals(void (*handler)(int)) {
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, handler);
+}
+
+// Before the work rather than after it.
+Result<void> try_outputs(const Options& options) {
+    if (to_lower(std::filesystem::path(options.output).extension().string()) != ".exr")
+        return Error{"-o " + options.output + ": the ground truth is linear and layered; name a .exr file"};
+    if (Result<void> tried = try_output(options.output); !tried) return tried;
+    if (options.preview.empty()) return {};
+    const std::string extension = std::filesystem::path(options.preview).extension().string();
+    if (const auto encoded = encode_image(extension, Image(1, 1, 3, PixelFormat::u8, Encoding::srgb), {});
+        !encoded)
+        return Error{"--preview " + options.preview + ": " + encoded.error().message};
+    return try_output(options.preview);
 }
 
 template <class Enum>
@@ -113,7 +138,8 @@ Result<ScatteringMedium> parse_medium(const std::string& text) {
 }
 
 Result<ReferenceSettings> settings_of(const Options& options) {
-    ReferenceSettings settings{.samples = options.samples,
+    const int samples = options.samples != 0 ? options.samples : options.noise != 0 ? kMostSamples : kSamples;
+    ReferenceSettings settings{.samples = samples,
                                .seed = options.seed,
                                .probes = options.probes,
                                .width_scale = options.width_scale};
@@ -170,6 +196,7 @@ nlohmann::ordered_json description(const Options& options, const ReferenceSettin
             {"width_scale", settings.width_scale},
             {"penumbra_mm", options.penumbra_mm},
             {"relative_error", picture.relative_error},
+            {"noise_reached", picture.reached_noise},
             {"time_ms", picture.time_ms},
             {"stopped", stopped},
             {"warnings", picture.warnings}};
@@ -197,13 +224,12 @@ Result<void> write_preview(const Options& options, const Scene& scene, const Ref
 }
 
 Result<int> run(const Options& options) {
-    if (to_lower(std::filesystem::path(options.output).extension().string()) != ".exr")
-        return Error{"-o " + options.output + ": the ground truth is linear and layered; name a .exr file"};
     const Result<ReferenceSettings> settings = settings_of(options);
     if (!settings) return settings.error();
+    if (Result<void> tried = try_outputs(options); !tried) return tried.error();
     const Result<Scene> scene = scene_of(options);
     if (!scene) return scene.error();
-    std::signal(SIGINT, stop_on_signal);
+    on_signals(stop_on_signal);
     Result<ReferencePicture> picture = [&] {
         constexpr double kSteps = 1000;
         Progress line("ground truth", size_t(kSteps));
@@ -217,7 +243,7 @@ Result<int> run(const Options& options) {
             },
             &g_stop);
     }();
-    std::signal(SIGINT, SIG_DFL);
+    on_signals(SIG_DFL);
     if (!picture) return picture.error();
     picture->warnings.insert(picture->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
     const nlohmann::ordered_json json = description(options, *settings, *picture, g_stop);
@@ -231,7 +257,13 @@ Result<int> run(const Options& options) {
         std::printf("%s: %s%d passes, relative error %.4f, %.1f s%s%s\n", options.output.c_str(),
                     g_stop ? "stopped after " : "", picture->passes, picture->relative_error,
                     picture->time_ms / 1000, scene->credit.empty() ? "" : "\n", scene->credit.c_str());
-    return g_stop ? 130 : 0;
+    if (g_stop) return 128 + g_signal;
+    if (picture->reached_noise) return 0;
+    std::fprintf(stderr,
+                 "dermis: the relative error is %.4f after %d samples a pixel, not the %g of --noise: raise "
+                 "--samples\n",
+                 picture->relative_error, picture->passes, options.noise);
+    return kNoiseMissed;
 }
 
 }  // namespace
@@ -244,15 +276,16 @@ void add_reference_command(CommandLine& line) {
         "dermis reference head_scan -o truth.exr --noise 0.01\n"
         "  dermis reference head_scan --integrator walk --profile jensen_skin1 --samples 256 -o walk.exr\n"
         "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin\n"
-        "  Ctrl-C writes the picture so far and says how noisy it is");
+        "  Ctrl-C (or SIGTERM) writes the picture so far and says how noisy it is\n"
+        "  exit code 3: the picture is written, but --samples ended it before --noise was reached");
     options->scene.add_to(*command)->required();
     command->add_option("-o,--output", options->output, "FILE.exr")->required();
     command->add_option("--preview", options->preview, "FILE.png, tone-mapped as the scene says");
     command->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
     command->add_option("--integrator", options->integrator, "surface, walk or lambert")
         ->capture_default_str();
-    command->add_option("--samples,--spp", options->samples, "samples a pixel, at most")
-        ->capture_default_str();
+    command->add_option("--samples,--spp", options->samples,
+                        "samples a pixel, at most (64; with --noise as many as it takes)");
     command->add_option("--noise", options->noise, "stop at this relative error, such as 0.01");
     command->add_option("--seed", options->seed, "same seed, same picture")->capture_default_str();
     command->add_option("--probes", options->probes, "probes or walks a sample, even")->capture_default_str();
@@ -260,7 +293,8 @@ void add_reference_command(CommandLine& line) {
     command->add_option(
         "--medium", options->medium,
         "walk: \"sigma_s=1,1,1 sigma_a=.1,.1,.1 g=0 eta=1.4\" in 1/mm instead of the profile's");
-    command->add_option("--width-scale", options->width_scale, "stretches the profile; 0 is Lambert")
+    command
+        ->add_option("--width-scale", options->width_scale, "stretches the profile or medium; 0 is Lambert")
         ->capture_default_str();
     command->add_option("--normalisation", options->normalisation, "area, or none")->capture_default_str();
     command

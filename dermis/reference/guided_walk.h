@@ -1,0 +1,74 @@
+#pragma once
+// The random walk with less noise for the same light: flights are drawn towards the boundary that the walk
+// came in by.
+//
+// In a half-space the light that will leave grows towards the boundary as exp(z / nu), nu being the diffusion
+// length in mean free paths. Collisions therefore choose the cosine w to the outward normal with density 1 /
+// (nu - w), and free paths the extinction (1 - w / nu) sigma_t: Krivanek, d'Eon 2014, A Zero-variance-based
+// Sampling Scheme for Monte Carlo Subsurface Scattering (Dwivedi 1982). Every step does so with a fixed
+// chance and else follows the medium, and is weighted by the density of both and of all channels together
+// (Wilkie et al. 2014), which bounds the weight of what runs elsewhere: through an ear, along a wrinkle. No
+// mean changes (tested against random_walk), whatever the shape.
+
+#include "dermis/reference/random_walk.h"
+
+namespace dermis {
+
+struct WalkGuide {
+    Vec3 diffusion_length;  ///< nu of each channel, in mean free paths, > 1
+    Vec3 log_ratio;         ///< log((nu + 1) / (nu - 1)): the integral of 1 / (nu - w)
+    float chance = 0;       ///< of a step to be guided, below 1
+};
+[[nodiscard]] WalkGuide walk_guide(const ScatteringMedium& medium);
+
+/// The largest root of 1 = alpha nu / 2 log((nu + 1) / (nu - 1)), the decay of light in an isotropic medium
+/// of albedo alpha, 0..1; kept within 1.01..100, where the walk needs no exact one.
+[[nodiscard]] double diffusion_length_in_paths(double albedo);
+
+/// A step of the walk: where to, and whether its direction was free to choose (after a collision) or given.
+struct GuidedStep {
+    Vec3 direction;
+    float distance_mm = 0;
+    float phase = 0;  ///< phase function of the direction over 1 / 4 pi; 0 when it was given
+};
+/// `turned`: a collision turns the path now, else `direction` stays.
+[[nodiscard]] GuidedStep sample_guided_step(const WalkMedium& medium, const WalkGuide& guide, Vec3 throughput,
+                                            Vec3 n_out, Vec3 direction, bool turned, Pcg32& random);
+/// Multiplies the throughput by what the step carries over the density with which it is drawn. `collides`: it
+/// ends in the medium, after `distance_mm`; else it reached the boundary there.
+[[nodiscard]] Vec3 guided_weight(const WalkMedium& medium, const WalkGuide& guide, Vec3 throughput,
+                                 const GuidedStep& step, float cosine_out, float distance_mm, bool collides);
+
+/// As random_walk; n_out: outward normal where the walk starts.
+template <class Boundary>
+[[nodiscard]] WalkEnd guided_walk(const WalkMedium& medium, const WalkGuide& guide, Boundary&& boundary,
+                                  Vec3 p_mm, Vec3 n_out, Vec3 direction, Pcg32& random) {
+    WalkEnd path{.throughput = {1, 1, 1}, .p_mm = p_mm, .direction = direction};
+    const WalkEnd absorbed{};
+    bool turned = false;
+    while (path.collisions < kMostCollisions) {
+        const GuidedStep step =
+            sample_guided_step(medium, guide, path.throughput, n_out, path.direction, turned, random);
+        path.direction = step.direction;
+        const std::optional<BoundaryHit> hit = boundary(path.p_mm, path.direction, step.distance_mm);
+        if (hit && dot(hit->n_out, path.direction) <= 0) return {.lost = true};
+        const float distance_mm = hit ? hit->distance_mm : step.distance_mm;
+        path.throughput = guided_weight(medium, guide, path.throughput, step, dot(path.direction, n_out),
+                                        distance_mm, !hit.has_value());
+        path.p_mm += path.direction * distance_mm;
+        turned = !hit.has_value();
+        if (turned) {
+            ++path.collisions;
+            if (!survives_roulette(path.throughput, random)) return absorbed;
+            continue;
+        }
+        const auto reflected = hit->mirror
+                                   ? mirrored(path.direction, hit->n_out)
+                                   : internal_reflection(path.direction, hit->n_out, medium.eta, random);
+        if (!reflected) return path;
+        path.direction = *reflected;
+    }
+    return absorbed;
+}
+
+}  // namespace dermis

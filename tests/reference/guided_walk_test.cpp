@@ -1,0 +1,136 @@
+#include "dermis/reference/guided_walk.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dermis/optics/presets.h"
+
+namespace dermis {
+namespace {
+
+// Between z = -thickness and z = 0.
+struct Slab {
+    float thickness_mm;
+    std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) const {
+        if (direction.z == 0) return std::nullopt;
+        const bool up = direction.z > 0;
+        const float distance_mm =
+            std::max(0.0f, (up ? -p_mm.z : p_mm.z + thickness_mm) / std::abs(direction.z));
+        if (distance_mm > max_mm) return std::nullopt;
+        return BoundaryHit{distance_mm, {0, 0, up ? 1.0f : -1.0f}};
+    }
+};
+
+// Of radius r about (0, 0, -r).
+struct Ball {
+    float radius_mm;
+    std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) const {
+        const Vec3 from = p_mm + Vec3{0, 0, radius_mm};
+        const float b = dot(from, direction), c = dot(from, from) - radius_mm * radius_mm;
+        const float distance_mm = std::max(0.0f, -b + std::sqrt(std::max(0.0f, b * b - c)));
+        if (distance_mm > max_mm) return std::nullopt;
+        return BoundaryHit{distance_mm, normalize(from + direction * distance_mm)};
+    }
+};
+
+ScatteringMedium skin(double eta, double g = 0) {
+    ScatteringMedium medium = std::get<DipoleProfile>(find_profile("jensen_skin1")->model).medium;
+    medium.eta = eta;
+    medium.g = g;
+    for (double& sigma : medium.sigma_s_per_mm) sigma /= 1 - g;
+    return medium;
+}
+
+// What light is measured by: all of it, what leaves far away, what leaves on the other side. Nine numbers.
+struct Measured {
+    double sum[9] = {}, squares[9] = {};
+    int walks = 0;
+
+    void add(const WalkEnd& end) {
+        const double far = std::hypot(end.p_mm.x, end.p_mm.y) > 2, behind = end.p_mm.z < -1;
+        const double carried[3] = {end.throughput.x, end.throughput.y, end.throughput.z};
+        for (int c = 0; c < 3; ++c) {
+            const double values[3] = {carried[c], carried[c] * far, carried[c] * behind};
+            for (int k = 0; k < 3; ++k) {
+                sum[3 * k + c] += values[k];
+                squares[3 * k + c] += values[k] * values[k];
+            }
+        }
+        ++walks;
+    }
+    [[nodiscard]] double mean(int i) const { return sum[i] / walks; }
+    [[nodiscard]] double variance(int i) const { return squares[i] / walks - mean(i) * mean(i); }
+};
+
+template <class Boundary>
+Measured measure(const ScatteringMedium& medium, const Boundary& boundary, bool guided, int walks) {
+    const WalkMedium prepared = walk_medium(medium);
+    const WalkGuide guide = walk_guide(medium);
+    Measured measured;
+    for (int i = 0; i < walks; ++i) {
+        Pcg32 random(guided ? 1 : 2, uint32_t(i));
+        const Vec3 n{0, 0, 1}, start = sample_entry_direction(n, prepared.eta, random);
+        measured.add(guided ? guided_walk(prepared, guide, boundary, {}, n, start, random)
+                            : random_walk(prepared, boundary, {}, start, random));
+    }
+    return measured;
+}
+
+// The plain walk is the judge.
+template <class Boundary>
+void expect_the_same_means(const ScatteringMedium& medium, const Boundary& boundary) {
+    constexpr int kWalks = 80'000;
+    const Measured plain = measure(medium, boundary, false, kWalks),
+                   guided = measure(medium, boundary, true, kWalks);
+    for (int i = 0; i < 9; ++i) {
+        const double error = std::sqrt((plain.variance(i) + guided.variance(i)) / kWalks);
+        EXPECT_LT(std::abs(plain.mean(i) - guided.mean(i)), 4 * error + 1e-6)
+            << "number " << i << ": " << plain.mean(i) << " and " << guided.mean(i) << " +- " << error;
+    }
+}
+
+TEST(GuidedWalk, has_the_means_of_the_plain_walk_in_a_half_space) {
+    for (const double eta : {1.0, 1.3, 1.5}) expect_the_same_means(skin(eta), HalfSpace{});
+}
+
+TEST(GuidedWalk, has_the_means_of_the_plain_walk_through_a_thin_slab) {
+    for (const double eta : {1.0, 1.4}) expect_the_same_means(skin(eta), Slab{1.5f});
+}
+
+TEST(GuidedWalk, has_the_means_of_the_plain_walk_in_a_ball) {
+    for (const double eta : {1.0, 1.3}) expect_the_same_means(skin(eta), Ball{2});
+}
+
+TEST(GuidedWalk, has_the_means_of_the_plain_walk_whatever_the_phase_function) {
+    for (const double g : {-0.5, 0.4, 0.8}) expect_the_same_means(skin(1.3, g), HalfSpace{});
+    expect_the_same_means(skin(1.3, 0.8), Slab{1.5f});
+}
+
+TEST(GuidedWalk, copes_without_scattering_and_without_absorption) {
+    const ScatteringMedium black{.sigma_s_per_mm = {0, 0, 0}, .sigma_a_per_mm = {1, 2, 3}, .g = 0, .eta = 1};
+    EXPECT_EQ(measure(black, HalfSpace{}, true, 1000).mean(0), 0);
+    const ScatteringMedium white{
+        .sigma_s_per_mm = {1, 2, 3}, .sigma_a_per_mm = {0, 0, 0}, .g = 0, .eta = 1.3};
+    const Measured all = measure(white, Ball{2}, true, 20'000);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(all.mean(c), 1, 4 * std::sqrt(all.variance(c) / 20'000) + 1e-3);
+}
+
+TEST(GuidedWalk, a_half_space_of_skin_has_less_than_half_of_the_variance) {
+    const Measured plain = measure(skin(1.3), HalfSpace{}, false, 40'000);
+    const Measured guided = measure(skin(1.3), HalfSpace{}, true, 40'000);
+    EXPECT_LT(guided.variance(0), 0.5 * plain.variance(0));
+    EXPECT_LT(guided.variance(1), 0.3 * plain.variance(1));
+    EXPECT_LT(guided.variance(2), 0.4 * plain.variance(2));
+}
+
+TEST(GuidedWalk, the_diffusion_length_solves_its_equation_and_nears_that_of_diffusion) {
+    for (const double albedo : {0.5, 0.8, 0.99}) {
+        const double nu = diffusion_length_in_paths(albedo);
+        EXPECT_NEAR(albedo * nu / 2 * std::log((nu + 1) / (nu - 1)), 1, 1e-6) << albedo;
+    }
+    EXPECT_NEAR(diffusion_length_in_paths(0.999), 1 / std::sqrt(3 * 0.001), 0.1);
+}
+
+}  // namespace
+}  // namespace dermis
