@@ -4,9 +4,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "dermis/bust/atlas.h"
-#include "dermis/bust/head_mesh.h"
-#include "dermis/bust/maps.h"
+#include "subjects/bust/atlas.h"
+#include "subjects/bust/head_mesh.h"
+#include "subjects/bust/maps.h"
 
 namespace {
 

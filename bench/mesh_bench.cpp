@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "dermis/bust/bust.h"
 #include "dermis/mesh/curvature.h"
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/obj.h"
@@ -13,6 +12,7 @@
 #include "dermis/mesh/subdivide.h"
 #include "dermis/mesh/tangents.h"
 #include "dermis/mesh/uv_report.h"
+#include "subjects/bust/bust.h"
 
 namespace {
 

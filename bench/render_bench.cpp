@@ -11,8 +11,10 @@
 #include <ctime>
 #include <string>
 
+#include "catalog/catalog.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/renderer.h"
+#include "dermis/scene/load_scene.h"
 
 namespace {
 
@@ -40,7 +42,7 @@ struct Run {
 };
 
 Run run_of(const std::string& id, const std::string& parameter = "", const std::string& value = "") {
-    const Technique* technique = *find_technique(id);
+    const Technique* technique = *find_technique(built_in_catalog().techniques, id);
     Run run = {value.empty() ? id : id + " " + value, technique, ParameterValues(technique->parameters)};
     if (!value.empty() && !run.values.set(parameter, value)) std::abort();  // our own list below
     return run;
@@ -49,7 +51,7 @@ Run run_of(const std::string& id, const std::string& parameter = "", const std::
 // Lambert, then every technique (or one), and the variants of the one whose cost is promised.
 std::vector<Run> runs(const std::string& only) {
     std::vector<Run> all = {run_of("lambert")};
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         if (technique.id == "lambert" || (!only.empty() && technique.id != only)) continue;
         all.push_back(run_of(technique.id));
         if (technique.id != "preintegrated") continue;
@@ -103,13 +105,14 @@ int main(int argc, char** argv) {
     const int frames = argc > 2 ? std::max(2, std::atoi(argv[2])) : 8;
     const std::string only = argc > 3 ? argv[3] : "";
     const auto start = Clock::now();
-    Result<Scene> scene = load_scene(name);
+    Result<Scene> scene = load_scene(name, {.subjects = built_in_catalog().subjects});
     if (!scene) return fail(scene.error().message);
     if (const auto completed = complete_scene(*scene); !completed) return fail(completed.error().message);
     const double load_ms = since_ms(start);
     Result<gpu::Device> device = gpu::Device::create({});
     if (!device) return fail(device.error().message);
-    Result<Renderer> renderer = Renderer::create(*device, gpu::embedded_shaders(), *scene);
+    Result<Renderer> renderer =
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), *scene);
     if (!renderer) return fail(renderer.error().message);
     std::printf(
         "%s, 1024x1024, %d frames after the first, on %s\nscene %.0f ms, ready to draw after %.0f ms\n",

@@ -9,10 +9,12 @@
 #include <filesystem>
 #include <string>
 
+#include "catalog/catalog.h"
 #include "dermis/base/file.h"
 #include "dermis/base/progress.h"
 #include "dermis/judge/scoreboard.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/scene/load_scene.h"
 
 namespace {
 
@@ -39,7 +41,7 @@ Result<Comparison> compare(gpu::Device& device, const Scene& scene, int size) {
     ComparisonSettings settings = comparison_settings(size, size);
     Progress line("ground truth of " + scene.name, 0);
     return compare_techniques(
-        device, scene, scoreboard_contestants(), settings,
+        device, built_in_catalog(), scene, scoreboard_contestants(built_in_catalog().techniques), settings,
         {.reference = [&](double done) { line.set(done); },
          .techniques = [&](double done, const std::string& name) { line.set(done, name); }});
 }
@@ -75,7 +77,7 @@ int main(int argc, char** argv) {
     Result<gpu::Device> device = gpu::Device::create({});
     if (!device) return fail(device.error().message);
     for (const std::string& name : names) {
-        Result<Scene> scene = load_scene(name);
+        Result<Scene> scene = load_scene(name, {.subjects = built_in_catalog().subjects});
         Result<void> complete = scene ? complete_scene(*scene) : Result<void>(scene.error());
         if (!complete) {
             std::printf("%s is passed over, its rows stay: %s\n", name.c_str(),

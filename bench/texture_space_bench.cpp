@@ -9,8 +9,10 @@
 #include <cstdlib>
 #include <string>
 
+#include "catalog/catalog.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/renderer.h"
+#include "dermis/scene/load_scene.h"
 
 namespace {
 
@@ -31,7 +33,7 @@ int fail(const std::string& message) {
 
 Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, const std::string& id,
                                                   const Settings& settings, int frames) {
-    const Result<const Technique*> technique = find_technique(id);
+    const Result<const Technique*> technique = find_technique(built_in_catalog().techniques, id);
     if (!technique) return technique.error();
     ParameterValues values((*technique)->parameters);
     for (const auto& [name, text] : settings)
@@ -70,13 +72,14 @@ void print(const std::string& label, const std::vector<gpu::FrameResult>& result
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "head_scan";
     const int frames = argc > 2 ? std::max(2, std::atoi(argv[2])) : 6;
-    Result<Scene> scene = load_scene(name);
-    if (!scene && argc < 2) scene = load_scene("bust");
+    Result<Scene> scene = load_scene(name, {.subjects = built_in_catalog().subjects});
+    if (!scene && argc < 2) scene = load_scene("bust", {.subjects = built_in_catalog().subjects});
     if (!scene) return fail(scene.error().message);
     if (const auto completed = complete_scene(*scene); !completed) return fail(completed.error().message);
     Result<gpu::Device> device = gpu::Device::create({});
     if (!device) return fail(device.error().message);
-    Result<Renderer> renderer = Renderer::create(*device, gpu::embedded_shaders(), *scene);
+    Result<Renderer> renderer =
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), *scene);
     if (!renderer) return fail(renderer.error().message);
 
     const auto lambert = draw_frames(*renderer, "lambert", {}, frames);

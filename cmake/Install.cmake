@@ -1,21 +1,35 @@
-# What `cmake --install` puts in place: the command line, the CPU libraries with their public headers
-# (include/dermis/<folder>/<header>.h), and a package: find_package(dermis CONFIG) gives dermis::bake and the rest.
+# What `cmake --install` puts in place, in two components that `cpack` makes a Debian package of each:
+#   runtime      dermis: the command line with the window and all shaders, the scenes, get_head
+#   development  libdermis-dev: the CPU libraries with their public headers (include/dermis/<folder>/<header>.h), and a
+#                CMake package: find_package(dermis CONFIG) gives dermis::bake and the rest
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+
+# Tests and benchmarks need not be built to install or pack.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+
+set(data_dir ${CMAKE_INSTALL_DATADIR}/dermis)
+install(TARGETS dermis RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${data_dir} COMPONENT runtime FILES_MATCHING PATTERN *.toml)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/get_head DESTINATION ${data_dir} COMPONENT runtime)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/dermis RENAME copyright
+    COMPONENT runtime)
 
 get_property(installed GLOBAL PROPERTY DERMIS_INSTALLED)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dermis)
 foreach(folder ${installed})
-    install(TARGETS dermis_${folder} EXPORT dermis ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(TARGETS dermis_${folder} EXPORT dermis ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
     # Headers in subfolders are a library's own.
     file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/dermis/${folder}/*.h)
-    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dermis/${folder})
+    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dermis/${folder} COMPONENT development)
 endforeach()
-install(EXPORT dermis NAMESPACE dermis:: FILE dermis-targets.cmake DESTINATION ${package_dir})
-install(TARGETS dermis RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(EXPORT dermis NAMESPACE dermis:: FILE dermis-targets.cmake DESTINATION ${package_dir} COMPONENT development)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/dermis-config.cmake.in
     ${PROJECT_BINARY_DIR}/dermis-config.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/dermis-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/dermis-config.cmake ${PROJECT_BINARY_DIR}/dermis-config-version.cmake
-    DESTINATION ${package_dir})
+    DESTINATION ${package_dir} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libdermis-dev RENAME copyright
+    COMPONENT development)
+include(${CMAKE_CURRENT_LIST_DIR}/Package.cmake)

@@ -15,3 +15,16 @@ function(dermis_registry)
     file(CONFIGURE OUTPUT ${arg_OUT} CONTENT
         "#include \"${arg_INCLUDE}\"\n\n${declarations}\n${arg_HEAD}\n${calls}${arg_TAIL}\n" @ONLY)
 endfunction()
+
+# dermis_folders_of(technique.cpp DERMIS_TECHNIQUES): the folders here that have this file, as a global property of that
+# name; `sources` gets their source files without tests.
+macro(dermis_folders_of definition property)
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+    file(GLOB definitions CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*/${definition})
+    foreach(path ${definitions})
+        get_filename_component(folder ${path} DIRECTORY)
+        get_filename_component(name ${folder} NAME)
+        set_property(GLOBAL APPEND PROPERTY ${property} ${name})
+    endforeach()
+endmacro()

@@ -3,7 +3,7 @@
 include_guard()
 find_program(GLSLC glslc REQUIRED)
 
-# dermis_embed_shaders(target): adds the generated table (defines dermis::gpu::shader_table) to `target`.
+# dermis_embed_shaders(target): adds the generated table (defines dermis::built_in_shaders, see catalog/parts.h) to `target`.
 function(dermis_embed_shaders target)
     file(GLOB sources CONFIGURE_DEPENDS
         ${PROJECT_SOURCE_DIR}/shaders/*/*.vert ${PROJECT_SOURCE_DIR}/shaders/*/*.frag
@@ -12,7 +12,7 @@ function(dermis_embed_shaders target)
         ${PROJECT_SOURCE_DIR}/techniques/*/*.comp)
     set(table "")
     set(outputs "")
-    set(out_dir ${PROJECT_BINARY_DIR}/shaders)
+    set(out_dir ${PROJECT_BINARY_DIR}/catalog/shaders)
     foreach(source ${sources})
         get_filename_component(file ${source} NAME)
         get_filename_component(folder ${source} DIRECTORY)
@@ -29,18 +29,16 @@ function(dermis_embed_shaders target)
         string(APPEND table "    {\"${folder}/${file}\", k_${id}},\n")
     endforeach()
     file(CONFIGURE OUTPUT ${out_dir}/table.cpp @ONLY CONTENT
-"#include \"dermis/gpu/shader_table.h\"
+"#include \"catalog/parts.h\"
 
 #include <vector>
 
 ${arrays}
-namespace dermis::gpu {
-std::span<const EmbeddedShader> shader_table() {
-    static const std::vector<EmbeddedShader> kTable = {
+std::span<const dermis::gpu::EmbeddedShader> dermis::built_in_shaders() {
+    static const std::vector<gpu::EmbeddedShader> kTable = {
 ${table}    };
     return kTable;
 }
-}  // namespace dermis::gpu
 ")
     set_property(SOURCE ${out_dir}/table.cpp APPEND PROPERTY OBJECT_DEPENDS "${outputs}")
     target_sources(${target} PRIVATE ${out_dir}/table.cpp)

@@ -46,6 +46,11 @@ Option* Command::add_option(const std::string& names, std::string& value, const 
     return add_any(names, value, help);
 }
 
+Option* Command::add_option(const std::string& names, std::optional<std::string>& value,
+                            const std::string& help) {
+    return add_any(names, value, help);
+}
+
 Option* Command::add_option(const std::string& names, std::vector<std::string>& value,
                             const std::string& help) {
     return add_any(names, value, help);

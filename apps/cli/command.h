@@ -41,6 +41,7 @@ class Command {
   public:
     explicit Command(CLI::App* app) : app_(app) {}
     Option* add_option(const std::string& names, std::string& value, const std::string& help);
+    Option* add_option(const std::string& names, std::optional<std::string>& value, const std::string& help);
     Option* add_option(const std::string& names, std::vector<std::string>& value, const std::string& help);
     Option* add_option(const std::string& names, std::optional<double>& value, const std::string& help);
     Option* add_option(const std::string& names, double& value, const std::string& help);

@@ -1,4 +1,5 @@
 #include "render_options.h"
+#include "catalog/catalog.h"
 
 #include <algorithm>
 
@@ -44,7 +45,8 @@ Result<Prepared> prepare(const RenderOptions& options) {
     if (options.samples != 1 && options.samples != 4)
         return Error{"--samples " + std::to_string(options.samples) + ": 1 or 4"};
     if (!options.technique.empty())
-        if (const auto known = find_technique(options.technique); !known) return known.error();
+        if (const auto known = find_technique(built_in_catalog().techniques, options.technique); !known)
+            return known.error();
 
     Scene as_filed;
     Result<Scene> scene = options.scene.load(&as_filed);
@@ -55,7 +57,7 @@ Result<Prepared> prepare(const RenderOptions& options) {
     const std::string id = !options.technique.empty()  ? options.technique
                            : !scene->technique.empty() ? scene->technique
                                                        : "lambert";
-    const Result<const Technique*> technique = find_technique(id);
+    const Result<const Technique*> technique = find_technique(built_in_catalog().techniques, id);
     if (!technique) return technique.error();
     ParameterValues values((*technique)->parameters);
     if (scenes_own)

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "catalog/catalog.h"
+#include "dermis/scene/load_scene.h"
+
 namespace dermis::cli {
 
 Option* SceneChoice::add_to(Command& command) {
@@ -47,7 +50,8 @@ std::vector<SceneWord> words_for(const std::vector<SceneWord>& words, bool loadi
 Result<Scene> SceneChoice::load(Scene* as_filed) const {
     const Result<std::vector<SceneWord>> all = all_words();
     if (!all) return all.error();
-    Result<Scene> scene = load_scene(name, {.words = words_for(*all, true)});
+    Result<Scene> scene =
+        load_scene(name, {.subjects = built_in_catalog().subjects, .words = words_for(*all, true)});
     if (!scene) return scene;
     if (as_filed) *as_filed = without_objects(*scene);
     if (Result<void> changed = set_words(*scene, words_for(*all, false)); !changed) return changed.error();

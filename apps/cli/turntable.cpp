@@ -1,4 +1,5 @@
 #include "turntable.h"
+#include "catalog/catalog.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,8 @@ Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& 
     Result<gpu::Device> device = gpu::Device::create(
         {.validation = turntable.render.validation, .name_contains = turntable.render.device});
     if (!device) return device.error();
-    Result<Renderer> renderer = Renderer::create(*device, gpu::embedded_shaders(), prepared->scene);
+    Result<Renderer> renderer =
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
     if (!renderer) return renderer.error();
     const OutputSettings output = {.credit = prepared->scene.credit,
                                    .description = prepared->scene.name + ", " + prepared->technique->id};

@@ -9,7 +9,8 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
-#include "dermis/scene/builtin.h"
+#include "dermis/scene/load_scene.h"
+#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_paths.h"
 #include "dermis/scene/scene_words.h"
 
@@ -157,8 +158,8 @@ struct CellRenderer::Stage {
     std::unique_ptr<Renderer> renderer;
 };
 
-CellRenderer::CellRenderer(gpu::Device& device, Options options)
-    : device_(&device), options_(std::move(options)) {}
+CellRenderer::CellRenderer(gpu::Device& device, const Catalog& catalog, Options options)
+    : device_(&device), catalog_(catalog), options_(std::move(options)) {}
 CellRenderer::CellRenderer(CellRenderer&&) noexcept = default;
 CellRenderer::~CellRenderer() = default;
 
@@ -170,7 +171,8 @@ Result<CellRenderer::Stage*> CellRenderer::stage(const Figure& figure, const Fig
     if (const auto found = stages_.find(key); found != stages_.end()) return found->second.get();
     if (stages_.size() >= kStages) stages_.clear();
 
-    Result<Scene> scene = load_figure_scene(name, {.words = options_.loading_words});
+    Result<Scene> scene =
+        load_figure_scene(name, {.subjects = catalog_.subjects, .words = options_.loading_words});
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     if (cell.albedo == CellAlbedo::white) make_white(*scene);
@@ -178,7 +180,8 @@ Result<CellRenderer::Stage*> CellRenderer::stage(const Figure& figure, const Fig
     scene->environment = chosen.environment;
     if (Result<void> set = set_words(*scene, options_.words); !set) return set.error();
     auto made = std::make_unique<Stage>(Stage{.scene = std::move(*scene), .remark = chosen.remark});
-    Result<Renderer> renderer = Renderer::create(*device_, gpu::embedded_shaders(), made->scene);
+    Result<Renderer> renderer =
+        Renderer::create(*device_, gpu::embedded_shaders(catalog_.shaders), made->scene);
     if (!renderer) return renderer.error();
     made->renderer = std::make_unique<Renderer>(std::move(*renderer));
     return stages_.emplace(key, std::move(made)).first->second.get();
@@ -224,7 +227,7 @@ Result<CellPicture> CellRenderer::draw(const Figure& figure, const FigureCell& c
     const auto within = [&](const std::string& message) {
         return Error{"figure '" + figure.id + "', cell '" + cell.label + "': " + message};
     };
-    const Result<const Technique*> technique = find_technique(id);
+    const Result<const Technique*> technique = find_technique(catalog_.techniques, id);
     if (!technique) return within(technique.error().message);
     ParameterValues values((*technique)->parameters);
     for (const auto& [name, text] : cell.settings)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "dermis/render/catalog.h"
 #include "dermis/render/renderer.h"
 #include "dermis/technique/figure.h"
 
@@ -32,7 +33,8 @@ class CellRenderer {
         /// camera and light come after them.
         std::vector<SceneWord> loading_words = {}, words = {};
     };
-    CellRenderer(gpu::Device& device, Options options);
+    /// `device` and what `catalog` shows must outlive it.
+    CellRenderer(gpu::Device& device, const Catalog& catalog, Options options);
     CellRenderer(CellRenderer&&) noexcept;
     ~CellRenderer();
 
@@ -46,6 +48,7 @@ class CellRenderer {
                                    const FigureCell& cell, Stage& stage, CellSize size);
 
     gpu::Device* device_;
+    Catalog catalog_;
     Options options_;
     std::map<std::string, std::unique_ptr<Stage>> stages_;
 };

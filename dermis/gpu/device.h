@@ -23,6 +23,7 @@ struct DeviceOptions {
 
 struct DeviceInfo {
     std::string name, driver;
+    std::string vulkan;  ///< the version it supports: "1.3.230"
     bool is_cpu = false;
     std::vector<int> sample_counts;  ///< 1, 2, 4, ...
     std::string missing;             ///< what it lacks to run dermis; empty: it can

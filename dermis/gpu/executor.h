@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,8 +74,13 @@ struct Footprint {
 /// SPIR-V by name ("folder/name.frag"): the embedded library, or compiled from disk for hot reload.
 using ShaderSource = std::function<Result<std::vector<uint32_t>>(std::string_view name)>;
 
-/// The shaders that CMake compiled into the program.
-[[nodiscard]] ShaderSource embedded_shaders();
+/// A shader that the build compiled into the program (cmake/Shaders.cmake).
+struct EmbeddedShader {
+    std::string_view name;  ///< "folder/file.stage"
+    std::span<const uint32_t> words;
+};
+/// `shaders` must outlive the source. Error: an unknown name.
+[[nodiscard]] ShaderSource embedded_shaders(std::span<const EmbeddedShader> shaders);
 
 /// Compiles root/shaders/NAME or root/techniques/NAME on every call by running glslc (about 0.15 s a shader).
 /// Errors: no such file, no glslc, or what the compiler says, with file and line.

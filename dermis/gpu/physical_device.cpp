@@ -82,6 +82,10 @@ void describe(PhysicalDevice& device) {
     device.sample_counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
     device.info.name = all.properties.deviceName;
     device.info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    const uint32_t version = all.properties.apiVersion;
+    device.info.vulkan = std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+                         std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+                         std::to_string(VK_API_VERSION_PATCH(version));
     device.info.is_cpu = all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     for (int count = 1; count <= 64; count *= 2)
         if (device.sample_counts & uint32_t(count)) device.info.sample_counts.push_back(count);

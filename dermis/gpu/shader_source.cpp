@@ -8,7 +8,6 @@
 #include "dermis/base/process.h"
 #include "dermis/base/text.h"
 #include "dermis/gpu/executor.h"
-#include "dermis/gpu/shader_table.h"
 
 namespace dermis::gpu {
 namespace fs = std::filesystem;
@@ -77,10 +76,10 @@ Result<std::vector<uint32_t>> compile(const fs::path& root, std::string_view nam
 
 }  // namespace
 
-ShaderSource embedded_shaders() {
-    return [](std::string_view name) -> Result<std::vector<uint32_t>> {
+ShaderSource embedded_shaders(std::span<const EmbeddedShader> shaders) {
+    return [shaders](std::string_view name) -> Result<std::vector<uint32_t>> {
         std::vector<std::string> names;
-        for (const EmbeddedShader& shader : shader_table()) {
+        for (const EmbeddedShader& shader : shaders) {
             if (shader.name == name) return std::vector<uint32_t>(shader.words.begin(), shader.words.end());
             names.emplace_back(shader.name);
         }

@@ -65,10 +65,10 @@ double noise_rmse(const EffectTruth& truth, const Image& mask) {
 }
 
 // Drawing and timing in one renderer: pictures first, then the costs in rounds.
-Result<void> draw_techniques(Renderer& renderer, const Scene& scene,
+Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const Scene& scene,
                              const std::vector<Contestant>& contestants, const ComparisonSettings& settings,
                              const ComparisonHooks& hooks, Comparison& comparison) {
-    const Result<const Technique*> lambert = find_technique("lambert");
+    const Result<const Technique*> lambert = find_technique(catalog.techniques, "lambert");
     if (!lambert) return lambert.error();
     PictureMaker maker(renderer, **lambert,
                        {.width = settings.width,
@@ -109,13 +109,13 @@ ComparisonSettings comparison_settings(int width, int height) {
     return settings;
 }
 
-Result<Comparison> compare_techniques(gpu::Device& device, const Scene& scene,
+Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalog, const Scene& scene,
                                       const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings, const ComparisonHooks& hooks) {
     if (contestants.empty()) return Error{"no technique to compare"};
     if (Result<void> good = check_grid(settings); !good) return good.error();
     // First, as it says at once what it cannot do.
-    Result<Renderer> renderer = Renderer::create(device, gpu::embedded_shaders(), scene);
+    Result<Renderer> renderer = Renderer::create(device, gpu::embedded_shaders(catalog.shaders), scene);
     if (!renderer) return renderer.error();
     Comparison comparison{.device = device.info().name};
     Result<EffectTruth> truth =
@@ -123,7 +123,8 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Scene& scene,
     if (!truth) return truth.error();
     comparison.truth = std::move(*truth);
     comparison.truth_radiance = comparison.truth.radiance();
-    if (Result<void> drawn = draw_techniques(*renderer, scene, contestants, settings, hooks, comparison);
+    if (Result<void> drawn =
+            draw_techniques(*renderer, catalog, scene, contestants, settings, hooks, comparison);
         !drawn)
         return drawn.error();
     comparison.reference_rmse = noise_rmse(comparison.truth, comparison.masks.skin);

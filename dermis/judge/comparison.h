@@ -17,6 +17,7 @@
 #include "dermis/judge/scores.h"
 #include "dermis/judge/technique_cost.h"
 #include "dermis/judge/technique_list.h"
+#include "dermis/render/catalog.h"
 
 namespace dermis {
 
@@ -65,7 +66,8 @@ struct ComparisonHooks {
 
 /// The scene must be complete (complete_scene). `lambert` is the technique without scattering, which every
 /// effect is measured from. Errors: whatever make_effect_truth and Renderer say, no skin in sight.
-[[nodiscard]] Result<Comparison> compare_techniques(gpu::Device& device, const Scene& scene,
+[[nodiscard]] Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalog,
+                                                    const Scene& scene,
                                                     const std::vector<Contestant>& contestants,
                                                     const ComparisonSettings& settings,
                                                     const ComparisonHooks& hooks = {});

@@ -93,9 +93,9 @@ PlotPanel plot_panel(const std::string& scene, const std::vector<ScoreRow>& own)
 
 }  // namespace
 
-std::vector<Contestant> scoreboard_contestants() {
-    std::vector<Contestant> list = default_contestants();
-    const Result<std::vector<Contestant>> more = parse_technique_list(kSettings);
+std::vector<Contestant> scoreboard_contestants(std::span<const Technique> techniques) {
+    std::vector<Contestant> list = default_contestants(techniques);
+    const Result<std::vector<Contestant>> more = parse_technique_list(techniques, kSettings);
     assert(more && "kSettings names what a technique does not have");
     if (more) list.insert(list.end(), more->begin(), more->end());
     return list;

@@ -10,7 +10,7 @@
 namespace dermis {
 
 /// Every technique with its defaults, and the settings whose difference is worth knowing; lambert first.
-[[nodiscard]] std::vector<Contestant> scoreboard_contestants();
+[[nodiscard]] std::vector<Contestant> scoreboard_contestants(std::span<const Technique> techniques);
 
 /// Rows of scenes that `made` holds are replaced, all others stay.
 [[nodiscard]] std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<ScoreRow>& made);

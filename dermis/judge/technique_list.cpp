@@ -40,12 +40,12 @@ std::vector<std::string> split_settings(std::string_view text) {
     return settings;
 }
 
-Result<Contestant> parse_entry(std::string_view entry) {
+Result<Contestant> parse_entry(std::span<const Technique> techniques, std::string_view entry) {
     if (entry.empty()) return Error{"--techniques: an entry is empty; write technique,technique[name=value]"};
     const size_t bracket = entry.find('[');
     if (bracket != std::string_view::npos && entry.back() != ']')
         return Error{"--techniques '" + std::string(entry) + "': nothing may follow the bracket"};
-    const Result<const Technique*> technique = find_technique(trim(entry.substr(0, bracket)));
+    const Result<const Technique*> technique = find_technique(techniques, trim(entry.substr(0, bracket)));
     if (!technique) return technique.error();
     Contestant contestant{.technique = *technique, .values = ParameterValues((*technique)->parameters)};
     if (bracket == std::string_view::npos) return contestant;
@@ -76,12 +76,13 @@ std::string Contestant::name() const {
     return settings.empty() ? technique->id : technique->id + "[" + settings + "]";
 }
 
-Result<std::vector<Contestant>> parse_technique_list(std::string_view text) {
+Result<std::vector<Contestant>> parse_technique_list(std::span<const Technique> techniques,
+                                                     std::string_view text) {
     const Result<std::vector<std::string_view>> entries = split_entries(text);
     if (!entries) return entries.error();
     std::vector<Contestant> list;
     for (const std::string_view entry : *entries) {
-        Result<Contestant> contestant = parse_entry(entry);
+        Result<Contestant> contestant = parse_entry(techniques, entry);
         if (!contestant) return contestant.error();
         for (const Contestant& other : list)
             if (same_values(other, *contestant))
@@ -92,9 +93,9 @@ Result<std::vector<Contestant>> parse_technique_list(std::string_view text) {
     return list;
 }
 
-std::vector<Contestant> default_contestants() {
+std::vector<Contestant> default_contestants(std::span<const Technique> techniques) {
     std::vector<Contestant> list;
-    for (const Technique& technique : all_techniques())
+    for (const Technique& technique : techniques)
         list.push_back({.technique = &technique, .values = ParameterValues(technique.parameters)});
     std::stable_partition(list.begin(), list.end(),
                           [](const Contestant& c) { return c.technique->id == "lambert"; });

@@ -1,6 +1,7 @@
 #pragma once
 // Which techniques to hold against each other, and how each is set: "lambert,wrap[wrap=0.4],preintegrated".
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,9 +24,10 @@ struct Contestant {
 /// numbers belongs to a colour, as in wrap[scatter_color_linear=.07,.01,.006]. Errors name the entry: an
 /// unknown technique or parameter, a value out of range, a missing bracket, an entry that stands twice, an
 /// empty list.
-[[nodiscard]] Result<std::vector<Contestant>> parse_technique_list(std::string_view text);
+[[nodiscard]] Result<std::vector<Contestant>> parse_technique_list(std::span<const Technique> techniques,
+                                                                   std::string_view text);
 
 /// Every technique with its defaults, lambert first.
-[[nodiscard]] std::vector<Contestant> default_contestants();
+[[nodiscard]] std::vector<Contestant> default_contestants(std::span<const Technique> techniques);
 
 }  // namespace dermis

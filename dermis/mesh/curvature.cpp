@@ -5,9 +5,10 @@
 
 #include "dermis/mesh/curvature.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 #include <queue>
 
 #include "dermis/base/parallel.h"
@@ -17,8 +18,8 @@ namespace dermis {
 namespace {
 
 constexpr size_t kMaxNeighbours = 1500;
-constexpr size_t kTerms = 6;
-using Row = std::array<double, kTerms>;
+constexpr int kTerms = 6;
+using Terms = Eigen::Matrix<double, kTerms, 1>;
 
 struct Graph {
     std::vector<uint32_t> first, neighbours;  // of position i: neighbours[first[i] .. first[i + 1])
@@ -141,30 +142,13 @@ class Walker {
     std::vector<Neighbour> found_;
 };
 
-// Solves the symmetric system in place by Cholesky with a relative floor; false when the points do not
-// determine the surface.
-bool solve(std::array<Row, kTerms>& m, Row& rhs) {
-    for (size_t i = 0; i < kTerms; ++i) {
-        for (size_t j = 0; j <= i; ++j) {
-            double sum = m[i][j];
-            for (size_t k = 0; k < j; ++k) sum -= m[i][k] * m[j][k];
-            if (i == j) {
-                if (!(sum > 1e-10 * m[i][i])) return false;
-                m[i][i] = std::sqrt(sum);
-            } else {
-                m[i][j] = sum / m[j][j];
-            }
-        }
-    }
-    for (size_t i = 0; i < kTerms; ++i) {
-        for (size_t k = 0; k < i; ++k) rhs[i] -= m[i][k] * rhs[k];
-        rhs[i] /= m[i][i];
-    }
-    for (size_t i = kTerms; i-- > 0;) {
-        for (size_t k = i + 1; k < kTerms; ++k) rhs[i] -= m[k][i] * rhs[k];
-        rhs[i] /= m[i][i];
-    }
-    return true;
+// Nothing when the points do not determine the surface: a pivot of Cholesky's factor is close to 0.
+std::optional<Terms> solve(const Eigen::Matrix<double, kTerms, kTerms>& lower, const Terms& rhs) {
+    const Eigen::LLT<Eigen::Matrix<double, kTerms, kTerms>> factor(lower);
+    if (factor.info() != Eigen::Success) return std::nullopt;
+    const Terms pivots = factor.matrixLLT().diagonal().array().square();
+    if (!(pivots.array() > 1e-10 * lower.diagonal().array()).all()) return std::nullopt;
+    return factor.solve(rhs);
 }
 
 // H of the graph of z(x, y), positive where it bends away from the normal.
@@ -182,27 +166,29 @@ float fit_at(const Surface& surface, uint32_t centre, std::span<const Neighbour>
     for (const Neighbour& other : neighbours)
         scale = std::max(scale, double(length(surface.positions[other.position] - origin)));
     if (scale == 0) return 0;
-    std::array<Row, kTerms> normal_matrix{};
-    Row rhs{};
+    Eigen::Matrix<double, kTerms, kTerms> normal_matrix;
+    normal_matrix.setZero();
+    Terms rhs = Terms::Zero();
     for (const Neighbour& other : neighbours) {
         const Vec3 p = surface.positions[other.position] - origin;
         const double x = dot(p, x_axis) / scale, y = dot(p, y_axis) / scale, z = dot(p, n) / scale;
         // Unsmoothed, the foot itself counts most, so that the fit passes near it.
         const double t = other.distance_mm / (sigma_mm > 0 ? sigma_mm : 0.7 * scale);
         const double weight = std::exp(-t * t / 2) * (sigma_mm > 0 ? surface.areas[other.position] : 1);
-        const Row terms = {1, x, y, (x * x + z * z / 2) / 2, x * y, (y * y + z * z / 2) / 2};
-        for (size_t i = 0; i < kTerms; ++i) {
-            for (size_t j = 0; j <= i; ++j) normal_matrix[i][j] += weight * terms[i] * terms[j];
-            rhs[i] += weight * terms[i] * z;
-        }
+        Terms terms;
+        terms << 1, x, y, (x * x + z * z / 2) / 2, x * y, (y * y + z * z / 2) / 2;
+        normal_matrix.selfadjointView<Eigen::Lower>().rankUpdate(terms, weight);
+        rhs += weight * z * terms;
     }
-    if (!solve(normal_matrix, rhs)) return 0;
-    // Implicit derivatives at the foot, where z = rhs[0].
-    const double s = (rhs[3] + rhs[5]) / 2, m = 1 - s * rhs[0];
-    const double zx = rhs[1] / m, zy = rhs[2] / m;
-    const double curvature = mean_curvature(zx, zy, (rhs[3] + s * zx * zx) / m, (rhs[4] + s * zx * zy) / m,
-                                            (rhs[5] + s * zy * zy) / m) /
-                             scale;
+    const std::optional<Terms> solved = solve(normal_matrix, rhs);
+    if (!solved) return 0;
+    // Implicit derivatives at the foot, where z = c[0].
+    const Terms& c = *solved;
+    const double s = (c[3] + c[5]) / 2, m = 1 - s * c[0];
+    const double zx = c[1] / m, zy = c[2] / m;
+    const double curvature =
+        mean_curvature(zx, zy, (c[3] + s * zx * zx) / m, (c[4] + s * zx * zy) / m, (c[5] + s * zy * zy) / m) /
+        scale;
     return std::isfinite(curvature) ? float(curvature) : 0.0f;
 }
 

@@ -129,7 +129,7 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     const int shadow_size = settings.shadow_map_size;
     const ImageFormat radiance_format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba16f;
 
-    PassList list{.seams = technique.seams};
+    PassList list{.seams = technique.seams, .needed_maps = technique.needed_maps};
     list.images = {
         {.name = "shadow_map", .format = ImageFormat::depth32f, .size = {shadow_size, shadow_size}},
         {.name = "radiance", .format = radiance_format, .samples = settings.samples},

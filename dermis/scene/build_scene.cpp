@@ -8,9 +8,9 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
-#include "dermis/scene/builtin.h"
 #include "dermis/scene/displacement.h"
 #include "dermis/scene/place_mesh.h"
+#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_paths.h"
@@ -20,14 +20,12 @@ namespace dermis {
 namespace fs = std::filesystem;
 namespace {
 
-
-Result<std::vector<SceneObject>> load_objects(const SceneDescription& description,
-                                              const MeshDescription& mesh, Scene& scene) {
-    if (mesh.file.text.starts_with(kBuiltinPrefix)) {
-        auto objects =
-            make_builtin_objects(std::string_view(mesh.file.text).substr(kBuiltinPrefix.size()), mesh.bust);
-        if (!objects) return error_at(description, mesh.file, objects.error().message);
-        return objects;
+Result<SubjectScene> load_objects(const SceneDescription& description, const MeshDescription& mesh,
+                                  std::span<const Subject> subjects, Scene& scene) {
+    if (const auto subject = subject_name(mesh.file.text)) {
+        Result<SubjectScene> made = make_subject(subjects, *subject, mesh.parameters);
+        if (!made) return error_at(description, mesh.file, made.error().message);
+        return made;
     }
     const Result<fs::path> path = resolve_file(description, mesh.file);
     if (!path) return path.error();
@@ -39,10 +37,10 @@ Result<std::vector<SceneObject>> load_objects(const SceneDescription& descriptio
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());
-    std::vector<SceneObject> objects(1);
-    objects[0] = {.name = mesh.name.empty() ? path->stem().string() : mesh.name,
-                  .mesh = std::move(loaded->mesh)};
-    return objects;
+    SubjectScene made;
+    made.objects.push_back(
+        {.name = mesh.name.empty() ? path->stem().string() : mesh.name, .mesh = std::move(loaded->mesh)});
+    return made;
 }
 
 // Each map of the description, and where it goes in a material.
@@ -137,10 +135,12 @@ Result<void> apply_material(const SceneDescription& description, const MaterialD
     return {};
 }
 
-Result<void> add_objects(const SceneDescription& description, const MeshDescription& mesh, Scene& scene) {
-    Result<std::vector<SceneObject>> objects = load_objects(description, mesh, scene);
-    if (!objects) return objects.error();
-    for (SceneObject& object : *objects) {
+// The objects go to the scene; what else a subject states is returned.
+Result<SubjectScene> add_objects(const SceneDescription& description, const MeshDescription& mesh,
+                                 std::span<const Subject> subjects, Scene& scene) {
+    Result<SubjectScene> made = load_objects(description, mesh, subjects, scene);
+    if (!made) return made.error();
+    for (SceneObject& object : made->objects) {
         place_mesh(object.mesh, {.scale = mesh.scale,
                                  .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
                                  .translation_mm = mesh.translate_mm});
@@ -161,13 +161,15 @@ Result<void> add_objects(const SceneDescription& description, const MeshDescript
             if (const Result<void> applied =
                     apply_material(description, given, object.classes.back(), material);
                 !applied)
-                return applied;
+                return applied.error();
         }
-        if (const Result<void> displaced = apply_displacement(object.mesh); !displaced) return displaced;
+        if (const Result<void> displaced = apply_displacement(object.mesh); !displaced)
+            return displaced.error();
         hide_materials(object.mesh, hidden);
         scene.objects.push_back(std::move(object));
     }
-    return {};
+    made->objects.clear();
+    return made;
 }
 
 // A [material.NAME] that no mesh has is a mistake, most often in the name.
@@ -194,16 +196,24 @@ bool lacks_asset(const SceneDescription& description) {
                                [&](const MapRow& row) { return lacks(description.maps.*row.from); });
 }
 
-Result<Scene> build_scene(const SceneDescription& description) {
+Result<Scene> build_scene(const SceneDescription& description, std::span<const Subject> subjects) {
     const HeadDescription& head = description.head;
     Scene scene{.name = head.name.empty() ? description.file.stem().string() : head.name};
-    for (const MeshDescription& mesh : description.meshes)
-        if (const Result<void> added = add_objects(description, mesh, scene); !added) return added.error();
+    SubjectScene stated;
+    for (const MeshDescription& mesh : description.meshes) {
+        Result<SubjectScene> added = add_objects(description, mesh, subjects, scene);
+        if (!added) return added.error();
+        if (added->states_anything()) stated = std::move(*added);
+    }
     if (const Result<void> checked = check_material_names(description, scene); !checked)
         return checked.error();
 
     compute_bounds(scene);
     if (const Result<void> placed = place_views(description, scene); !placed) return placed.error();
+    if (description.camera.line > 0) stated.camera.reset();
+    if (!description.lights.empty()) stated.lights.clear();
+    if (description.environment) stated.environment.reset();
+    apply_statements(stated, scene);
     if (!scene.skin.diffuse_table.empty()) {
         const Result<fs::path> table = resolve_path(scene.skin.diffuse_table, description.file);
         if (!table)

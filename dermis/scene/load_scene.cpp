@@ -1,9 +1,11 @@
+#include "dermis/scene/load_scene.h"
+
 #include <algorithm>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
-#include "dermis/scene/builtin.h"
+#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_paths.h"
 #include "dermis/scene/scene_words.h"
@@ -12,44 +14,46 @@ namespace dermis {
 namespace fs = std::filesystem;
 namespace {
 
-Result<Scene> load_builtin(std::string_view name) {
-    Result<std::vector<SceneObject>> objects = make_builtin_objects(name);
-    if (!objects) return objects.error();
-    Scene scene{.name = std::string(name), .objects = std::move(*objects)};
+Result<Scene> load_subject(std::string_view name, std::span<const Subject> subjects) {
+    Result<SubjectScene> made = make_subject(subjects, name);
+    if (!made) return made.error();
+    Scene scene{.name = std::string(name), .objects = std::move(made->objects)};
     place_in_studio(scene);
+    if (!made->lights.empty()) scene.exposure_ev = 0;
+    apply_statements(*made, scene);
     return scene;
 }
 
-Result<SceneDescription> read_description(const fs::path& path, std::span<const SceneWord> words) {
+Result<SceneDescription> read_description(const fs::path& path, const SceneOptions& options) {
     const Result<std::string> text = read_text_file(path);
     if (!text) return text.error();
-    Result<SceneDescription> description = parse_scene(*text, path);
-    if (!description || words.empty()) return description;
-    for (const SceneWord& word : words)
-        if (Result<void> set = set_word(*description, word); !set) return set.error();
+    Result<SceneDescription> description = parse_scene(*text, path, options.subjects);
+    if (!description || options.words.empty()) return description;
+    for (const SceneWord& word : options.words)
+        if (Result<void> set = set_word(*description, word, options.subjects); !set) return set.error();
     if (Result<void> checked = check_scene(*description); !checked) return checked.error();
     return description;
 }
 
 // Only a scene file has these keys; a wrong one is told all the same.
-Result<void> refuse_words(const std::string& name, std::span<const SceneWord> words) {
-    if (words.empty()) return {};
-    SceneDescription any{.meshes = {{}}};
-    if (Result<void> set = set_word(any, words[0]); !set) return set;
-    return Error{words[0].key + ": read while a scene file is loaded, and " + name +
+Result<void> refuse_words(const std::string& name, const SceneOptions& options) {
+    if (options.words.empty()) return {};
+    SceneDescription any{.meshes = {{.file = {.text = name}}}};
+    if (Result<void> set = set_word(any, options.words[0], options.subjects); !set) return set;
+    return Error{options.words[0].key + ": read while a scene file is loaded, and " + name +
                  " is none; write a scene file with [[mesh]] file = \"" + name + "\""};
 }
 
-Result<Scene> load_scene_file(const fs::path& path, std::span<const SceneWord> words) {
-    const Result<SceneDescription> description = read_description(path, words);
+Result<Scene> load_scene_file(const fs::path& path, const SceneOptions& options) {
+    const Result<SceneDescription> description = read_description(path, options);
     if (!description) return description.error();
-    Result<Scene> scene = build_scene(*description);
+    Result<Scene> scene = build_scene(*description, options.subjects);
     if (scene) scene->files.push_back(path);
     if (scene || description->head.without_assets.empty() || !lacks_asset(*description)) return scene;
 
     const Result<SceneDescription> other =
-        read_description(path.parent_path() / (description->head.without_assets + ".toml"), words);
-    Result<Scene> instead = other ? build_scene(*other) : other.error();
+        read_description(path.parent_path() / (description->head.without_assets + ".toml"), options);
+    Result<Scene> instead = other ? build_scene(*other, options.subjects) : other.error();
     if (!instead) return scene;
     instead->files.push_back(path);
     instead->warnings.insert(instead->warnings.begin(), scene.error().message + "; drawing scene '" +
@@ -96,21 +100,20 @@ bool looks_like_a_name(std::string_view text) {
 
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
     const bool is_mesh_file = is_mesh(path_or_name);
-    if (path_or_name.starts_with(kBuiltinPrefix) || is_mesh_file)
-        if (Result<void> refused = refuse_words(path_or_name, options.words); !refused)
-            return refused.error();
-    if (path_or_name.starts_with(kBuiltinPrefix))
-        return load_builtin(std::string_view(path_or_name).substr(kBuiltinPrefix.size()));
+    const auto subject = subject_name(path_or_name);
+    if (subject || is_mesh_file)
+        if (Result<void> refused = refuse_words(path_or_name, options); !refused) return refused.error();
+    if (subject) return load_subject(*subject, options.subjects);
     const fs::path path = path_or_name;
     std::error_code ec;
     if (looks_like_a_name(path_or_name) && !fs::is_regular_file(path, ec)) {
         if (const fs::path file = find_scene(path_or_name); !file.empty())
-            return load_scene_file(file, options.words);
+            return load_scene_file(file, options);
         return Error{unknown_name("scene", path_or_name, scene_names()) +
                      ", or a .toml, .obj, .gltf or .glb file"};
     }
     if (is_mesh_file) return load_mesh_file(path, options);
-    if (to_lower(path.extension().string()) == ".toml") return load_scene_file(path, options.words);
+    if (to_lower(path.extension().string()) == ".toml") return load_scene_file(path, options);
     return Error{path_or_name + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)"};
 }
 

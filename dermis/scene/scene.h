@@ -115,13 +115,4 @@ struct SceneWord {
     friend bool operator==(const SceneWord&, const SceneWord&) = default;
 };
 
-struct SceneOptions {
-    std::optional<float> mesh_unit_mm;  ///< of a bare mesh file; a scene file states its own
-    std::vector<SceneWord> words;       ///< set before anything is loaded; each is_loading_key()
-};
-
-/// A scene file, a mesh file (placed in the default studio), "builtin:NAME", or the name of a file of scenes/
-/// ("head_scan"). Errors name file, line and key; see docs/scene_file.md.
-[[nodiscard]] Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options = {});
-
 }  // namespace dermis

@@ -31,13 +31,9 @@ Result<void> check_light(const SceneDescription& scene, const LightDescription& 
     return {};
 }
 
-// What only a built-in mesh has, and what it is made with already.
+// What a subject is made with already.
 Result<void> check_mesh(const SceneDescription& scene, const MeshDescription& mesh) {
-    if (!mesh.bust_key.empty() && mesh.file.text != "builtin:bust")
-        return error_at(
-            scene, mesh.bust_line,
-            mesh.bust_key + ": only builtin:bust has it, not " + mesh.file.text + "; leave it out");
-    if (!mesh.file.text.starts_with("builtin:")) return {};
+    if (!subject_name(mesh.file.text)) return {};
     if (mesh.subdivision > 0)
         return error_at(scene, mesh.line,
                         "mesh.subdivision: " + mesh.file.text + " is made as fine as it needs; leave it out");

@@ -8,8 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dermis/bust/params.h"
-#include "dermis/scene/scene.h"
+#include "dermis/scene/subject.h"
 
 namespace dermis {
 
@@ -48,9 +47,7 @@ struct MeshDescription {
     Vec3 rotate_deg, translate_mm;
     int subdivision = 0;
     MaterialClass default_class = MaterialClass::skin;
-    BustParams bust;       ///< of builtin:bust
-    std::string bust_key;  ///< the last of its parameters that was given ("mesh.tone"), or empty
-    int bust_line = 0;
+    std::map<std::string, std::string> parameters;  ///< of the subject that `file` names, as text
 };
 
 /// Either a position, or a yaw and pitch (and a distance, unless directional) around a target.
@@ -109,16 +106,18 @@ inline constexpr size_t kMaxSceneBytes = size_t{1} << 20;
 
 /// TOML text; no file is touched. Errors are "FILE:LINE: ..." and name the key and what would be right:
 /// syntax, unknown keys and sections, wrong types, values out of range, keys that exclude one another, no
-/// mesh, not exactly one key light.
-[[nodiscard]] Result<SceneDescription> parse_scene(std::string_view toml, const std::filesystem::path& file);
+/// mesh, not exactly one key light. `subjects` are those whose parameters a [[mesh]] may have.
+[[nodiscard]] Result<SceneDescription> parse_scene(std::string_view toml, const std::filesystem::path& file,
+                                                   std::span<const Subject> subjects);
 
 /// Loads everything the description names. Errors name the line that named the file.
-[[nodiscard]] Result<Scene> build_scene(const SceneDescription& description);
+[[nodiscard]] Result<Scene> build_scene(const SceneDescription& description,
+                                        std::span<const Subject> subjects);
 
 /// Whether a mesh or a map of [maps] is an asset that is nowhere.
 [[nodiscard]] bool lacks_asset(const SceneDescription& description);
 
 /// The manual page of the scene file, in Markdown, out of the tables that parse it.
-[[nodiscard]] std::string scene_file_manual();
+[[nodiscard]] std::string scene_file_manual(std::span<const Subject> subjects);
 
 }  // namespace dermis

@@ -41,10 +41,23 @@ Result<void> read_table(const TomlNode& root, const std::string& name, const Key
     return read_section(*table, path, keys, target, place);
 }
 
+// Its own keys first: `file` says whose parameters the others are.
+Result<void> read_mesh(const TomlNode& section, std::span<const Subject> subjects, MeshDescription& mesh,
+                       const TomlPlace& place) {
+    for (const bool own : {true, false})
+        for (const TomlEntry& entry : section.entries) {
+            if ((mesh_keys().find(entry.key) != nullptr) != own) continue;
+            const auto value = [&](const KeyInfo&) -> const TomlNode& { return entry.value; };
+            const Result<void> set = set_mesh_key(mesh, entry.key, subjects, place.at(entry.line), value);
+            if (!set) return set;
+        }
+    return {};
+}
+
 // [name] once or [[name]] any number of times.
-template <class Target>
-Result<void> read_tables(const TomlNode& root, const std::string& name, const KeyTable<Target>& keys,
-                         std::vector<Target>& targets, const TomlPlace& place) {
+template <class Target, class Read>
+Result<void> read_tables(const TomlNode& root, const std::string& name, std::vector<Target>& targets,
+                         const TomlPlace& place, const Read& read_one) {
     const TomlNode* node = root.find(name);
     if (!node) return {};
     const std::span<const TomlNode> tables =
@@ -53,7 +66,7 @@ Result<void> read_tables(const TomlNode& root, const std::string& name, const Ke
         if (table.kind != TomlKind::table) return no_table(table, name, "[[" + name + "]]", place);
         Target& target = targets.emplace_back();
         target.line = table.line;
-        if (const Result<void> read = read_section(table, name, keys, target, place); !read) return read;
+        if (const Result<void> read = read_one(table, target); !read) return read;
     }
     return {};
 }
@@ -89,15 +102,24 @@ Result<void> read_settings(const TomlNode& root, SceneDescription& scene, const 
     return {};
 }
 
-Result<void> read_root(const TomlNode& root, SceneDescription& scene, const TomlPlace& place) {
+Result<void> read_root(const TomlNode& root, SceneDescription& scene, std::span<const Subject> subjects,
+                       const TomlPlace& place) {
     Result<void> read =
         read_section(root, "", head_keys(), scene.head, place,
                      {"mesh", "maps", "material", "skin", "light", "environment", "camera", "settings"});
-    if (read) read = read_tables(root, "mesh", mesh_keys(), scene.meshes, place);
+    if (read)
+        read =
+            read_tables(root, "mesh", scene.meshes, place, [&](const TomlNode& table, MeshDescription& mesh) {
+                return read_mesh(table, subjects, mesh, place);
+            });
     if (read) read = read_table(root, "maps", maps_keys(), scene.maps, place);
     if (read) read = read_materials(root, scene, place);
     if (read) read = read_table(root, "skin", skin_keys(), scene.skin, place);
-    if (read) read = read_tables(root, "light", light_keys(), scene.lights, place);
+    if (read)
+        read = read_tables(root, "light", scene.lights, place,
+                           [&](const TomlNode& table, LightDescription& light) {
+                               return read_section(table, "light", light_keys(), light, place);
+                           });
     if (read && root.find("environment"))
         read = read_table(root, "environment", environment_keys(), scene.environment.emplace(), place);
     if (read) read = read_table(root, "camera", camera_keys(), scene.camera, place);
@@ -107,13 +129,14 @@ Result<void> read_root(const TomlNode& root, SceneDescription& scene, const Toml
 
 }  // namespace
 
-Result<SceneDescription> parse_scene(std::string_view text, const std::filesystem::path& file) {
+Result<SceneDescription> parse_scene(std::string_view text, const std::filesystem::path& file,
+                                     std::span<const Subject> subjects) {
     const TomlPlace place{file.string()};
     if (text.size() > kMaxSceneBytes) return place.error("larger than 1 MB, so no scene file");
     const Result<TomlNode> root = parse_toml(text, place.file);
     if (!root) return root.error();
     SceneDescription scene{.file = file};
-    if (const Result<void> read = read_root(*root, scene, place); !read) return read.error();
+    if (const Result<void> read = read_root(*root, scene, subjects, place); !read) return read.error();
     if (const Result<void> checked = check_scene(scene); !checked) return checked.error();
     return scene;
 }

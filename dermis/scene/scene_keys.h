@@ -45,6 +45,9 @@ struct Key {
 /// Text of numbers, toggles and choices for `default_text`.
 [[nodiscard]] std::string key_text(const KeyInfo& info, const KeyValue& value);
 
+/// A subject's parameter as a key of the file.
+[[nodiscard]] KeyInfo key_info(const Parameter& parameter);
+
 /// Collects {member, name, unit, min, max, doc}; defaults come from a default-constructed Target. A member
 /// may be optional: then it has no default and tells whether the key was given.
 template <class Target>

@@ -29,14 +29,17 @@ std::string value_column(const KeyInfo& info) {
     return {};
 }
 
+std::string row_text(const KeyInfo& info) {
+    return "| `" + info.name + "` | " + value_column(info) + " | " + info.unit + " | " + info.default_text +
+           " | " + info.doc + " |\n";
+}
+
 template <class Target>
 std::string section_text(const std::string& heading, const std::string& intro,
                          const KeyTable<Target>& table) {
     std::string text = "\n## " + heading + "\n\n" + intro +
                        "\n\n| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
-    for (const Key<Target>& key : table.keys())
-        text += "| `" + key.info.name + "` | " + value_column(key.info) + " | " + key.info.unit + " | " +
-                key.info.default_text + " | " + key.info.doc + " |\n";
+    for (const Key<Target>& key : table.keys()) text += row_text(key.info);
     return text;
 }
 
@@ -86,10 +89,16 @@ This page is what `dermis keys` prints; a test compares the two.
 
 }  // namespace
 
-std::string scene_file_manual() {
+std::string scene_file_manual(std::span<const Subject> subjects) {
     std::string text(kIntroduction);
     text += section_text("Outside any section", "The picture as a whole.", head_keys());
     text += section_text("`[[mesh]]`", "One or more.", mesh_keys());
+    for (const Subject& subject : subjects)
+        for (const Parameter& parameter : subject.parameters.parameters) {
+            KeyInfo info = key_info(parameter);
+            info.doc = "builtin:" + subject.name + ": " + info.doc;
+            text += row_text(info);
+        }
     text += section_text("`[maps]`",
                          "For every material of class skin. A material's own maps, under "
                          "`[material.NAME.maps]` with the same keys, "

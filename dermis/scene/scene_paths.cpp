@@ -24,6 +24,14 @@ fs::path data_directory() {
     return {};
 }
 
+// What `cmake --install` puts beside the program; empty when this one is not installed.
+fs::path installed_data() {
+    std::error_code ec;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ec);
+    const fs::path data = (program.parent_path() / ".." / "share" / "dermis").lexically_normal();
+    return !ec && fs::is_directory(data, ec) ? data : fs::path();
+}
+
 Result<fs::path> resolve_asset(std::string_view name) {
     std::vector<std::string> looked;
     for (const fs::path& directory : asset_directories()) {
@@ -31,8 +39,10 @@ Result<fs::path> resolve_asset(std::string_view name) {
         if (const fs::path file = directory / name; fs::is_regular_file(file, ec)) return file;
         looked.push_back(directory.string());
     }
-    return Error{"asset '" + std::string(name) + "' is in none of " + join(looked, ", ") +
-                 "; run tools/get_head, or set DERMIS_ASSETS to the directory that holds it"};
+    const fs::path data = installed_data();
+    const std::string get_head = data.empty() ? "tools/get_head" : (data / "get_head").string();
+    return Error{"asset '" + std::string(name) + "' is in none of " + join(looked, ", ") + "; run " +
+                 get_head + ", or set DERMIS_ASSETS to the directory that holds it"};
 }
 
 }  // namespace
@@ -60,12 +70,15 @@ Result<fs::path> resolve_path(std::string_view text, const fs::path& scene_file)
     return path;
 }
 
-std::vector<fs::path> scene_directories() {
-    std::vector<fs::path> directories = {fs::path(DERMIS_SOURCE_DIR) / "scenes"};
+fs::path source_directory() {
     std::error_code ec;
-    if (const fs::path program = fs::read_symlink("/proc/self/exe", ec); !ec)
-        directories.push_back(
-            (program.parent_path() / ".." / "share" / "dermis" / "scenes").lexically_normal());
+    return fs::is_directory(DERMIS_SOURCE_DIR, ec) ? fs::path(DERMIS_SOURCE_DIR) : fs::path();
+}
+
+std::vector<fs::path> scene_directories() {
+    std::vector<fs::path> directories;
+    if (const fs::path data = installed_data(); !data.empty()) directories.push_back(data / "scenes");
+    directories.push_back(fs::path(DERMIS_SOURCE_DIR) / "scenes");
     return directories;
 }
 

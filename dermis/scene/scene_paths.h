@@ -22,8 +22,11 @@ namespace dermis {
 [[nodiscard]] Result<std::filesystem::path> resolve_path(std::string_view text,
                                                          const std::filesystem::path& scene_file);
 
-/// Directories that scenes are found in by name: scenes/ of the source tree, ../share/dermis/scenes beside
-/// the program.
+/// The source tree that the program was built from; empty when it is not on this machine.
+[[nodiscard]] std::filesystem::path source_directory();
+
+/// Directories that scenes are found in by name: ../share/dermis/scenes beside the program, where it is
+/// installed; scenes/ of the source tree.
 [[nodiscard]] std::vector<std::filesystem::path> scene_directories();
 
 /// Names that load_scene() takes without a path, sorted.

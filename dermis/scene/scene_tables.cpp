@@ -1,6 +1,6 @@
 // The keys of the scene file, section by section. docs/scene_file.md is printed from these rows.
 
-#include <limits>
+#include <algorithm>
 
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_keys.h"
@@ -11,38 +11,6 @@ namespace {
 const std::vector<std::string> kMaterialClasses = {"skin", "other", "translucent"};
 
 constexpr double kMaxLengthMm = 1e6;
-
-// The parameters of builtin:bust, out of the bust's own table.
-void add_bust_keys(KeyTable<MeshDescription>& table) {
-    using D = MeshDescription;
-    const auto remember = [](D& mesh, const KeyValue& value) {
-        mesh.bust_key = value.full_name;
-        mesh.bust_line = value.line;
-    };
-    const BustParams standard;
-    for (const BustParamInfo& info : bust_param_table()) {
-        KeyInfo key = {.name = std::string(info.name),
-                       .unit = std::string(info.unit),
-                       .doc = "builtin:bust: " + std::string(info.doc),
-                       .kind = KeyKind::number,
-                       .min = info.least,
-                       .max = info.most,
-                       .default_text = to_text(standard.*info.member)};
-        table.row(std::move(key), [member = info.member, remember](D& mesh, const KeyValue& value) {
-            mesh.bust.*member = value.numbers[0];
-            remember(mesh, value);
-        });
-    }
-    table.row({.name = "seed",
-               .doc = "builtin:bust: moves pores, freckles, hairs and the asymmetry",
-               .kind = KeyKind::integer,
-               .max = std::numeric_limits<int>::max(),
-               .default_text = std::to_string(standard.seed)},
-              [remember](D& mesh, const KeyValue& value) {
-                  mesh.bust.seed = uint32_t(value.integer);
-                  remember(mesh, value);
-              });
-}
 
 }  // namespace
 
@@ -65,6 +33,22 @@ std::string key_text(const KeyInfo& info, const KeyValue& value) {
     }
     return "[" + to_text(float(value.numbers[0])) + ", " + to_text(float(value.numbers[1])) + ", " +
            to_text(float(value.numbers[2])) + "]";
+}
+
+KeyInfo key_info(const Parameter& parameter) {
+    constexpr KeyKind kKinds[] = {KeyKind::number, KeyKind::integer, KeyKind::toggle, KeyKind::choice,
+                                  KeyKind::color};
+    KeyInfo info = {.name = parameter.name,
+                    .unit = parameter.unit,
+                    .doc = parameter.doc,
+                    .kind = kKinds[size_t(parameter.kind)],
+                    .min = parameter.min,
+                    .max = parameter.max,
+                    .choices = parameter.choices};
+    KeyValue value = {.integer = int(parameter.default_value[0])};
+    std::ranges::copy(parameter.default_value, value.numbers);
+    info.default_text = key_text(info, value);
+    return info;
 }
 
 const KeyTable<HeadDescription>& head_keys() {
@@ -102,11 +86,11 @@ const KeyTable<HeadDescription>& head_keys() {
 
 const KeyTable<MeshDescription>& mesh_keys() {
     using D = MeshDescription;
-    static const KeyTable<D> table = [] {
-        KeyTable<D> rows;
-        rows.file(&D::file,
-                  {.name = "file",
-                   .doc = "`.obj`, `.gltf`, `.glb`, or `builtin:bust`, `builtin:glasses`, `builtin:spheres`"})
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .file(&D::file, {.name = "file",
+                             .doc = "`.obj`, `.gltf`, `.glb`, or `builtin:NAME`, a subject of "
+                                    "`dermis subjects`"})
             .text(&D::name, {.name = "name", .doc = "of the object; the file's name when absent"})
             .number(&D::unit_mm,
                     {.name = "unit_mm",
@@ -135,9 +119,6 @@ const KeyTable<MeshDescription>& mesh_keys() {
             .choice<MaterialClass>(&D::default_class, {.name = "default_class",
                                                        .doc = "class of the materials that state none",
                                                        .choices = kMaterialClasses});
-        add_bust_keys(rows);
-        return rows;
-    }();
     return table;
 }
 

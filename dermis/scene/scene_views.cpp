@@ -1,12 +1,11 @@
 #include "dermis/scene/scene_views.h"
 
 #include "dermis/base/angle.h"
-#include "dermis/scene/builtin.h"
+#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_files.h"
 
 namespace dermis {
 namespace {
-
 
 Result<Environment> place_environment(const SceneDescription& description,
                                       const EnvironmentDescription& given) {

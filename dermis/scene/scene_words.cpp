@@ -77,6 +77,15 @@ Result<Target*> choose(std::vector<Target>& targets, const Address& address) {
                  address.key};
 }
 
+Result<void> set_mesh(SceneDescription& scene, const Address& address, const std::string& text,
+                      std::span<const Subject> subjects) {
+    const Result<MeshDescription*> mesh = choose(scene.meshes, address);
+    if (!mesh) return mesh.error();
+    TomlNode node;
+    return set_mesh_key(**mesh, address.key, subjects, {},
+                        [&](const KeyInfo& info) -> const TomlNode& { return node = word_node(text, info); });
+}
+
 Result<void> set_material(SceneDescription& scene, const Address& address, const std::string& value) {
     std::string name = address.which;
     const bool is_map = name.ends_with(".maps");
@@ -166,12 +175,9 @@ Result<std::vector<SceneWord>> parse_section_words(std::string_view section, std
     return words;
 }
 
-Result<void> set_word(SceneDescription& scene, const SceneWord& word) {
+Result<void> set_word(SceneDescription& scene, const SceneWord& word, std::span<const Subject> subjects) {
     const Address address(word.key);
-    if (address.section == "mesh") {
-        const Result<MeshDescription*> mesh = choose(scene.meshes, address);
-        return mesh ? set(mesh_keys(), **mesh, "mesh", address.key, word.value) : mesh.error();
-    }
+    if (address.section == "mesh") return set_mesh(scene, address, word.value, subjects);
     if (address.section == "light") return set_light(scene, address, word.value);
     if (address.section == "material") return set_material(scene, address, word.value);
     if (!address.which.empty() && std::ranges::count(kSections, address.section))
@@ -208,7 +214,7 @@ Result<void> set_words(Scene& scene, std::span<const SceneWord> words) {
     for (const SceneWord& word : words) {
         if (is_loading_key(word.key))
             return Error{word.key + ": read while the scene is loaded; give it with --scene to the command"};
-        if (Result<void> set = set_word(after, word); !set) return set;
+        if (Result<void> set = set_word(after, word, {}); !set) return set;
         environment |= word.key.starts_with("environment.");
         camera |= word.key.starts_with("camera.");
     }

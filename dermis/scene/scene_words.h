@@ -25,7 +25,8 @@ namespace dermis {
 
 /// Sets one key, by the same tables and with the same errors as a line of the file. What the key excludes
 /// goes: `environment.file` replaces another kind.
-[[nodiscard]] Result<void> set_word(SceneDescription& scene, const SceneWord& word);
+[[nodiscard]] Result<void> set_word(SceneDescription& scene, const SceneWord& word,
+                                    std::span<const Subject> subjects);
 
 /// Whether a key is read while a scene is loaded (all of meshes, maps, materials and settings, some of the
 /// root and of [skin]); set_words() takes the others.

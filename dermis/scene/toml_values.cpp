@@ -144,4 +144,31 @@ std::optional<std::string> setting_text(const TomlNode& node) {
     return join(parts, ",");
 }
 
+Result<void> set_mesh_key(MeshDescription& mesh, const std::string& name, std::span<const Subject> subjects,
+                          const TomlPlace& place,
+                          const std::function<const TomlNode&(const KeyInfo&)>& node_of) {
+    if (mesh_keys().find(name)) return set_key(mesh_keys(), mesh, "mesh", name, place, node_of);
+    const auto has_it = [&](const Subject& subject) { return subject.parameters.find(name) != nullptr; };
+    const auto is_named = [&](const Subject& subject) {
+        return subject.name == subject_name(mesh.file.text);
+    };
+    const auto named = std::ranges::find_if(subjects, is_named);
+    if (named == subjects.end() || !has_it(*named)) {
+        const auto other = std::ranges::find_if(subjects, has_it);
+        if (other != subjects.end())
+            return place.error("mesh." + name + ": only builtin:" + other->name + " has it, not " +
+                               mesh.file.text + "; leave it out");
+        std::set<std::string> parameters;
+        if (named != subjects.end())
+            for (const Parameter& parameter : named->parameters.parameters) parameters.insert(parameter.name);
+        return set_key(mesh_keys(), mesh, "mesh", name, place, node_of, parameters);
+    }
+    const KeyInfo info = key_info(*named->parameters.find(name));
+    const TomlNode& node = node_of(info);
+    if (KeyValue value; !read_toml_value(node, info, value))
+        return place.error("mesh." + name + " = " + toml_text(node) + ": " + name + " " + wanted_text(info));
+    mesh.parameters[name] = *setting_text(node);
+    return {};
+}
+
 }  // namespace dermis

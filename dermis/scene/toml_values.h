@@ -53,4 +53,10 @@ template <class Target, class NodeOf>
     return {};
 }
 
+/// The same of a [[mesh]], whose file is set: also a parameter of the subject that it names. Errors:
+/// likewise, and that only another subject has it.
+[[nodiscard]] Result<void> set_mesh_key(MeshDescription& mesh, const std::string& name,
+                                        std::span<const Subject> subjects, const TomlPlace& place,
+                                        const std::function<const TomlNode&(const KeyInfo&)>& node_of);
+
 }  // namespace dermis

@@ -1,6 +1,6 @@
 #pragma once
 // The first passes of every technique that lights the skin in its atlas: culls, the light map, and, where
-// blurs are to be in millimetres, the atlas's metric and gutters that stand for the chart beyond the seam.
+// blurs are to be in millimetres, the atlas's metric and gutter texels that hold the light from across the UV seam.
 
 #include "dermis/technique/atlas_cull.h"
 #include "dermis/technique/shadow_channels.h"
@@ -28,7 +28,7 @@ struct AtlasLightSettings {
     int size = 1024;  ///< of the light map
     bool in_mm = false;
     bool carry_seams =
-        true;  ///< in mm: gutters stand for the chart beyond; else taps that leave a chart are dropped
+        true;  ///< in mm: blurs cross UV seams; else taps that leave a chart are dropped
     float pre_scatter = 0;  ///< the map takes base colour ^ this
     /// In mm: the metric's steps are kernel size * scale + bias long, and at most longest_texels.
     float kernel_scale_mm = 1, kernel_bias_mm = 0, longest_texels = 16;

@@ -1,6 +1,6 @@
 #pragma once
 // The colour shadow map of Gosselin, Sander, Mitchell 2004, as passes: opaque depth in alpha, then
-// translucent sheets added into RGB with the depth test on, depth writes off and alpha untouched.
+// translucent surfaces added into RGB with the depth test on, depth writes off and alpha untouched.
 
 #include "dermis/technique/technique.h"
 #include "shaders/atlas/constants.h"
@@ -17,7 +17,7 @@ enum class ShadowChannels : int32_t {
 enum class ShadowLookup : int32_t { disk = kLookupDisk, single = kLookupSingle };
 
 struct ShadowChannelSettings {
-    bool translucent = true;  ///< draw the translucent sheets, if the scene has any
+    bool translucent = true;  ///< draw the translucent surfaces, if the scene has any
     bool second_light = false;
     bool single_channel = false;  ///< of opacity; always so with a second light
     ShadowLookup lookup = ShadowLookup::disk;

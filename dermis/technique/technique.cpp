@@ -4,9 +4,9 @@
 
 namespace dermis {
 
-Result<const Technique*> find_technique(std::string_view id) {
+Result<const Technique*> find_technique(std::span<const Technique> techniques, std::string_view id) {
     std::vector<std::string> ids;
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : techniques) {
         if (technique.id == id) return &technique;
         ids.push_back(technique.id);
     }

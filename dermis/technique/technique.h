@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "dermis/base/parameter.h"
 #include "dermis/optics/profile.h"
 #include "dermis/technique/figure.h"
-#include "dermis/technique/parameter.h"
 #include "dermis/technique/pass_list.h"
 
 namespace dermis {
@@ -66,8 +66,8 @@ struct Technique {
     std::function<std::vector<Figure>()> figures;
 };
 
-/// All folders of techniques/, by id. Built once.
-[[nodiscard]] std::span<const Technique> all_techniques();
-[[nodiscard]] Result<const Technique*> find_technique(std::string_view id);
+/// Error: an unknown id, with the nearest and all known ones.
+[[nodiscard]] Result<const Technique*> find_technique(std::span<const Technique> techniques,
+                                                      std::string_view id);
 
 }  // namespace dermis

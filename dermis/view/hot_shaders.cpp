@@ -23,8 +23,8 @@ bool is_shader(const fs::path& file) {
 
 }  // namespace
 
-HotShaders::HotShaders(fs::path root)
-    : root_(std::move(root)), embedded_(gpu::embedded_shaders()), disk_(gpu::disk_shaders(root_)) {
+HotShaders::HotShaders(gpu::ShaderSource embedded, fs::path root)
+    : root_(std::move(root)), embedded_(std::move(embedded)), disk_(gpu::disk_shaders(root_)) {
     files_.watch({root_ / kFolders[0], root_ / kFolders[1]});
 }
 

@@ -13,8 +13,9 @@ namespace dermis::view {
 
 class HotShaders {
   public:
-    /// `root` holds shaders/ and techniques/; where it does not exist nothing ever changes.
-    explicit HotShaders(std::filesystem::path root);
+    /// `embedded` is what the program was built with; `root` holds shaders/ and techniques/; where it does
+    /// not exist nothing ever changes.
+    HotShaders(gpu::ShaderSource embedded, std::filesystem::path root);
 
     /// For renderers; this must outlive them.
     [[nodiscard]] gpu::ShaderSource source();

@@ -6,15 +6,13 @@
 #include <cstring>
 #include <filesystem>
 
+#include "dermis/image/label.h"
 #include "dermis/view/interface_style.h"
 
 namespace dermis::view {
 namespace {
 
 constexpr float kFontHeightPx = 15;
-constexpr const char* kFontFiles[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                      "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                                      "/usr/share/fonts/TTF/DejaVuSans.ttf"};
 
 struct KeyPair {
     ImGuiKey interface_key;
@@ -156,12 +154,10 @@ Result<void> Interface::set_scale(float scale) {
     static constexpr ImWchar kRanges[] = {0x20, 0xFF, 0x2010, 0x2026, 0x2190, 0x2193, 0x2212, 0x2265, 0};
     ImFontConfig config;
     config.OversampleH = 2;
-    const auto file = std::ranges::find_if(kFontFiles, [](const char* path) {
-        std::error_code ignored;
-        return std::filesystem::is_regular_file(path, ignored);
-    });
-    if (file != std::end(kFontFiles)) {
-        io.Fonts->AddFontFromFileTTF(*file, std::round(kFontHeightPx * scale), &config, kRanges);
+    const Result<std::filesystem::path> file = find_font();
+    std::error_code ignored;
+    if (file && std::filesystem::is_regular_file(*file, ignored)) {
+        io.Fonts->AddFontFromFileTTF(file->c_str(), std::round(kFontHeightPx * scale), &config, kRanges);
         io.FontGlobalScale = 1;
     } else {
         io.Fonts->AddFontDefault();

@@ -28,7 +28,7 @@ struct Clipboard {
 /// One at a time: the library keeps its context in a global.
 class Interface {
   public:
-    /// Uses the first of kFontFiles that exists, else the library's own small font.
+    /// Uses find_font() (dermis/image/label.h), else the library's own small font.
     [[nodiscard]] static Result<Interface> create(gpu::Device& device, Clipboard clipboard);
     ~Interface();
     Interface(Interface&&) noexcept;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "dermis/render/catalog.h"
 #include "dermis/scene/scene.h"
-#include "dermis/technique/technique.h"
 
 namespace dermis::view {
 
@@ -54,6 +54,7 @@ struct Model {
     std::vector<SceneWord>
         loading_words;       ///< with which scene_path was loaded: --scene keys of is_loading_key()
     Scene* scene = nullptr;  ///< lives in the stage; null until the first one is loaded
+    Catalog catalog;         ///< what may be chosen
     std::array<TechniqueChoice, 2> choices;
     std::string view = "final";
     int tone = 0;  ///< 0: as the maps are; 1 to 6: OpenPBR's skins

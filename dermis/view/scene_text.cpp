@@ -111,7 +111,7 @@ Result<std::string> scene_text(Model& model, const fs::path& directory) {
     } else {
         const Result<std::string> old = read_text_file(file);
         if (!old) return old.error();
-        const Result<SceneDescription> scene = parse_scene(*old, file);
+        const Result<SceneDescription> scene = parse_scene(*old, file, model.catalog.subjects);
         if (!scene) return scene.error();
         std::error_code ec;
         const bool same_place = fs::equivalent(fs::absolute(file).parent_path(), directory, ec);
@@ -123,7 +123,7 @@ Result<std::string> scene_text(Model& model, const fs::path& directory) {
     add_technique(edits, model);
     add_scene(edits, *model.scene, lights_in_file);
     const std::string edited = edit_toml(text, edits);
-    if (const Result<SceneDescription> read = parse_scene(edited, file); !read)
+    if (const Result<SceneDescription> read = parse_scene(edited, file, model.catalog.subjects); !read)
         return Error{"this scene file is written in a way that cannot be changed in place: " +
                      read.error().message};
     return edited;

@@ -16,9 +16,11 @@ Session::Session(const ViewerOptions& options, Window window, gpu::Device device
     : options_(&options),
       window_(std::move(window)),
       device_(std::move(device)),
-      shaders_(options.shader_root.empty() ? std::string(DERMIS_SOURCE_DIR) : options.shader_root),
-      model_{.choices = {TechniqueChoice(all_techniques().front()),
-                         TechniqueChoice(all_techniques().front())}} {}
+      shaders_(gpu::embedded_shaders(options.catalog.shaders),
+               options.shader_root.empty() ? std::string(DERMIS_SOURCE_DIR) : options.shader_root),
+      model_{.catalog = options.catalog,
+             .choices = {TechniqueChoice(options.catalog.techniques.front()),
+                         TechniqueChoice(options.catalog.techniques.front())}} {}
 
 Result<std::unique_ptr<Session>> Session::open(const ViewerOptions& options) {
     std::future<Result<Start>> loading = std::async(std::launch::async, options.load);
@@ -52,7 +54,8 @@ Result<void> Session::make_swapchain() {
 Result<void> Session::make_window_side() {
     size_ = window_.framebuffer();
     if (Result<void> made = make_swapchain(); !made) return made;
-    Result<gpu::Executor> executor = gpu::Executor::create(device_, gpu::embedded_shaders());
+    Result<gpu::Executor> executor =
+        gpu::Executor::create(device_, gpu::embedded_shaders(options_->catalog.shaders));
     if (!executor) return executor.error();
     executor_.emplace(std::move(*executor));
     Result<Interface> interface =

@@ -98,9 +98,9 @@ void Session::drag_to(Vec2 position_px) {
 
 void Session::choose_technique(int step) {
     std::vector<std::string> ids;
-    for (const Technique& technique : all_techniques()) ids.push_back(technique.id);
+    for (const Technique& technique : model_.catalog.techniques) ids.push_back(technique.id);
     const Result<const Technique*> next =
-        find_technique(neighbour(ids, model_.choices[0].technique().id, step));
+        find_technique(model_.catalog.techniques, neighbour(ids, model_.choices[0].technique().id, step));
     if (next) model_.choices[0].choose(**next);
     choose_view(0);
 }

@@ -5,6 +5,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/scene/load_scene.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_paths.h"
 #include "dermis/view/scene_look.h"
@@ -23,24 +24,24 @@ bool is_scene(const fs::path& file) {
 }
 
 // What a scene file names, there or not.
-std::vector<fs::path> stated_files(const std::string& path_or_name) {
+std::vector<fs::path> stated_files(const std::string& path_or_name, std::span<const Subject> subjects) {
     const fs::path file = is_scene(path_or_name) ? fs::path(path_or_name) : find_scene(path_or_name);
     const Result<std::string> text = read_text_file(file);
-    const Result<SceneDescription> description = text ? parse_scene(*text, file) : text.error();
+    const Result<SceneDescription> description = text ? parse_scene(*text, file, subjects) : text.error();
     return description ? paths_of(*description) : std::vector<fs::path>();
 }
 
 // The baseline, or against the baseline the technique after it.
-const Technique& compared_with(const Technique& technique) {
-    const std::span<const Technique> all = all_techniques();
+const Technique& compared_with(const Technique& technique, std::span<const Technique> all) {
     const auto baseline = std::ranges::find(all, "lambert", &Technique::id);
     if (baseline != all.end() && technique.id != baseline->id) return *baseline;
     return all[1 % all.size()];
 }
 
 // A scene, ready to draw.
-Result<Start> load_start(const std::string& path, const std::vector<SceneWord>& words) {
-    Result<Scene> scene = load_scene(path, {.words = words});
+Result<Start> load_start(const std::string& path, std::span<const Subject> subjects,
+                         const std::vector<SceneWord>& words) {
+    Result<Scene> scene = load_scene(path, {.subjects = subjects, .words = words});
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     return Start{.scene = std::move(*scene), .loading_words = words};
@@ -52,7 +53,7 @@ void Session::load(const std::string& path) {
     if (loading_.valid()) return model_.notices.inform("open", "still loading " + loading_path_, now_s());
     loading_path_ = path;
     reloading_ = false;
-    loading_ = std::async(std::launch::async, load_start, path,
+    loading_ = std::async(std::launch::async, load_start, path, model_.catalog.subjects,
                           path == model_.scene_path ? model_.loading_words : std::vector<SceneWord>());
 }
 
@@ -63,7 +64,9 @@ Result<void> Session::take_loaded() {
     Result<Start> start = loading_.get();
     const Result<void> begun = start ? begin_scene(std::move(*start), first) : start.error();
     if (begun || first) return begun;
-    if (reloading_) scene_files_.add(stated_files(loading_path_));  // what it waits for may be missing
+    if (reloading_)
+        scene_files_.add(
+            stated_files(loading_path_, model_.catalog.subjects));  // what it waits for may be missing
     model_.notices.complain("open", begun.error().message + (reloading_ ? kLastGood : ""));
     return {};
 }
@@ -94,7 +97,7 @@ Result<void> Session::begin_scene(Start start, bool first) {
         if (start.technique) {
             model_.choices[0].choose(*start.technique);
             if (start.values) model_.choices[0].values() = *start.values;
-            model_.choices[1].choose(compared_with(*start.technique));
+            model_.choices[1].choose(compared_with(*start.technique, model_.catalog.techniques));
         }
         model_.view = start.view;
         if (!options_->truth.empty()) open_truth(options_->truth);
@@ -122,7 +125,7 @@ void Session::take_technique(const Scene& look) {
     const bool asks_anew =
         !reloading_ || look.technique != file_look_.technique || look.settings != file_look_.settings;
     if (look.technique.empty() || !asks_anew) return;
-    const Result<const Technique*> technique = find_technique(look.technique);
+    const Result<const Technique*> technique = find_technique(model_.catalog.techniques, look.technique);
     if (!technique) return model_.notices.complain("technique", technique.error().message);
     model_.choices[0].choose(**technique);
     model_.notices.clear("technique");

@@ -41,7 +41,8 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             load(command.words[0]);
             return {};
         case CommandKind::technique: {
-            const Result<const Technique*> technique = find_technique(command.words[0]);
+            const Result<const Technique*> technique =
+                find_technique(model_.catalog.techniques, command.words[0]);
             if (!technique) return technique.error();
             model_.choices[0].choose(**technique);
             return {};

@@ -11,12 +11,12 @@ namespace dermis::view {
 void show_technique(Model& model, size_t choice, PanelRequests& requests, WidgetMap& widgets) {
     TechniqueChoice& chosen = model.choices[choice];
     std::vector<std::string> ids;
-    for (const Technique& technique : all_techniques()) ids.push_back(technique.id);
+    for (const Technique& technique : model.catalog.techniques) ids.push_back(technique.id);
     int index = index_of(ids, chosen.technique().id);
     Rows rows(widgets, choice == 0 ? "" : "b.");
     const NumberRow row = {
         .name = "technique", .doc = chosen.technique().source, .default_value = double(index)};
-    if (rows.choice(row, ids, index)) chosen.choose(all_techniques()[size_t(index)]);
+    if (rows.choice(row, ids, index)) chosen.choose(model.catalog.techniques[size_t(index)]);
     ImGui::PushTextWrapPos(0);
     ImGui::TextDisabled("%s", chosen.technique().summary.c_str());
     ImGui::PopTextWrapPos();

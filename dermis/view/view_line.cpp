@@ -51,6 +51,7 @@ std::string scene_options(const Scene& scene, const Scene& file) {
 
 // What a line asks for, checked and not yet in the model.
 struct Wanted {
+    std::span<const Technique> techniques;
     TechniqueChoice choice;
     std::vector<SceneWord> words;
     std::string view;
@@ -59,7 +60,7 @@ struct Wanted {
     Result<void> take(std::string_view option, const std::string& value) {
         anything = true;
         if (option == "-t" || option == "--technique") {
-            const Result<const Technique*> technique = find_technique(value);
+            const Result<const Technique*> technique = find_technique(techniques, value);
             if (!technique) return technique.error();
             choice.choose(**technique);
         } else if (option == "--set") {
@@ -107,7 +108,8 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
     static constexpr std::string_view kOptions[] = {"-t",       "--technique", "--set", "--scene",
                                                     "--camera", "--light",     "--view"};
     if (line.size() > kMaxLineBytes) return Error{"the clipboard holds no view: it is too long"};
-    Wanted wanted{.choice = model.choices[0], .words = {}, .view = model.view};
+    Wanted wanted{
+        .techniques = model.catalog.techniques, .choice = model.choices[0], .words = {}, .view = model.view};
     // A line that was broken on its way, inside of quotes too, is one line.
     std::string one_line(line);
     std::ranges::replace_if(

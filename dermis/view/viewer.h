@@ -34,6 +34,7 @@ struct Start {
 };
 
 struct ViewerOptions {
+    Catalog catalog;
     std::string scene_path;
     /// Loads the first scene; runs beside the opening of window and device.
     std::function<Result<Start>()> load;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dermis/technique/parameter.h"
+#include "dermis/base/parameter.h"
 #include "dermis/view/panels.h"
 
 namespace dermis::view {

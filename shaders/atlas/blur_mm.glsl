@@ -12,10 +12,10 @@ uniform texture2D source;
 uniform texture2D atlas_metric;
 uniform texture2D seam_map;
 uniform texture2D chart_map;
-layout(constant_id = 13) const int carry = 1;  // gutters stand for the chart beyond the seam; else nothing is there
+layout(constant_id = 13) const int carry = 1;  // gutter texels hold the light from across the UV seam; 0: they hold nothing
 
-// Where the surface of a gutter texel lies, in texels; negative: nowhere. Stored as multiples of 8 and rests, which half
-// floats hold to 1/256.
+// Where the atlas has the surface that a gutter texel continues, in texels; negative: nowhere. Stored as multiples of 8 and
+// remainders, which half floats hold to 1/256.
 vec2 carried_to(ivec2 texel) {
     if (carry == 0) return vec2(-1.0);
     vec4 packed = texelFetch(sampler2D(seam_map, nearest_clamp), texel, 0);
@@ -52,6 +52,6 @@ vec4 blur_tap(BlurCentre centre, vec2 offset) {
     return textureLod(sampler2D(source, linear_clamp), at / vec2(textureSize(sampler2D(source, linear_clamp), 0)), 0.0);
 }
 
-vec4 even(vec4 sum) { return sum.a > 0.0 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0); }
+vec4 normalize_by_alpha(vec4 sum) { return sum.a > 0.0 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0); }
 
 #endif

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Fills the gutters of a light map with what lies beyond the seams, so that blurs can read across.
+// Fills the gutter texels of a light map with the light from across the UV seam, so that blurs can read over it.
 #include "shaders/atlas/blur_mm.glsl"
 
 layout(location = 0) out vec4 light_out;
@@ -12,5 +12,5 @@ void main() {
     vec2 at = carried_to(texel);
     if (at.x < 0.0) return;
     light_out =
-        even(textureLod(sampler2D(source, linear_clamp), at / vec2(textureSize(sampler2D(source, linear_clamp), 0)), 0.0));
+        normalize_by_alpha(textureLod(sampler2D(source, linear_clamp), at / vec2(textureSize(sampler2D(source, linear_clamp), 0)), 0.0));
 }

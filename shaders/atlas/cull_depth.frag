@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The full-screen triangle lies at depth 0; what is dropped keeps the 1 it was cleared to.
+// The full-screen triangle is at depth 0; dropped texels keep the 1 that they were cleared to.
 #include "shaders/atlas/constants.h"
 #include "shaders/include/frame.glsl"
 

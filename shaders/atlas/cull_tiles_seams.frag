@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A tile is also needed when one of its gutter texels stands for a needed place beyond a seam.
+// A tile is also needed when one of its gutter texels holds the light of a needed texel across a seam.
 #include "shaders/atlas/blur_mm.glsl"
 
 uniform texture2D tiles;

@@ -18,7 +18,7 @@ layout(push_constant, scalar) uniform PassValues {
 
 layout(location = 0) out vec4 steps_out;
 
-const float kLeastTexels = 1e-3;  // 0 means that no skin is there
+const float kMinTexels = 1e-3;  // 0 means that no skin is there
 
 // A tangent frame that depends on the normal alone (Frisvad 2012, with its hole at n = -y).
 void frame_of(vec3 n, out vec3 t1, out vec3 t2) {
@@ -35,7 +35,7 @@ vec2 uv_step(vec3 t_mm, float e, float f, float g, float determinant) {
 
 vec2 limited(vec2 step_texels) {
     float l = length(step_texels);
-    return step_texels * (clamp(l, kLeastTexels, longest_texels) / max(l, 1e-20));
+    return step_texels * (clamp(l, kMinTexels, longest_texels) / max(l, 1e-20));
 }
 
 void main() {
@@ -45,7 +45,7 @@ void main() {
     vec3 t1, t2;
     frame_of(normalize(n_world), t1, t2);
     if (!(determinant > 0.0)) {
-        steps_out = vec4(kLeastTexels, 0.0, 0.0, kLeastTexels);
+        steps_out = vec4(kMinTexels, 0.0, 0.0, kMinTexels);
         return;
     }
     steps_out = vec4(limited(uv_step(t1, e, f, g, determinant) * (length_mm * size)),

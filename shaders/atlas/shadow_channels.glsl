@@ -1,5 +1,5 @@
 // Reads the colour shadow map of Gosselin, Sander, Mitchell 2004: depth from the key light in alpha, optical depth of the
-// translucent sheets before it in RGB. With a second light the map is shared as they sketch: R and A are the key light's
+// translucent surfaces before it in RGB. With a second light the map is shared as they sketch: R and A are the key light's
 // (one channel of opacity), G and B the second light's opacity and depth.
 #ifndef DERMIS_SHADOW_CHANNELS_GLSL
 #define DERMIS_SHADOW_CHANNELS_GLSL
@@ -18,7 +18,7 @@ const float kSourceDepthBias = 0.01;
 // Half floats near 1 are this far apart.
 const float kHalfStep = 1.0 / 2048.0;
 
-// Light through the translucent sheets, to the power that darkens it (trans_shadow_alpha).
+// Light through the translucent surfaces, to the power that darkens it (trans_shadow_alpha).
 vec3 tint_of(vec4 texel, float darkening) {
     vec3 depth = channels == kChannelsTwoLights ? texel.rrr : texel.rgb;
     return exp(-depth * darkening);
@@ -45,7 +45,7 @@ vec3 key_light_through(vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, fl
     return visibility * tint / float(kTintTaps);
 }
 
-// The same of the second light, whose depth lies in B: compared tap by tap.
+// The same of the second light, whose depth is in B: compared tap by tap.
 vec3 second_light_through(vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm, float darkening) {
     bool single = shadow_lookup == kLookupSingle;
     ShadowDisk disk = shadow_disk(second_light_view_projection, p_mm, n_geometry_world, to_light_world,

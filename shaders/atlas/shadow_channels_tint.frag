@@ -1,18 +1,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A translucent sheet seen from a light, added into colour channels. Added is its optical depth, minus the logarithm of
-// what it lets through: sums of it are products of transmittances, so several sheets come out right in any order. (The
-// source adds opacities, which two sheets bring above 1.)
+// A translucent surface seen from a light, added into colour channels. Added is its optical depth, minus the logarithm of
+// its transmittance: sums of it are products of transmittances, so several surfaces come out right in any order. (The
+// source adds opacities, which two surfaces bring above 1.)
 #include "shaders/include/translucent.glsl"
 
 layout(constant_id = 0) const int single_channel = 0;
 
 layout(location = 0) out vec4 optical_depth_out;
 
-const float kLeastTransmittance = 1.0 / 1024.0;
+const float kMinTransmittance = 1.0 / 1024.0;
 
 void main() {
     vec3 transmittance = surface_transmittance();
     if (single_channel != 0) transmittance = transmittance.rrr;
-    optical_depth_out = vec4(-log(clamp(transmittance, kLeastTransmittance, 1.0)), 0.0);
+    optical_depth_out = vec4(-log(clamp(transmittance, kMinTransmittance, 1.0)), 0.0);
 }

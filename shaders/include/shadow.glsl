@@ -25,13 +25,14 @@ vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
     return p.w > 0.0 ? vec3(p.xy / p.w * 0.5 + 0.5, p.z / p.w) : vec3(-1.0);  // behind a spot or point light
 }
 
-// What lies past the far end, as skin lifted off the far side of the scene may, still has everything before it.
+// A point past the far end of the map is inside: skin that is lifted off the far side of the scene still has everything
+// between it and the light.
 bool outside_shadow_map(vec3 p_light) {
     return any(lessThan(p_light, vec3(0.0))) || any(greaterThan(p_light.xy, vec2(1.0)));
 }
 
-// The disk of a filtered shadow, round as the light sees it and lying in the tangent plane of the receiver: no flat or
-// bulging surface shadows itself, and no shadow moves when the filter grows, as it does when the lookup is lifted by the
+// The disk of a filtered shadow, round as the light sees it, in the tangent plane of the receiver: no flat or
+// convex surface shadows itself, and no shadow moves when the filter grows, as it does when the lookup is lifted by the
 // filter's radius (Holbert 2011). That is left for grazing light alone, where the disk would be endless; past the
 // terminator it lets through what scatters there. Out of cavities whose radius is above ten times its own the disk is
 // lifted too. dermis/reference/lighting.cpp has the same disk.

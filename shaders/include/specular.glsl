@@ -38,7 +38,7 @@ float two_lobe_ggx(float n_dot_h, float n_dot_l, float n_dot_v, float roughness)
     return mix(ggx(n_dot_h, n_dot_l, n_dot_v, second * second), ggx(n_dot_h, n_dot_l, n_dot_v, first * first), 0.85);
 }
 
-// Kelemen, Szirmay-Kalos 2001: Beckmann's distribution over |l + v|^2, which stands for 4 (h.v)^2 and most of the
+// Kelemen, Szirmay-Kalos 2001: Beckmann's distribution over |l + v|^2, which replaces 4 (h.v)^2 and most of the
 // shadowing. d'Eon, Luebke 2007 leave out the distribution's 1 / pi; here it is normalised. With DERMIS_BECKMANN_TABLE
 // the includer defines beckmann(), which reads the distribution from its table.
 #ifdef DERMIS_BECKMANN_TABLE

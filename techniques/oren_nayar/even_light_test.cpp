@@ -41,8 +41,8 @@ TEST_F(OrenNayarEvenLight, is_answered_as_the_model_does) {
     const std::vector<Vec3>& positions_mm = scene.objects[0].mesh.positions_mm;
     for (const Vec3 p : positions_mm) center_mm += p * (1.0f / float(positions_mm.size()));
     scene.camera.target_mm = center_mm;
-    const Technique& model = **find_technique("oren_nayar");
-    const Technique& lambert = **find_technique("lambert");
+    const Technique& model = built_in_technique("oren_nayar");
+    const Technique& lambert = built_in_technique("lambert");
     const DrawSettings settings = {.width = 16, .height = 16, .view = "diffuse", .deep = true};
     for (const double eye_angle : {0.1, 0.8, 1.3}) {
         // All normals point up, so the eye's polar angle is the camera's.

@@ -5,6 +5,7 @@
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
 #include "render/grid_scene.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -131,7 +132,7 @@ TEST_F(PreintegratedLights, are_reflected_by_the_beckmann_table_as_by_its_formul
     for (const float roughness : {0.25f, 0.45f, 0.7f}) {
         for (SceneObject& object : scene.objects) object.mesh.materials[0].roughness = roughness;
         Renderer renderer = make_renderer(scene);
-        const Technique& lambert = **find_technique("lambert");
+        const Technique& lambert = built_in_technique("lambert");
         ParameterValues formula(lambert.parameters);
         ASSERT_TRUE(formula.set("specular", "ksk"));
         const DrawSettings settings = {.width = 128, .height = 128, .view = "specular", .deep = true};

@@ -8,6 +8,7 @@
 #include "dermis/base/file.h"
 #include "dermis/image/io.h"
 #include "render/grid_scene.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;
@@ -42,7 +43,7 @@ class PreintegratedRefusals : public PreintegratedTest {
     std::string scene_error(const std::string& rest) const {
         const std::string file = path("scene.toml");
         EXPECT_TRUE(write_text_file(file, "[[mesh]]\nfile = \"builtin:spheres\"\n" + rest));
-        const Result<Scene> scene = load_scene(file);
+        const Result<Scene> scene = load_built_in_scene(file);
         return scene ? "" : scene.error().message;
     }
 
@@ -113,7 +114,8 @@ TEST_F(PreintegratedRefusals, maps_of_no_size) {
     Scene scene = make_grid_scene();
     scene.objects[0].mesh.materials[0].curvature_map = {
         .name = "empty", .width = 0, .height = 4, .channels = 1, .pixels = {std::byte{1}}};
-    const auto renderer = Renderer::create(device(), gpu::embedded_shaders(), scene);
+    const auto renderer =
+        Renderer::create(device(), gpu::embedded_shaders(built_in_catalog().shaders), scene);
     ASSERT_FALSE(renderer);
     EXPECT_THAT(renderer.error().message, HasSubstr("empty: 0 x 4 texels of 1 channels cannot be 1 bytes"));
     // A PNG whose header says 0 x 1.
@@ -121,7 +123,7 @@ TEST_F(PreintegratedRefusals, maps_of_no_size) {
                                  0,    0,   0,   0,   0,  0,  1,  8,  0, 0, 0, 0,  0,   0,   0,   0};
     ASSERT_TRUE(write_file(path("none.png"), std::as_bytes(std::span(png))));
     scene.objects[0].mesh.materials[0].curvature_map = {.name = path("none.png")};
-    const auto none = Renderer::create(device(), gpu::embedded_shaders(), scene);
+    const auto none = Renderer::create(device(), gpu::embedded_shaders(built_in_catalog().shaders), scene);
     ASSERT_FALSE(none);
     EXPECT_THAT(none.error().message, HasSubstr("none.png"));
 }

@@ -15,7 +15,7 @@ struct TableSettings {
     Construction construction = Construction::sphere;  ///< of every table; the published ring is half_ring
     double normal_lod_bias = 3;
     double shadow_width_mm = 3;
-    bool needs_beckmann = false;  ///< otherwise one texel stands in for the table
+    bool needs_beckmann = false;  ///< otherwise the table is one texel
 };
 
 /// skin_lut, skin_zonal, skin_shadow, skin_closed_form, skin_gaussians, skin_normal_blend, skin_beckmann,

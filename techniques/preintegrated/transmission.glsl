@@ -12,9 +12,9 @@
 const float kWidestRingMm = 6.0;
 const int kTransmissionTaps = 20;
 
-// In units of the light's irradiance at normal incidence; `table` holds R per mm^2 over the distance. Taps lie in rings at
+// In units of the light's irradiance at normal incidence; `table` holds R per mm^2 over the distance. Taps are in rings at
 // even steps of radius, which is closer than even cover where R is large; each counts for its ring's area. Where
-// nothing lit lies near along the light, as on most of a head's dark side, one tap is all.
+// no lit skin is near along the light, as on most of a head's dark side, one tap is all.
 vec3 transmitted_light(texture2D table, vec3 p_mm, vec3 to_light_world) {
     vec3 here = shadow_map_position(light_view_projection, p_mm);
     if (outside_shadow_map(here)) return vec3(0.0);

@@ -7,6 +7,7 @@
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
 #include "render/grid_scene.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -17,7 +18,7 @@ class PreintegratedTransmission : public PreintegratedTest {
     // The middle of a white sphere whose whole light comes from behind it.
     static Rgb dark_pole(float radius_mm, const std::string& transmission,
                          const std::string& profile = "gpu_gems_3") {
-        Result<Scene> scene = load_scene("builtin:spheres");
+        Result<Scene> scene = load_built_in_scene("builtin:spheres");
         scene->skin.profile = profile;
         EXPECT_TRUE(scene && complete_scene(*scene));
         const auto found = std::ranges::find_if(scene->objects, [&](const SceneObject& object) {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One pass of the same blur with its radius in millimetres: taps lie on a disk on the surface, whatever the unwrap, and
+// One pass of the same blur with its radius in millimetres: taps are on a disk on the surface, whatever the unwrap, and
 // follow it across seams.
 #include "shaders/atlas/blur_mm.glsl"
 #include "techniques/texture_space/taps.glsl"
@@ -16,5 +16,5 @@ void main() {
         vec3 t = tap(i);
         sum += blur_tap(centre, t.xy) * t.z;
     }
-    light_out = even(sum);
+    light_out = normalize_by_alpha(sum);
 }

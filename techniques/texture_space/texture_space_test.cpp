@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -13,12 +14,12 @@ constexpr DrawSettings kSmall = {.width = 128, .height = 128, .view = "diffuse",
 class TextureSpace : public RenderTest {
   protected:
     static ParameterValues with(std::initializer_list<std::pair<const char*, const char*>> settings) {
-        ParameterValues values((*find_technique("texture_space"))->parameters);
+        ParameterValues values(built_in_technique("texture_space").parameters);
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
         return values;
     }
     static Image draw(Renderer& renderer, const ParameterValues& values) {
-        return radiance(renderer, **find_technique("texture_space"), values, kSmall);
+        return radiance(renderer, built_in_technique("texture_space"), values, kSmall);
     }
     static double mean_difference(const Image& a, const Image& b) {
         double sum = 0, count = 0;
@@ -34,7 +35,7 @@ class TextureSpace : public RenderTest {
 TEST_F(TextureSpace, without_blur_it_is_lambert) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Image lambert = radiance(renderer, **find_technique("lambert"), kSmall);
+    const Image lambert = radiance(renderer, built_in_technique("lambert"), kSmall);
     const Image unblurred = draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "2048"}}));
     EXPECT_LT(mean_difference(lambert, unblurred), 2e-3);
     const Image blurred =
@@ -45,7 +46,7 @@ TEST_F(TextureSpace, without_blur_it_is_lambert) {
 TEST_F(TextureSpace, every_filter_keeps_even_light_even_up_to_the_chart_borders) {
     const Scene scene = evenly_lit_spheres();
     Renderer renderer = make_renderer(scene);
-    const Image lambert = radiance(renderer, **find_technique("lambert"), kSmall);
+    const Image lambert = radiance(renderer, built_in_technique("lambert"), kSmall);
     for (const char* filter : {"poisson", "gaussian", "box", "kawase"}) {
         const Image image =
             draw(renderer, with({{"filter", filter}, {"blur_passes", "4"}, {"blur_bias", "6"}}));
@@ -67,7 +68,7 @@ TEST_F(TextureSpace, its_stand_in_for_a_moving_picture_blurs_as_widely) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
     const ParameterValues values = with({{"blur_passes", "8"}, {"blur_bias", "6"}});
-    const Technique& technique = **find_technique("texture_space");
+    const Technique& technique = built_in_technique("texture_space");
     const Image whole = draw(renderer, values), coarse = draw(renderer, technique.coarse(values, 0.25f)),
                 sharp = draw(renderer, with({{"blur_passes", "0"}}));
     EXPECT_LT(mean_difference(whole, coarse), 0.25 * mean_difference(whole, sharp));

@@ -32,7 +32,7 @@ vec4 gaussian() {
         float offset = float(k) * step_mm;
         sum += blur_tap(centre, along_second != 0 ? vec2(0.0, offset) : vec2(offset, 0.0)) * weight;
     }
-    return even(sum);
+    return normalize_by_alpha(sum);
 }
 
 #endif

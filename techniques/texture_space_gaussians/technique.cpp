@@ -1,10 +1,10 @@
 // d'Eon, Luebke 2007, "Advanced Techniques for Realistic Real-Time Skin Rendering" (GPU Gems 3, chapter 14):
 // the light map is blurred by each Gaussian of the diffusion profile, every one from the one before, in two
 // passes along the surface, and the results are summed by the profile's weights. Changed: the steps of the
-// blur follow shear as well as stretch and agree across seams (shaders/atlas/blur_mm.glsl); gutters stand
-// for the chart beyond the seam; the sum is accumulated by blending, so that any number of Gaussians needs
-// three images. Not here: transmission through thin parts by the modified translucent shadow map, and the
-// energy that the specular takes.
+// blur follow shear as well as stretch and agree across seams (shaders/atlas/blur_mm.glsl); gutter texels
+// hold the light from across the UV seam; the sum is accumulated by blending, so that any number of Gaussians
+// needs three images. Not here: transmission through thin parts by the modified translucent shadow map, and
+// the energy that the specular takes.
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ ParameterTable parameters() {
         .build();
 }
 
-// One step of the blur: from the variance before to this one, and the share of the profile it stands for.
+// One step of the blur: from the variance before to this one, and its share of the profile.
 struct Step {
     double variance_mm2 = 0, sigma_mm = 0;
     Vec3 share;

@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "bust/standard_bust.h"
-#include "dermis/bust/export.h"
 #include "dermis/image/io.h"
 #include "dermis/mesh/read_mesh.h"
+#include "subjects/bust/export.h"
 
 namespace dermis {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "bust/standard_bust.h"
-#include "dermis/bust/maps.h"
 #include "dermis/image/colour.h"
 #include "dermis/image/skin_colour.h"
+#include "subjects/bust/maps.h"
 
 namespace dermis {
 namespace {

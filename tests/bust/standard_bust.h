@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <map>
 
-#include "dermis/bust/bust.h"
-#include "dermis/bust/field.h"
+#include "subjects/bust/bust.h"
+#include "subjects/bust/field.h"
 
 namespace dermis {
 

@@ -137,12 +137,15 @@ TEST_F(Commands, a_new_technique_is_a_folder_that_compiles_as_it_is) {
                                      "/tools/new_technique my_skin 'a test'");
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const std::string folder = path("my_skin");
-    const ProgramResult shader = shell("glslc --target-env=vulkan1.3 -fauto-bind-uniforms -Werror -I " +
+    const ProgramResult shader = shell("glslc --target-env=vulkan1.3 -Werror -fauto-bind-uniforms -I " +
                                        root + " -o " + path("a.spv") + " " + folder + "/my_skin.frag");
     EXPECT_EQ(shader.exit_code, 0) << shader.err;
-    const ProgramResult code = shell(std::string(DERMIS_COMPILER) + " -std=c++20 -fsyntax-only -I " + root +
-                                     " " + folder + "/technique.cpp");
-    EXPECT_EQ(code.exit_code, 0) << code.err;
+    for (const char* source : {"technique.cpp", "my_skin_test.cpp"}) {
+        const ProgramResult code = shell(std::string(DERMIS_COMPILER) + " -std=c++20 -fsyntax-only -I " +
+                                         root + " -I " + root + "/tests " + folder + "/" + source);
+        EXPECT_EQ(code.exit_code, 0) << code.err;
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder + "/README.md"));
     EXPECT_NE(
         shell("DERMIS_TECHNIQUES=" + directory_.path.string() + " " + root + "/tools/new_technique my_skin x")
             .exit_code,

@@ -33,7 +33,7 @@ TEST(ShaderBuild, an_edited_include_compiles_its_shaders_again) {
           "\"shaders/include/part.glsl\"\n"
           "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(kShade); }\n");
     const auto build = [&] { return run_shell("cmake --build " + (root / "build").string(), root.string()); };
-    const std::string compiled = (root / "build/shaders/renderer/one.frag.inc").string();
+    const std::string compiled = (root / "build/catalog/shaders/renderer/one.frag.inc").string();
     const ProgramResult configured =
         run_shell("cmake -G Ninja -S " + root.string() + " -B " + (root / "build").string(), root.string());
     ASSERT_EQ(configured.exit_code, 0) << configured.err;

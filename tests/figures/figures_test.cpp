@@ -3,6 +3,7 @@
 #include "dermis/figures/figures.h"
 
 #include "dermis/plot/sheet.h"
+#include "support/built_in.h"
 #include "support/gpu_fixture.h"
 
 using namespace dermis;
@@ -14,7 +15,7 @@ constexpr int kSize = 32;
 
 class Figures : public gpu::GpuTest {
   protected:
-    Figures() : font_(std::move(*Font::load())), renderer_(device(), {.samples = 1}) {}
+    Figures() : font_(std::move(*Font::load())), renderer_(device(), built_in_catalog(), {.samples = 1}) {}
 
     Result<FigureResult> draw(const Figure& figure) { return draw_figure(renderer_, font_, figure, kSize); }
     std::string error(const Figure& figure) {
@@ -136,11 +137,11 @@ TEST_F(Figures, that_are_wrong_name_the_cell) {
 }
 
 TEST_F(Figures, of_every_technique_can_be_drawn) {
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         if (!technique.figures) continue;
         const Result<std::vector<Figure>> figures = figures_of(technique);
         ASSERT_TRUE(figures) << figures.error().message;
-        CellRenderer spheres(device(), {.scene = "builtin:spheres", .samples = 1});
+        CellRenderer spheres(device(), built_in_catalog(), {.scene = "builtin:spheres", .samples = 1});
         for (const Figure& figure : *figures) {
             const Result<FigureResult> result = draw_figure(spheres, font_, figure, 16);
             EXPECT_TRUE(result) << result.error().message;
@@ -149,8 +150,9 @@ TEST_F(Figures, of_every_technique_can_be_drawn) {
 }
 
 TEST(FiguresOf, a_technique_are_found_by_id) {
-    EXPECT_EQ(figures_of(**find_technique("lambert")).error().message, "technique 'lambert' has no figures");
-    const Technique& technique = **find_technique("preintegrated");
+    EXPECT_EQ(figures_of(built_in_technique("lambert")).error().message,
+              "technique 'lambert' has no figures");
+    const Technique& technique = built_in_technique("preintegrated");
     EXPECT_EQ(figures_of(technique, "normals")->size(), 1u);
     EXPECT_THAT(figures_of(technique, "nromals").error().message, HasSubstr("did you mean 'normals'?"));
 }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "catalog/catalog.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_words.h"
 
@@ -19,7 +20,8 @@ void expect(bool holds) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const dermis::Result<dermis::SceneDescription> scene = dermis::parse_scene(text, "fuzz.toml");
+    const dermis::Result<dermis::SceneDescription> scene =
+        dermis::parse_scene(text, "fuzz.toml", dermis::built_in_catalog().subjects);
     if (scene) {
         expect(!scene->meshes.empty());
         int keys = 0;
@@ -36,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
             expect(dermis::set_words(again, dermis::words_of(seen)).ok());
         }
         dermis::SceneDescription any{.meshes = {{}}};
-        (void)dermis::set_word(any, *word);
+        (void)dermis::set_word(any, *word, dermis::built_in_catalog().subjects);
     }
     dermis::Scene seen;
     if (dermis::set_section(seen, "camera", text)) {

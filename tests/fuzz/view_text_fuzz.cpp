@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "catalog/catalog.h"
+#include "dermis/scene/load_scene.h"
 #include "dermis/view/scene_edit.h"
 #include "dermis/view/state_file.h"
 #include "dermis/view/view_line.h"
@@ -23,13 +25,14 @@ const DrawSettings kSize = {.width = 640, .height = 480};
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    static const Scene kScene = *load_scene("builtin:spheres");
+    static const Scene kScene = *load_scene("builtin:spheres", {.subjects = built_in_catalog().subjects});
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     Scene scene = {.lights = kScene.lights, .camera = kScene.camera, .environment = kScene.environment};
     const Scene file = without_objects(scene);
-    const Technique& technique = all_techniques().front();
+    const Technique& technique = built_in_catalog().techniques.front();
     Model model{.scene_path = "a",
                 .scene = &scene,
+                .catalog = built_in_catalog(),
                 .choices = {TechniqueChoice(technique), TechniqueChoice(technique)}};
     const std::string before = view_line(model, file, kSize);
     const Result<void> taken = apply_view_line(model, text);

@@ -91,9 +91,13 @@ TEST_F(ShaderSourceTest, words_that_are_no_spirv_are_an_error) {
 }
 
 TEST_F(ShaderSourceTest, an_unknown_embedded_shader_is_an_error) {
-    const Result<std::vector<uint32_t>> words = embedded_shaders()("renderer/nonesuch.frag");
-    ASSERT_FALSE(words);
-    EXPECT_THAT(words.error().message, HasSubstr("unknown shader 'renderer/nonesuch.frag'"));
+    const uint32_t words[] = {1, 2, 3};
+    const EmbeddedShader built_in[] = {{"renderer/one.frag", words}};
+    const ShaderSource source = embedded_shaders(built_in);
+    EXPECT_EQ(source("renderer/one.frag").value(), (std::vector<uint32_t>{1, 2, 3}));
+    const Result<std::vector<uint32_t>> none = source("renderer/two.frag");
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("unknown shader 'renderer/two.frag'"));
 }
 
 }  // namespace

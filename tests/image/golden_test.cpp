@@ -66,3 +66,11 @@ TEST_F(Golden, updating_rewrites_the_golden) {
     ::unsetenv("DERMIS_UPDATE_GOLDENS");
     EXPECT_TRUE(matches_golden(picture, "a", {}, place));
 }
+
+TEST_F(Golden, those_that_are_missing_can_be_made_without_touching_the_others) {
+    ::setenv("DERMIS_UPDATE_GOLDENS", "missing", 1);
+    EXPECT_TRUE(matches_golden(picture, "b", {}, place));
+    for (float& value : picture.floats()) value *= 0.5f;
+    EXPECT_FALSE(matches_golden(picture, "a", {}, place));
+    EXPECT_FALSE(matches_golden(picture, "b", {}, place));
+}

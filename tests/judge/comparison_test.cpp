@@ -10,6 +10,7 @@
 #include "dermis/judge/reference_cache.h"
 #include "dermis/judge/report.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;
@@ -40,7 +41,7 @@ class Comparisons : public RenderTest {
         return settings;
     }
     static std::vector<Contestant> contestants(std::string_view text) {
-        auto list = parse_technique_list(text);
+        auto list = parse_technique_list(built_in_catalog().techniques, text);
         EXPECT_TRUE(list) << list.error().message;
         return *list;
     }
@@ -54,10 +55,10 @@ TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
     Scene scene = load("builtin:spheres");
     scene.name = "</script><b>\"spheres\"";
     const auto list = contestants("lambert,preintegrated[diffuse=closed_form]");
-    const auto first = compare_techniques(device(), scene, list, quick());
+    const auto first = compare_techniques(device(), built_in_catalog(), scene, list, quick());
     ASSERT_TRUE(first) << first.error().message;
     EXPECT_FALSE(first->truth.from_cache);
-    const auto second = compare_techniques(device(), scene, list, quick());
+    const auto second = compare_techniques(device(), built_in_catalog(), scene, list, quick());
     ASSERT_TRUE(second);
     EXPECT_TRUE(second->truth.from_cache);
     EXPECT_EQ(first->rows[1].scores.rmse, second->rows[1].scores.rmse);
@@ -111,7 +112,8 @@ TEST_F(Comparisons, a_scene_without_skin_is_refused) {
     Scene scene = load("builtin:spheres");
     for (SceneObject& object : scene.objects)
         for (MaterialClass& material_class : object.classes) material_class = MaterialClass::other;
-    const auto comparison = compare_techniques(device(), scene, contestants("lambert"), quick());
+    const auto comparison =
+        compare_techniques(device(), built_in_catalog(), scene, contestants("lambert"), quick());
     ASSERT_FALSE(comparison);
     EXPECT_THAT(comparison.error().message, HasSubstr("no pixel shows skin"));
 }

@@ -8,6 +8,7 @@
 #include "dermis/image/metrics.h"
 #include "dermis/reference/picture.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -61,7 +62,7 @@ class LambertLimit : public RenderTest {
         EXPECT_TRUE(truth) << truth.error().message;
         Renderer renderer = make_renderer(scene);
         const Image drawn = radiance(
-            renderer, **find_technique("lambert"),
+            renderer, built_in_technique("lambert"),
             {.width = side, .height = side, .view = view, .deep = true, .shadow_map_size = shadow_map_size});
         const Difference d = difference(drawn, truth->radiance, truth->skin);
         return d;

@@ -7,6 +7,7 @@
 #include "dermis/base/file.h"
 #include "dermis/judge/report.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
 
@@ -33,9 +34,9 @@ TEST_F(Page, opens_in_a_browser_and_the_picture_follows_the_slider) {
     settings.frames = 1;
     settings.grid = 2;
     settings.samples = 8;
-    const auto contestants = parse_technique_list("lambert,wrap");
+    const auto contestants = parse_technique_list(built_in_catalog().techniques, "lambert,wrap");
     ASSERT_TRUE(contestants);
-    const auto comparison = compare_techniques(device(), scene, *contestants, settings);
+    const auto comparison = compare_techniques(device(), built_in_catalog(), scene, *contestants, settings);
     ASSERT_TRUE(comparison) << comparison.error().message;
     const auto page = report_html(scene, *comparison, settings);
     ASSERT_TRUE(page) << page.error().message;

@@ -6,6 +6,7 @@
 
 #include "dermis/base/file.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 #include "test_paths.h"
 
 using namespace dermis;
@@ -22,7 +23,8 @@ ScoreRow row(const std::string& scene, const std::string& technique, double shar
     return r;
 }
 
-// Shares that were measured when the techniques were last right; DERMIS_UPDATE_SCORES=1 records them anew.
+// Shares that were measured when the techniques were last right; DERMIS_UPDATE_SCORES=1 records them anew,
+// =missing those alone that have no record.
 constexpr const char* kRecorded = DERMIS_SOURCE_DIR "/tests/judge/recorded_scores.csv";
 // Drivers round differently from one CPU to another.
 constexpr double kTolerance = 0.02;
@@ -35,6 +37,15 @@ ComparisonSettings small() {
     settings.shadow_map_size = 2048;
     settings.frames = 0;
     return settings;
+}
+
+std::vector<ScoreRow> with_missing(std::vector<ScoreRow> recorded, const std::vector<ScoreRow>& made) {
+    for (const ScoreRow& row : made)
+        if (std::ranges::none_of(recorded, [&](const ScoreRow& r) {
+                return r.scene == row.scene && r.technique == row.technique && r.settings == row.settings;
+            }))
+            recorded.push_back(row);
+    return recorded;
 }
 
 }  // namespace
@@ -75,30 +86,48 @@ TEST(Scoreboard, the_table_is_sorted_by_captured_share_and_the_plot_has_a_panel_
 }
 
 TEST(Scoreboard, all_it_lists_can_be_set) {
-    EXPECT_GT(scoreboard_contestants().size(), all_techniques().size());
+    EXPECT_GT(scoreboard_contestants(built_in_catalog().techniques).size(),
+              built_in_catalog().techniques.size());
+}
+
+TEST_F(Scoreboards, rows_that_are_recorded_stay_when_the_missing_are_added) {
+    ScoreRow old, added;
+    old.scene = added.scene = "spheres";
+    old.technique = "lambert";
+    old.scores.flip = 1;
+    added.technique = "my_skin";
+    ScoreRow old_again = old;
+    old_again.scores.flip = 2;
+    const std::vector<ScoreRow> rows = with_missing({old}, {old_again, added});
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].scores.flip, 1);
+    EXPECT_EQ(rows[1].technique, "my_skin");
 }
 
 TEST_F(Scoreboards, no_technique_captures_less_than_it_did) {
     std::vector<ScoreRow> made;
     for (const char* name : {"spheres", "bust"}) {
         const Scene scene = load(name);
-        std::vector<Contestant> list = default_contestants();
+        std::vector<Contestant> list = default_contestants(built_in_catalog().techniques);
         const auto more = parse_technique_list(
+            built_in_catalog().techniques,
             "preintegrated[diffuse=closed_form,shadow=plain],preintegrated[diffuse=curve_2015,shadow=plain]");
         ASSERT_TRUE(more) << more.error().message;
         list.insert(list.end(), more->begin(), more->end());
-        const auto comparison = compare_techniques(device(), scene, list, small());
+        const auto comparison = compare_techniques(device(), built_in_catalog(), scene, list, small());
         ASSERT_TRUE(comparison) << comparison.error().message;
         for (ScoreRow& r : score_rows(name, *comparison)) made.push_back(std::move(r));
-    }
-    if (std::getenv("DERMIS_UPDATE_SCORES")) {
-        ASSERT_TRUE(write_text_file(kRecorded, scores_csv(made)));
-        GTEST_SKIP() << "recorded anew";
     }
     const auto text = read_text_file(kRecorded);
     ASSERT_TRUE(text) << text.error().message;
     const auto recorded = parse_scores(*text);
     ASSERT_TRUE(recorded) << recorded.error().message;
+    if (const char* update = std::getenv("DERMIS_UPDATE_SCORES")) {
+        const bool missing_only = std::string_view(update) == "missing";
+        ASSERT_TRUE(
+            write_text_file(kRecorded, scores_csv(missing_only ? with_missing(*recorded, made) : made)));
+        GTEST_SKIP() << "recorded anew";
+    }
     for (const ScoreRow& now : made) {
         const auto before = std::ranges::find_if(*recorded, [&](const ScoreRow& r) {
             return r.scene == now.scene && r.technique == now.technique && r.settings == now.settings;

@@ -1,4 +1,5 @@
 #include "dermis/judge/technique_list.h"
+#include "support/built_in.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@ using testing::HasSubstr;
 namespace {
 
 std::string error_of(std::string_view text) {
-    const auto list = parse_technique_list(text);
+    const auto list = parse_technique_list(built_in_catalog().techniques, text);
     return list ? "no error" : list.error().message;
 }
 
@@ -17,6 +18,7 @@ std::string error_of(std::string_view text) {
 
 TEST(TechniqueList, names_and_settings_are_taken_apart) {
     const auto list = parse_technique_list(
+        built_in_catalog().techniques,
         "lambert, wrap[wrap=0.4, scatter_color_linear=.1,.2,.3 ],preintegrated[diffuse=closed_form]");
     ASSERT_TRUE(list) << list.error().message;
     ASSERT_EQ(list->size(), 3u);
@@ -48,7 +50,7 @@ TEST(TechniqueList, mistakes_are_named) {
 }
 
 TEST(TechniqueList, by_default_all_techniques_run_and_lambert_first) {
-    const std::vector<Contestant> all = default_contestants();
-    EXPECT_EQ(all.size(), all_techniques().size());
+    const std::vector<Contestant> all = default_contestants(built_in_catalog().techniques);
+    EXPECT_EQ(all.size(), built_in_catalog().techniques.size());
     EXPECT_EQ(all.front().technique->id, "lambert");
 }

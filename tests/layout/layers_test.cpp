@@ -87,6 +87,22 @@ bool names_vulkan(const std::string& source) {
     return std::regex_search(source, vulkan);
 }
 
+bool is_cmake(const fs::path& path) {
+    return path.filename() == "CMakeLists.txt";
+}
+
+bool names_built_in(const std::string& source) {
+    static const std::regex names(
+        R"re(#include ["<](techniques|subjects|catalog)/|built_in_|make_\w+_(technique|subject)\()re");
+    return std::regex_search(source, names);
+}
+
+bool links_built_in(const std::string& cmake) {
+    static const std::regex links(
+        R"re(dermis_(techniques|subjects|catalog)|DEPENDS [^)]*\b(techniques|subjects|catalog)\b)re");
+    return std::regex_search(cmake, links);
+}
+
 }  // namespace
 
 TEST(Layout, each_folder_declares_what_it_includes_and_nothing_else) {
@@ -119,13 +135,27 @@ TEST(Layout, an_undeclared_and_an_unused_dependency_are_found) {
                                         "bake declares optics and does not include it"}));
 }
 
-TEST(Layout, techniques_include_no_renderer) {
-    const std::set<std::string> allowed = {"base", "image", "mesh", "optics", "bake", "technique"};
-    for (const fs::path& path : files_under("techniques", is_source)) {
-        if (path.string().ends_with("_test.cpp")) continue;
-        for (const std::string& folder : included_folders(read(path)))
-            EXPECT_TRUE(allowed.contains(folder)) << path << " includes " << folder;
-    }
+TEST(Layout, techniques_and_subjects_include_no_renderer) {
+    const std::map<std::string, std::set<std::string>> allowed = {
+        {"techniques", {"base", "image", "mesh", "optics", "bake", "technique"}},
+        {"subjects", {"base", "image", "mesh", "scene"}}};
+    for (const auto& [tree, folders] : allowed)
+        for (const fs::path& path : files_under(tree, is_source)) {
+            if (path.string().ends_with("_test.cpp")) continue;
+            for (const std::string& folder : included_folders(read(path)))
+                EXPECT_TRUE(folders.contains(folder)) << path << " includes " << folder;
+        }
+}
+
+TEST(Layout, no_library_of_dermis_knows_what_is_built_in) {
+    for (const fs::path& path : files_under("dermis", is_source))
+        EXPECT_FALSE(names_built_in(read(path))) << path;
+    for (const fs::path& path : files_under("dermis", is_cmake))
+        EXPECT_FALSE(links_built_in(read(path))) << path;
+    EXPECT_TRUE(names_built_in("#include \"subjects/bust/bust.h\"\n"));
+    EXPECT_TRUE(names_built_in("const Catalog& c = built_in_catalog();"));
+    EXPECT_TRUE(links_built_in("target_link_libraries(dermis_view PUBLIC dermis_techniques)"));
+    EXPECT_TRUE(links_built_in("dermis_library(view DEPENDS base subjects)"));
 }
 
 TEST(Layout, vulkan_headers_stay_in_gpu) {
@@ -133,7 +163,7 @@ TEST(Layout, vulkan_headers_stay_in_gpu) {
     const auto may = [](const fs::path& path) {
         return path.string().find("/dermis/gpu/") != std::string::npos || path.filename() == "window.cpp";
     };
-    for (const char* tree : {"dermis", "techniques", "apps"})
+    for (const char* tree : {"dermis", "techniques", "subjects", "apps"})
         for (const fs::path& path : files_under(tree, is_source))
             EXPECT_TRUE(may(path) || !names_vulkan(read(path))) << path;
     EXPECT_TRUE(names_vulkan("#define GLFW_INCLUDE_VULKAN\n#include <GLFW/glfw3.h>"));
@@ -142,7 +172,8 @@ TEST(Layout, vulkan_headers_stay_in_gpu) {
 
 TEST(Layout, no_source_file_is_over_500_lines) {
     size_t shaders = 0;
-    for (const char* tree : {"dermis", "techniques", "apps", "shaders", "tests", "bench"})
+    for (const char* tree :
+         {"dermis", "techniques", "subjects", "catalog", "apps", "shaders", "tests", "bench"})
         for (const fs::path& path :
              files_under(tree, [](const fs::path& p) { return is_source(p) || is_shader(p); })) {
             const std::string text = read(path);

@@ -62,6 +62,8 @@ constexpr Evidence kPackageEvidence[] = {
     {"clang", "", "", "clang++"},
     {"clang-format", "", "", "clang-format"},
     {"libclang-rt-14-dev", "", "", "libclang-rt-14-dev"},
+    {"dpkg-dev", "dpkg-shlibdeps", "", ""},
+    {"file", "file", "", ""},
 };
 
 // What needs no package of its own: part of CMake, optional, or of the repository.

@@ -2,8 +2,9 @@
 
 #include "dermis/mesh/primitives.h"
 #include "dermis/render/atlas_check.h"
-#include "dermis/scene/builtin.h"
+#include "dermis/scene/placement.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 using testing::ElementsAre;
@@ -35,12 +36,12 @@ TEST_F(AtlasCheck, skin_without_uvs_is_an_error_that_names_the_material_and_a_wa
     scene.objects[0].mesh.uvs.clear();
     EXPECT_TRUE(complete_scene(scene));
     Renderer renderer = make_renderer(scene);
-    const Technique& technique = **find_technique("texture_space");
+    const Technique& technique = built_in_technique("texture_space");
     const auto drawn =
         renderer.draw(technique, ParameterValues(technique.parameters), {.width = 16, .height = 16});
     ASSERT_FALSE(drawn);
     EXPECT_THAT(drawn.error().message, HasSubstr("skin material 'hide' has no UVs"));
-    const Technique& lambert = **find_technique("lambert");
+    const Technique& lambert = built_in_technique("lambert");
     EXPECT_TRUE(renderer.draw(lambert, ParameterValues(lambert.parameters), {.width = 16, .height = 16}));
 }
 
@@ -66,9 +67,9 @@ TEST_F(AtlasCheck, skin_outside_the_atlas_looks_like_lambert) {
     EXPECT_TRUE(complete_scene(scene));
     Renderer renderer = make_renderer(scene);
     const DrawSettings diffuse = {.width = 64, .height = 64, .view = "diffuse", .shadow_map_size = 256};
-    const Image lambert = radiance(renderer, **find_technique("lambert"), diffuse);
+    const Image lambert = radiance(renderer, built_in_technique("lambert"), diffuse);
     for (const char* id : {"texture_space", "texture_space_gaussians"}) {
-        EXPECT_LT(relative_difference(lambert, radiance(renderer, **find_technique(id), diffuse), 1), 2e-3)
+        EXPECT_LT(relative_difference(lambert, radiance(renderer, built_in_technique(id), diffuse), 1), 2e-3)
             << id;
         EXPECT_THAT(renderer.warnings(), ElementsAre(HasSubstr("UDIM tile 1002")));
     }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -16,7 +17,7 @@ class AtlasCull : public RenderTest {
     using Settings = std::vector<std::pair<const char*, const char*>>;
 
     static ParameterValues with(const Settings& settings, const char* technique = "texture_space") {
-        ParameterValues values((*find_technique(technique))->parameters);
+        ParameterValues values(built_in_technique(technique).parameters);
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
         return values;
     }
@@ -27,7 +28,7 @@ class AtlasCull : public RenderTest {
     /// Radiance and the texels of the light map that were lit.
     static std::pair<Image, uint64_t> draw(Renderer& renderer, const ParameterValues& values,
                                            const char* technique = "texture_space") {
-        const auto frame = renderer.draw(**find_technique(technique), values,
+        const auto frame = renderer.draw(built_in_technique(technique), values,
                                          {.width = 96, .height = 96, .shadow_map_size = 256});
         EXPECT_TRUE(frame) << frame.error().message;
         return {*renderer.radiance(), samples(*frame, "light map")};
@@ -70,12 +71,13 @@ TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_bust) {
 }
 
 TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_head_scan) {
-    if (!load_scene("head_scan")) GTEST_SKIP() << "the head scan is not on this machine: tools/get_head";
+    if (!load_built_in_scene("head_scan"))
+        GTEST_SKIP() << "the head scan is not on this machine: tools/get_head";
     expect_same_in_12_views("head_scan", {});
 }
 
 TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_face) {
-    if (!load_scene("face")) GTEST_SKIP() << "the face is not on this machine";
+    if (!load_built_in_scene("face")) GTEST_SKIP() << "the face is not on this machine";
     expect_same_in_12_views("face", {});
 }
 

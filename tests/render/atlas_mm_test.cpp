@@ -9,8 +9,9 @@
 #include "dermis/mesh/primitives.h"
 #include "dermis/mesh/tangents.h"
 #include "dermis/mesh/uv_seams.h"
-#include "dermis/scene/builtin.h"
+#include "dermis/scene/placement.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -94,14 +95,14 @@ Scene half_shadowed(Mesh mesh, float scale = 1) {
 class AtlasMm : public RenderTest {
   protected:
     static ParameterValues with(const Blur& blur, const Settings& more = {}) {
-        ParameterValues values((*find_technique(blur.technique))->parameters);
+        ParameterValues values(built_in_technique(blur.technique).parameters);
         for (const auto& [name, text] : blur.settings) EXPECT_TRUE(values.set(name, text)) << name;
         for (const auto& [name, text] : more) EXPECT_TRUE(values.set(name, text)) << name;
         return values;
     }
     static Image draw(const Scene& scene, const Blur& blur, const Settings& more = {}, float scale = 1) {
         Renderer renderer = make_renderer(scene);
-        return radiance(renderer, **find_technique(blur.technique), with(blur, more),
+        return radiance(renderer, built_in_technique(blur.technique), with(blur, more),
                         {.width = 96,
                          .height = 96,
                          .view = "light_map",
@@ -132,7 +133,7 @@ TEST_F(AtlasMm, the_edge_of_a_shadow_is_the_profiles_own) {
     Renderer renderer = make_renderer(scene);
     const Blur& gaussians = blurs_in_mm()[1];
     const auto drawn =
-        renderer.draw(**find_technique(gaussians.technique), with(gaussians),
+        renderer.draw(built_in_technique(gaussians.technique), with(gaussians),
                       {.width = 32, .height = 32, .shadow_map_size = 2048, .penumbra_mm = 0.05f});
     ASSERT_TRUE(drawn) << drawn.error().message;
     const Image sum = *renderer.read("light_sum");
@@ -198,9 +199,9 @@ TEST_F(AtlasMm, even_light_stays_even_up_to_the_chart_borders) {
     const Scene scene = evenly_lit_spheres();
     Renderer renderer = make_renderer(scene);
     const DrawSettings diffuse = {.width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 256};
-    const Image lambert = radiance(renderer, **find_technique("lambert"), diffuse);
+    const Image lambert = radiance(renderer, built_in_technique("lambert"), diffuse);
     for (const Blur& blur : blurs_in_mm()) {
-        const Image image = radiance(renderer, **find_technique(blur.technique), with(blur), diffuse);
+        const Image image = radiance(renderer, built_in_technique(blur.technique), with(blur), diffuse);
         EXPECT_LT(relative_difference(lambert, image, 1), 1e-3) << blur.technique;
     }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/render_test.h"
+#include "support/built_in.h"
 #include "support/golden.h"
 
 using namespace dermis;
@@ -26,7 +27,7 @@ class Goldens : public RenderTest {
 TEST_F(Goldens, of_the_spheres_with_every_technique) {
     const Scene scene = load("spheres");
     Renderer renderer = make_renderer(scene);
-    for (const Technique& technique : all_techniques())
+    for (const Technique& technique : built_in_catalog().techniques)
         EXPECT_TRUE(matches_golden(
             picture(renderer, technique, {.width = 192, .height = 128, .shadow_map_size = 1024}),
             "spheres_" + technique.id));
@@ -35,7 +36,7 @@ TEST_F(Goldens, of_the_spheres_with_every_technique) {
 TEST_F(Goldens, of_the_views_of_the_spheres) {
     const Scene scene = load("spheres");
     Renderer renderer = make_renderer(scene);
-    const Technique& technique = **find_technique("lambert");
+    const Technique& technique = built_in_technique("lambert");
     for (const char* view : {"normal", "curvature", "shadow", "n_dot_l", "specular"})
         EXPECT_TRUE(matches_golden(
             picture(renderer, technique, {.width = 128, .height = 96, .view = view, .shadow_map_size = 512}),
@@ -47,7 +48,7 @@ TEST_F(Goldens, of_the_views_of_the_spheres) {
 TEST_F(Goldens, of_the_bust_with_every_technique) {
     const Scene scene = load("bust");
     Renderer renderer = make_renderer(scene);
-    for (const Technique& technique : all_techniques())
+    for (const Technique& technique : built_in_catalog().techniques)
         EXPECT_TRUE(matches_golden(
             picture(renderer, technique, {.width = 160, .height = 192, .shadow_map_size = 1024}),
             "bust_" + technique.id, {.mean_codes = 0.8, .outlier_share = 0.01}));

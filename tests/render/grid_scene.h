@@ -9,6 +9,7 @@
 
 #include "dermis/scene/environment.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 namespace dermis {
 
@@ -60,20 +61,31 @@ inline Scene make_grid_scene() {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-class PreintegratedTest : public RenderTest {
+class GridTest : public RenderTest {
   protected:
-    static const Technique& technique() { return **find_technique("preintegrated"); }
-    static ParameterValues values_of(const Settings& settings) {
-        ParameterValues values(technique().parameters);
+    static ParameterValues values_of(const Technique& technique, const Settings& settings) {
+        ParameterValues values(technique.parameters);
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
         return values;
     }
     /// The grid drawn, one tile a pixel.
-    static Image draw_grid(const Scene& scene, const Settings& settings,
+    static Image draw_grid(const Scene& scene, const Technique& technique, const Settings& settings,
                            const std::string& view = "diffuse") {
         Renderer renderer = make_renderer(scene);
-        return radiance(renderer, technique(), values_of(settings),
+        return radiance(renderer, technique, values_of(technique, settings),
                         {.width = kGrid, .height = kGrid, .view = view, .deep = true});
+    }
+};
+
+class PreintegratedTest : public GridTest {
+  protected:
+    static const Technique& technique() { return built_in_technique("preintegrated"); }
+    static ParameterValues values_of(const Settings& settings) {
+        return GridTest::values_of(technique(), settings);
+    }
+    static Image draw_grid(const Scene& scene, const Settings& settings,
+                           const std::string& view = "diffuse") {
+        return GridTest::draw_grid(scene, technique(), settings, view);
     }
 };
 

@@ -3,6 +3,7 @@
 #include "dermis/render/legend.h"
 
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -34,7 +35,7 @@ TEST_F(Legend, has_ticks_numbers_and_a_unit) {
 TEST_F(Legend, is_drawn_at_the_bottom_of_the_curvature_view_alone) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Technique& technique = **find_technique("lambert");
+    const Technique& technique = built_in_technique("lambert");
     const auto picture = [&](const std::string& view) {
         const auto drawn = renderer.draw(technique, ParameterValues(technique.parameters),
                                          {.width = 400, .height = 200, .view = view});

@@ -11,6 +11,7 @@
 #include "dermis/render/frame_values.h"
 #include "dermis/render/output.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;
@@ -22,7 +23,7 @@ class Pictures : public RenderTest {};
 TEST_F(Pictures, the_shader_tone_maps_as_the_library_does) {
     Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Technique& technique = **find_technique("lambert");
+    const Technique& technique = built_in_technique("lambert");
     for (const ToneMap curve : {ToneMap::none, ToneMap::hable, ToneMap::aces, ToneMap::pbr_neutral}) {
         scene.tone_map = curve;
         const DrawSettings settings = {.width = 96, .height = 64, .deep = true};
@@ -44,7 +45,7 @@ TEST_F(Pictures, png_and_exr_carry_the_credit) {
     const TemporaryDirectory directory;
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Technique& technique = **find_technique("lambert");
+    const Technique& technique = built_in_technique("lambert");
     const ParameterValues values(technique.parameters);
     const DrawSettings draw = {.width = 48, .height = 32, .shadow_map_size = 64};
     ASSERT_TRUE(renderer.draw(technique, values, draw));
@@ -62,7 +63,7 @@ TEST_F(Pictures, a_layered_exr_holds_the_beauty_and_the_surface) {
     const TemporaryDirectory directory;
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Technique& technique = **find_technique("wrap");
+    const Technique& technique = built_in_technique("wrap");
     const ParameterValues values(technique.parameters);
     const DrawSettings draw = {.width = 48, .height = 32, .shadow_map_size = 64};
     ASSERT_TRUE(renderer.draw(technique, values, draw));
@@ -77,7 +78,8 @@ TEST_F(Pictures, a_layered_exr_holds_the_beauty_and_the_surface) {
 TEST_F(Pictures, a_missing_map_is_an_error_that_names_it) {
     Scene scene = load("builtin:spheres");
     scene.objects[0].mesh.materials[0].base_color_map.name = "/nowhere/skin.png";
-    const auto renderer = Renderer::create(device(), gpu::embedded_shaders(), scene);
+    const auto renderer =
+        Renderer::create(device(), gpu::embedded_shaders(built_in_catalog().shaders), scene);
     ASSERT_FALSE(renderer);
     EXPECT_THAT(renderer.error().message, testing::StartsWith("/nowhere/skin.png: "));
 }

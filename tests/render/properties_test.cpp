@@ -9,6 +9,7 @@
 #include "dermis/image/io.h"
 #include "dermis/scene/brdf_table.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;
@@ -55,7 +56,7 @@ TEST_F(Properties, every_technique_is_linear_in_light) {
     Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
     scene.background_linear = {};
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         const Image once = radiance(renderer, technique, kSmall);
         for (Light& light : scene.lights) light.intensity *= 2;
         scene.environment.intensity *= 2;
@@ -69,7 +70,7 @@ TEST_F(Properties, every_technique_is_linear_in_light) {
 TEST_F(Properties, every_technique_draws_the_same_frame_twice) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         const Image first = radiance(renderer, technique, kSmall),
                     second = radiance(renderer, technique, kSmall);
         EXPECT_EQ(first.bytes, second.bytes) << technique.id;
@@ -83,7 +84,7 @@ TEST_F(Properties, baselines_know_no_length) {
     DrawSettings large_settings = kSmall;
     large_settings.penumbra_mm = kSmall.penumbra_mm * 10;
     for (const char* id : {"lambert", "oren_nayar", "wrap"}) {
-        const Technique& technique = **find_technique(id);
+        const Technique& technique = built_in_technique(id);
         const Image a = radiance(renderer, technique, kSmall),
                     b = radiance(large_renderer, technique, large_settings);
         // Half floats and shadow edges: a few pixels may fall on the other side of a comparison.
@@ -96,7 +97,7 @@ TEST_F(Properties, without_a_specular_model_nothing_is_reflected) {
     Renderer renderer = make_renderer(scene);
     DrawSettings settings = kSmall;
     settings.view = "specular";
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         ParameterValues values(technique.parameters);
         if (!values.set("specular", "none")) continue;
         const Image image = radiance(renderer, technique, values, settings);
@@ -120,7 +121,7 @@ TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
     scene.environment = {.kind = EnvironmentKind::file, .file = panorama, .intensity = 1};
     scene.background_linear = {};
     Renderer renderer = make_renderer(scene);
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         DrawSettings diffuse = kSmall;
         diffuse.view = "diffuse";
         const Image image = radiance(renderer, technique, diffuse);
@@ -155,7 +156,7 @@ TEST_F(Properties, reflections_of_a_white_furnace_are_the_split_sum) {
     DrawSettings settings = kSmall;
     settings.view = "specular";
     settings.deep = settings.gbuffer = true;
-    const Image image = radiance(renderer, **find_technique("lambert"), settings);
+    const Image image = radiance(renderer, built_in_technique("lambert"), settings);
     const Image normal = *renderer.read("gbuffer_geometry"), position = *renderer.read("gbuffer_position");
     size_t compared = 0;
     for (int y = 0; y < image.height; y += 5)
@@ -182,7 +183,7 @@ TEST_F(Properties, lambert_on_a_sphere_is_the_clamped_cosine) {
     Renderer renderer = make_renderer(scene);
     DrawSettings settings = kSmall;
     settings.gbuffer = true;
-    const Image image = radiance(renderer, **find_technique("lambert"), settings);
+    const Image image = radiance(renderer, built_in_technique("lambert"), settings);
     const Image normal = *renderer.read("gbuffer_geometry"), albedo = *renderer.read("gbuffer_albedo");
     const Image light = *renderer.read("gbuffer_light");
     const Light& key = scene.key_light();
@@ -207,7 +208,7 @@ TEST_F(Properties, lambert_on_a_sphere_is_the_clamped_cosine) {
 TEST_F(Properties, four_samples_a_pixel_change_edges_only) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         DrawSettings smooth = kSmall;
         smooth.samples = 4;
         const Image one = radiance(renderer, technique, kSmall), four = radiance(renderer, technique, smooth);
@@ -226,7 +227,7 @@ TEST_F(Properties, four_samples_a_pixel_change_edges_only) {
 TEST_F(Properties, every_view_of_every_technique_can_be_drawn) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    for (const Technique& technique : all_techniques())
+    for (const Technique& technique : built_in_catalog().techniques)
         for (const std::string& view : view_names(technique)) {
             DrawSettings settings = {.width = 32, .height = 32, .view = view, .shadow_map_size = 64};
             const auto drawn = renderer.draw(technique, ParameterValues(technique.parameters), settings);

@@ -3,6 +3,7 @@
 
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/renderer.h"
+#include "support/built_in.h"
 #include "support/gpu_fixture.h"
 
 namespace dermis {
@@ -10,7 +11,7 @@ namespace dermis {
 class RenderTest : public gpu::GpuTest {
   protected:
     static Scene load(const std::string& name) {
-        Result<Scene> scene = load_scene(name);
+        Result<Scene> scene = load_built_in_scene(name);
         EXPECT_TRUE(scene) << scene.error().message;
         EXPECT_TRUE(complete_scene(*scene));
         return std::move(*scene);
@@ -29,7 +30,8 @@ class RenderTest : public gpu::GpuTest {
     }
 
     static Renderer make_renderer(const Scene& scene) {
-        Result<Renderer> renderer = Renderer::create(device(), gpu::embedded_shaders(), scene);
+        Result<Renderer> renderer =
+            Renderer::create(device(), gpu::embedded_shaders(built_in_catalog().shaders), scene);
         EXPECT_TRUE(renderer) << renderer.error().message;
         return std::move(*renderer);
     }

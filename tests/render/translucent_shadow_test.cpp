@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "dermis/mesh/primitives.h"
-#include "dermis/scene/builtin.h"
+#include "dermis/scene/placement.h"
 #include "render/render_test.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -43,10 +44,10 @@ class TranslucentShadow : public RenderTest {
 
     /// The light map of one frame, unblurred.
     static Image light_map(Renderer& renderer, const Settings& settings) {
-        ParameterValues values((*find_technique("texture_space"))->parameters);
+        ParameterValues values(built_in_technique("texture_space").parameters);
         EXPECT_TRUE(values.set("blur_passes", "0") && values.set("light_map_size", "64"));
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
-        const auto drawn = renderer.draw(**find_technique("texture_space"), values,
+        const auto drawn = renderer.draw(built_in_technique("texture_space"), values,
                                          {.width = 64, .height = 64, .shadow_map_size = 512});
         EXPECT_TRUE(drawn) << drawn.error().message;
         return to_linear_float(*renderer.read("light_map_a"));
@@ -167,7 +168,7 @@ TEST_F(TranslucentShadow, glass_is_drawn_over_the_picture_as_a_product) {
     Scene same_view = bare;
     same_view.camera = glazed.camera;
     Renderer without = make_renderer(same_view), with = make_renderer(glazed);
-    const Technique& lambert = **find_technique("lambert");
+    const Technique& lambert = built_in_technique("lambert");
     const DrawSettings settings = {.width = 64, .height = 64, .view = "diffuse", .shadow_map_size = 256};
     const Image a = radiance(without, lambert, settings), b = radiance(with, lambert, settings);
     size_t tinted = 0;

@@ -10,6 +10,7 @@
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_paths.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
 
@@ -32,7 +33,7 @@ struct SceneDirectory : TemporaryDirectory {
     }
     Result<Scene> load(const std::string& toml) const {
         put("s.toml", toml);
-        return load_scene((path / "s.toml").string());
+        return load_built_in_scene((path / "s.toml").string());
     }
     std::string error(const std::string& toml) const {
         const Result<Scene> scene = load(toml);
@@ -236,10 +237,10 @@ TEST(LoadScene, a_bare_mesh_stands_in_the_studio_in_the_unit_asked_for) {
 }
 
 TEST(LoadScene, names_without_a_path_are_scenes_of_the_project) {
-    const Result<Scene> scene = load_scene("spheres");
+    const Result<Scene> scene = load_built_in_scene("spheres");
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->objects.size(), 4u);
-    const std::string message = load_scene("sphere").error().message;
+    const std::string message = load_built_in_scene("sphere").error().message;
     EXPECT_EQ(message.rfind("unknown scene 'sphere'; did you mean 'spheres'? Known: ", 0), 0u) << message;
 }
 
@@ -248,7 +249,7 @@ TEST(LoadScene, a_folder_of_the_same_name_does_not_hide_a_scene) {
     const auto before = std::filesystem::current_path();
     std::filesystem::create_directory(dir.file("spheres"));
     std::filesystem::current_path(std::filesystem::path(dir.file("spheres")).parent_path());
-    const Result<Scene> scene = load_scene("spheres");
+    const Result<Scene> scene = load_built_in_scene("spheres");
     std::filesystem::current_path(before);
     EXPECT_TRUE(scene) << scene.error().message;
 }
@@ -256,15 +257,15 @@ TEST(LoadScene, a_folder_of_the_same_name_does_not_hide_a_scene) {
 TEST(LoadScene, what_is_neither_scene_nor_mesh_is_an_error) {
     const SceneDirectory dir;
     dir.put("a.txt", "hello");
-    EXPECT_EQ(load_scene(dir.file("a.txt")).error().message,
+    EXPECT_EQ(load_built_in_scene(dir.file("a.txt")).error().message,
               dir.file("a.txt") + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)");
-    EXPECT_FALSE(load_scene(dir.file("none.toml")));
-    EXPECT_FALSE(load_scene(""));
+    EXPECT_FALSE(load_built_in_scene(dir.file("none.toml")));
+    EXPECT_FALSE(load_built_in_scene(""));
 }
 
 TEST(LoadScene, every_scene_of_the_project_loads_when_its_assets_are_there) {
     for (const std::string& name : scene_names()) {
-        const Result<Scene> scene = load_scene(name);
+        const Result<Scene> scene = load_built_in_scene(name);
         if (!scene && scene.error().message.find("run tools/get_head") != std::string::npos) continue;
         ASSERT_TRUE(scene) << scene.error().message;
         EXPECT_FALSE(scene->objects.empty()) << name;
@@ -277,7 +278,7 @@ TEST(LoadScene, every_scene_of_the_project_loads_when_its_assets_are_there) {
 
 TEST(LoadScene, the_heads_are_as_tall_as_heads_and_face_the_camera) {
     for (const char* name : {"head_scan", "face"}) {
-        const Result<Scene> scene = load_scene(name);
+        const Result<Scene> scene = load_built_in_scene(name);
         if (!scene && scene.error().message.find("run tools/get_head") != std::string::npos)
             GTEST_SKIP() << scene.error().message;
         ASSERT_TRUE(scene) << scene.error().message;
@@ -297,5 +298,6 @@ TEST(LoadScene, the_heads_are_as_tall_as_heads_and_face_the_camera) {
 TEST(SceneManual, is_what_the_tables_print) {
     const Result<std::string> page = read_text_file(fs::path(DERMIS_SOURCE_DIR) / "docs" / "scene_file.md");
     ASSERT_TRUE(page) << page.error().message;
-    EXPECT_TRUE(*page == scene_file_manual()) << "regenerate it: build/dermis keys > docs/scene_file.md";
+    EXPECT_TRUE(*page == scene_file_manual(built_in_catalog().subjects))
+        << "regenerate it: build/dermis keys > docs/scene_file.md";
 }

@@ -8,6 +8,7 @@
 
 #include "dermis/image/io.h"
 #include "dermis/scene/scene.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;
@@ -27,7 +28,7 @@ class RefinedMesh : public testing::Test {
     Result<Scene> scene(const std::string& lines) {
         const auto path = directory_.path / "scene.toml";
         std::ofstream(path) << "[[mesh]]\nfile = \"quads.obj\"\nunit_mm = 1\n" << lines;
-        return load_scene(path.string());
+        return load_built_in_scene(path.string());
     }
     TemporaryDirectory directory_;
 };

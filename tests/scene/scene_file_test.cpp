@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dermis/scene/scene_description.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -71,8 +72,12 @@ mode = "fast"
 tint = [1, 0.5, 0]
 )";
 
+Result<SceneDescription> parse(const std::string& toml) {
+    return parse_scene(toml, "s.toml", built_in_catalog().subjects);
+}
+
 std::string error_of(const std::string& toml) {
-    const Result<SceneDescription> scene = parse_scene(toml, "s.toml");
+    const Result<SceneDescription> scene = parse(toml);
     return scene ? "" : scene.error().message;
 }
 
@@ -81,7 +86,7 @@ const std::string kMesh = "[[mesh]]\nfile = \"builtin:spheres\"\n";
 }  // namespace
 
 TEST(SceneFile, every_section_arrives_in_the_description) {
-    const Result<SceneDescription> scene = parse_scene(kComplete, "s.toml");
+    const Result<SceneDescription> scene = parse(kComplete);
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->head.name, "Test");
     EXPECT_EQ(scene->head.tone_map, ToneMap::aces);
@@ -105,12 +110,14 @@ TEST(SceneFile, every_section_arrives_in_the_description) {
 }
 
 TEST(SceneFile, a_bust_takes_the_parameters_of_its_own_table) {
-    const Result<SceneDescription> scene = parse_scene(
-        "[[mesh]]\nfile = \"builtin:bust\"\ntone = 5\near_length_mm = 58.5\nseed = 7\n", "s.toml");
+    const Result<SceneDescription> scene =
+        parse("[[mesh]]\nfile = \"builtin:bust\"\ntone = 5\near_length_mm = 58.5\nseed = 7\n");
     ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->meshes[0].bust, (BustParams{.ear_length_mm = 58.5, .tone = 5, .seed = 7}));
-    for (const BustParamInfo& row : bust_param_table()) {
-        const std::string name(row.name), below = std::to_string(row.least - 1);
+    EXPECT_EQ(scene->meshes[0].parameters,
+              (std::map<std::string, std::string>{{"ear_length_mm", "58.5"}, {"tone", "5"}, {"seed", "7"}}));
+    const Subject& bust = **find_subject(built_in_catalog().subjects, "bust");
+    for (const Parameter& row : bust.parameters.parameters) {
+        const std::string name = row.name, below = std::to_string(int(row.min) - 1);
         const std::string message = error_of("[[mesh]]\nfile = \"builtin:bust\"\n" + name + " = " + below);
         EXPECT_TRUE(message.starts_with("s.toml:3: mesh." + name + " = ")) << message;
     }
@@ -149,9 +156,8 @@ TEST(SceneFile, what_trips_the_parser_itself_is_an_error_with_its_line) {
 }
 
 TEST(SceneFile, characters_beyond_ascii_stand_in_strings_and_comments) {
-    const Result<SceneDescription> scene = parse_scene(
-        "\xEF\xBB\xBFname = \"caf\u00e9 \\\" ~41 \u00e9\" # \u00e9\ncredit = '''\n\u00e9\'\n'''\n" + kMesh,
-        "s.toml");
+    const Result<SceneDescription> scene = parse(
+        "\xEF\xBB\xBFname = \"caf\u00e9 \\\" ~41 \u00e9\" # \u00e9\ncredit = '''\n\u00e9\'\n'''\n" + kMesh);
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->head.name, "caf\u00e9 \" ~41 \u00e9");
     EXPECT_EQ(scene->head.credit, "\u00e9\'\n");
@@ -234,7 +240,7 @@ TEST(SceneFile, exactly_one_light_is_the_key_light) {
         "s.toml:5: light.key: the light of line 3 is the key light already; exactly one casts the shadow");
     EXPECT_EQ(error_of(kMesh + "[[light]]\nkey = false\n"),
               "s.toml:3: light.key: no light is the key light; give one of them key = true");
-    const Result<SceneDescription> single = parse_scene(kMesh + "[[light]]\nyaw_deg = 3\n", "s.toml");
+    const Result<SceneDescription> single = parse(kMesh + "[[light]]\nyaw_deg = 3\n");
     ASSERT_TRUE(single);
     EXPECT_EQ(single->lights[0].key, true);
 }

@@ -5,6 +5,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/scene/scene.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 
 namespace dermis {
@@ -21,7 +22,7 @@ class SceneFiles : public ::testing::Test {
         EXPECT_TRUE(write_text_file(path(name), text));
     }
     std::vector<std::filesystem::path> files(const std::string& name) {
-        const Result<Scene> scene = load_scene(path(name).string());
+        const Result<Scene> scene = load_built_in_scene(path(name).string());
         EXPECT_TRUE(scene) << scene.error().message;
         return scene ? files_of(*scene) : std::vector<std::filesystem::path>();
     }
@@ -59,8 +60,8 @@ TEST_F(SceneFiles, a_scene_brings_all_it_names_and_knows_where_the_rest_would_be
     write("scene.toml", text);
     EXPECT_THAT(files("scene.toml"), UnorderedElementsAre(path("scene.toml"), path("a.obj"), path("a.mtl"),
                                                           path("skin.png"), path("around.hdr")));
-    const auto description =
-        parse_scene(text + "visible = true\n[material.m.maps]\nnormal = \"later.png\"\n", path("scene.toml"));
+    const auto description = parse_scene(text + "visible = true\n[material.m.maps]\nnormal = \"later.png\"\n",
+                                         path("scene.toml"), built_in_catalog().subjects);
     ASSERT_TRUE(description) << description.error().message;
     EXPECT_THAT(paths_of(*description),
                 UnorderedElementsAre(path("a.obj"), path("skin.png"), path("around.hdr"), path("later.png")));

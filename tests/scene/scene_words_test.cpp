@@ -8,6 +8,7 @@
 #include "dermis/base/file.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_hash.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 
 namespace dermis {
@@ -16,7 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 
 Scene spheres() {
-    return *load_scene("builtin:spheres");
+    return *load_built_in_scene("builtin:spheres");
 }
 
 std::string error_of(Scene& scene, std::vector<SceneWord> words) {
@@ -139,8 +140,9 @@ TEST(SceneWords, a_scene_file_takes_the_keys_that_are_read_while_it_is_loaded) {
     const TemporaryDirectory directory;
     const std::string file = (directory.path / "s.toml").string();
     ASSERT_TRUE(write_text_file(file, "[[mesh]]\nfile = \"builtin:spheres\"\nname = \"row\"\n"));
-    const Scene plain = *load_scene(file);
-    const Result<Scene> scene = load_scene(file, {.words = {{"mesh.scale", "2"},
+    const Scene plain = *load_built_in_scene(file);
+    const Result<Scene> scene = load_scene(file, {.subjects = built_in_catalog().subjects,
+                                                  .words = {{"mesh.scale", "2"},
                                                             {"material.skin.albedo", "0.5,0.25,1"},
                                                             {"skin.roughness", "0.125"},
                                                             {"settings.wrap", "0.5"}}});
@@ -151,7 +153,8 @@ TEST(SceneWords, a_scene_file_takes_the_keys_that_are_read_while_it_is_loaded) {
     EXPECT_EQ(skin.roughness, 0.125f);
     EXPECT_EQ(scene->settings.at("wrap"), "0.5");
     const auto told = [&](const std::string& name, const SceneWord& word) {
-        const Result<Scene> wrong = load_scene(name, {.words = {word}});
+        const Result<Scene> wrong =
+            load_scene(name, {.subjects = built_in_catalog().subjects, .words = {word}});
         return wrong ? "" : wrong.error().message;
     };
     EXPECT_THAT(told(file, {"mesh.scal", "2"}), HasSubstr("did you mean 'scale'?"));

@@ -2,7 +2,8 @@
 // Golden pictures: EXPECT_TRUE(matches_golden(picture, "sphere_lambert")) holds a picture against
 // tests/golden/sphere_lambert.png. Where it does not match, the new picture, the old one and their difference
 // (eight times as bright) are written below the build directory and the message names them.
-// DERMIS_UPDATE_GOLDENS=1 writes the new picture over the golden instead; look at it before committing it.
+// DERMIS_UPDATE_GOLDENS=1 writes the new picture over the golden instead, DERMIS_UPDATE_GOLDENS=missing only where there
+// is none; look at it before committing it.
 
 #include <gtest/gtest.h>
 
@@ -70,7 +71,9 @@ inline void write_or_say(testing::AssertionResult& result, const std::filesystem
     const Image codes = convert(to_linear_float(picture), PixelFormat::u8, Encoding::srgb);
     const std::filesystem::path path = place.goldens / (name + ".png");
     const char* update = std::getenv("DERMIS_UPDATE_GOLDENS");
-    if (update && std::string(update) == "1") {
+    const bool rewrites = update && std::string(update) == "1";
+    const bool adds = update && std::string(update) == "missing" && !std::filesystem::exists(path);
+    if (rewrites || adds) {
         const Result<void> written = write_image(path, codes);
         return written ? testing::AssertionSuccess() : testing::AssertionFailure() << written.error().message;
     }

@@ -6,6 +6,7 @@
 
 #include "dermis/base/text.h"
 #include "dermis/render/shared_passes.h"
+#include "support/built_in.h"
 
 using namespace dermis;
 
@@ -42,14 +43,15 @@ std::vector<std::string> inputs_of(const Technique& technique, const ParameterVa
 
 TEST(AllTechniques, are_found_by_their_folders) {
     std::set<std::string> ids;
-    for (const Technique& technique : all_techniques()) EXPECT_TRUE(ids.insert(technique.id).second);
+    for (const Technique& technique : built_in_catalog().techniques)
+        EXPECT_TRUE(ids.insert(technique.id).second);
     for (const char* id : {"lambert", "oren_nayar", "wrap"}) EXPECT_TRUE(ids.contains(id)) << id;
-    EXPECT_EQ(find_technique("lambart").error().message.substr(0, 52),
+    EXPECT_EQ(find_technique(built_in_catalog().techniques, "lambart").error().message.substr(0, 52),
               "unknown technique 'lambart'; did you mean 'lambert'?");
 }
 
 TEST(AllTechniques, say_what_they_are_and_document_every_parameter) {
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         EXPECT_FALSE(technique.summary.empty()) << technique.id;
         EXPECT_FALSE(technique.source.empty()) << technique.id;
         std::set<std::string> names;
@@ -65,7 +67,7 @@ TEST(AllTechniques, say_what_they_are_and_document_every_parameter) {
 }
 
 TEST(AllTechniques, build_sound_frames_for_every_setting_view_and_sample_count) {
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         for (const ParameterValues& values : variations(technique)) {
             const std::vector<std::string> inputs = inputs_of(technique, values);
             for (const std::string& view : view_names(technique))
@@ -83,7 +85,7 @@ TEST(AllTechniques, build_sound_frames_for_every_setting_view_and_sample_count) 
 }
 
 TEST(AllTechniques, building_is_pure) {
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         const ParameterValues values(technique.parameters);
         EXPECT_EQ(describe(technique.build(values, {})), describe(technique.build(values, {})))
             << technique.id;
@@ -92,7 +94,7 @@ TEST(AllTechniques, building_is_pure) {
 
 TEST(AllTechniques, stand_ins_for_a_moving_picture_stay_in_their_ranges) {
     int with_one = 0;
-    for (const Technique& technique : all_techniques()) {
+    for (const Technique& technique : built_in_catalog().techniques) {
         if (!technique.coarse) continue;
         ++with_one;
         for (const ParameterValues& values : variations(technique))

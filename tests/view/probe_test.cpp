@@ -4,14 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "dermis/mesh/primitives.h"
-#include "dermis/scene/builtin.h"
+#include "subjects/spheres/spheres.h"
+#include "support/built_in.h"
 
 namespace dermis::view {
 namespace {
 
 // One sphere in the middle, seen from the front.
 Scene sphere_scene(float radius_mm) {
-    Result<Scene> spheres = load_scene("builtin:spheres");
+    Result<Scene> spheres = load_built_in_scene("builtin:spheres");
     EXPECT_TRUE(spheres);
     Scene scene = std::move(*spheres);
     for (SceneObject& object : scene.objects) {

@@ -1,6 +1,7 @@
 // What stays of a person's changes when a scene's files are read again.
 
 #include "dermis/view/scene_look.h"
+#include "support/built_in.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace {
 struct Read {
     Scene before, seen, fresh;
     Read() {
-        before = *load_scene("builtin:spheres");
+        before = *load_built_in_scene("builtin:spheres");
         seen = fresh = before;
         EXPECT_TRUE(set_section(seen, "camera", "yaw_deg=40"));
         seen.lights[0].intensity = 2;

@@ -1,4 +1,5 @@
 #include "dermis/render/skin_tone.h"
+#include "support/built_in.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,7 @@ namespace dermis {
 namespace {
 
 Scene spheres() {
-    Result<Scene> scene = load_scene("builtin:spheres");
+    Result<Scene> scene = load_built_in_scene("builtin:spheres");
     EXPECT_TRUE(scene);
     return std::move(*scene);
 }

@@ -8,6 +8,7 @@
 #include "dermis/view/scene_edit.h"
 #include "dermis/view/state_file.h"
 #include "dermis/view/view_line.h"
+#include "support/built_in.h"
 #include "support/temporary_directory.h"
 
 namespace dermis::view {
@@ -21,9 +22,10 @@ struct Viewed {
     Scene scene;
     Model model;
     Viewed()
-        : model{.choices = {TechniqueChoice(all_techniques().front()),
-                            TechniqueChoice(all_techniques().front())}} {
-        Result<Scene> loaded = load_scene("builtin:spheres");
+        : model{.catalog = built_in_catalog(),
+                .choices = {TechniqueChoice(built_in_catalog().techniques.front()),
+                            TechniqueChoice(built_in_catalog().techniques.front())}} {
+        Result<Scene> loaded = load_built_in_scene("builtin:spheres");
         EXPECT_TRUE(loaded);
         scene = std::move(*loaded);
         model.scene = &scene;
@@ -63,14 +65,14 @@ TEST(SceneText, a_saved_built_in_reads_back_as_what_was_seen) {
     ASSERT_TRUE(text) << text.error().message;
     const auto file = directory.path / "saved.toml";
     ASSERT_TRUE(write_text_file(file, *text));
-    const Result<Scene> again = load_scene(file.string());
+    const Result<Scene> again = load_built_in_scene(file.string());
     ASSERT_TRUE(again) << again.error().message << "\n" << *text;
     EXPECT_EQ(camera_text(again->camera), camera_text(viewed.scene.camera));
     EXPECT_EQ(light_text(again->key_light()), light_text(viewed.scene.key_light()));
     EXPECT_EQ(again->lights.size(), viewed.scene.lights.size());
     EXPECT_EQ(again->exposure_ev, 0.25f);
     EXPECT_EQ(again->skin.profile, "jensen_skin2");
-    EXPECT_EQ(again->technique, all_techniques().front().id);
+    EXPECT_EQ(again->technique, built_in_catalog().techniques.front().id);
 }
 
 TEST(SceneText, comments_stay_and_paths_stay_true_elsewhere) {
@@ -116,7 +118,7 @@ TEST(ViewLine, names_what_was_changed_of_the_look_and_nothing_else) {
 
 TEST(ViewLine, comes_back_by_pasting) {
     Viewed viewed;
-    const Technique& wrap = **find_technique("wrap");
+    const Technique& wrap = built_in_technique("wrap");
     viewed.model.choices[0].choose(wrap);
     ASSERT_TRUE(viewed.model.choices[0].values().set("wrap", "0.375"));
     const Scene file = without_objects(viewed.scene);

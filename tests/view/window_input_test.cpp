@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "dermis/scene/scene.h"
+#include "support/built_in.h"
 #include "view/window_fixture.h"
 
 namespace dermis {
@@ -65,7 +66,7 @@ TEST_F(ViewWindow, every_technique_and_every_view_is_shown) {
     for (const char* atlas : {"texture_space", "texture_space_gaussians"})
         script += std::string("technique ") + atlas + "\nset light_map_size=64\n";
     script += "technique lambert\n";
-    for (size_t i = 1; i < all_techniques().size(); ++i) script += "key T\n";
+    for (size_t i = 1; i < built_in_catalog().techniques.size(); ++i) script += "key T\n";
     for (int i = 0; i < 14; ++i) script += "key V\n";
     const ProgramResult result =
         view(square() + " --size 240x140 --samples 1 -t lambert",
@@ -153,7 +154,8 @@ TEST_F(ViewWindow, real_mouse_and_keys_do_what_the_scripted_ones_do) {
         quit
     )");
     ASSERT_EQ(scripted.exit_code, 0) << scripted.err;
-    const auto by_hand = load_scene(path("spheres-001.toml")), by_script = load_scene(path("scripted.toml"));
+    const auto by_hand = load_built_in_scene(path("spheres-001.toml")),
+               by_script = load_built_in_scene(path("scripted.toml"));
     ASSERT_TRUE(by_hand) << by_hand.error().message;
     ASSERT_TRUE(by_script) << by_script.error().message;
     EXPECT_NE(by_hand->technique, "lambert");

@@ -5,11 +5,13 @@
 #include <memory>
 
 #include "bake_options.h"
+#include "catalog/catalog.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/presets.h"
 #include "dermis/rays/bake_map.h"
 #include "dermis/rays/map_file.h"
+#include "dermis/scene/load_scene.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::cli {
@@ -22,7 +24,7 @@ struct Options {
 };
 
 Result<int> run(Options options) {
-    SceneOptions scene_options;
+    SceneOptions scene_options = {.subjects = built_in_catalog().subjects};
     if (options.unit_mm > 0) scene_options.mesh_unit_mm = options.unit_mm;
     const Result<Scene> scene = load_scene(options.mesh, scene_options);
     if (!scene) return scene.error();

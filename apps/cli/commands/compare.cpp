@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/file.h"
 #include "dermis/base/progress.h"
@@ -94,7 +95,7 @@ Result<Comparison> compare(const Options& options, const Scene& scene,
     if (!device) return device.error();
     Progress line("ground truth", 0);
     std::optional<Progress> techniques;
-    return compare_techniques(*device, scene, contestants, settings,
+    return compare_techniques(*device, built_in_catalog(), scene, contestants, settings,
                               {.reference = [&](double done) { line.set(done); },
                                .techniques =
                                    [&](double done, const std::string& name) {
@@ -165,8 +166,10 @@ nlohmann::ordered_json to_json(const Options& options, const Scene& scene, const
 Result<int> run(const Options& options) {
     const Result<ComparisonSettings> settings = settings_of(options);
     if (!settings) return settings.error();
+    const std::span<const Technique> techniques = built_in_catalog().techniques;
     const Result<std::vector<Contestant>> contestants =
-        options.techniques.empty() ? default_contestants() : parse_technique_list(options.techniques);
+        options.techniques.empty() ? default_contestants(techniques)
+                                   : parse_technique_list(techniques, options.techniques);
     if (!contestants) return contestants.error();
     if (Result<void> good = try_directory(options.output); !good) return good.error();
     const Result<Scene> scene = scene_of(options);

@@ -1,26 +1,30 @@
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include "command.h"
 #include "dermis/base/text.h"
-#include "dermis/bust/bust.h"
-#include "dermis/bust/export.h"
+#include "dermis/scene/subject.h"
+#include "parameter_list.h"
+#include "subjects/bust/bust.h"
+#include "subjects/bust/export.h"
 
 namespace dermis::cli {
 namespace {
 
-constexpr std::string_view kBuiltin = "builtin:";
-
 struct Options {
     std::string mesh = "builtin:bust", path, maps;
-    BustParams params;
+    std::map<std::string, std::optional<std::string>> parameters;
 };
 
 Result<int> run(const Options& options) {
-    const std::string_view text = options.mesh;
-    const std::string name(text.starts_with(kBuiltin) ? text.substr(kBuiltin.size()) : text);
+    const std::string name(subject_name(options.mesh).value_or(options.mesh));
     if (name != "bust") return Error{unknown_name("built-in mesh", name, std::vector<std::string>{"bust"})};
-    const Result<Bust> bust = make_bust(options.params);
+    ParameterValues values(bust_parameters());
+    for (const auto& [parameter, text] : options.parameters)
+        if (text)
+            if (const Result<void> set = values.set(parameter, *text); !set) return set.error();
+    const Result<Bust> bust = make_bust(values.as<BustParams>());
     if (!bust) return bust.error();
     if (const auto written = write_bust(options.path, *bust); !written) return written.error();
     if (!options.maps.empty())
@@ -47,12 +51,9 @@ void add_export_mesh_command(CommandLine& line) {
     command->add_option("mesh", options->mesh, "builtin:bust");
     command->add_option("-o,--output", options->path, "file to write, .glb or .obj")->required();
     command->add_option("--maps", options->maps, "folder for all maps as PNG, the kernel size among them");
-    command->add_option("--seed", options->params.seed,
-                        "pores, freckles, brows, which way the asymmetry goes");
-    for (const BustParamInfo& row : bust_param_table())
-        command->add_option(flag_of(row.name), options->params.*row.member,
-                            std::string(row.doc) + ", " + to_text(row.least) + " to " + to_text(row.most) +
-                                (row.unit.empty() ? "" : " " + std::string(row.unit)));
+    for (const Parameter& row : bust_parameters().parameters)
+        command->add_option(flag_of(row.name), options->parameters[row.name],
+                            row.doc + ", " + range_text(row));
     line.when_chosen(command, [options] { return run(*options); });
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/progress.h"
 #include "dermis/figures/figures.h"
@@ -38,7 +39,8 @@ void print(const std::string& path, const FigureResult& result) {
 
 Result<int> make_figures(const Options& options) {
     if (Result<void> good = check(options); !good) return good.error();
-    const Result<const Technique*> technique = find_technique(options.technique);
+    const Result<const Technique*> technique =
+        find_technique(built_in_catalog().techniques, options.technique);
     if (!technique) return technique.error();
     const Result<std::vector<Figure>> figures = figures_of(**technique, options.only);
     if (!figures) return figures.error();
@@ -53,10 +55,11 @@ Result<int> make_figures(const Options& options) {
     for (const Figure& figure : *figures)
         for (const FigureRow& row : figure.rows) cells += row.cells.size();
     Progress progress("figures", cells);
-    CellRenderer renderer(*device, {.scene = options.scene.name,
-                                    .samples = options.samples,
-                                    .loading_words = words_for(*words, true),
-                                    .words = words_for(*words, false)});
+    CellRenderer renderer(*device, built_in_catalog(),
+                          {.scene = options.scene.name,
+                           .samples = options.samples,
+                           .loading_words = words_for(*words, true),
+                           .words = words_for(*words, false)});
     for (const Figure& figure : *figures) {
         const Result<FigureResult> result =
             draw_figure(renderer, *font, figure, options.size, [&] { progress.advance(); });

@@ -8,12 +8,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/uv_report.h"
 #include "dermis/rays/flesh.h"
-#include "dermis/scene/builtin.h"
+#include "dermis/scene/subject.h"
 
 namespace dermis::cli {
 namespace {
@@ -175,9 +176,9 @@ struct NamedMesh {
 };
 
 Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
-    constexpr std::string_view kBuiltin = "builtin:";
     std::vector<NamedMesh> meshes;
-    if (!arguments.mesh.starts_with(kBuiltin)) {
+    const auto subject = subject_name(arguments.mesh);
+    if (!subject) {
         MeshOptions options;
         if (arguments.unit_mm > 0) options.unit_mm = arguments.unit_mm;
         Result<LoadedMesh> loaded = read_mesh(arguments.mesh, options);
@@ -185,10 +186,9 @@ Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
         meshes.push_back({arguments.mesh, std::move(*loaded)});
         return meshes;
     }
-    Result<std::vector<SceneObject>> objects =
-        make_builtin_objects(std::string_view(arguments.mesh).substr(kBuiltin.size()));
-    if (!objects) return objects.error();
-    for (SceneObject& object : *objects) meshes.push_back({object.name, {std::move(object.mesh), {}}});
+    Result<SubjectScene> made = make_subject(built_in_catalog().subjects, *subject);
+    if (!made) return made.error();
+    for (SceneObject& object : made->objects) meshes.push_back({object.name, {std::move(object.mesh), {}}});
     return meshes;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/scene/scene_description.h"
 
@@ -11,7 +12,7 @@ void add_keys_command(CommandLine& line) {
     Command* command = line.add("keys", "Prints every key of the scene file with its unit, range and default",
                                 "dermis keys > docs/scene_file.md");
     line.when_chosen(command, []() -> Result<int> {
-        const std::string manual = scene_file_manual();
+        const std::string manual = scene_file_manual(built_in_catalog().subjects);
         std::fwrite(manual.data(), 1, manual.size(), stdout);
         return 0;
     });

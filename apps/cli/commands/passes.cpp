@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/text.h"
 #include "dermis/render/shared_passes.h"
@@ -18,7 +19,8 @@ struct Options {
 };
 
 Result<int> print_passes(const Options& options) {
-    const Result<const Technique*> technique = find_technique(options.technique);
+    const Result<const Technique*> technique =
+        find_technique(built_in_catalog().techniques, options.technique);
     if (!technique) return technique.error();
     ParameterValues values((*technique)->parameters);
     for (const std::string& setting : options.settings)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/render/output.h"
 #include "dermis/scene/scene_words.h"
@@ -114,7 +115,8 @@ Result<int> render(Options options) {
     Result<gpu::Device> device = gpu::Device::create(
         {.validation = options.render.validation, .name_contains = options.render.device});
     if (!device) return device.error();
-    Result<Renderer> renderer = Renderer::create(*device, gpu::embedded_shaders(), prepared->scene);
+    Result<Renderer> renderer =
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
     if (!renderer) return renderer.error();
 
     prepared->draw.deep = options.file.png_bits == 16;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/file.h"
 #include "dermis/view/state_file.h"
@@ -52,7 +53,8 @@ Result<int> view_scene(Options options) {
     }
     const Result<std::pair<int, int>> size = parse_size(options.render.size);
     if (!size) return size.error();
-    view::ViewerOptions viewer = {.scene_path = options.render.scene.name,
+    view::ViewerOptions viewer = {.catalog = built_in_catalog(),
+                                  .scene_path = options.render.scene.name,
                                   .load = [&options] { return first_scene(options.render); },
                                   .size = {size->first, size->second},
                                   .device = options.render.device,

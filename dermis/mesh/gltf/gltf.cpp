@@ -194,6 +194,7 @@ class SceneReader {
         if (any_uvs_ && without_uvs_ > 0)
             document_.complaints.warn("",
                                       std::to_string(without_uvs_) + " vertices have no UV; they get (0, 0)");
+        if (any_colors_) document_.complaints.warn("", "vertex colours are not drawn yet");
         mesh_.materials = read_materials(document_, mm_per_unit_, material_scales_);
         const auto default_number = uint32_t(mesh_.materials.size());
         for (Submesh& submesh : mesh_.submeshes)

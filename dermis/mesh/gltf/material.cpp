@@ -56,6 +56,8 @@ class MaterialReader {
         material.occlusion_map = texture(source["occlusionTexture"]);
         material.emission_linear = color(source["emissiveFactor"], {0, 0, 0});
         material.emission_map = texture(source["emissiveTexture"]);
+        if (material.emission_map.present())
+            source["emissiveTexture"].warn("is not drawn yet: emissiveFactor glows everywhere");
         material.double_sided = source["doubleSided"].boolean(false);
         read_alpha(source, base[3], material);
     }
@@ -67,6 +69,8 @@ class MaterialReader {
         if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
             source["alphaMode"].warn("'" + mode.substr(0, 20) + "' is not OPAQUE, MASK or BLEND; opaque");
         material.alpha_cutoff = float(source["alphaCutoff"].number(0.5));
+        if (material.alpha_mode != AlphaMode::opaque && material.base_color_map.present())
+            source["alphaMode"].warn("is not drawn yet: the alpha of baseColorTexture cuts nothing out");
         // Opaque surfaces ignore the factor's alpha as they do the map's.
         if (material.alpha_mode != AlphaMode::opaque) material.opacity = float(std::clamp(factor, 0.0, 1.0));
     }

@@ -1,0 +1,12 @@
+#pragma once
+// All that this repository has of techniques, subjects and shaders. For programs, tests and benchmarks; what
+// lies in dermis/ gets it as an argument.
+
+#include "dermis/render/catalog.h"
+
+namespace dermis {
+
+/// Made at the first call, by any thread.
+[[nodiscard]] const Catalog& built_in_catalog();
+
+}  // namespace dermis

@@ -1,0 +1,20 @@
+#pragma once
+// What a program is built with, as plain data. The program makes it (catalog/) and hands it down: no library
+// knows a technique, a subject or a technique's shader by name.
+
+#include <span>
+
+#include "dermis/gpu/executor.h"
+#include "dermis/scene/subject.h"
+#include "dermis/technique/technique.h"
+
+namespace dermis {
+
+/// Everything in it must outlive whatever it is given to.
+struct Catalog {
+    std::span<const Technique> techniques;  ///< by id
+    std::span<const Subject> subjects;      ///< likewise
+    std::span<const gpu::EmbeddedShader> shaders;
+};
+
+}  // namespace dermis

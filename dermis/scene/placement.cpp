@@ -1,0 +1,52 @@
+#include "dermis/scene/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dermis/base/angle.h"
+
+namespace dermis {
+void apply_skin(const Skin& skin, Material& material) {
+    material.ior = skin.ior;
+    material.roughness = skin.roughness;
+    material.specular = skin.specular;
+}
+
+void compute_bounds(Scene& scene) {
+    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = -low;
+    for (const SceneObject& object : scene.objects)
+        for (const Vec3 p : object.mesh.positions_mm) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    scene.bounds_center_mm = low.x <= high.x ? (low + high) * 0.5f : Vec3{};
+    scene.bounds_radius_mm = 0;
+    for (const SceneObject& object : scene.objects)
+        for (const Vec3 p : object.mesh.positions_mm)
+            scene.bounds_radius_mm = std::max(scene.bounds_radius_mm, length(p - scene.bounds_center_mm));
+    if (scene.bounds_radius_mm <= 0) scene.bounds_radius_mm = 1;
+}
+
+void light_in_studio(Scene& scene) {
+    scene.lights = {
+        {.name = "key",
+         .color_linear = {1, 0.93f, 0.84f},
+         .intensity = kPi,
+         .to_light_world = direction_from_yaw_pitch(-50 * kRadiansPerDegree, 35 * kRadiansPerDegree),
+         .is_key = true}};
+    scene.environment = {.kind = EnvironmentKind::studio, .intensity = 0.75f};
+}
+
+void place_in_studio(Scene& scene) {
+    compute_bounds(scene);
+    light_in_studio(scene);
+    scene.exposure_ev = 0.6f;
+    scene.camera = framing_camera(scene.bounds_center_mm, scene.bounds_radius_mm);
+}
+
+const Light& Scene::key_light() const {
+    const auto found = std::ranges::find_if(lights, &Light::is_key);
+    return found == lights.end() ? lights.front() : *found;
+}
+
+}  // namespace dermis

@@ -1,0 +1,57 @@
+#pragma once
+// What a subject is: something made by code to draw, as a technique is a way to draw it. A scene names it
+// "builtin:NAME", and sets its parameters beside it.
+//
+// A folder subjects/<name>/ defines `dermis::Subject dermis::make_<name>_subject();` and is found by CMake.
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/parameter.h"
+#include "dermis/scene/scene.h"
+
+namespace dermis {
+
+/// What a subject makes. Most make objects alone and are shown as a mesh file is: framed from the front, in
+/// the studio. A subject that is a test scene states its camera, lights and environment too, so that a
+/// picture of it can be compared with a formula. What a scene file says wins over all three.
+struct SubjectScene {
+    std::vector<SceneObject> objects;
+    std::optional<Camera> camera;
+    /// One is the key light. Given: they replace the studio's light and its exposure; an environment is then
+    /// stated too, kind none for no light but these.
+    std::vector<Light> lights;
+    std::optional<Environment> environment;
+
+    [[nodiscard]] bool states_anything() const { return camera || !lights.empty() || environment; }
+};
+
+struct Subject {
+    std::string name;
+    std::string summary;  ///< one line
+    ParameterTable parameters;
+    /// The same values give the same bytes. Errors: what the table's ranges do not exclude.
+    std::function<Result<SubjectScene>(const ParameterValues&)> make;
+};
+
+/// NAME of "builtin:NAME"; nothing for a path.
+[[nodiscard]] std::optional<std::string_view> subject_name(std::string_view path_or_name);
+
+/// Error: an unknown name, with the nearest and all known ones.
+[[nodiscard]] Result<const Subject*> find_subject(std::span<const Subject> subjects, std::string_view name);
+
+/// `parameters` as ParameterValues::set() takes them. Errors: an unknown name or parameter, a value out of
+/// its range, what the subject says.
+[[nodiscard]] Result<SubjectScene> make_subject(std::span<const Subject> subjects, std::string_view name,
+                                                const std::map<std::string, std::string>& parameters = {});
+
+/// Camera, lights and environment of `made` where it states them; the rest of the scene stays. The camera's
+/// depth range is fitted to the scene's bounds.
+void apply_statements(const SubjectScene& made, Scene& scene);
+
+}  // namespace dermis

@@ -1,0 +1,173 @@
+// Colour, gloss and relief of the skin from a few layers of noise. Zones say how much of each; borders that
+// must be sharp (vermilion, brows, lashes) come from the shapes themselves. All colour is a matter of more or
+// less melanin and blood than the tone has.
+
+#include "subjects/bust/skin.h"
+
+#include "dermis/image/skin_colour.h"
+#include "subjects/bust/noise.h"
+#include "subjects/bust/parts.h"
+#include "subjects/bust/relief.h"
+
+namespace dermis::bust {
+namespace {
+
+Vec3 mixc(Vec3 a, Vec3 b, float t) {
+    return a + (b - a) * t;
+}
+float step(double low, double high, double v) {
+    return float(smooth_step(low, high, v));
+}
+
+struct Lips {
+    float vermilion = 0;  // 1 on the red of the lips
+    float along = 0;      // 0 at the meeting line, 1 from 5 mm away
+    float line = 0;       // 1 where the lips meet
+    float upper = 0;
+    float rim = 0;  // 1 on the pale roll around the red
+};
+Lips lips(Point p) {
+    const LipShape s = lip_shape(p.x);
+    const float ragged = 0.5f * value_noise({p.x * 0.30, p.y * 0.25, 9}, 40) +
+                         0.25f * value_noise({p.x * 0.9, p.y * 0.5, 3}, 41);
+    const double edge = std::min(s.top_y - p.y, p.y - s.bottom_y) + double(ragged);
+    const float within = 1 - step(23.0, 26.2, std::abs(p.x));
+    Lips l;
+    l.vermilion = step(-1.8, 2.2, edge) * within;
+    l.rim = step(-3.6, -2.0, edge) * (1 - step(-1.4, 0.2, edge)) * within;
+    l.along = float(std::min(std::abs(p.y - s.line_y) / 5.0, 1.0));
+    l.line = 1 - step(0.1, 1.1, std::abs(p.y - s.line_y));
+    l.upper = step(-0.4, 0.4, p.y - s.line_y);
+    return l;
+}
+
+struct Mottle {
+    float broad, blotch, middle, fine, grain;  // features of 15, 7, 3.5, 1.5 and 0.6 mm, each -1 to 1
+};
+Mottle mottle(Point p, uint32_t seed) {
+    Mottle m;
+    m.broad = value_noise(p * (1 / 15.0), seed + 1);
+    // The larger layers push the smaller ones aside, which hides the lattice they are drawn on.
+    const Point q = p + Point{1, -1, 1} * (2.5 * double(m.broad));
+    m.blotch = value_noise(q * (1 / 7.0), seed + 2);
+    m.middle = value_noise((q + Point{1, 1, -1} * double(m.blotch)) * (1 / 3.5), seed + 3);
+    m.fine = value_noise(p * (1 / 1.5), seed + 6);
+    m.grain = value_noise(p * (1 / 0.6), seed + 7);
+    return m;
+}
+
+// Freckles: nose and cheeks first, each with a size and a strength of its own; a few are moles.
+float freckle(Point p, const SkinZones& z, const Mottle& m, float density, uint32_t seed) {
+    const float wanted = density * std::clamp(0.2f + z.cheek + 0.8f * z.nose + 0.3f * z.forehead, 0.0f, 1.0f);
+    if (wanted <= 0) return 0;
+    const Cells spots =
+        cell_noise(p * (1 / 3.4) + Point{0.08 * double(m.middle), 0.08 * double(m.fine), 0}, seed + 4);
+    const auto digit = [&](float f) { return spots.random * f - std::floor(spots.random * f); };
+    if (digit(7.31f) >= wanted) return 0;
+    const bool mole = digit(53.7f) < 0.02f;
+    const float radius = mole ? 0.22f + 0.12f * digit(3.3f) : 0.10f + 0.22f * spots.random * spots.random;
+    const float strength = mole ? 0.9f : 0.10f + 0.22f * spots.random;
+    return strength * (1 - step(radius * 0.5f, radius, spots.nearest));
+}
+
+struct Stubble {
+    float shade = 0, hair = 0;  // of the roots under the skin, and 1 on a cut end
+};
+Stubble stubble(Point p, const SkinZones& z, const Mottle& m, float amount, uint32_t seed) {
+    const float patchy = 1 + 0.12f * m.broad + 0.14f * m.blotch + 0.10f * m.middle;
+    const float cover = std::min(1.0f, amount * patchy * std::max(1.5f * z.beard, 1.6f * z.scalp));
+    if (cover <= 0) return {};
+    // Ends are cut aslant and lie along the growth, mostly downwards; each has a place, and thins out with
+    // the cover.
+    const double spacing = z.scalp > z.beard ? 0.86 : 1.0;
+    const Cells ends = cell_noise(Point{p.x, 0.72 * p.y, p.z} * (1 / spacing), seed + 5);
+    Stubble s;
+    s.shade = cover;
+    if (ends.random < 0.25f + 0.75f * cover)
+        s.hair = (1 - step(0.10, 0.34, ends.nearest)) * (0.55f + 0.45f * ends.random) * std::sqrt(cover);
+    return s;
+}
+
+// Where the tone's skin has more or less of each pigment than its mean.
+struct Pigments {
+    float melanin, blood;
+};
+Pigments pigments(const SkinZones& z, const Mottle& m, float depth) {
+    const float blood = 0.20f * z.cheek + 0.26f * z.nose + 0.28f * z.ear + 0.12f * z.knob +
+                        0.12f * z.eye_ring + 0.14f * z.lid + 0.30f * z.nostril - 0.02f * z.perioral +
+                        0.04f * z.forehead - 0.02f * z.neck +
+                        (0.05f * m.broad + 0.07f * m.blotch + 0.05f * m.middle) *
+                            (0.6f + z.cheek + 0.8f * z.nose + 0.4f * z.neck) +
+                        0.04f * m.fine + 0.02f * m.grain;
+    // Dark skin varies more in melanin and hides the blood.
+    const float melanin = (0.05f * z.lid + 0.08f * z.eye_ring + 0.04f * z.neck + 0.04f * m.broad -
+                           0.03f * m.blotch + 0.05f * m.middle + 0.06f * m.fine + 0.05f * m.grain) *
+                              (1 + 0.7f * depth) +
+                          depth * (0.18f * z.perioral + 0.10f * z.forehead - 0.14f * z.cheek);
+    return {melanin, blood * (1 - 0.45f * depth)};
+}
+
+Vec3 lip_colour(Vec3 tone, const Lips& l, const Mottle& m, float depth) {
+    // Fair lips are thin skin over blood. Dark ones keep their melanin, most on the upper lip, and lose it
+    // towards the moist inside of the lower.
+    const float inside = (1 - l.along) * (1 - l.upper);
+    const float blood = mixf(0.74f + 0.16f * l.upper + 0.14f * (1 - l.along), 0.50f, depth) +
+                        0.12f * m.middle + 0.06f * m.fine;
+    const float melanin = mixf(0.12f + 0.14f * l.upper, 0.10f + 0.34f * l.upper - 0.40f * inside, depth) +
+                          0.08f * m.blotch + 0.05f * m.fine;
+    // Blood seen through the thin red is darker and bluer than that in the skin.
+    return with_pigments(tone, melanin, blood) * mixc({0.76f, 0.78f, 0.86f}, {1, 1, 1}, depth);
+}
+
+}  // namespace
+
+SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const Hairs& hairs_drawn) {
+    const uint32_t seed = params.seed * 7919u;
+    const float depth = float(std::clamp((params.tone - 1) / 5, 0.0, 1.0));
+    const float brown = std::max(0.0f, depth - 0.2f);  // beyond the fair tones
+    const Mottle m = mottle(p, seed);
+    Lips lip;
+    if (z.mouth > 0 && p.z > 60) lip = lips(p);
+    const Relief r = relief_at(p, z, lip.vermilion, seed);
+
+    const Vec3 tone = skin_tone_albedo_linear(params.tone);
+    Pigments pigment = pigments(z, m, depth);
+    pigment.melanin += (1 - 0.5f * depth) * freckle(p, z, m, float(params.freckles), seed);
+    pigment.melanin += 0.20f * r.pore + 0.10f * r.cavity - 0.03f * lip.rim;
+    pigment.blood += 0.10f * r.pore + 0.14f * r.cavity - 0.04f * lip.rim;
+    Vec3 c = with_pigments(tone, pigment.melanin, pigment.blood);
+
+    const Stubble shaved = stubble(p, z, m, float(params.stubble), seed);
+    if (shaved.shade > 0) {
+        const float strength = (1 - 0.45f * depth) * (1 - lip.vermilion);
+        c = c * mixc({1, 1, 1}, {0.63f, 0.63f, 0.68f}, (0.6f + 0.4f * z.scalp) * strength * shaved.shade);
+        c = c * mixc({1, 1, 1}, {0.34f, 0.33f, 0.34f}, 0.85f * strength * shaved.hair);
+    }
+    if (lip.vermilion > 0) {
+        c = mixc(c, lip_colour(tone, lip, m, std::min(1.0f, depth + 0.6f * brown)), 0.92f * lip.vermilion);
+        c = with_pigments(c, 0.9f * lip.line * lip.vermilion, 0.35f * lip.line * lip.vermilion);
+    }
+    const float hollow = z.nostril > 0 ? 1 - step(0.0, 2.2, nostril_distance_mm(p)) : 0;
+    c = c * mixc({1, 1, 1}, {0.30f, 0.16f, 0.13f}, hollow);
+    const float hairs = hairs_drawn.cover(p);
+    c = mixc(c, Vec3{0.036f, 0.022f, 0.015f} * mixf(1.0f, 0.35f, depth), 0.92f * hairs);
+
+    SkinSample s;
+    s.albedo_linear = c;
+    s.height_mm = r.height_mm + 0.07f * hairs + 0.05f * shaved.hair;
+    s.roughness = 0.48f - 0.08f * z.t_zone - 0.05f * z.nose + 0.03f * z.cheek + 0.05f * z.neck -
+                  0.02f * depth + 0.06f * brown + 0.05f * m.blotch + 0.04f * m.middle + 0.05f * m.fine +
+                  0.12f * r.pore + 0.05f * shaved.shade + 0.10f * shaved.hair;
+    s.roughness = mixf(s.roughness, 0.42f + 0.06f * m.fine + 0.05f * m.middle, lip.vermilion);
+    s.specular = std::clamp(
+        0.92f + 0.08f * z.t_zone - 0.45f * r.pore - 0.2f * r.cavity + 0.06f * m.middle - 0.4f * hairs, 0.2f,
+        1.0f);
+    // Nothing of the sky is seen from the nostrils and from between the lips.
+    s.specular *= 1 - 0.95f * std::max(hollow, lip.line * lip.vermilion);
+    s.kernel_size = std::clamp(
+        1 - 0.45f * z.ear - 0.35f * z.nostril - 0.25f * z.lid - 0.15f * lip.vermilion - 0.5f * hairs, 0.25f,
+        1.0f);
+    return s;
+}
+
+}  // namespace dermis::bust

@@ -1,0 +1,80 @@
+// Four spheres of skin: their curvature is known, so that what curvature does can be seen and tested.
+
+#include <cmath>
+#include <numbers>
+
+#include "dermis/base/text.h"
+#include "dermis/scene/placement.h"
+#include "dermis/scene/subject.h"
+#include "subjects/spheres/spheres.h"
+
+namespace dermis {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Centres are this many times the sum of two radii apart, so that no sphere shadows its neighbour while the
+// key light's direction is at most 50 degrees off the plane between them (a test holds the default to it).
+constexpr float kSphereSpacing = 1.3f;
+
+Mesh make_latitude_sphere(float radius_mm, Vec3 center_mm) {
+    constexpr int kRows = 48, kColumns = 96;
+    Mesh mesh;
+    for (int row = 0; row <= kRows; ++row)
+        for (int column = 0; column <= kColumns; ++column) {
+            const float u = float(column) / kColumns, v = float(row) / kRows;
+            const float azimuth = u * 2 * kPi, polar = v * kPi;
+            const Vec3 n = {-std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                            -std::sin(polar) * std::cos(azimuth)};
+            mesh.positions_mm.push_back(center_mm + n * radius_mm);
+            mesh.normals.push_back(n);
+            mesh.tangents.push_back({-std::cos(azimuth), 0, std::sin(azimuth), 1});
+            mesh.uvs.push_back({u, v});
+            mesh.curvatures_per_mm.push_back(1 / radius_mm);
+        }
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column) {
+            const uint32_t a = uint32_t(row * (kColumns + 1) + column), b = a + 1, c = a + kColumns + 1,
+                           d = c + 1;
+            if (row > 0) mesh.indices.insert(mesh.indices.end(), {a, c, b});
+            if (row + 1 < kRows) mesh.indices.insert(mesh.indices.end(), {b, c, d});
+        }
+    return mesh;
+}
+
+SceneObject make_sphere_object(float radius_mm, Vec3 center_mm) {
+    SceneObject object{.name = "sphere_" + to_text(radius_mm) + "mm",
+                       .mesh = make_latitude_sphere(radius_mm, center_mm),
+                       .classes = {MaterialClass::skin}};
+    object.mesh.materials = {{.name = "skin", .base_color_linear = {0.8f, 0.52f, 0.42f}}};
+    apply_skin(Skin{}, object.mesh.materials[0]);
+    object.mesh.submeshes = {
+        {.name = object.name, .index_count = uint32_t(object.mesh.indices.size()), .material = 0}};
+    return object;
+}
+
+// Resting on y = 0, the row centred on x = 0.
+Result<SubjectScene> make(const ParameterValues&) {
+    float x_mm[4] = {};
+    for (int i = 1; i < 4; ++i)
+        x_mm[i] = x_mm[i - 1] + kSphereSpacing * (kSphereRadiiMm[i - 1] + kSphereRadiiMm[i]);
+    const float middle_mm = (x_mm[0] - kSphereRadiiMm[0] + x_mm[3] + kSphereRadiiMm[3]) / 2;
+    SubjectScene scene;
+    for (int i = 0; i < 4; ++i) {
+        scene.objects.push_back(
+            make_sphere_object(kSphereRadiiMm[i], {x_mm[i] - middle_mm, kSphereRadiiMm[i], 0}));
+        // A quarter of one atlas each, with a gutter, so that texture-space methods can light them all at
+        // once.
+        for (Vec2& uv : scene.objects.back().mesh.uvs)
+            uv = Vec2{0.5f * float(i % 2), 0.5f * float(i / 2)} + Vec2{0.02f, 0.02f} + uv * 0.46f;
+    }
+    return scene;
+}
+
+}  // namespace
+
+Subject make_spheres_subject() {
+    return {.name = "spheres", .summary = "four spheres of radius 2, 4, 8 and 16 mm", .make = make};
+}
+
+}  // namespace dermis

@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include "render/grid_scene.h"
+
+using namespace dermis;
+
+namespace {
+
+class Wrap : public GridTest {
+  protected:
+    static Image draw(Settings settings) {
+        settings.emplace_back("specular", "none");
+        return draw_grid(make_grid_scene(), built_in_technique("wrap"), settings);
+    }
+    /// Over all cosines, which are even steps over x: a quarter is Lambert's.
+    static double mean(const Image& image, int channel) {
+        double sum = 0;
+        for (int x = 0; x < kGrid; ++x) sum += image.at(x, 0, channel);
+        return sum / kGrid;
+    }
+};
+
+}  // namespace
+
+TEST_F(Wrap, keeps_the_energy_however_far_it_reaches) {
+    for (const char* reach : {"0", "0.25", "0.5", "1"})
+        EXPECT_NEAR(mean(draw({{"wrap", reach}, {"scatter_color_linear", "0"}}), 0), 0.25, 5e-4) << reach;
+}
+
+TEST_F(Wrap, the_coloured_band_adds_3_percent_in_red_and_less_than_1_in_green_and_blue) {
+    const Image image = draw({});
+    EXPECT_NEAR(mean(image, 0), 0.25 * 1.033, 5e-4);
+    EXPECT_LT(mean(image, 1), 0.25 * 1.01);
+    EXPECT_LT(mean(image, 2), mean(image, 1));
+}
+
+TEST_F(Wrap, light_reaches_past_the_terminator_as_far_as_it_is_told) {
+    const Image image = draw({{"wrap", "0.4"}});
+    for (int x = 0; x < kGrid; ++x) {
+        if (grid_cosine(x) < -0.4) {
+            EXPECT_EQ(image.at(x, 0, 0), 0.0f) << x;
+        } else {
+            EXPECT_GT(image.at(x, 0, 0), 0.0f) << x;
+        }
+    }
+}
+
+TEST_F(Wrap, the_terminator_is_red_and_the_lit_side_grey) {
+    const Image image = draw({});
+    const int terminator = kGrid / 2, lit = kGrid - 1;
+    EXPECT_GT(image.at(terminator, 0, 0), 1.2f * image.at(terminator, 0, 1));
+    EXPECT_GT(image.at(terminator, 0, 1), image.at(terminator, 0, 2));
+    EXPECT_NEAR(image.at(lit, 0, 0), image.at(lit, 0, 2), 1e-5);
+}
