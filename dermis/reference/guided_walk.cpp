@@ -11,6 +11,7 @@ namespace {
 // Of 0.5, 0.75, 0.9 and 1 on a half-space of jensen_skin1: 0.9 is a third better in luminance, but noisier in
 // red, and bounds the weights of paths that leave elsewhere less.
 constexpr float kGuidedChance = 0.75f;
+constexpr double kMostAlbedo = 0.99;
 constexpr double kLeastLength = 1.01, kMostLength = 100;
 
 }  // namespace
@@ -29,8 +30,9 @@ WalkGuide walk_guide(const ScatteringMedium& medium) {
     WalkGuide guide{.chance = kGuidedChance * float(1 - std::abs(medium.g))};
     float Vec3::*const channels[3] = {&Vec3::x, &Vec3::y, &Vec3::z};
     for (int c = 0; c < 3; ++c) {
-        // Without absorption nothing decays: guidance would only spread the weights of its long paths.
-        if (medium.sigma_a_per_mm[size_t(c)] <= 0) guide.chance = 0;
+        // Paths of hundreds of collisions: their steps' weights multiply, and a few rare ones would carry the
+        // light.
+        if (reduced_albedo(medium, c) > kMostAlbedo) guide.chance = 0;
         // The decay is that of the reduced medium, counted in mean free paths of this one.
         const double nu =
             std::max(kLeastLength, diffusion_length_in_paths(reduced_albedo(medium, c)) *

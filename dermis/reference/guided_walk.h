@@ -39,26 +39,31 @@ struct GuidedStep {
 [[nodiscard]] Vec3 guided_weight(const WalkMedium& medium, const WalkGuide& guide, Vec3 throughput,
                                  const GuidedStep& step, float cosine_out, float distance_mm, bool collides);
 
+/// Collisions after which a walk goes on unguided: the weights of every guided step multiply, and those of
+/// hundreds (a medium that hardly absorbs) would leave the light to a few rare paths.
+inline constexpr int kGuidedCollisions = 64;
+
 /// As random_walk; n_out: outward normal where the walk starts.
 template <class Boundary>
 [[nodiscard]] WalkEnd guided_walk(const WalkMedium& medium, const WalkGuide& guide, Boundary&& boundary,
                                   Vec3 p_mm, Vec3 n_out, Vec3 direction, Pcg32& random) {
     WalkEnd path{.throughput = {1, 1, 1}, .p_mm = p_mm, .direction = direction};
     const WalkEnd absorbed{};
+    WalkGuide now = guide;
     bool turned = false;
     while (path.collisions < kMostCollisions) {
         const GuidedStep step =
-            sample_guided_step(medium, guide, path.throughput, n_out, path.direction, turned, random);
+            sample_guided_step(medium, now, path.throughput, n_out, path.direction, turned, random);
         path.direction = step.direction;
         const std::optional<BoundaryHit> hit = boundary(path.p_mm, path.direction, step.distance_mm);
         if (hit && dot(hit->n_out, path.direction) <= 0) return {.lost = true};
         const float distance_mm = hit ? hit->distance_mm : step.distance_mm;
-        path.throughput = guided_weight(medium, guide, path.throughput, step, dot(path.direction, n_out),
+        path.throughput = guided_weight(medium, now, path.throughput, step, dot(path.direction, n_out),
                                         distance_mm, !hit.has_value());
         path.p_mm += path.direction * distance_mm;
         turned = !hit.has_value();
         if (turned) {
-            ++path.collisions;
+            if (++path.collisions == kGuidedCollisions) now.chance = 0;
             if (!survives_roulette(path.throughput, random)) return absorbed;
             continue;
         }
