@@ -19,7 +19,7 @@ namespace {
 using namespace dermis;
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-constexpr DrawSettings kDraw = {.width = 1024, .height = 1024};
+const DrawSettings kDraw = {.width = 1024, .height = 1024};
 
 double median(std::vector<double> values) {
     std::ranges::sort(values);

@@ -79,7 +79,7 @@ Result<RegionMasks> find_regions(const Scene& scene, const Image& skin) {
 }
 
 Image region_picture(const RegionMasks& regions, const Image& skin) {
-    constexpr Vec3 kNone = {0.25f, 0.25f, 0.26f}, kOutside = {0.11f, 0.11f, 0.12f};
+    constexpr Vec3 kNone = {0.25f, 0.25f, 0.26f}, kOutsideRegions = {0.11f, 0.11f, 0.12f};
     Image picture(skin.width, skin.height, 3, PixelFormat::u8, Encoding::srgb);
     for (size_t i = 0; i < skin.pixel_count(); ++i) {
         const size_t x = i % size_t(skin.width), y = i / size_t(skin.width);
@@ -88,7 +88,7 @@ Image region_picture(const RegionMasks& regions, const Image& skin) {
             if (regions[size_t(region)].floats()[i] > 0) own.push_back(region);
         // Stripes where regions overlap.
         constexpr size_t kStripePixels = 3;
-        Vec3 c = skin.floats()[i] > 0 ? kNone : kOutside;
+        Vec3 c = skin.floats()[i] > 0 ? kNone : kOutsideRegions;
         if (!own.empty()) c = region_color(own[(x + y) / kStripePixels % own.size()]);
         const float channels[3] = {c.x, c.y, c.z};
         for (size_t k = 0; k < 3; ++k)

@@ -25,11 +25,11 @@ std::vector<Edge> border_edges(std::vector<Edge> edges) {
     std::vector<Edge> border;
     for (size_t i = 0; i < edges.size(); ++i) {
         const Edge back{edges[i].to, edges[i].from};
-        const auto same = std::ranges::equal_range(edges, edges[i]);
-        const auto partners = std::ranges::equal_range(edges, back);
+        const auto same = std::equal_range(edges.begin(), edges.end(), edges[i]);
+        const auto partners = std::equal_range(edges.begin(), edges.end(), back);
         // Of several equal edges as many are open as have no partner.
-        const auto number = edges.begin() + std::ptrdiff_t(i) - same.begin();
-        if (number >= std::ptrdiff_t(partners.size())) border.push_back(edges[i]);
+        const auto number = edges.begin() + std::ptrdiff_t(i) - same.first;
+        if (number >= partners.second - partners.first) border.push_back(edges[i]);
     }
     return border;
 }

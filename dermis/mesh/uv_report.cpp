@@ -109,7 +109,7 @@ Mesh part_of(const Mesh& mesh, uint32_t material) {
     }
     std::vector<uint32_t> vertices = indices;
     std::ranges::sort(vertices);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     Mesh part;
     for (const uint32_t vertex : vertices) {
         part.positions_mm.push_back(mesh.positions_mm[vertex]);

@@ -9,7 +9,7 @@ using namespace dermis;
 
 namespace {
 
-constexpr DrawSettings kSmall = {.width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 512};
+const DrawSettings kSmall = {.width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 512};
 
 class TextureSpace : public RenderTest {
   protected:

@@ -16,7 +16,7 @@ using namespace dermis;
 
 namespace {
 
-constexpr DrawSettings kSmall = {.width = 128, .height = 128, .shadow_map_size = 512};
+const DrawSettings kSmall = {.width = 128, .height = 128, .shadow_map_size = 512};
 
 class Properties : public RenderTest {};
 
