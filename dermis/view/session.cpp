@@ -1,23 +1,26 @@
 #include "dermis/view/session.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "dermis/base/text.h"
 
 namespace dermis::view {
 namespace {
 
+// In every message of a lost device (dermis/gpu).
+constexpr std::string_view kDeviceLost = "the GPU was lost";
 constexpr double kScriptFrameS = 1.0 / 30;
 
 }  // namespace
 
-Session::Session(const ViewerOptions& options, Window window, gpu::Device device)
+Session::Session(const ViewerOptions& options, Window window, gpu::Device device,
+                 std::future<Result<Start>> first)
     : options_(&options),
       window_(std::move(window)),
       device_(std::move(device)),
       shaders_(gpu::embedded_shaders(options.catalog.shaders),
                options.shader_root.empty() ? std::string(DERMIS_SOURCE_DIR) : options.shader_root),
+      loader_(std::move(first), options.scene_path, options.catalog.subjects),
+      input_(!options.script.empty()),
+      player_(options.script, options.script_name),
       model_{.catalog = options.catalog,
              .choices = {TechniqueChoice(options.catalog.techniques.front()),
                          TechniqueChoice(options.catalog.techniques.front())}} {}
@@ -30,9 +33,8 @@ Result<std::unique_ptr<Session>> Session::open(const ViewerOptions& options) {
                                                       .name_contains = options.device,
                                                       .instance_extensions = window->instance_extensions()});
     if (!device) return device.error();
-    std::unique_ptr<Session> session(new Session(options, std::move(*window), std::move(*device)));
-    session->loading_ = std::move(loading);
-    session->loading_path_ = options.scene_path;
+    std::unique_ptr<Session> session(
+        new Session(options, std::move(*window), std::move(*device), std::move(loading)));
     session->report_.device = session->device_.info().name;
     if (options.keeps_state) session->state_ = load_state();
     session->model_.recent = session->state_.recent;
@@ -40,24 +42,11 @@ Result<std::unique_ptr<Session>> Session::open(const ViewerOptions& options) {
     return session;
 }
 
-Result<void> Session::make_swapchain() {
-    Result<gpu::Swapchain> swapchain =
-        gpu::Swapchain::create(device_, window_.surface_maker(),
-                               {.width = size_.width,
-                                .height = size_.height,
-                                .pacing = model_.vsync ? gpu::Pacing::vsync : gpu::Pacing::immediate});
-    if (!swapchain) return swapchain.error();
-    swapchain_.emplace(std::move(*swapchain));
-    return {};
-}
-
 Result<void> Session::make_window_side() {
-    size_ = window_.framebuffer();
-    if (Result<void> made = make_swapchain(); !made) return made;
-    Result<gpu::Executor> executor =
-        gpu::Executor::create(device_, gpu::embedded_shaders(options_->catalog.shaders));
-    if (!executor) return executor.error();
-    executor_.emplace(std::move(*executor));
+    Result<Presenter> presenter =
+        Presenter::create(device_, window_, gpu::embedded_shaders(options_->catalog.shaders));
+    if (!presenter) return presenter.error();
+    presenter_.emplace(std::move(*presenter));
     Result<Interface> interface =
         Interface::create(device_, {.get = [this] { return window_.clipboard(); },
                                     .set = [this](const std::string& text) { window_.set_clipboard(text); }});
@@ -68,7 +57,7 @@ Result<void> Session::make_window_side() {
 
 double Session::now_s() const {
     // A script's time goes by frames, so that it does the same on every machine.
-    if (!options_->script.empty()) return report_.frames * kScriptFrameS;
+    if (player_.has_script()) return report_.frames * kScriptFrameS;
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
 }
 
@@ -78,10 +67,10 @@ Result<ViewerReport> Session::run() {
         ++report_.frames;
         if (options_->frames > 0 && report_.frames >= options_->frames) break;
     }
-    if (loading_.valid()) loading_.wait();
+    loader_.wait();
     if (options_->keeps_state) {
-        state_.width = size_.width;
-        state_.height = size_.height;
+        state_.width = presenter_->size().width;
+        state_.height = presenter_->size().height;
         store_state(state_);
     }
     if (const std::vector<std::string> said = device_.messages(); !said.empty())
@@ -92,13 +81,13 @@ Result<ViewerReport> Session::run() {
 void Session::hand_over(ViewerOptions& options) {
     Start start = {.scene = *model_.scene,
                    .loading_words = model_.loading_words,
-                   .file_look = file_look_,
-                   .handed = Handed{.model = model_, .truth = truth_image_, .truth_view = truth_view_}};
+                   .file_look = shown_.file_look(),
+                   .handed = Handed{.model = model_, .truth = truth_.picture(), .truth_view = truth_.view()}};
     start.handed->model.scene = nullptr;
     options.load = [start = std::move(start)]() -> Result<Start> { return start; };
     options.scene_path = model_.scene_path;
-    options.size = size_;
-    options.script.erase(options.script.begin(), options.script.begin() + std::ptrdiff_t(next_command_));
+    options.size = presenter_->size();
+    options.script.erase(options.script.begin(), options.script.begin() + std::ptrdiff_t(player_.begun()));
 }
 
 Result<ViewerReport> run_viewer(const ViewerOptions& options) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <thread>
 
 #include "dermis/view/session.h"
@@ -10,7 +9,7 @@
 namespace dermis::view {
 namespace {
 
-constexpr size_t kHistoryFrames = 90;
+constexpr double kSleepS = 0.25, kShortSleepS = 0.1;
 constexpr float kDesignHeightPx = 900;  // the window's height at which the interface has scale 1
 
 // In steps of a quarter: a font is made for each.
@@ -22,7 +21,8 @@ float automatic_scale(float content_scale, int height) {
 }  // namespace
 
 Region Session::picture_area() const {
-    return picture_region(model_, size_.width, size_.height, interface_->scale());
+    const WindowSize size = presenter_->size();
+    return picture_region(model_, size.width, size.height, interface_->scale());
 }
 
 PictureSize Session::picture_size() const {
@@ -31,67 +31,89 @@ PictureSize Session::picture_size() const {
     return {std::max(1, int(area.width * share)), std::max(1, int(area.height))};
 }
 
-Result<void> Session::rescale() {
-    const float scale = options_->interface_scale > 0
-                            ? options_->interface_scale
-                            : automatic_scale(window_.content_scale(), size_.height);
-    return interface_->set_scale(std::clamp(scale * model_.user_scale, 0.5f, 6.0f));
-}
-
-PanelFacts Session::facts() const {
+PanelFacts Session::facts() {
     PanelFacts facts = {.scale = interface_->scale(),
-                        .width = size_.width,
-                        .height = size_.height,
+                        .width = presenter_->size().width,
+                        .height = presenter_->size().height,
                         .device = report_.device,
-                        .frame_history_ms = history_ms_,
-                        .loading = loading_.valid(),
-                        .probe = probe_text_};
-    facts.picture_state = facts.device;
-    if (!stage_ || stage_->picture(0).width == 0) return facts;
-    const Picture& picture = stage_->picture(0);
-    const std::string samples = std::to_string(picture.quality.samples);
-    char time[32];
-    std::snprintf(time, sizeof time, picture.timings.frame_ms < 10 ? "%.1f ms" : "%.0f ms",
-                  picture.timings.frame_ms);
-    facts.picture_state = std::to_string(picture.width) + " x " + std::to_string(picture.height) + "   " +
-                          samples + (samples == "1" ? " sample   " : " samples   ") + time + "   " +
-                          facts.device;
-    facts.frame_ms = picture.timings.frame_ms;
-    for (const gpu::PassTiming& pass : picture.timings.passes)
-        if (const auto history = pass_history_ms_.find(pass.name); history != pass_history_ms_.end())
-            facts.passes.push_back({pass.name, pass.time_ms, history->second});
+                        .picture_state = report_.device,
+                        .loading = loader_.is_loading(),
+                        .probe = probe_line()};
+    if (shown_.is_there() && shown_.stage().picture(0).width > 0)
+        times_.describe(shown_.stage().picture(0), facts);
     return facts;
 }
 
-// Passes that this picture did not have are forgotten.
-void Session::note_times(const gpu::FrameResult& timings) {
-    const auto add = [](std::vector<float>& history, double time_ms) {
-        history.push_back(float(time_ms));
-        if (history.size() > kHistoryFrames) history.erase(history.begin());
-    };
-    add(history_ms_, timings.frame_ms);
-    std::map<std::string, std::vector<float>> histories;
-    for (const gpu::PassTiming& pass : timings.passes) {
-        std::vector<float>& history = histories[pass.name];
-        if (history.empty()) history = std::move(pass_history_ms_[pass.name]);
-        add(history, pass.time_ms);
+std::string Session::probe_line() {
+    const Region area = picture_area();
+    const Vec2 mouse_px = input_.mouse_px();
+    const bool inside = mouse_px.x >= area.x && mouse_px.x < area.x + area.width && mouse_px.y >= area.y &&
+                        mouse_px.y < area.y + area.height;
+    if (!model_.scene || !inside || input_.drags()) return "";
+    Vec2 place = {(mouse_px.x - area.x) / area.width, (mouse_px.y - area.y) / area.height};
+    if (model_.compare == Compare::side_by_side) place.x = std::fmod(place.x * 2, 1.0f);
+    return shown_.probe(place, picture_size());
+}
+
+std::vector<Event> Session::gather_events() {
+    const bool busy = input_.is_awake() || loader_.is_loading() || player_.has_script() || !is_drawn() ||
+                      options_->frames > 0 || input_.has_waiting();
+    // A ground truth in the making wants the processor for itself.
+    return input_.gather(window_, busy ? 0 : truth_.is_making() ? kShortSleepS : kSleepS);
+}
+
+void Session::take_input(const std::vector<Event>& events) {
+    for (const Event& event : events) {
+        switch (event.kind) {
+            case EventKind::key:
+                if (event.pressed && !interface_->wants_keyboard())
+                    act(action_of({event.key, event.modifiers}));
+                break;
+            case EventKind::drop:
+                for (const std::filesystem::path& path : event.paths) open_file(path.string());
+                break;
+            case EventKind::text:
+                break;
+            default:
+                input_.take_mouse(event, model_, picture_area(), interface_->scale(),
+                                  interface_->wants_mouse());
+        }
     }
-    pass_history_ms_ = std::move(histories);
+}
+
+Result<PanelRequests> Session::show_interface(const std::vector<Event>& events, InterfaceDraws& draws) {
+    const WindowSize size = presenter_->size();
+    const float scale = options_->interface_scale > 0 ? options_->interface_scale
+                                                      : automatic_scale(window_.content_scale(), size.height);
+    if (Result<void> scaled = interface_->set_scale(std::clamp(scale * model_.user_scale, 0.5f, 6.0f));
+        !scaled)
+        return scaled.error();
+    model_.notices.expire(now_s());
+    interface_->begin(events, size.width, size.height, std::max(now_s() - last_frame_s_, 1e-3));
+    last_frame_s_ = now_s();
+    take_input(events);
+    PanelRequests requests;
+    widgets_.clear();
+    show_panels(model_, facts(), requests, widgets_);
+    Result<InterfaceDraws> made = interface_->end();
+    if (!made) return made.error();
+    draws = std::move(*made);
+    return requests;
 }
 
 Result<void> Session::refresh_pictures() {
     drew_ = false;
-    if (!stage_) return {};
-    follow_skin();
-    if (Result<void> made = refresh_truth(); !made) return made;
-    const size_t sides = model_.compares() && !truth_ ? 2 : 1;
+    if (!shown_.is_there()) return {};
+    shown_.follow_skin();
+    if (Result<void> made = truth_.refresh(device_, model_); !made) return made;
+    const size_t sides = model_.compares() && !truth_.texture() ? 2 : 1;
     for (size_t side = 0; side < sides; ++side) {
-        const Result<bool> drew = stage_->refresh(model_, side, picture_size(), now_s());
+        const Result<bool> drew = shown_.stage().refresh(model_, side, picture_size(), now_s());
         const std::string topic = "picture " + std::to_string(side);
         if (!drew) {
             // Shaders that compile and do not fit together are taken back; anything else is told.
             if (shaders_unproven_ && shaders_.take_back(drew.error().message))
-                stage_->forget_shaders();
+                shown_.stage().forget_shaders();
             else
                 model_.notices.complain(topic, drew.error().message);
             continue;
@@ -101,97 +123,60 @@ Result<void> Session::refresh_pictures() {
         if (shaders_unproven_) shaders_.confirm();
         shaders_unproven_ = false;
         drew_ = true;
-        if (side > 0) continue;
-        note_times(stage_->picture(0).timings);
+        if (side == 0) times_.add(shown_.stage().picture(0).timings);
     }
     return {};
 }
 
 Result<void> Session::show(const InterfaceDraws& draws) {
-    if (!swapchain_)  // its pacing was changed
-        if (Result<void> made = make_swapchain(); !made) return made;
-    const auto a = stage_ ? stage_->image(0) : std::nullopt;
-    const auto b = stage_ && model_.compares() && !truth_ ? stage_->image(1) : std::nullopt;
-    const bool two = model_.compares() && (b || truth_);
-    gpu::FrameInputs inputs = {.width = size_.width, .height = size_.height, .draws = draws.draws};
-    Arrangement arrangement = Arrangement::none;
-    if (a) {
-        arrangement = Arrangement::one;
-        if (two && model_.compare == Compare::wipe) arrangement = Arrangement::wipe;
-        if (two && model_.compare == Compare::side_by_side) arrangement = Arrangement::side_by_side;
-        inputs.images["picture_a"] = *a;
-        if (truth_)
-            inputs.textures["picture_b"] = &*truth_;
-        else
-            inputs.images["picture_b"] = b ? *b : *a;
+    ShownPictures pictures = {.truth = truth_.texture()};
+    if (shown_.is_there()) {
+        pictures.a = shown_.stage().image(0);
+        if (model_.compares() && !pictures.truth) pictures.b = shown_.stage().image(1);
     }
-    const PassList list = window_passes({.width = size_.width,
-                                         .height = size_.height,
-                                         .region = picture_area(),
-                                         .arrangement = arrangement,
-                                         .split = model_.split,
-                                         .line_px = std::max(1.0f, std::round(interface_->scale())),
-                                         .has_interface = !draws.draws.empty()});
-    if (const auto run = executor_->run(list, inputs); !run) return run.error();
-    const Result<gpu::Presented> presented = swapchain_->present(*executor_, "window");
-    if (!presented) return presented.error();
-    if (*presented == gpu::Presented::resize) return swapchain_->resize(size_.width, size_.height);
-    if (a && report_.first_picture_s == 0)
+    const Result<bool> shown = presenter_->show(draws, pictures, model_, interface_->scale());
+    if (!shown) return shown.error();
+    if (*shown && pictures.a && report_.first_picture_s == 0)
         report_.first_picture_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     return {};
 }
 
 bool Session::is_drawn() const {
-    if (!stage_ || drew_) return false;
-    return stage_->is_final(0) && (!model_.compares() || truth_ || stage_->is_final(1));
+    if (!shown_.is_there() || drew_) return false;
+    const Stage& stage = shown_.stage();
+    return stage.is_final(0) && (!model_.compares() || truth_.texture() || stage.is_final(1));
 }
 
 bool Session::is_settled() const {
-    return is_drawn() && !loading_.valid() && !making_truth_.valid();
-}
-
-// Nothing has happened and nothing is on its way: the window shows what it would show again.
-bool Session::may_rest(const std::vector<Event>& events, WindowSize size) const {
-    return events.empty() && awake_frames_ == 0 && size == size_ && options_->script.empty() &&
-           options_->frames == 0 && model_.notices.all().empty() && is_settled();
+    return is_drawn() && !loader_.is_loading() && !truth_.is_making();
 }
 
 Result<void> Session::frame() {
     const std::vector<Event> events = gather_events();
     if (Result<void> taken = take_loaded(); !taken) return taken;
-    if (follow_files()) awake_frames_ = kAwakeFrames;
-    if (take_truth()) awake_frames_ = kAwakeFrames;
+    if (follow_files()) input_.wake();
+    if (truth_.take(model_, now_s())) input_.wake();
     const WindowSize size = window_.framebuffer();
-    if (may_rest(events, size)) return {};
+    // Nothing has happened and nothing is on its way: the window shows what it would show again.
+    if (events.empty() && !input_.is_awake() && size == presenter_->size() && !player_.has_script() &&
+        options_->frames == 0 && model_.notices.all().empty() && is_settled())
+        return {};
     if (size.width == 0 || size.height == 0) {  // minimised
-        waiting_.insert(waiting_.begin(), events.begin(),
-                        events.end());  // a key let go meanwhile is not held
+        input_.put_back(events);                // a key let go meanwhile is not held
         drew_ = false;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         return step_script();
     }
-    if (size != size_) {
-        size_ = size;
-        if (swapchain_)
-            if (Result<void> resized = swapchain_->resize(size.width, size.height); !resized) return resized;
-    }
-    if (Result<void> scaled = rescale(); !scaled) return scaled;
-    model_.notices.expire(now_s());
-    interface_->begin(events, size.width, size.height, std::max(now_s() - last_frame_s_, 1e-3));
-    last_frame_s_ = now_s();
-    take_input(events);
-    probe_text_ = probe_line();
-    PanelRequests requests;
-    widgets_.clear();
-    show_panels(model_, facts(), requests, widgets_);
-    Result<InterfaceDraws> draws = interface_->end();
-    if (!draws) return draws.error();
-    for (const Action action : requests.actions) act(action);
-    if (requests.tone) choose_tone(*requests.tone);
-    if (!requests.open.empty()) open_file(requests.open);
+    if (Result<void> resized = presenter_->resize(size); !resized) return resized;
+    InterfaceDraws draws;
+    const Result<PanelRequests> requests = show_interface(events, draws);
+    if (!requests) return requests.error();
+    for (const Action action : requests->actions) act(action);
+    if (requests->tone) shown_.choose_tone(*requests->tone, model_);
+    if (!requests->open.empty()) open_file(requests->open);
     if (Result<void> refreshed = refresh_pictures(); !refreshed) return refreshed;
-    if (Result<void> shown = show(*draws); !shown) return shown;
+    if (Result<void> shown = show(draws); !shown) return shown;
     return step_script();
 }
 

@@ -1,10 +1,11 @@
 #include "dermis/view/window.h"
 
-// Vulkan's types switch GLFW's surface functions on; no Vulkan function is called here.
-#define GLFW_INCLUDE_VULKAN
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+
+#include "dermis/view/window_surface.h"
 
 namespace dermis::view {
 
@@ -124,11 +125,7 @@ std::vector<std::string> Window::instance_extensions() const {
 }
 
 gpu::SurfaceMaker Window::surface_maker() const {
-    return [handle = state_->handle](void* instance) -> uint64_t {
-        VkSurfaceKHR surface = VK_NULL_HANDLE;
-        if (glfwCreateWindowSurface(VkInstance(instance), handle, nullptr, &surface) != VK_SUCCESS) return 0;
-        return uint64_t(surface);
-    };
+    return [handle = state_->handle](void* instance) { return make_surface(instance, handle); };
 }
 
 std::vector<Event> Window::poll(double wait_s) {

@@ -43,7 +43,7 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_what_is_none_is_a_no
     EXPECT_THAT(result.out, HasSubstr("broken.toml:2: mesh.file"));
     EXPECT_THAT(result.out, HasSubstr("nowhere.hdr"));
     EXPECT_THAT(last_state(result), Not(HasSubstr("notice")));  // escape sent it away
-    EXPECT_THAT(last_state(result), HasSubstr("surroundings studio\n"));
+    EXPECT_THAT(last_state(result), HasSubstr("environment studio\n"));
 }
 
 TEST_F(ViewWindow, dropped_panoramas_become_the_surroundings_and_other_pictures_the_right_side) {
@@ -71,10 +71,10 @@ TEST_F(ViewWindow, dropped_panoramas_become_the_surroundings_and_other_pictures_
     const int x = red.width / 2, y = red.height / 2;
     EXPECT_GT(red.at(x, y, 0), green.at(x, y, 0) + 0.05f);
     EXPECT_LT(red.at(x, y, 1), green.at(x, y, 1) - 0.05f);
-    EXPECT_EQ(value_of(result, "surroundings"), path("green.exr"));
+    EXPECT_EQ(value_of(result, "environment"), path("green.exr"));
     EXPECT_THAT(value_of(result, "notice"), HasSubstr("torn.exr"));
     EXPECT_THAT(last_state(result), HasSubstr("right " + path("truth.exr") + "\n"));
-    EXPECT_THAT(last_state(result), HasSubstr("surroundings " + path("green.exr") + "\n"));
+    EXPECT_THAT(last_state(result), HasSubstr("environment " + path("green.exr") + "\n"));
 }
 
 TEST_F(ViewWindow, a_broken_shader_is_told_and_the_last_good_one_goes_on_until_it_is_mended) {

@@ -128,7 +128,7 @@ TEST_F(ViewWindow, a_view_is_pasted) {
     EXPECT_THAT(last, HasSubstr("camera yaw_deg=12 pitch_deg=3 "));
     EXPECT_THAT(last, HasSubstr("exposure_ev 2\n"));
     EXPECT_THAT(last, HasSubstr("profile jensen_skin1\n"));
-    EXPECT_THAT(last, HasSubstr("surroundings studio\n"));
+    EXPECT_THAT(last, HasSubstr("environment studio\n"));
     EXPECT_THAT(last, HasSubstr("/nowhere.hdr"));
 }
 

@@ -1,4 +1,4 @@
-// Scripted input.
+// What a script asks for.
 
 #include <sys/resource.h>
 
@@ -6,7 +6,6 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
-#include "dermis/image/io.h"
 #include "dermis/render/shared_passes.h"
 #include "dermis/scene/scene_words.h"
 #include "dermis/view/session.h"
@@ -23,16 +22,11 @@ long peak_memory_mb() {
 }  // namespace
 
 Result<void> Session::step_script() {
-    if (options_->script.empty() || next_command_ >= options_->script.size()) return {};
-    if (!scripted_.empty() || loading_.valid() || !stage_) return {};
-    if (settling_ && !is_settled()) return {};
-    settling_ = false;
-    const ScriptCommand& command = options_->script[next_command_++];
-    const Result<void> done = run_command(command);
-    if (!done)
-        return Error{options_->script_name + ":" + std::to_string(command.line) + ": " +
-                     done.error().message};
-    return {};
+    if (input_.is_playing() || loader_.is_loading() || !shown_.is_there()) return {};
+    const ScriptCommand* command = player_.next(is_settled());
+    if (!command) return {};
+    const Result<void> done = run_command(*command);
+    return done ? done : player_.error_at(*command, done.error());
 }
 
 Result<void> Session::run_command(const ScriptCommand& command) {
@@ -64,16 +58,16 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             if (command.numbers[0] != int(command.numbers[0]) || command.numbers[0] < 0 ||
                 command.numbers[0] > 6)
                 return Error{"tone: 0 (as the maps are) to 6"};
-            choose_tone(int(command.numbers[0]));
+            shown_.choose_tone(int(command.numbers[0]), model_);
             return {};
         case CommandKind::slide: {
             const auto widget = widgets_.find(command.words[0]);
             std::vector<std::string> names;
             for (const auto& [name, region] : widgets_) names.push_back(name);
             if (widget == widgets_.end()) return Error{unknown_name("widget", command.words[0], names)};
-            if (widget->second.y + widget->second.height > float(size_.height))
+            if (widget->second.y + widget->second.height > float(presenter_->size().height))
                 return Error{command.words[0] + " is out of sight; make the window higher"};
-            scripted_ = slide_frames(widget->second, command.numbers[0]);
+            input_.play(slide_frames(widget->second, command.numbers[0]));
             return {};
         }
         case CommandKind::copy: {
@@ -87,7 +81,7 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             return {};
         case CommandKind::resize:
             window_.resize({int(command.numbers[0]), int(command.numbers[1])});
-            scripted_.resize(3);  // the display answers in its own time
+            input_.play(std::deque<std::vector<Event>>(3));  // the display answers in its own time
             return {};
         case CommandKind::minimise:
             window_.minimise();
@@ -96,15 +90,15 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             window_.restore();
             return {};
         case CommandKind::settle:
-            settling_ = true;
+            player_.settle();
             drew_ = true;  // at least one more frame
             return {};
         case CommandKind::screenshot:
-            return stage_->write(model_, 0, picture_size(), command.words[0]);
+            return shown_.stage().write(model_, 0, picture_size(), command.words[0]);
         case CommandKind::capture:
-            return capture(command.words[0]);
+            return presenter_->capture(command.words[0]);
         case CommandKind::lose_device:
-            return Error{std::string(kDeviceLost)};
+            return Error{"the GPU was lost, as the script says"};
         case CommandKind::print:
             if (options_->print) options_->print(state_text());
             return {};
@@ -112,16 +106,9 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             quit_ = true;
             return {};
         default:
-            scripted_ = input_frames(command);
+            input_.play(input_frames(command));
             return {};
     }
-}
-
-Result<void> Session::capture(const std::string& path) {
-    Result<Image> shown = executor_->read("window");
-    if (!shown) return shown.error();
-    shown->encoding = Encoding::srgb;
-    return write_image(path, *shown);
 }
 
 std::string Session::state_text() {
@@ -130,7 +117,7 @@ std::string Session::state_text() {
     for (const Parameter& parameter : choice.technique().parameters.parameters)
         text += "set " + parameter.name + "=" + choice.values().text(parameter) + "\n";
     if (model_.compares())
-        text += "right " + (truth_ ? model_.truth_path : model_.choices[1].technique().id) + "\n";
+        text += "right " + (truth_.texture() ? model_.truth_path : model_.choices[1].technique().id) + "\n";
     if (model_.truth_is_of_another_view) text += "stale truth\n";
     text += "profile " + model_.scene->skin.profile + "\n";
     text += "view " + model_.view + "\ncamera " + camera_text(model_.scene->camera) + "\n";
@@ -138,20 +125,21 @@ std::string Session::state_text() {
     if (key != model_.scene->lights.end()) text += "light " + light_text(*key) + "\n";
     const Environment& around = model_.scene->environment;
     const bool from_file = around.kind == EnvironmentKind::file;
-    text += "surroundings " +
+    text += "environment " +
             (from_file                                ? around.file.string()
              : around.kind == EnvironmentKind::studio ? std::string("studio")
                                                       : std::string("none")) +
             "\n";
     text += "exposure_ev " + to_text(model_.scene->exposure_ev) + "\n";
-    text += "window " + std::to_string(size_.width) + "x" + std::to_string(size_.height) + "\n";
-    const Picture& picture = stage_->picture(0);
+    const WindowSize size = presenter_->size();
+    text += "window " + std::to_string(size.width) + "x" + std::to_string(size.height) + "\n";
+    const Picture& picture = shown_.stage().picture(0);
     text += "picture " + std::to_string(picture.width) + "x" + std::to_string(picture.height) + " " +
             std::to_string(picture.quality.samples) + "\npasses " +
             std::to_string(picture.timings.passes.size()) + "\n";
     text += std::string("minimised ") + (window_.framebuffer().width == 0 ? "yes\n" : "no\n");
     text += "interface_scale " + to_text(interface_->scale()) + "\n";
-    const gpu::Footprint held = executor_->footprint();
+    const gpu::Footprint held = presenter_->footprint();
     text += "window_images " + std::to_string(held.images) + "\n";
     text += "peak_memory_mb " + std::to_string(peak_memory_mb()) + "\n";
     text += "clipboard " + window_.clipboard() + "\n";

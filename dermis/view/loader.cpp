@@ -1,0 +1,60 @@
+#include "dermis/view/loader.h"
+
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/render/complete_scene.h"
+#include "dermis/scene/load_scene.h"
+#include "dermis/scene/scene_files.h"
+#include "dermis/scene/scene_paths.h"
+
+namespace dermis::view {
+namespace fs = std::filesystem;
+namespace {
+
+// A scene, ready to draw.
+Result<Start> load_start(const std::string& path, std::span<const Subject> subjects,
+                         const std::vector<SceneWord>& words) {
+    Result<Scene> scene = load_scene(path, {.subjects = subjects, .words = words});
+    if (!scene) return scene.error();
+    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    return Start{.scene = std::move(*scene), .loading_words = words};
+}
+
+}  // namespace
+
+bool is_scene_file(const fs::path& file) {
+    return to_lower(file.extension().string()) == ".toml";
+}
+
+bool Loader::load(const std::string& path, const std::vector<SceneWord>& words) {
+    if (loading_.valid()) return false;
+    path_ = path;
+    reload_ = false;
+    loading_ = std::async(std::launch::async, load_start, path, subjects_, words);
+    return true;
+}
+
+std::optional<Result<Start>> Loader::take() {
+    if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return {};
+    return loading_.get();
+}
+
+void Loader::expect_same_scene(bool file_changed) {
+    reload_ = true;
+    file_changed_ |= file_changed;
+}
+
+void Loader::follow(const Scene& scene) {
+    files_.watch(files_of(scene));
+    reload_ = file_changed_ = false;
+}
+
+std::vector<fs::path> Loader::stated_files() const {
+    const fs::path file = is_scene_file(path_) ? fs::path(path_) : find_scene(path_);
+    const Result<std::string> text = read_text_file(file);
+    const Result<SceneDescription> description = text ? parse_scene(*text, file, subjects_) : text.error();
+    return description ? paths_of(*description) : std::vector<fs::path>();
+}
+
+}  // namespace dermis::view

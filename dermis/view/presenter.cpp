@@ -1,0 +1,84 @@
+#include "dermis/view/presenter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dermis/image/io.h"
+#include "dermis/view/window_frame.h"
+
+namespace dermis::view {
+
+Result<Presenter> Presenter::create(gpu::Device& device, const Window& window, gpu::ShaderSource shaders) {
+    Presenter presenter(device, window);
+    presenter.size_ = window.framebuffer();
+    if (Result<void> made = presenter.make_swapchain(); !made) return made.error();
+    Result<gpu::Executor> executor = gpu::Executor::create(device, std::move(shaders));
+    if (!executor) return executor.error();
+    presenter.executor_.emplace(std::move(*executor));
+    return presenter;
+}
+
+Result<void> Presenter::make_swapchain() {
+    Result<gpu::Swapchain> swapchain =
+        gpu::Swapchain::create(*device_, window_->surface_maker(),
+                               {.width = size_.width,
+                                .height = size_.height,
+                                .pacing = vsync_ ? gpu::Pacing::vsync : gpu::Pacing::immediate});
+    if (!swapchain) return swapchain.error();
+    swapchain_.emplace(std::move(*swapchain));
+    return {};
+}
+
+Result<void> Presenter::resize(WindowSize size) {
+    if (size == size_) return {};
+    size_ = size;
+    return swapchain_ ? swapchain_->resize(size.width, size.height) : Result<void>();
+}
+
+void Presenter::set_vsync(bool on) {
+    if (on == vsync_) return;
+    vsync_ = on;
+    swapchain_.reset();
+}
+
+Result<bool> Presenter::show(const InterfaceDraws& draws, const ShownPictures& pictures, const Model& model,
+                             float scale) {
+    if (!swapchain_)  // its pacing was changed
+        if (Result<void> made = make_swapchain(); !made) return made.error();
+    const bool two = model.compares() && (pictures.b || pictures.truth);
+    gpu::FrameInputs inputs = {.width = size_.width, .height = size_.height, .draws = draws.draws};
+    Arrangement arrangement = Arrangement::none;
+    if (pictures.a) {
+        arrangement = Arrangement::one;
+        if (two && model.compare == Compare::wipe) arrangement = Arrangement::wipe;
+        if (two && model.compare == Compare::side_by_side) arrangement = Arrangement::side_by_side;
+        inputs.images["picture_a"] = *pictures.a;
+        if (pictures.truth)
+            inputs.textures["picture_b"] = pictures.truth;
+        else
+            inputs.images["picture_b"] = pictures.b ? *pictures.b : *pictures.a;
+    }
+    const PassList list = window_passes({.width = size_.width,
+                                         .height = size_.height,
+                                         .region = picture_region(model, size_.width, size_.height, scale),
+                                         .arrangement = arrangement,
+                                         .split = model.split,
+                                         .line_px = std::max(1.0f, std::round(scale)),
+                                         .has_interface = !draws.draws.empty()});
+    if (const auto run = executor_->run(list, inputs); !run) return run.error();
+    const Result<gpu::Presented> presented = swapchain_->present(*executor_, "window");
+    if (!presented) return presented.error();
+    if (*presented != gpu::Presented::resize) return true;
+    if (Result<void> resized = swapchain_->resize(size_.width, size_.height); !resized)
+        return resized.error();
+    return false;
+}
+
+Result<void> Presenter::capture(const std::string& path) {
+    Result<Image> shown = executor_->read("window");
+    if (!shown) return shown.error();
+    shown->encoding = Encoding::srgb;
+    return write_image(path, *shown);
+}
+
+}  // namespace dermis::view

@@ -1,0 +1,15 @@
+#include "dermis/view/script_player.h"
+
+namespace dermis::view {
+
+const ScriptCommand* ScriptPlayer::next(bool settled) {
+    if (begun_ >= commands_.size() || (settling_ && !settled)) return nullptr;
+    settling_ = false;
+    return &commands_[begun_++];
+}
+
+Error ScriptPlayer::error_at(const ScriptCommand& command, const Error& error) const {
+    return Error{name_ + ":" + std::to_string(command.line) + ": " + error.message};
+}
+
+}  // namespace dermis::view

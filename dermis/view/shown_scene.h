@@ -1,0 +1,46 @@
+#pragma once
+// The scene in the window: its pictures, what its files said of it, its skin tone, and what is under the
+// mouse.
+
+#include <optional>
+#include <string>
+
+#include "dermis/view/probe.h"
+#include "dermis/view/stage.h"
+
+namespace dermis::view {
+
+class ShownScene {
+  public:
+    [[nodiscard]] bool is_there() const { return stage_.has_value(); }
+    [[nodiscard]] Stage& stage() { return *stage_; }
+    [[nodiscard]] const Stage& stage() const { return *stage_; }
+    /// As the scene's files have it; without objects.
+    [[nodiscard]] const Scene& file_look() const { return file_look_; }
+
+    /// Takes the place of what was shown; model.scene is the new one.
+    void put(Stage stage, Scene file_look, Model& model);
+
+    /// 0: as the maps are, with the profile that the scene came with; 1 to 6: OpenPBR's skins. Says what is
+    /// wrong as a notice.
+    void choose_tone(int tone, Model& model);
+    /// The materials on the device follow the tint; the profile is asked for at every drawing.
+    void follow_skin();
+    /// A panorama takes the environment's place. After an error nothing has changed.
+    [[nodiscard]] Result<void> open_panorama(const std::string& path);
+    /// What a line of the command line says (view_line.h).
+    [[nodiscard]] Result<void> paste(const std::string& line, Model& model);
+
+    /// What is at a place of the picture, 0..1; measured anew when place, size or camera have changed.
+    [[nodiscard]] const std::string& probe(Vec2 place, PictureSize size);
+
+  private:
+    std::optional<Stage> stage_;
+    std::optional<Probe> probe_;
+    Scene file_look_;
+    std::optional<Vec3> mean_albedo_;
+    Vec3 drawn_tint_;  ///< what the materials on the device were made with
+    std::string probe_text_, probe_key_;
+};
+
+}  // namespace dermis::view

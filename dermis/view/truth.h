@@ -1,0 +1,54 @@
+#pragma once
+// The right side when it is a picture: a file, or the ground truth, which is made beside the window's work.
+
+#include <atomic>
+#include <future>
+#include <optional>
+#include <string>
+
+#include "dermis/gpu/executor.h"
+#include "dermis/judge/reference_cache.h"
+#include "dermis/view/model.h"
+#include "dermis/view/stage.h"
+
+namespace dermis::view {
+
+class Truth {
+  public:
+    Truth() = default;
+    /// Stops what is being made and waits for it.
+    ~Truth() { stop_ = true; }
+    Truth(const Truth&) = delete;
+    Truth& operator=(const Truth&) = delete;
+
+    /// Any picture; a notice when it cannot be read.
+    void open(const std::string& path, Model& model);
+    /// Begins to make the ground truth of what is seen, or stops making it.
+    void ask(const Model& model, PictureSize size);
+    /// True when one has come, or failed to.
+    [[nodiscard]] bool take(Model& model, double now_s);
+    [[nodiscard]] bool is_making() const { return making_.valid(); }
+
+    /// The texture follows the picture, exposure and tone map.
+    [[nodiscard]] Result<void> refresh(gpu::Device& device, Model& model);
+    /// Null where the right side is no picture.
+    [[nodiscard]] const gpu::Texture* texture() const { return texture_ ? &*texture_ : nullptr; }
+
+    /// For another window: the picture, and of which view it is (hash_of_views(); empty for a file).
+    [[nodiscard]] const Image& picture() const { return picture_; }
+    [[nodiscard]] const std::string& view() const { return view_; }
+    void take_over(const Image& picture, const std::string& view) { picture_ = picture, view_ = view; }
+
+  private:
+    void put(Image picture, std::string view, const std::string& name, Model& model);
+
+    Image picture_;
+    std::string view_, asked_view_;
+    std::optional<gpu::Texture> texture_;
+    std::string texture_key_;
+    std::atomic<bool> stop_ = false;
+    std::atomic<float> done_ = 0;                  ///< 0..1
+    std::future<Result<CachedReference>> making_;  // last: waits for its task before the rest goes
+};
+
+}  // namespace dermis::view
