@@ -121,6 +121,20 @@ TEST(Layout, each_folder_declares_what_it_includes_and_nothing_else) {
     }
 }
 
+// docs/architecture.md has the rows "| bake | base image optics plot |".
+TEST(Layout, the_page_on_architecture_has_the_declared_dependencies) {
+    const std::string page = read(kRoot / "docs/architecture.md");
+    std::ifstream layers(DERMIS_BINARY_DIR "/layers.txt");
+    size_t rows = 0;
+    for (std::string line; std::getline(layers, line); ++rows) {
+        const size_t colon = line.find(':');
+        const std::string included = line.substr(std::min(colon + 2, line.size()));
+        const std::string row = "| " + line.substr(0, colon) + " | " + included + " |";
+        EXPECT_NE(page.find(row), std::string::npos) << "docs/architecture.md has no row " << row;
+    }
+    EXPECT_GT(rows, 10u);
+}
+
 TEST(Layout, no_folder_depends_on_itself_through_others) {
     const Layers layers = declared_layers();
     for (const auto& [folder, declared] : layers)
