@@ -175,7 +175,8 @@ TEST(Layout, no_library_of_dermis_knows_what_is_built_in) {
 TEST(Layout, vulkan_headers_stay_in_gpu) {
     // The window makes the surface that the swapchain draws to.
     const auto may = [](const fs::path& path) {
-        return path.string().find("/dermis/gpu/") != std::string::npos || path.filename() == "window_surface.cpp";
+        return path.string().find("/dermis/gpu/") != std::string::npos ||
+               path.filename() == "window_surface.cpp";
     };
     for (const char* tree : {"dermis", "techniques", "subjects", "apps"})
         for (const fs::path& path : files_under(tree, is_source))
