@@ -8,8 +8,8 @@
 
 namespace dermis {
 
-/// One texture of shaders/include/surface.glsl: where a material names its image and what stands in when it
-/// has none.
+/// One texture of shaders/include/surface.glsl: where a material names its image, and the texel that replaces
+/// a missing one.
 struct MaterialMap {
     std::string texture;  ///< the shader's name
     ImageSource Material::*source;

@@ -15,7 +15,7 @@ void Notices::inform(std::string topic, std::string text, double now_s) {
     all_.push_back({.topic = std::move(topic), .text = std::move(text), .until_s = now_s + 4});
 }
 
-void Notices::complain(std::string topic, std::string text) {
+void Notices::report_error(std::string topic, std::string text) {
     clear(topic);
     all_.push_back({.topic = std::move(topic), .text = std::move(text), .is_error = true});
 }

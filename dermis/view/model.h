@@ -39,7 +39,7 @@ struct Notice {
 class Notices {
   public:
     void inform(std::string topic, std::string text, double now_s);
-    void complain(std::string topic, std::string text);
+    void report_error(std::string topic, std::string text);
     void clear(const std::string& topic);
     void expire(double now_s);
     void dismiss() { all_.clear(); }

@@ -50,7 +50,7 @@ void Session::open_file(const std::string& path) {
     if (extension != ".exr") return load(path);
     // Twice as wide as high is a panorama; anything else is a rendered picture.
     const Result<LoadedImage> loaded = read_image(path, ImageUse::color);
-    if (!loaded) return model_.notices.complain("open", loaded.error().message);
+    if (!loaded) return model_.notices.report_error("open", loaded.error().message);
     if (loaded->image.width == 2 * loaded->image.height) return open_panorama(path);
     truth_.open(path, model_);
 }
@@ -58,7 +58,7 @@ void Session::open_file(const std::string& path) {
 void Session::open_panorama(const std::string& path) {
     if (!model_.scene) return;
     const Result<void> opened = shown_.open_panorama(path);
-    if (!opened) return model_.notices.complain("open", opened.error().message);
+    if (!opened) return model_.notices.report_error("open", opened.error().message);
     loader_.follow_too({path});
     model_.notices.inform("open", "environment: " + path, now_s());
 }
@@ -90,7 +90,7 @@ void Session::notify_written(const std::string& path, const Result<void>& writte
     if (written)
         model_.notices.inform("file", "written: " + fs::absolute(path).string(), now_s());
     else
-        model_.notices.complain("file", written.error().message);
+        model_.notices.report_error("file", written.error().message);
 }
 
 void Session::act(Action action) {

@@ -115,7 +115,7 @@ Result<void> Session::refresh_pictures() {
             if (shaders_unproven_ && shaders_.take_back(drew.error().message))
                 shown_.stage().forget_shaders();
             else
-                model_.notices.complain(topic, drew.error().message);
+                model_.notices.report_error(topic, drew.error().message);
             continue;
         }
         if (!*drew) continue;

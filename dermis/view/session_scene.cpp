@@ -36,7 +36,7 @@ Result<void> Session::take_loaded() {
     const Result<void> begun = *start ? begin_scene(std::move(**start), first) : start->error();
     if (begun || first) return begun;
     if (loader_.is_reload()) loader_.follow_stated_files();  // what it waits for may be missing
-    model_.notices.complain("open", begun.error().message + (loader_.is_reload() ? kLastGood : ""));
+    model_.notices.report_error("open", begun.error().message + (loader_.is_reload() ? kLastGood : ""));
     return {};
 }
 
@@ -90,12 +90,12 @@ void Session::take_technique(const Scene& file) {
         !loader_.is_reload() || file.technique != before.technique || file.settings != before.settings;
     if (file.technique.empty() || !asks_anew) return;
     const Result<const Technique*> technique = find_technique(model_.catalog.techniques, file.technique);
-    if (!technique) return model_.notices.complain("technique", technique.error().message);
+    if (!technique) return model_.notices.report_error("technique", technique.error().message);
     model_.choices[0].choose(**technique);
     model_.notices.clear("technique");
     for (const auto& [name, text] : file.settings)
         if (const Result<void> set = model_.choices[0].values().set(name, text); !set)
-            model_.notices.complain("technique", set.error().message);
+            model_.notices.report_error("technique", set.error().message);
 }
 
 // Remembers the scene, and says what its files lack.
@@ -116,7 +116,7 @@ bool Session::follow_scene_files() {
     if (around.kind == EnvironmentKind::file && changed == std::vector{around.file}) {
         const Result<void> read = shown_.stage().environment_changed();
         model_.notices.clear("environment");
-        if (!read) model_.notices.complain("environment", read.error().message + kLastGood);
+        if (!read) model_.notices.report_error("environment", read.error().message + kLastGood);
         return true;
     }
     load(model_.scene_path);
@@ -138,7 +138,7 @@ bool Session::follow_files() {
     for (const Notice& notice : shown)
         if (notice.topic.starts_with(kShaderTopic)) model_.notices.clear(notice.topic);
     for (const auto& [name, message] : shaders_.errors())
-        model_.notices.complain(kShaderTopic + name, message + kLastGood);
+        model_.notices.report_error(kShaderTopic + name, message + kLastGood);
     return changed;
 }
 

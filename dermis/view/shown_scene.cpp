@@ -33,10 +33,10 @@ void ShownScene::choose_tone(int tone, Model& model) {
     const Result<Profile> profile = find_profile(name);
     if (!mean_albedo_) {
         const Result<Vec3> mean = mean_skin_albedo(*model.scene);
-        if (!mean) return model.notices.complain("tone", mean.error().message);
+        if (!mean) return model.notices.report_error("tone", mean.error().message);
         mean_albedo_ = *mean;
     }
-    if (!profile) return model.notices.complain("tone", profile.error().message);
+    if (!profile) return model.notices.report_error("tone", profile.error().message);
     skin.albedo_tint_linear = tint_towards(skin_tone_albedo_linear(tone), *mean_albedo_);
     skin.profile = name;
     model.tone = tone;

@@ -17,7 +17,7 @@ struct PictureSize {
     int width = 1, height = 1;
 };
 
-/// What stands in the window of one side.
+/// What the window shows on one side.
 struct Picture {
     gpu::FrameResult timings;
     Quality quality;

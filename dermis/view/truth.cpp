@@ -42,7 +42,7 @@ void Truth::put(Image picture, std::string view, const std::string& name, Model&
 
 void Truth::open(const std::string& path, Model& model) {
     Result<LoadedImage> loaded = read_image(path, ImageUse::color);
-    if (!loaded) return model.notices.complain("open", loaded.error().message);
+    if (!loaded) return model.notices.report_error("open", loaded.error().message);
     put(std::move(loaded->image), "", path, model);
 }
 
@@ -75,7 +75,7 @@ bool Truth::take(Model& model, double now_s) {
     if (made)
         put(std::move(made->picture.radiance), asked_view_, "ground truth", model);
     else if (!stop_)
-        model.notices.complain("truth", made.error().message);
+        model.notices.report_error("truth", made.error().message);
     return true;
 }
 
