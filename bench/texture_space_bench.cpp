@@ -93,8 +93,7 @@ int main(int argc, char** argv) {
         const std::pair<std::string, std::pair<std::string, Settings>> runs[] = {
             {"texture_space", {"texture_space", {}}},
             {"texture_space, no culls", {"texture_space", whole}},
-            {"texture_space, 1.5 mm",
-             {"texture_space", {{"space", "mm"}, {"blur_scale", "1.5"}, {"blur_bias", "0"}}}},
+            {"texture_space, the source's", {"texture_space", {{"blur", "source"}, {"blur_passes", "2"}}}},
             {"texture_space_gaussians", {"texture_space_gaussians", {}}},
             {"texture_space_gaussians, no culls", {"texture_space_gaussians", whole}}};
         for (const auto& [label, run] : runs) {

@@ -56,8 +56,8 @@ struct Material {
     ImageSource opacity_map;             ///< coloured transmittance of translucent objects
     ImageSource transmission_map;        ///< A
     ImageSource roughness_map;           ///< perceptual, R; when present it wins over metallic_roughness_map
-    ImageSource kernel_size_map;         ///< R, multiplies the width of scattering
-    ImageSource curvature_map;           ///< R; (value - curvature_mid) * curvature_scale_per_mm
+    ImageSource kernel_size_map;  ///< R: 0 on thick skin, up to 1 where blurs are wider because it is thin
+    ImageSource curvature_map;    ///< R; (value - curvature_mid) * curvature_scale_per_mm
 
     float thickness_scale_mm = 1;         ///< thickness of a map value of 1
     float curvature_scale_per_mm = 1;     ///< curvature of a map value of 1

@@ -24,7 +24,7 @@ enum class MapKind {
     curvature,    ///< signed mean curvature in 1/mm, positive where convex (mesh/curvature.h)
     thickness,    ///< mm of material under the surface: mean depth of inward rays, see
                   ///< BakeMapSettings::cone_rad
-    kernel_size,  ///< 0..0.996: how far light spreads sideways as a share of that and the way through
+    kernel_size,  ///< 0..0.996: how thin the skin is against the reach of light; blurs grow with it
     stretch,      ///< mm per unit of u, mm per unit of v, cosine of the angle between the two directions
     occlusion     ///< ambient visibility 0..1, as vertex_occlusion.h has it
 };

@@ -119,7 +119,8 @@ float MaterialSet::occlusion_at(const SurfaceAttributes& surface, const RayHit& 
         occlusion = mesh.occlusions[corner[0]] * (1 - hit.u - hit.v) + mesh.occlusions[corner[1]] * hit.u +
                     mesh.occlusions[corner[2]] * hit.v;
     }
-    return e.maps.occlusion ? occlusion * e.maps.occlusion->sample(surface.uv, surface.footprint).x
+    // Both are of the same shape: the darker one counts, not both (shaders/include/surface.glsl).
+    return e.maps.occlusion ? std::min(occlusion, e.maps.occlusion->sample(surface.uv, surface.footprint).x)
                             : occlusion;
 }
 

@@ -27,7 +27,7 @@ struct ShadingPoint {
     float metallic = 0;
     float opacity = 1;
     float occlusion =
-        1;  ///< of the mesh's vertices and the map; used where the renderer's ambient term is asked for
+        1;  ///< the vertices' or the map's, whichever is darker; for the renderer's ambient term
     MaterialClass material_class = MaterialClass::skin;
 };
 

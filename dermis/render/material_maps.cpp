@@ -71,7 +71,10 @@ const std::vector<MaterialMap>& material_maps() {
          .source = &Material::thickness_map,
          .is_single = true,
          .preferred_channel = 1},
-        {.texture = "kernel_size_map", .source = &Material::kernel_size_map, .is_single = true},
+        {.texture = "kernel_size_map",
+         .source = &Material::kernel_size_map,
+         .is_single = true,
+         .neutral = {}},
         {.texture = "curvature_map", .source = &Material::curvature_map, .is_single = true, .neutral = {}},
         {.texture = "opacity_map", .source = &Material::opacity_map, .is_color = true}};
     return kMaps;

@@ -207,7 +207,8 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
         .shadow_map_size = settings.shadow_map_size,
         .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
         .has_second_light = scene_->lights.size() > 1,
-        .densest_uv_per_mm = uploaded_->densest_uv_per_mm(),
+        .densest_uv_per_mm = uploaded_->uv_density().densest_uv_per_mm,
+        .typical_uv_per_mm = uploaded_->uv_density().typical_uv_per_mm,
         .skin_gaussians = (*skin)->gaussians};
     const SharedPassSettings shared = {.samples = settings.samples,
                                        .shadow_map_size = settings.shadow_map_size,

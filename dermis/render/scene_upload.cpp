@@ -170,7 +170,7 @@ void SceneOnDevice::update_materials(const Scene& scene) {
 
 Result<SceneOnDevice> SceneOnDevice::upload(gpu::Device& device, const Scene& scene) {
     SceneOnDevice uploaded;
-    uploaded.densest_uv_per_mm_ = dermis::densest_uv_per_mm(scene);
+    uploaded.uv_density_ = dermis::uv_density(scene);
     if (Result<void> done = uploaded.upload_maps(device, scene); !done) return done.error();
     if (Result<void> done = uploaded.upload_objects(device, scene); !done) return done.error();
     if (Result<void> done = uploaded.upload_environment(device, scene); !done) return done.error();

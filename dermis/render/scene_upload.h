@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "dermis/gpu/executor.h"
+#include "dermis/render/seam_textures.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
@@ -25,7 +26,7 @@ class SceneOnDevice {
     [[nodiscard]] const gpu::Texture& environment_cube() const { return *environment_cube_; }
     [[nodiscard]] const gpu::Texture& environment_brdf() const { return *environment_brdf_; }
     [[nodiscard]] const gpu::Texture& no_image() const { return *no_image_; }
-    [[nodiscard]] float densest_uv_per_mm() const { return densest_uv_per_mm_; }
+    [[nodiscard]] UvDensity uv_density() const { return uv_density_; }
     [[nodiscard]] int environment_mip_count() const { return environment_mip_count_; }
     [[nodiscard]] const std::vector<gpu::Values>& environment_sh() const { return environment_sh_; }
 
@@ -39,7 +40,7 @@ class SceneOnDevice {
     std::vector<std::unique_ptr<gpu::Geometry>> geometries_;
     std::unique_ptr<gpu::Texture> environment_cube_, environment_brdf_, no_image_;
     int environment_mip_count_ = 1;
-    float densest_uv_per_mm_ = 0;
+    UvDensity uv_density_;
     std::vector<gpu::Values> environment_sh_;
     std::vector<gpu::Draw> draws_;
 };

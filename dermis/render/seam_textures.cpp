@@ -45,6 +45,20 @@ std::vector<std::byte> packed(const std::vector<Vec2>& carried) {
     return bytes;
 }
 
+struct AreaSample {
+    float value = 0, area_mm2 = 0;
+};
+
+// The value that `share` of the area does not exceed; 0 without samples.
+float quantile(std::vector<AreaSample>& samples, double share) {
+    double total = 0, sum = 0;
+    for (const AreaSample& sample : samples) total += double(sample.area_mm2);
+    std::ranges::sort(samples, {}, &AreaSample::value);
+    for (const AreaSample& sample : samples)
+        if ((sum += double(sample.area_mm2)) >= share * total) return sample.value;
+    return 0;
+}
+
 }  // namespace
 
 Result<SeamTextures> make_seam_textures(gpu::Device& device, const Scene& scene, const SeamRequest& request) {
@@ -65,9 +79,8 @@ Result<SeamTextures> make_seam_textures(gpu::Device& device, const Scene& scene,
     return SeamTextures{request, std::move(*seams), std::move(*chart)};
 }
 
-float densest_uv_per_mm(const Scene& scene) {
-    std::vector<std::pair<float, float>> samples;  // UV per mm, area
-    double total = 0;
+UvDensity uv_density(const Scene& scene) {
+    std::vector<AreaSample> densest, typical;  // UV per mm
     for (const AtlasPart& part : skin_parts(scene)) {
         const std::vector<UvMetric> metrics = triangle_uv_metrics(*part.mesh);
         const std::vector<float> areas = triangle_areas_mm2(*part.mesh);
@@ -77,15 +90,11 @@ float densest_uv_per_mm(const Scene& scene) {
             const double mean = (double(m.e_mm2) + m.g_mm2) / 2, half = (double(m.e_mm2) - m.g_mm2) / 2;
             const double least = mean - std::sqrt(half * half + double(m.f_mm2) * m.f_mm2);
             if (!(least > 1e-6 * mean)) continue;
-            samples.emplace_back(float(1 / std::sqrt(least)), areas[triangle]);
-            total += areas[triangle];
+            densest.push_back({float(1 / std::sqrt(least)), areas[triangle]});
+            typical.push_back({1 / m.mm_per_uv(), areas[triangle]});
         }
     }
-    std::ranges::sort(samples);
-    double sum = 0;
-    for (const auto& [density, area] : samples)
-        if ((sum += area) >= 0.99 * total) return density;
-    return 0;
+    return {quantile(densest, 0.99), quantile(typical, 0.5)};
 }
 
 }  // namespace dermis

@@ -16,7 +16,11 @@ struct SeamTextures {
 [[nodiscard]] Result<SeamTextures> make_seam_textures(gpu::Device& device, const Scene& scene,
                                                       const SeamRequest& request);
 
-/// Longest step in UV that a millimetre on the skin takes, in 99 % of its area; 0 for skin without UVs.
-[[nodiscard]] float densest_uv_per_mm(const Scene& scene);
+/// Steps in UV that a millimetre on the skin takes; 0 for skin without UVs.
+struct UvDensity {
+    float densest_uv_per_mm = 0;  ///< the longest, in 99 % of the skin's area
+    float typical_uv_per_mm = 0;  ///< median by area of the mean over all directions
+};
+[[nodiscard]] UvDensity uv_density(const Scene& scene);
 
 }  // namespace dermis

@@ -146,7 +146,9 @@ const KeyTable<MapsDescription>& maps_keys() {
                                              .doc = "thickness of a map value of 1",
                                              .max = 1e3})
             .file(&D::kernel_size,
-                  {.name = "kernel_size", .doc = "multiplies the width of scattering; red channel"})
+                  {.name = "kernel_size",
+                   .doc =
+                       "0 on thick skin, up to 1 where it is thin and texture-space blurs grow; red channel"})
             .file(&D::curvature,
                   {.name = "curvature", .doc = "signed mean curvature, positive where convex; red channel"})
             .number(&D::curvature_scale_per_mm, {.name = "curvature_scale_per_mm",

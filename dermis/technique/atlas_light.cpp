@@ -46,6 +46,8 @@ const ParameterTable& atlas_parameters() {
             .toggle(&P::cull_frustum, "cull_frustum", "leave out texels outside the view")
             .toggle(&P::cull_back_face, "cull_back_face", "leave out texels that face away")
             .number(&P::cull_bias, "cull_bias", "", 0, 2, "added to the cosine between view and normal")
+            .number(&P::kernel_growth, "kernel_growth", "", 0, 10,
+                    "the profile's lengths grow by this share where the kernel-size map is 1")
             .build();
     return kTable;
 }
@@ -63,7 +65,8 @@ AtlasLightSettings atlas_light_settings(const AtlasParams& params) {
                      .back_face = params.cull_back_face,
                      .bias = params.cull_bias,
                      .size = params.light_map_size},
-            .size = params.light_map_size};
+            .size = params.light_map_size,
+            .kernel_scale_mm = params.kernel_growth};
 }
 
 float longest_step_texels(float length_mm, int size, const FrameContext& frame) {

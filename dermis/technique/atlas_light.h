@@ -17,6 +17,7 @@ struct AtlasParams {
     float trans_shadow_alpha = 1;
     bool cull_frustum = true, cull_back_face = true;
     float cull_bias = 0.3f;
+    float kernel_growth = 0.5f;
 };
 [[nodiscard]] const ParameterTable& atlas_parameters();
 
@@ -31,7 +32,7 @@ struct AtlasLightSettings {
     bool carry_seams = true;  ///< in mm: blurs cross UV seams; else taps that leave a chart are dropped
     float pre_scatter = 0;    ///< the map takes base colour ^ this
     /// In mm: the metric's steps are kernel size * scale + bias long, and at most longest_texels.
-    float kernel_scale_mm = 1, kernel_bias_mm = 0, longest_texels = 16;
+    float kernel_scale_mm = 0, kernel_bias_mm = 1, longest_texels = 16;
 };
 
 /// What follows from the parameters alone.

@@ -31,6 +31,8 @@ struct FrameContext {
     bool has_second_light = false;
     /// Longest step in UV that a millimetre on the skin takes, in 99 % of its area.
     float densest_uv_per_mm = 0.004f;
+    /// The median by area of the mean step over all directions.
+    float typical_uv_per_mm = 0.003f;
     GaussianSum skin_gaussians;  ///< of the scene's profile
 };
 

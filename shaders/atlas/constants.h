@@ -9,6 +9,10 @@ namespace dermis {
 // Specialisation constant space: of the blur's lengths.
 const int kSpaceTexels = 0, kSpaceMm = 1;
 
+// Specialisation constant light_map_texels, how the final mesh reads a light map: as it is; its alpha being
+// the share of skin; or its colour being 0 and its alpha 1 where nothing was written.
+const int kTexelsAsTheyAre = 0, kTexelsPremultiplied = 1, kTexelsWritten = 2;
+
 // Specialisation constant channels: what the colour shadow map holds.
 const int kChannelsNone = 0, kChannelsColor = 1, kChannelsTwoLights = 2;
 

@@ -72,7 +72,8 @@ Surface load_surface() {
     s.albedo_linear = albedo_linear * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
     s.roughness = clamp(roughness * texture(sampler2D(roughness_map, trilinear_repeat), uv_in).r, 0.03, 1.0);
     s.f0 = f0 * specular * texture(sampler2D(specular_map, trilinear_repeat), uv_in).r;
-    s.occlusion = occlusion_in * texture(sampler2D(occlusion_map, trilinear_repeat), uv_in).r;
+    // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
+    s.occlusion = min(occlusion_in, texture(sampler2D(occlusion_map, trilinear_repeat), uv_in).r);
     s.curvature_per_mm = curvature_per_mm_in;
     return s;
 }

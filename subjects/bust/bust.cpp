@@ -158,6 +158,7 @@ std::string cache_key(const BustParams& params) {
         hasher.add(float(field.distance_mm(p)));
         const SkinSample skin = skin_at(p, skin_zones(p), params, hairs);
         hasher.add(skin.albedo_linear.x).add(skin.albedo_linear.y).add(skin.roughness).add(skin.height_mm);
+        hasher.add(skin.kernel_size);
     }
     return hasher.hex();
 }

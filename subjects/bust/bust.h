@@ -24,7 +24,7 @@ struct Bust {
     Image normal;       ///< RGB u8, tangent space (x along +u, y up the image, z out)
     Image roughness;    ///< u8, perceptual
     Image specular;     ///< u8, factor on the reflectance at normal incidence
-    Image kernel_size;  ///< u8, factor on the scattering radius: small at ears, nostrils and lids
+    Image kernel_size;  ///< u8: 0 on thick skin, more at ears, nostrils and lids, which are thin
 };
 inline constexpr int kBustMapSide = 2048;
 

@@ -12,7 +12,7 @@ struct SkinMaps {
     Image normal;       ///< RGB u8, tangent space: x along +u, y up the image, z out
     Image roughness;    ///< one channel u8, perceptual
     Image specular;     ///< one channel u8, factor on F0
-    Image kernel_size;  ///< one channel u8, factor on the scattering radius
+    Image kernel_size;  ///< one channel u8: 0 on thick skin, more where it is thin
 };
 
 /// Square maps of `side` texels; every chart is continued kGutter texels (at 2048) past its edge. About 5 s

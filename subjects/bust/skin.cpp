@@ -164,9 +164,7 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
         1.0f);
     // Nothing of the sky is seen from the nostrils and from between the lips.
     s.specular *= 1 - 0.95f * std::max(hollow, lip.line * lip.vermilion);
-    s.kernel_size = std::clamp(
-        1 - 0.45f * z.ear - 0.35f * z.nostril - 0.25f * z.lid - 0.15f * lip.vermilion - 0.5f * hairs, 0.25f,
-        1.0f);
+    s.kernel_size = std::clamp(0.6f * z.ear + 0.45f * z.nostril + 0.3f * z.lid, 0.0f, 1.0f) * (1 - hairs);
     return s;
 }
 

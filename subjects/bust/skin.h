@@ -22,7 +22,7 @@ struct SkinSample {
     Vec3 albedo_linear;
     float roughness = 0.5f;  ///< perceptual
     float specular = 1;      ///< factor on the reflectance at normal incidence
-    float kernel_size = 1;   ///< factor on the scattering radius: small where the skin is thin
+    float kernel_size = 0;   ///< how much of its width light gains where the skin is thin (scene/material)
     float height_mm = 0;     ///< relief too fine for the mesh
 };
 

@@ -9,14 +9,14 @@ layout(scalar) uniform Params {
     float specular_shadow_bias;
 };
 layout(constant_id = 2) const int specular_shadow = 1;
-layout(constant_id = 3) const int space = kSpaceTexels;
+layout(constant_id = 3) const int light_map_texels = kTexelsPremultiplied;
 
 float luminance(vec3 c_linear) { return dot(c_linear, vec3(0.2125, 0.7154, 0.0721)); }
 
 void main() {
     Surface s = load_surface();
     vec3 exitance;
-    if (!read_light_map(s, space == kSpaceMm, exitance)) exitance = unblurred_exitance(s);
+    if (!read_light_map(s, light_map_texels, exitance)) exitance = unblurred_exitance(s);
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);

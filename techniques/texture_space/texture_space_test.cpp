@@ -18,6 +18,20 @@ class TextureSpace : public RenderTest {
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
         return values;
     }
+    /// `passes` of one radius in texels.
+    static ParameterValues texels(const char* passes, const char* radius,
+                                  std::initializer_list<std::pair<const char*, const char*>> more = {}) {
+        ParameterValues values =
+            with({{"blur", "set"}, {"space", "texels"}, {"blur_passes", passes}, {"blur_bias", radius}});
+        for (const auto& [name, text] : more) EXPECT_TRUE(values.set(name, text)) << name;
+        return values;
+    }
+    /// Colours of the light map after the last pass, all of it drawn.
+    static Image light_map(Renderer& renderer, ParameterValues values, const char* image) {
+        for (const char* cull : {"cull_frustum", "cull_back_face"}) EXPECT_TRUE(values.set(cull, "off"));
+        draw(renderer, values);
+        return to_linear_float(*renderer.read(image));
+    }
     static Image draw(Renderer& renderer, const ParameterValues& values) {
         return radiance(renderer, built_in_technique("texture_space"), values, kSmall);
     }
@@ -38,8 +52,7 @@ TEST_F(TextureSpace, without_blur_it_is_lambert) {
     const Image lambert = radiance(renderer, built_in_technique("lambert"), kSmall);
     const Image unblurred = draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "2048"}}));
     EXPECT_LT(mean_difference(lambert, unblurred), 2e-3);
-    const Image blurred =
-        draw(renderer, with({{"blur_passes", "8"}, {"blur_bias", "8"}, {"light_map_size", "512"}}));
+    const Image blurred = draw(renderer, texels("8", "8", {{"light_map_size", "512"}}));
     EXPECT_GT(mean_difference(lambert, blurred), 1e-2) << "the blur does nothing";
 }
 
@@ -48,9 +61,10 @@ TEST_F(TextureSpace, every_filter_keeps_even_light_even_up_to_the_chart_borders)
     Renderer renderer = make_renderer(scene);
     const Image lambert = radiance(renderer, built_in_technique("lambert"), kSmall);
     for (const char* filter : {"poisson", "gaussian", "box", "kawase"}) {
-        const Image image =
-            draw(renderer, with({{"filter", filter}, {"blur_passes", "4"}, {"blur_bias", "6"}}));
+        const Image image = draw(renderer, texels("4", "6", {{"filter", filter}}));
         EXPECT_LT(relative_difference(lambert, image, 1), 1e-3) << filter;
+        EXPECT_LT(relative_difference(lambert, draw(renderer, with({{"filter", filter}})), 1), 1e-3)
+            << filter;
     }
 }
 
@@ -58,18 +72,61 @@ TEST_F(TextureSpace, without_dilation_the_gutter_darkens_the_seams) {
     // Proves that the test above can fail.
     Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Image good =
-        draw(renderer, with({{"dilate", "written_only"}, {"blur_passes", "4"}, {"blur_bias", "20"}}));
-    const Image dark = draw(renderer, with({{"dilate", "off"}, {"blur_passes", "4"}, {"blur_bias", "20"}}));
+    const Image good = draw(renderer, texels("4", "20", {{"dilate", "written_only"}}));
+    const Image dark = draw(renderer, texels("4", "20", {{"dilate", "off"}}));
     EXPECT_GT(relative_difference(good, dark, 1), 0.05);
 }
 
 TEST_F(TextureSpace, its_stand_in_for_a_moving_picture_blurs_as_widely) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const ParameterValues values = with({{"blur_passes", "8"}, {"blur_bias", "6"}});
     const Technique& technique = built_in_technique("texture_space");
-    const Image whole = draw(renderer, values), coarse = draw(renderer, technique.coarse(values, 0.25f)),
-                sharp = draw(renderer, with({{"blur_passes", "0"}}));
-    EXPECT_LT(mean_difference(whole, coarse), 0.25 * mean_difference(whole, sharp));
+    const Image sharp = draw(renderer, with({{"blur_passes", "0"}}));
+    // A fit to the profile leaves out what the coarser texels cannot hold.
+    const std::pair<ParameterValues, double> settings[] = {{texels("8", "6"), 0.25}, {with({}), 0.4}};
+    for (const auto& [values, part] : settings) {
+        const Image whole = draw(renderer, values), coarse = draw(renderer, technique.coarse(values, 0.5f));
+        EXPECT_LT(mean_difference(whole, coarse), part * mean_difference(whole, sharp)) << part;
+    }
+}
+
+// A tap between texels is a mean of four, so that a radius under half a texel blurs too.
+TEST_F(TextureSpace, dilation_reads_between_texels) {
+    const Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    const Image none = draw(renderer, texels("0", "0"));
+    const double a_third = mean_difference(none, draw(renderer, texels("1", "0.3"))),
+                 half = mean_difference(none, draw(renderer, texels("1", "0.5"))),
+                 two = mean_difference(none, draw(renderer, texels("1", "2")));
+    EXPECT_GT(a_third, 0);
+    EXPECT_GT(half, a_third);
+    EXPECT_GT(two, half);
+}
+
+// Kawase 2003: four reads half a texel off the middle of the texel, each a mean of four: 1 2 1 along both
+// axes.
+TEST_F(TextureSpace, kawases_first_pass_is_the_binomial_filter_and_its_second_reads_further_out) {
+    const Scene scene = load("builtin:spheres");
+    Renderer renderer = make_renderer(scene);
+    const Image none = light_map(renderer, texels("0", "0", {{"light_map_size", "256"}}), "light_map_a");
+    const Image first = light_map(
+        renderer, texels("1", "0", {{"light_map_size", "256"}, {"filter", "kawase"}}), "light_map_b");
+    const Image second = light_map(
+        renderer, texels("2", "0", {{"light_map_size", "256"}, {"filter", "kawase"}}), "light_map_a");
+    size_t count = 0;
+    for (int y = 40; y < 88; ++y)
+        for (int x = 40; x < 88; ++x) {  // inside the first sphere's chart
+            double binomial = 0, corners = 0;
+            for (int dy = -2; dy <= 2; ++dy)
+                for (int dx = -2; dx <= 2; ++dx) {
+                    if (std::abs(dx) < 2 && std::abs(dy) < 2)
+                        binomial += (2 - std::abs(dx)) * (2 - std::abs(dy)) / 16.0 *
+                                    double(none.at(x + dx, y + dy, 0));
+                    if (dx != 0 && dy != 0) corners += double(first.at(x + dx, y + dy, 0)) / 16;
+                }
+            EXPECT_NEAR(first.at(x, y, 0), binomial, 2e-3 * binomial + 1e-4);
+            EXPECT_NEAR(second.at(x, y, 0), corners, 2e-3 * corners + 1e-4);
+            count += std::abs(none.at(x, y, 0) - none.at(x + 1, y, 0)) > 4e-3f;
+        }
+    EXPECT_GT(count, 100u) << "a filter of flat light shows nothing";
 }

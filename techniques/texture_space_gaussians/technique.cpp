@@ -76,7 +76,7 @@ AtlasLightSettings atlas_settings(const Params& params, const std::vector<Step>&
     settings.cull.across_seams = settings.carry_seams = params.carry_seams;
     settings.in_mm = true;
     settings.pre_scatter = params.pre_scatter;
-    settings.longest_texels = longest_step_texels(1, settings.size, frame);
+    settings.longest_texels = longest_step_texels(1 + params.atlas.kernel_growth, settings.size, frame);
     // Taps go to 3 sigma along each of two steps; a bilinear neighbour each, and one of the final mesh.
     double reach = 2;
     for (const Step& step : steps)

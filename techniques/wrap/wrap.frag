@@ -1,17 +1,33 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Wrapped diffuse: light reaches past the terminator, in a colour of its own there (Green 2004, GPU Gems, chapter 16).
+// Wrapped diffuse: light reaches past the terminator (Green 2004, GPU Gems, chapter 16).
 #include "shaders/include/forward.glsl"
+#include "techniques/wrap/constants.h"
 
 layout(scalar) uniform Params {
     float wrap;
     float scatter_width;
     vec3 scatter_color_linear;
 };
+layout(push_constant, scalar) uniform PassValues {
+    vec3 second_moment_mm2;
+    vec3 bend_mm2;
+};
+layout(constant_id = 2) const int width = kWidthProfile;
+
+// Least squares over spheres of 1 to 16 mm: matching the zonal harmonic of order 1 alone (a scale of 2) darkens the lit
+// side by more than it should.
+const float kReachScale = 1.3;
+
+vec3 reach(Surface s) {
+    if (width == kWidthSource) return vec3(wrap);
+    float k2 = s.curvature_per_mm * s.curvature_per_mm;
+    return min(kReachScale * second_moment_mm2 * k2 / (1.0 + bend_mm2 * k2), vec3(1.0));
+}
 
 // (n.l + w) / (1 + w), scaled by 1 / (1 + w) more so that no light is made: the integral over the sphere of directions
 // then stays pi (McAuley 2010).
-float wrapped_cosine(float n_dot_l) { return max(n_dot_l + wrap, 0.0) / ((1.0 + wrap) * (1.0 + wrap)); }
+vec3 wrapped_cosine(float n_dot_l, vec3 w) { return max(n_dot_l + w, vec3(0.0)) / ((1.0 + w) * (1.0 + w)); }
 
 // A bump over the wrapped cosine around the terminator, from 0 to scatter_width and back at twice that.
 float terminator_bump(float wrapped) {
@@ -19,15 +35,14 @@ float terminator_bump(float wrapped) {
 }
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
-    float wrapped = wrapped_cosine(dot(s.n_world, to_light_world));
-    vec3 scattered = wrapped + scatter_color_linear * terminator_bump(wrapped);
-    return scattered * visibility;
+    vec3 wrapped = wrapped_cosine(dot(s.n_world, to_light_world), reach(s));
+    if (width == kWidthSource) wrapped += scatter_color_linear * terminator_bump(wrapped.r);
+    return wrapped * visibility;
 }
 
 // Legendre moments of the wrapped cosine, w in 0..1: 2 pi times the integral of f(t) P_l(t) over t in -w..1 is pi,
 // pi (2 - w) / 3 and pi (1 - w)^2 / 4; at w = 0 they are Lambert's.
 vec3 ambient_response(Surface s) {
-    float band_1 = kPi * (2.0 - wrap) / 3.0;
-    float band_2 = kPi * (1.0 - wrap) * (1.0 - wrap) / 4.0;
-    return environment_convolved(s.n_world, vec3(kPi), vec3(band_1), vec3(band_2));
+    vec3 w = reach(s);
+    return environment_convolved(s.n_world, vec3(kPi), kPi * (2.0 - w) / 3.0, kPi * (1.0 - w) * (1.0 - w) / 4.0);
 }

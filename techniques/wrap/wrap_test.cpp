@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "dermis/optics/preintegration.h"
 #include "render/grid_scene.h"
 
 using namespace dermis;
@@ -8,8 +9,9 @@ namespace {
 
 class Wrap : public GridTest {
   protected:
-    static Image draw(Settings settings) {
+    static Image draw(Settings settings, const char* width = "source") {
         settings.emplace_back("specular", "none");
+        settings.emplace_back("width", width);
         return draw_grid(make_grid_scene(), built_in_technique("wrap"), settings);
     }
     /// Over all cosines, which are even steps over x: a quarter is Lambert's.
@@ -25,6 +27,36 @@ class Wrap : public GridTest {
 TEST_F(Wrap, keeps_the_energy_however_far_it_reaches) {
     for (const char* reach : {"0", "0.25", "0.5", "1"})
         EXPECT_NEAR(mean(draw({{"wrap", reach}, {"scatter_color_linear", "0"}}), 0), 0.25, 5e-4) << reach;
+}
+
+TEST_F(Wrap, keeps_the_energy_of_every_colour_at_every_curvature) {
+    const Image image = draw({}, "profile");
+    for (int y = 0; y < kGrid; y += 7)
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (int x = 0; x < kGrid; ++x) sum += double(image.at(x, y, c));
+            EXPECT_NEAR(sum / kGrid, 0.25, 5e-4) << y << ", channel " << c;
+        }
+}
+
+// Against the integral over the sphere, for the curvatures of spheres of 1 to 16 mm.
+TEST_F(Wrap, is_nearer_to_the_profile_than_lambert_in_every_colour_at_every_curvature) {
+    const Image image = draw({}, "profile");
+    double wrapped_squared[3] = {}, lambert_squared[3] = {};
+    for (int y = 3; y < kGrid; y += 4)
+        for (int c = 0; c < 3; ++c) {
+            double wrapped = 0, lambert = 0;
+            for (int x = 0; x < kGrid; ++x) {
+                const double t = grid_cosine(x), cosine = std::max(t, 0.0);
+                const double exact =
+                    preintegrated_diffuse(gpu_gems_3_skin(), t, 1 / grid_curvature_per_mm(y))[size_t(c)];
+                wrapped += std::pow(double(image.at(x, y, c)) - exact, 2);
+                lambert += std::pow(cosine - exact, 2);
+            }
+            EXPECT_LT(wrapped, lambert) << grid_curvature_per_mm(y) << " per mm, channel " << c;
+            wrapped_squared[c] += wrapped, lambert_squared[c] += lambert;
+        }
+    EXPECT_LT(wrapped_squared[0], 0.22 * lambert_squared[0]);  // captured share 0.55
 }
 
 TEST_F(Wrap, the_coloured_band_adds_3_percent_in_red_and_less_than_1_in_green_and_blue) {

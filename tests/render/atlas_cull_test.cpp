@@ -82,7 +82,8 @@ TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_face) {
 }
 
 TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_bust_with_blurs_in_mm) {
-    expect_same_in_12_views("bust", {{"space", "mm"}, {"blur_scale", "1"}, {"blur_bias", "0"}});
+    expect_same_in_12_views("bust",
+                            {{"blur", "set"}, {"blur_passes", "2"}, {"blur_scale", "0"}, {"blur_bias", "1"}});
     // The reach of all Gaussians in so small a map leaves little to cull.
     expect_same_in_12_views("bust", {{"width", "0.3"}}, "texture_space_gaussians", 1);
 }
@@ -93,11 +94,8 @@ TEST_F(AtlasCull, changes_no_pixel_under_a_wide_blur_with_any_filter) {
     const std::pair<const char*, const char*> kinds[] = {
         {"poisson", "off"}, {"gaussian", "source"}, {"box", "written_only"}, {"kawase", "written_only"}};
     for (const auto& [filter, dilate] : kinds) {
-        Settings on = {{"light_map_size", "512"},
-                       {"filter", filter},
-                       {"dilate", dilate},
-                       {"blur_passes", "2"},
-                       {"blur_scale", "9"}};
+        Settings on = {{"light_map_size", "512"}, {"filter", filter},   {"dilate", dilate}, {"blur", "set"},
+                       {"space", "texels"},       {"blur_passes", "2"}, {"blur_bias", "9"}};
         Settings off = on;
         off.push_back({"cull_frustum", "off"}), off.push_back({"cull_back_face", "off"});
         const auto [culled, lit] = draw(renderer, with(on));
@@ -111,9 +109,10 @@ TEST_F(AtlasCull, changes_no_pixel_under_a_wide_blur_with_any_filter) {
 TEST_F(AtlasCull, an_exempt_region_is_kept) {
     Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const uint64_t without = draw(renderer, with({{"light_map_size", "256"}})).second;
+    const uint64_t without = draw(renderer, with({{"light_map_size", "256"}, {"blur_passes", "0"}})).second;
     // Around the back of the first sphere, at the left edge of its quarter of the atlas.
     const uint64_t with_ear = draw(renderer, with({{"light_map_size", "256"},
+                                                   {"blur_passes", "0"},
                                                    {"exempt_1_u", "0.05"},
                                                    {"exempt_1_v", "0.25"},
                                                    {"exempt_1_radius", "0.04"}}))

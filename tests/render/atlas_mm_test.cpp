@@ -27,10 +27,13 @@ struct Blur {
 };
 
 const std::vector<Blur>& blurs_in_mm() {
-    static const std::vector<Blur> kBlurs = {
-        {"texture_space",
-         {{"space", "mm"}, {"blur_scale", "1.5"}, {"blur_bias", "0"}, {"light_map_size", "512"}}},
-        {"texture_space_gaussians", {{"light_map_size", "512"}}}};
+    static const std::vector<Blur> kBlurs = {{"texture_space",
+                                              {{"blur", "set"},
+                                               {"blur_passes", "2"},
+                                               {"blur_scale", "0"},
+                                               {"blur_bias", "1.5"},
+                                               {"light_map_size", "512"}}},
+                                             {"texture_space_gaussians", {{"light_map_size", "512"}}}};
     return kBlurs;
 }
 
@@ -164,9 +167,11 @@ TEST_F(AtlasMm, the_unwrap_does_not_matter) {
             << blur.technique;
     }
     // In texels it does.
-    const Blur texels = {"texture_space", {{"blur_scale", "10"}, {"light_map_size", "512"}}};
+    const Blur texels = {
+        "texture_space",
+        {{"blur", "set"}, {"space", "texels"}, {"blur_bias", "20"}, {"light_map_size", "512"}}};
     EXPECT_GT(largest_difference(draw(half_shadowed(plane(one_chart)), texels),
-                                 draw(half_shadowed(plane(stretched)), texels)),
+                                 draw(half_shadowed(plane(sheared)), texels)),
               0.06);
 }
 
@@ -186,7 +191,7 @@ TEST_F(AtlasMm, twice_the_scene_with_twice_the_millimetres_is_the_same_picture) 
     for (const Blur& blur : blurs_in_mm()) {
         const bool gaussians = std::string(blur.technique) == "texture_space_gaussians";
         const Settings doubled = {gaussians ? std::pair<std::string, std::string>("width", "2")
-                                            : std::pair<std::string, std::string>("blur_scale", "3")};
+                                            : std::pair<std::string, std::string>("blur_bias", "3")};
         const Image once = draw(half_shadowed(plane(sheared)), blur),
                     twice = draw(half_shadowed(plane(sheared), 2), blur, doubled, 2);
         EXPECT_LT(largest_difference(once, twice), 2e-3) << blur.technique;

@@ -138,6 +138,28 @@ TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
     std::filesystem::remove(panorama);
 }
 
+TEST_F(Properties, the_vertices_occlusion_and_the_maps_are_counted_once) {
+    Scene scene = evenly_lit_spheres();
+    DrawSettings diffuse = kSmall;
+    diffuse.view = "diffuse";
+    const auto lit = [&](float at_vertices, int in_map) {
+        for (SceneObject& object : scene.objects) {
+            object.mesh.occlusions.assign(object.mesh.positions_mm.size(), at_vertices);
+            object.mesh.materials[0].occlusion_map = {.name = "occlusion " + std::to_string(in_map),
+                                                      .width = 1,
+                                                      .height = 1,
+                                                      .channels = 1,
+                                                      .pixels = {std::byte(in_map)}};
+        }
+        Renderer renderer = make_renderer(scene);
+        return largest_value(radiance(renderer, built_in_technique("lambert"), diffuse));
+    };
+    const float whole = lit(1, 255);
+    EXPECT_NEAR(lit(0.5f, 255) / whole, 0.5f, 2e-3f);
+    EXPECT_NEAR(lit(0.5f, 128) / whole, 0.5f, 2e-3f);
+    EXPECT_NEAR(lit(0.5f, 64) / whole, 64 / 255.0f, 2e-3f);
+}
+
 TEST_F(Properties, reflections_of_a_white_furnace_are_the_split_sum) {
     Scene scene = load("builtin:spheres");
     scene.lights.clear();

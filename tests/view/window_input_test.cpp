@@ -45,7 +45,7 @@ TEST_F(ViewWindow, a_view_found_with_the_mouse_is_the_picture_that_render_draws)
 }
 
 TEST_F(ViewWindow, a_slider_sets_its_parameter) {
-    const ProgramResult result = view(kSmall + "-t wrap", R"(
+    const ProgramResult result = view(kSmall + "-t wrap --set width=source", R"(
         wait 2
         slide wrap 1
         wait 1

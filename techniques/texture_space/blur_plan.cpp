@@ -1,0 +1,111 @@
+// From the parameters to the passes of the blur.
+
+#include <algorithm>
+#include <cmath>
+
+#include "techniques/texture_space/params.h"
+
+namespace dermis::texture_space {
+namespace {
+
+constexpr int kMaxPasses = 16;
+
+// Gosselin, Sander, Mitchell 2004: radius = texel * (3 kernel size + 2) on a light map of 512.
+constexpr int kSourceSize = 512;
+constexpr float kSourceScale = 3, kSourceBias = 2;
+
+// Of a filter's taps without their centre: variance along one axis at radius 1, and their part of the filter as it is
+// published, centre included.
+struct Taps {
+    double variance = 0;
+    float share = 1;
+};
+
+Taps taps_of(Filter filter) {
+    switch (filter) {
+        case Filter::poisson:
+            return {0.3442, 12.0f / 13};
+        case Filter::gaussian:
+            return {2.0 / 3, 12.0f / 16};
+        case Filter::box:
+            return {0.75, 8.0f / 9};
+        case Filter::kawase:
+            break;
+    }
+    return {};
+}
+
+// Pass i reads i + 1/2 texels off along both axes, each read the mean of four texels: 1/4 more.
+double kawase_variance_texels(int pass) {
+    return (pass + 0.5) * (pass + 0.5) + 0.25;
+}
+
+std::vector<BlurPass> alike(int count, float share) {
+    return std::vector<BlurPass>(size_t(std::max(count, 0)), {.radius = 1, .share = Vec3{1, 1, 1} * share});
+}
+
+double texel_mm(const FrameContext& frame, int size) {
+    return 1 / std::max(double(frame.typical_uv_per_mm) * size, 1e-6);
+}
+
+std::vector<BlurPass> passes_of_profile(const Params& params, const FrameContext& frame, const BlurPlan& plan) {
+    const double texel = texel_mm(frame, plan.size);
+    if (params.filter == Filter::kawase) {
+        std::vector<double> variances;
+        for (int i = 0; i < std::min(params.blur_passes, kMaxPasses); ++i)
+            variances.push_back(kawase_variance_texels(i));
+        return alike(nearest_pass_count(frame.skin_gaussians, variances, texel), 1);
+    }
+    std::vector<BlurPass> passes = fit_blur(
+        frame.skin_gaussians,
+        {.passes = params.blur_passes, .tap_variance = taps_of(params.filter).variance, .texel_mm = texel});
+    if (!plan.in_mm)
+        for (BlurPass& pass : passes) pass.radius /= float(texel);
+    return passes;
+}
+
+}  // namespace
+
+BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
+    BlurPlan plan = {.size = params.blur == Blur::source ? kSourceSize : params.atlas.light_map_size,
+                     .in_mm = params.space == Space::mm && params.blur != Blur::source &&
+                              params.filter != Filter::kawase};
+    switch (params.blur) {
+        case Blur::profile:
+            plan.kernel_scale = params.atlas.kernel_growth;
+            plan.passes = passes_of_profile(params, frame, plan);
+            return plan;
+        case Blur::source:
+            plan.kernel_scale = kSourceScale;
+            plan.kernel_bias = kSourceBias;
+            break;
+        case Blur::set:
+            plan.kernel_scale = params.blur_scale;
+            plan.kernel_bias = params.blur_bias;
+            break;
+    }
+    plan.passes = alike(params.blur_passes, taps_of(params.filter).share);
+    return plan;
+}
+
+float widest_tap(Filter filter, size_t pass) {
+    return filter == Filter::kawase ? 0.5f + float(pass) : 1.0f;
+}
+
+// Variances of blurs add, so that n passes of radius r and m of r sqrt(n / m) are one width. A fit to the profile finds
+// its own radii for the fewer passes; Kawase's filter has its radii from the number of the pass and keeps them.
+Params coarse_params(Params params, float scale) {
+    if (params.blur == Blur::source) return params;  // its light map is small already
+    const int32_t size = params.atlas.light_map_size;
+    params.atlas = coarse_light_map(params.atlas, scale);
+    if (params.filter == Filter::kawase) return params;
+    const int32_t passes = (params.blur_passes + 1) / 2;
+    float wider = passes > 0 ? std::sqrt(float(params.blur_passes) / float(passes)) : 1.0f;
+    if (params.space == Space::texels) wider *= float(params.atlas.light_map_size) / float(size);
+    params.blur_passes = passes;
+    params.blur_scale = std::min(params.blur_scale * wider, kMaxBlurRadius);
+    params.blur_bias = std::min(params.blur_bias * wider, kMaxBlurRadius);
+    return params;
+}
+
+}  // namespace dermis::texture_space

@@ -1,0 +1,68 @@
+#pragma once
+// The parameters of texture_space, and what follows from them for the blur.
+
+#include <cstdint>
+#include <vector>
+
+#include "dermis/technique/atlas_light.h"
+#include "dermis/technique/forward.h"
+#include "techniques/texture_space/blur_fit.h"
+#include "techniques/texture_space/constants.h"
+
+namespace dermis::texture_space {
+
+enum class Blur : int32_t { profile, source, set };
+enum class Filter : int32_t {
+    poisson = kFilterPoisson,
+    gaussian = kFilterGaussian,
+    box = kFilterBox,
+    kawase = kFilterKawase
+};
+enum class Dilate : int32_t { off = kDilateOff, source = kDilateSource, written_only = kDilateWrittenOnly };
+enum class Space : int32_t { texels = kSpaceTexels, mm = kSpaceMm };
+enum class Seams : int32_t { drop, carry };
+
+inline constexpr float kMaxBlurRadius = 64;
+
+struct Params {
+    AtlasParams atlas;
+    Blur blur = Blur::profile;
+    Filter filter = Filter::poisson;
+    int32_t blur_passes = 4;
+    float blur_scale = 2;
+    float blur_bias = 1;
+    Dilate dilate = Dilate::written_only;
+    Space space = Space::mm;
+    Seams seams = Seams::carry;
+    bool single_channel_opacity = false;
+    bool second_light_shadow = false;
+    ShadowLookup shadow_lookup = ShadowLookup::disk;
+    float exempt_1_u = 0, exempt_1_v = 0, exempt_1_radius = 0;
+    float exempt_2_u = 0, exempt_2_v = 0, exempt_2_radius = 0;
+    bool cull_distance = false;
+    float cull_beyond_mm = 3000;
+    bool specular_shadow = true;
+    float specular_shadow_scale = 1.5f;
+    float specular_shadow_bias = 0;
+    SpecularModel specular = SpecularModel::ggx;
+};
+
+[[nodiscard]] ParameterTable parameter_table();
+
+/// Radii are radius * (kernel map * kernel_scale + kernel_bias), in mm or texels.
+struct BlurPlan {
+    int size = 1024;  ///< of the light map
+    bool in_mm = true;
+    float kernel_scale = 0, kernel_bias = 1;
+    std::vector<BlurPass> passes;
+};
+
+[[nodiscard]] BlurPlan blur_plan(const Params& params, const FrameContext& frame);
+
+/// The farthest tap of a pass along one axis of the atlas, in radii of its filter.
+[[nodiscard]] float widest_tap(Filter filter, size_t pass);
+
+/// A smaller light map, and half of the blur's passes at a width that is the same: for Technique::coarse.
+[[nodiscard]] Params coarse_params(Params params, float scale);
+
+}  // namespace dermis::texture_space
