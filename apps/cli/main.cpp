@@ -3,10 +3,10 @@
 #include "command.h"
 
 int main(int argc, char** argv) {
-    dermis::cli::CommandLine line(
-        "dermis " DERMIS_VERSION,
-        "Human skin in real time: renders skin with published techniques, bakes their tables, measures them.",
-        "dermis render scenes/spheres.toml --technique lambert -o out/spheres.png");
+    dermis::cli::CommandLine line("dermis " DERMIS_VERSION,
+                                  "Human skin in real time: renders it with several techniques, bakes their "
+                                  "tables, measures them against a ground truth.",
+                                  "dermis render scenes/spheres.toml --technique lambert -o out/spheres.png");
     dermis::cli::add_all_commands(line);
     if (const std::optional<int> exit_code = line.parse(argc, argv)) return *exit_code;
     const dermis::Result<int> exit_code = line.action();

@@ -161,7 +161,7 @@ TEST(BakeMap, an_open_sheet_reads_the_maximum_and_says_so) {
     ASSERT_TRUE(map);
     for_covered(*map, [](float value, float, float) { EXPECT_EQ(value, 200); });
     ASSERT_FALSE(map->warnings.empty());
-    EXPECT_NE(map->warnings[0].find("no far side"), std::string::npos);
+    EXPECT_NE(map->warnings[0].find("no opposite side"), std::string::npos);
 }
 
 TEST(BakeMap, the_kernel_is_wide_where_the_skin_is_thin_and_never_one) {
