@@ -15,7 +15,7 @@
 
 namespace dermis {
 
-/// One line for a person: the file, the place in it, and the mend. No trailing newline, no leading "error:".
+/// One line for the user: the file, the place in it, how to correct it. No newline, no leading "error:".
 struct Error {
     std::string message;
 };

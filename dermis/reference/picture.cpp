@@ -69,7 +69,7 @@ struct Canvas {
     std::vector<uint8_t> active;
 };
 
-// The luminance below which an error is held against this one: a part of the brightest percentile of
+// The luminance below which an error is measured relative to this one: a part of the brightest percentile of
 // surfaces.
 float least_luminance(const Canvas& canvas) {
     std::vector<float> values;

@@ -26,7 +26,7 @@ Table baked(std::string_view convention, int width = 64, int height = 32) {
     return *bake_lut(lut);
 }
 
-// As a tool that knows nothing of conventions would save the decoded values.
+// As a tool without conventions would save the decoded values.
 template <class Change>
 Image picture_of(const Table& table, PixelFormat format, Change change) {
     Image image(table.width, table.height, 3);

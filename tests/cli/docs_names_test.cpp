@@ -71,10 +71,11 @@ std::string wrong_link(const fs::path& page, const std::string& link) {
 const std::vector<std::string>& source_files() {
     static const std::vector<std::string> kFiles = [] {
         std::vector<std::string> files;
-        for (const char* tree : {"apps", "bench", "catalog", "cmake", "dermis", "scenes", "shaders", "subjects",
-                                 "techniques", "tests", "tools"})
+        for (const char* tree : {"apps", "bench", "catalog", "cmake", "dermis", "scenes", "shaders",
+                                 "subjects", "techniques", "tests", "tools"})
             for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree))
-                if (entry.is_regular_file()) files.push_back("/" + fs::relative(entry.path(), kRoot).string());
+                if (entry.is_regular_file())
+                    files.push_back("/" + fs::relative(entry.path(), kRoot).string());
         return files;
     }();
     return kFiles;
@@ -162,7 +163,8 @@ TEST(Docs, every_benchmark_that_a_page_names_exists) {
 TEST(Docs, every_setting_that_a_page_on_techniques_names_is_one_of_a_technique) {
     ASSERT_GT(all_parameters().size(), 20u);
     for (const fs::path& page : pages()) {
-        if (page.string().find("/techniques/") == std::string::npos && page.filename() != "sources.md") continue;
+        if (page.string().find("/techniques/") == std::string::npos && page.filename() != "sources.md")
+            continue;
         for (const std::string& code : code_of(read(page)))
             EXPECT_THAT(wrong_setting(code), IsEmpty()) << page << ": " << code;
     }

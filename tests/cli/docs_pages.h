@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 inline const fs::path kRoot = DERMIS_SOURCE_DIR;
 
-inline std::vector<std::string> matches(const std::string& text, const std::regex& pattern, size_t group = 0) {
+inline std::vector<std::string> matches(const std::string& text, const std::regex& pattern,
+                                        size_t group = 0) {
     std::vector<std::string> found;
     for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it)
         found.push_back((*it)[group]);

@@ -1,4 +1,4 @@
-// Blurs over the atlas in millimetres: what they make of a shadow's edge is known, and the unwrap must not
+// Blurs over the atlas in millimetres: the edge of a shadow is known, and the UV layout must not
 // matter.
 
 #include <gtest/gtest.h>
@@ -155,7 +155,7 @@ TEST_F(AtlasMm, the_edge_of_a_shadow_is_the_profiles_own) {
     }
 }
 
-TEST_F(AtlasMm, the_unwrap_does_not_matter) {
+TEST_F(AtlasMm, the_uv_layout_does_not_matter) {
     for (const Blur& blur : blurs_in_mm()) {
         const Image plain = draw(half_shadowed(plane(one_chart)), blur);
         EXPECT_LT(largest_difference(plain, draw(half_shadowed(plane(stretched)), blur)), 0.06)
@@ -170,7 +170,7 @@ TEST_F(AtlasMm, the_unwrap_does_not_matter) {
               0.06);
 }
 
-TEST_F(AtlasMm, a_seam_a_millimetre_from_the_shadow_does_not_show) {
+TEST_F(AtlasMm, a_seam_a_millimetre_from_the_shadow_is_not_visible) {
     for (const Blur& blur : blurs_in_mm()) {
         const bool gaussians = std::string(blur.technique) == "texture_space_gaussians";
         const Image whole = draw(half_shadowed(plane(one_chart)), blur);
@@ -216,7 +216,7 @@ TEST(SeamMap, unfolds_the_neighbour_over_the_shared_edge) {
             const Vec2 to = map.carried[size_t(y * 256 + x)];
             if (to.x < 0) continue;
             ++carried;
-            // Back through the unwrap of the chart whose gutter it is, and of the one it stands for.
+            // Back through the UV layout of the chart whose gutter it is, and of the one that it shows.
             const Vec2 uv = {(float(x) + 0.5f) / 256, (float(y) + 0.5f) / 256};
             const Vec2 left_mm = {(uv.x - 0.45f) * kSideMm / 0.8f, (0.5f - uv.y) * kSideMm / 0.8f};
             const Vec2 right_mm = {(to.y / 256 - 0.1f) * kSideMm / 1.1f,

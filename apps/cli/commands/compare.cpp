@@ -1,4 +1,4 @@
-// dermis compare: techniques held against the ground truth, as a page and a table.
+// dermis compare: techniques compared with the ground truth, as a page and a table.
 
 #include <algorithm>
 #include <cmath>
@@ -130,7 +130,7 @@ void print_table(const Comparison& comparison) {
                 comparison.truth.from_cache ? "from the cache" : "made now");
 }
 
-// What a person must know before believing the numbers.
+// What limits the numbers.
 std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {
     std::vector<std::string> warnings = comparison.truth.warnings;
     const EffectNoise& noise = comparison.truth.noise;

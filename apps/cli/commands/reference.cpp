@@ -103,7 +103,7 @@ Result<void> set(Enum& target, std::string_view what, const std::string& text, c
     return {};
 }
 
-// "sigma_s=1,2,3 sigma_a=.1,.2,.3 g=0 eta=1.4", 1/mm; one number stands for all three channels.
+// "sigma_s=1,2,3 sigma_a=.1,.2,.3 g=0 eta=1.4", 1/mm; one number is used for all three channels.
 Result<ScatteringMedium> parse_medium(const std::string& text) {
     const auto wrong = [&](std::string_view part) {
         return Error{"--medium: '" + std::string(part) +
