@@ -1,6 +1,6 @@
-// Every call for memory, files and threads fails in turn: a command ends with one line and exit 1, and leaves either
-// the whole result or nothing. A sample by default; DERMIS_FAULTS=all tries each call (memory: about a hundred places
-// spread over the run).
+// Every call for memory, files and threads fails in turn: a command ends with one line and exit 1, and leaves
+// either the whole result or nothing. A sample by default; DERMIS_FAULTS=all tries each call (memory: about a
+// hundred places spread over the run).
 
 #include <gtest/gtest.h>
 
@@ -69,11 +69,11 @@ class Faults : public testing::TestWithParam<Case> {
         std::ofstream(directory_.path / "work/scene.toml") << "[[mesh]]\nfile = \"cube.obj\"\nunit_mm = 1\n";
         const std::string root = directory_.path.string();
         Outcome outcome;
-        outcome.result = run_shell("cd " + root + "/work && DERMIS_CACHE=" + root + "/cache DERMIS_FAULT=" + fault +
-                                   " DERMIS_FAULT_HIT=" + root + "/hit LD_PRELOAD=" DERMIS_FAULT_SHIM
-                                   " " DERMIS_PROGRAM " " +
-                                   GetParam().arguments,
-                               root);
+        outcome.result =
+            run_shell("cd " + root + "/work && DERMIS_CACHE=" + root + "/cache DERMIS_FAULT=" + fault +
+                          " DERMIS_FAULT_HIT=" + root +
+                          "/hit LD_PRELOAD=" DERMIS_FAULT_SHIM " " DERMIS_PROGRAM " " + GetParam().arguments,
+                      root);
         outcome.hit = fs::exists(directory_.path / "hit");
         return outcome;
     }
@@ -90,7 +90,8 @@ class Faults : public testing::TestWithParam<Case> {
     bool try_fault(const std::string& fault) {
         const Outcome outcome = run(fault);
         SCOPED_TRACE(fault + ": exit " + std::to_string(outcome.result.exit_code) + " " + outcome.result.err);
-        EXPECT_TRUE(outcome.result.exit_code == 0 || outcome.result.exit_code == 1 || outcome.result.exit_code == 2);
+        EXPECT_TRUE(outcome.result.exit_code == 0 || outcome.result.exit_code == 1 ||
+                    outcome.result.exit_code == 2);
         if (outcome.result.exit_code != 0) {
             EXPECT_EQ(error_lines(outcome.result.err), 1);
             const std::string made = output();
@@ -118,9 +119,11 @@ TEST_P(Faults, end_with_one_line_and_nothing_half_written) {
     ASSERT_EQ(good.result.exit_code, 0) << good.result.err;
     whole_ = output();
     int hits = 0;
-    for (int call = 1; call <= GetParam().last_thread && try_fault("thread:" + std::to_string(call)); ++call) ++hits;
+    for (int call = 1; call <= GetParam().last_thread && try_fault("thread:" + std::to_string(call)); ++call)
+        ++hits;
     for (const char* kind : {"open", "read", "write", "sync", "rename"})
-        for (int call = 1; call <= (all_of_them() ? 200 : 3) && try_fault(kind + (":" + std::to_string(call))); ++call)
+        for (int call = 1;
+             call <= (all_of_them() ? 200 : 3) && try_fault(kind + (":" + std::to_string(call))); ++call)
             ++hits;
     const double growth = all_of_them() ? 1.08 : 3;
     for (double call = 1; try_fault("memory:" + std::to_string(long(call))); call = std::ceil(call * growth))

@@ -1,6 +1,6 @@
 // A library to preload: the N-th call of one kind that the program makes fails, as DERMIS_FAULT=KIND:N says.
-// Kinds: memory, open, read, write, sync, rename, thread. The file DERMIS_FAULT_HIT appears when the call was reached.
-// Calls before main() and after it do not count.
+// Kinds: memory, open, read, write, sync, rename, thread. The file DERMIS_FAULT_HIT appears when the call was
+// reached. Calls before main() and after it do not count.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -75,8 +75,8 @@ extern "C" {
 int __libc_start_main(int (*program)(int, char**, char**), int argc, char** argv, void (*init)(),
                       void (*finish)(), void (*loader_finish)(), void* stack_end) {
     g_main = program;
-    return next(&__libc_start_main, "__libc_start_main")(counted_main, argc, argv, init, finish, loader_finish,
-                                                          stack_end);
+    return next(&__libc_start_main, "__libc_start_main")(counted_main, argc, argv, init, finish,
+                                                         loader_finish, stack_end);
 }
 
 void* malloc(size_t bytes) {
@@ -137,7 +137,8 @@ int rename(const char* from, const char* to) {
     return -1;
 }
 
-int pthread_create(pthread_t* created, const pthread_attr_t* attributes, void* (*run)(void*), void* argument) {
+int pthread_create(pthread_t* created, const pthread_attr_t* attributes, void* (*run)(void*),
+                   void* argument) {
     if (!fails(thread)) return next(&pthread_create, "pthread_create")(created, attributes, run, argument);
     return EAGAIN;
 }
