@@ -15,9 +15,19 @@
 
 namespace dermis {
 
+/// What a program can do something about; everything else is for a person to read.
+enum class ErrorCode {
+    general,
+    device_lost  ///< the GPU's driver crashed or timed out: a new device may go on
+};
+
 /// One line for a person: the file, the place in it, and the mend. No trailing newline, no leading "error:".
 struct Error {
     std::string message;
+    ErrorCode code = ErrorCode::general;
+
+    /// "PLACE: message"; the code stays.
+    [[nodiscard]] Error within(const std::string& place) const { return {place + ": " + message, code}; }
 };
 
 template <class T>

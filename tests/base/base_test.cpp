@@ -16,6 +16,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
+#include "dermis/base/result.h"
 #include "dermis/base/text.h"
 
 namespace fs = std::filesystem;
@@ -37,6 +38,14 @@ struct TemporaryDirectory {
 };
 
 }  // namespace
+
+TEST(Error, keeps_its_code_when_a_place_is_put_before_it) {
+    const Error lost{"the GPU was lost", ErrorCode::device_lost};
+    const Error placed = lost.within("script.txt:3");
+    EXPECT_EQ(placed.message, "script.txt:3: the GPU was lost");
+    EXPECT_EQ(placed.code, ErrorCode::device_lost);
+    EXPECT_EQ(Error{"no file"}.code, ErrorCode::general);
+}
 
 TEST(Text, numbers_round_trip_in_their_shortest_form) {
     EXPECT_EQ(to_text(0.1f), "0.1");

@@ -9,10 +9,6 @@
 namespace dermis::gltf {
 namespace {
 
-Json array_of(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-
 // By the first bytes; empty for anything else.
 std::string mime_type(std::span<const std::byte> bytes) {
     const auto starts_with = [&](std::string_view magic) {
