@@ -17,8 +17,8 @@ using Curves = std::array<Curve, 3>;
 // Reading a texture between its texels spreads light like a Gaussian of this variance, in squares of a texel.
 constexpr double kBilinearVariance = 1.0 / 6;
 
-// Logarithmic steps from waves that the widest Gaussian hardly damps to those that the narrowest takes away, or that the
-// texels no longer hold.
+// Logarithmic steps from waves that the widest Gaussian hardly damps to those that the narrowest takes away,
+// or that the texels no longer hold.
 Curve samples_of(const GaussianSum& profile, double texel_mm) {
     const auto [narrowest, widest] = std::ranges::minmax(profile.terms, {}, &GaussianTerm::variance_mm2);
     const double first = 0.1 / widest.variance_mm2;
@@ -86,10 +86,12 @@ struct Fit {
     double error = std::numeric_limits<double>::infinity();
 };
 
-Fit fit_at(std::vector<double> radii_mm, const Curves& target, const Curve& x, const BlurFitSettings& settings) {
+Fit fit_at(std::vector<double> radii_mm, const Curves& target, const Curve& x,
+           const BlurFitSettings& settings) {
     Fit fit{.radii_mm = std::move(radii_mm), .error = 0};
     std::vector<Curve> taps;
-    for (const double radius_mm : fit.radii_mm) taps.push_back(damping(tap_variance_mm2(radius_mm, settings), x));
+    for (const double radius_mm : fit.radii_mm)
+        taps.push_back(damping(tap_variance_mm2(radius_mm, settings), x));
     const Curve reading = damping(kBilinearVariance * settings.texel_mm * settings.texel_mm, x);
     for (size_t c = 0; c < 3; ++c) {
         fit.shares[c].assign(taps.size(), 0.5);
@@ -126,9 +128,11 @@ std::vector<BlurPass> fit_blur(const GaussianSum& profile, const BlurFitSettings
     if (profile.terms.empty() || settings.passes <= 0) return {};
     const Curve x = samples_of(profile, settings.texel_mm);
     const Curves target = target_of(profile, x);
-    const auto radius_of = [&](double variance_mm2) { return std::sqrt(variance_mm2 / settings.tap_variance); };
-    const double widest = radius_of(
-        std::ranges::max(profile.terms, {}, &GaussianTerm::variance_mm2).variance_mm2);
+    const auto radius_of = [&](double variance_mm2) {
+        return std::sqrt(variance_mm2 / settings.tap_variance);
+    };
+    const double widest =
+        radius_of(std::ranges::max(profile.terms, {}, &GaussianTerm::variance_mm2).variance_mm2);
     Fit best;
     for (double last = widest; last > 0.2 * widest; last *= 0.8)
         for (const double ratio : {1.5, 1.8, 2.1, 2.5, 3.0, 3.6}) {
@@ -146,7 +150,8 @@ std::vector<BlurPass> fit_blur(const GaussianSum& profile, const BlurFitSettings
     return passes;
 }
 
-int nearest_pass_count(const GaussianSum& profile, const std::vector<double>& variances_texels, double texel_mm) {
+int nearest_pass_count(const GaussianSum& profile, const std::vector<double>& variances_texels,
+                       double texel_mm) {
     if (profile.terms.empty()) return 0;
     const Curve x = samples_of(profile, texel_mm);
     const Curves target = target_of(profile, x);

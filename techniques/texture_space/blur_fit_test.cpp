@@ -13,7 +13,8 @@ using namespace dermis::texture_space;
 
 namespace {
 
-// Largest difference of a colour's damping between the passes and the profile, for waves from 100 mm to `shortest_mm`.
+// Largest difference of a colour's damping between the passes and the profile, for waves from 100 mm to
+// `shortest_mm`.
 double largest_error(const GaussianSum& profile, const BlurFitSettings& settings, double shortest_mm) {
     const std::vector<BlurPass> passes = fit_blur(profile, settings);
     double largest = 0;
@@ -45,7 +46,8 @@ TEST(BlurFit, colours_that_scatter_less_take_less_of_the_wide_taps) {
 TEST(BlurFit, twice_the_profile_on_texels_of_twice_the_size_is_twice_the_radius) {
     GaussianSum wide = gpu_gems_3_skin();
     for (GaussianTerm& term : wide.terms) term.variance_mm2 *= 4;
-    const auto once = fit_blur(gpu_gems_3_skin(), {.texel_mm = 0.2}), twice = fit_blur(wide, {.texel_mm = 0.4});
+    const auto once = fit_blur(gpu_gems_3_skin(), {.texel_mm = 0.2}),
+               twice = fit_blur(wide, {.texel_mm = 0.4});
     ASSERT_EQ(once.size(), twice.size());
     for (size_t i = 0; i < once.size(); ++i) {
         EXPECT_NEAR(twice[i].radius, 2 * once[i].radius, 1e-4);

@@ -14,8 +14,8 @@ constexpr int kMaxPasses = 16;
 constexpr int kSourceSize = 512;
 constexpr float kSourceScale = 3, kSourceBias = 2;
 
-// Of a filter's taps without their centre: variance along one axis at radius 1, and their part of the filter as it is
-// published, centre included.
+// Of a filter's taps without their centre: variance along one axis at radius 1, and their part of the filter
+// as it is published, centre included.
 struct Taps {
     double variance = 0;
     float share = 1;
@@ -48,7 +48,8 @@ double texel_mm(const FrameContext& frame, int size) {
     return 1 / std::max(double(frame.typical_uv_per_mm) * size, 1e-6);
 }
 
-std::vector<BlurPass> passes_of_profile(const Params& params, const FrameContext& frame, const BlurPlan& plan) {
+std::vector<BlurPass> passes_of_profile(const Params& params, const FrameContext& frame,
+                                        const BlurPlan& plan) {
     const double texel = texel_mm(frame, plan.size);
     if (params.filter == Filter::kawase) {
         std::vector<double> variances;
@@ -67,9 +68,9 @@ std::vector<BlurPass> passes_of_profile(const Params& params, const FrameContext
 }  // namespace
 
 BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
-    BlurPlan plan = {.size = params.blur == Blur::source ? kSourceSize : params.atlas.light_map_size,
-                     .in_mm = params.space == Space::mm && params.blur != Blur::source &&
-                              params.filter != Filter::kawase};
+    BlurPlan plan = {
+        .size = params.blur == Blur::source ? kSourceSize : params.atlas.light_map_size,
+        .in_mm = params.space == Space::mm && params.blur != Blur::source && params.filter != Filter::kawase};
     switch (params.blur) {
         case Blur::profile:
             plan.kernel_scale = params.atlas.kernel_growth;
@@ -92,8 +93,9 @@ float widest_tap(Filter filter, size_t pass) {
     return filter == Filter::kawase ? 0.5f + float(pass) : 1.0f;
 }
 
-// Variances of blurs add, so that n passes of radius r and m of r sqrt(n / m) are one width. A fit to the profile finds
-// its own radii for the fewer passes; Kawase's filter has its radii from the number of the pass and keeps them.
+// Variances of blurs add, so that n passes of radius r and m of r sqrt(n / m) are one width. A fit to the
+// profile finds its own radii for the fewer passes; Kawase's filter has its radii from the number of the pass
+// and keeps them.
 Params coarse_params(Params params, float scale) {
     if (params.blur == Blur::source) return params;  // its light map is small already
     const int32_t size = params.atlas.light_map_size;

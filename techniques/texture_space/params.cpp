@@ -6,7 +6,8 @@ ParameterTable parameter_table() {
     return ParameterTableBuilder<Params>()
         .part(&Params::atlas, atlas_parameters())
         .choice(&Params::blur, "blur", {"profile", "source", "set"},
-                "radii of the blur: from the skin's profile and the texels' size on it, a colour each; the source's "
+                "radii of the blur: from the skin's profile and the texels' size on it, a colour each; the "
+                "source's "
                 "(3, 2) texels on a light map of 512; or blur_scale and blur_bias")
         .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"},
                 "taps of the blur; kawase's are in texels and have one width in all colours")
@@ -16,9 +17,9 @@ ParameterTable parameter_table() {
                 "blur=set: added to the radius where the kernel map is 1")
         .number(&Params::blur_bias, "blur_bias", "texels or mm", 0, kMaxBlurRadius,
                 "blur=set: the radius where the kernel map is 0")
-        .choice(
-            &Params::dilate, "dilate", {"off", "source", "written_only"},
-            "in texels, at chart borders: nothing, the source's copy in the first pass, or written texels only")
+        .choice(&Params::dilate, "dilate", {"off", "source", "written_only"},
+                "in texels, at chart borders: nothing, the source's copy in the first pass, or written "
+                "texels only")
         .choice(&Params::space, "space", {"texels", "mm"},
                 "radii in texels, as in the source, or in mm on the skin, whatever the unwrap")
         .choice(&Params::seams, "seams", {"drop", "carry"},

@@ -17,7 +17,8 @@ ImageSource grey(uint8_t value) {
 
 TEST(Materials, the_vertices_occlusion_and_the_maps_are_counted_once) {
     Scene scene;
-    scene.objects.push_back({.name = "sphere", .mesh = test::sphere(20, 2), .classes = {MaterialClass::skin}});
+    scene.objects.push_back(
+        {.name = "sphere", .mesh = test::sphere(20, 2), .classes = {MaterialClass::skin}});
     Mesh& mesh = scene.objects[0].mesh;
     const auto occlusion = [&](float at_vertices, std::optional<uint8_t> in_map) {
         mesh.occlusions.assign(mesh.positions_mm.size(), at_vertices);
