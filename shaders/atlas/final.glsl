@@ -17,9 +17,9 @@ bool outside_atlas(vec2 uv) { return any(greaterThan(abs(uv - 0.5), vec2(0.5001)
 
 // False where the light map does not have the point: outside the atlas, between texels of which none was written, and on
 // skin seen from inside, through the holes of an open mesh. That counts as facing away, so that its texels may have been culled.
-bool read_light_map(Surface s, int texels, out vec3 exitance) {
-    vec4 blurred = texels == kTexelsWritten ? light_and_coverage(light_map, s.uv)
-                                            : textureLod(sampler2D(light_map, linear_clamp), s.uv, 0.0);
+bool read_light_map(texture2D map, Surface s, int texels, out vec3 exitance) {
+    vec4 blurred = texels == kTexelsWritten ? light_and_coverage(map, s.uv)
+                                            : textureLod(sampler2D(map, linear_clamp), s.uv, 0.0);
     if (texels == kTexelsAsTheyAre) blurred.a = 1.0;
     exitance = blurred.rgb / max(blurred.a, 1e-4);
     bool from_inside = dot(s.n_geometry_world, s.to_eye_world) + cull_bias <= 0.0;

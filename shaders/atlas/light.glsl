@@ -25,15 +25,17 @@ vec3 shadow_factor(Surface s, int light, vec3 to_light_world) {
     return mix(vec3(occluded), vec3(1.0), through);
 }
 
-// Exitance over albedo.
+// Exitance over albedo, of one light.
+vec3 light_exitance(Surface s, int i) {
+    LightSample light = sample_light(i, s.p_world_mm);
+    float n_dot_l = dot(s.n_world, light.to_light_world);
+    if (n_dot_l <= 0.0) return vec3(0.0);
+    return light.irradiance_linear * n_dot_l * shadow_factor(s, i, light.to_light_world);
+}
+
 vec3 unblurred_exitance(Surface s) {
     vec3 exitance = environment_irradiance(s.n_world) * s.occlusion;
-    for (int i = 0; i < light_count; ++i) {
-        LightSample light = sample_light(i, s.p_world_mm);
-        float n_dot_l = dot(s.n_world, light.to_light_world);
-        if (n_dot_l > 0.0)
-            exitance += light.irradiance_linear * n_dot_l * shadow_factor(s, i, light.to_light_world);
-    }
+    for (int i = 0; i < light_count; ++i) exitance += light_exitance(s, i);
     return exitance;
 }
 

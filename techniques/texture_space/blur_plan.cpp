@@ -70,7 +70,9 @@ std::vector<BlurPass> passes_of_profile(const Params& params, const FrameContext
 BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
     BlurPlan plan = {
         .size = params.blur == Blur::source ? kSourceSize : params.atlas.light_map_size,
+        .filter = params.blur == Blur::source ? Filter::poisson : params.filter,
         .in_mm = params.space == Space::mm && params.blur != Blur::source && params.filter != Filter::kawase};
+    plan.keeps_lit = params.detail == Detail::pixel && params.blur != Blur::source;
     switch (params.blur) {
         case Blur::profile:
             plan.kernel_scale = params.atlas.kernel_growth;
@@ -85,7 +87,7 @@ BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
             plan.kernel_bias = params.blur_bias;
             break;
     }
-    plan.passes = alike(params.blur_passes, taps_of(params.filter).share);
+    plan.passes = alike(params.blur_passes, taps_of(plan.filter).share);
     return plan;
 }
 

@@ -12,6 +12,12 @@ const int kFilterPoisson = 0, kFilterGaussian = 1, kFilterBox = 2, kFilterKawase
 // Specialisation constant dilate.
 const int kDilateOff = 0, kDilateSource = 1, kDilateWrittenOnly = 2;
 
+// Specialisation constant specular_shadow.
+const int kSpecularShadowOff = 0, kSpecularShadowSource = 1, kSpecularShadowMap = 2;
+
+// Specialisation constant detail.
+const int kDetailMap = 0, kDetailPixel = 1;
+
 #ifdef __cplusplus
 }  // namespace dermis
 #endif

@@ -8,7 +8,7 @@ ParameterTable parameter_table() {
         .choice(&Params::blur, "blur", {"profile", "source", "set"},
                 "radii of the blur: from the skin's profile and the texels' size on it, a colour each; the "
                 "source's "
-                "(3, 2) texels on a light map of 512; or blur_scale and blur_bias")
+                "(3, 2) texels of poisson on a light map of 512; or blur_scale and blur_bias")
         .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"},
                 "taps of the blur; kawase's are in texels and have one width in all colours")
         .integer(&Params::blur_passes, "blur_passes", "", 0, 16,
@@ -38,10 +38,16 @@ ParameterTable parameter_table() {
         .number(&Params::exempt_2_radius, "exempt_2_radius", "uv", 0, 1, "its radius; 0: none")
         .toggle(&Params::cull_distance, "cull_distance", "keep the last light map while the camera is far")
         .number(&Params::cull_beyond_mm, "cull_beyond_mm", "mm", 0, 1e6, "how far that is")
-        .toggle(&Params::specular_shadow, "specular_shadow",
-                "dim the key light's specular by the blurred light")
-        .number(&Params::specular_shadow_scale, "specular_shadow_scale", "", 0, 10, "times the light's share")
-        .number(&Params::specular_shadow_bias, "specular_shadow_bias", "", -1, 1, "added to it")
+        .choice(&Params::detail, "detail", {"map", "pixel"},
+                "what is too small for the light map's texels is lost, as in the source, or lit at the pixel")
+        .choice(&Params::specular_shadow, "specular_shadow", {"off", "source", "shadow_map"},
+                "the key light's specular: not shadowed, dimmed by the blurred light's luminance as in the "
+                "source, or "
+                "shadowed as the diffuse light is")
+        .number(&Params::specular_shadow_scale, "specular_shadow_scale", "", 0, 10,
+                "specular_shadow=source: times the luminance")
+        .number(&Params::specular_shadow_bias, "specular_shadow_bias", "", -1, 1,
+                "specular_shadow=source: added to it")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
 }

@@ -21,19 +21,26 @@ enum class Filter : int32_t {
 enum class Dilate : int32_t { off = kDilateOff, source = kDilateSource, written_only = kDilateWrittenOnly };
 enum class Space : int32_t { texels = kSpaceTexels, mm = kSpaceMm };
 enum class Seams : int32_t { drop, carry };
+enum class Detail : int32_t { map = kDetailMap, pixel = kDetailPixel };
+enum class SpecularShadow : int32_t {
+    off = kSpecularShadowOff,
+    source = kSpecularShadowSource,
+    shadow_map = kSpecularShadowMap
+};
 
 inline constexpr float kMaxBlurRadius = 64;
 
 struct Params {
     AtlasParams atlas;
     Blur blur = Blur::profile;
-    Filter filter = Filter::poisson;
+    Filter filter = Filter::gaussian;
     int32_t blur_passes = 4;
     float blur_scale = 2;
     float blur_bias = 1;
     Dilate dilate = Dilate::written_only;
     Space space = Space::mm;
     Seams seams = Seams::carry;
+    Detail detail = Detail::pixel;
     bool single_channel_opacity = false;
     bool second_light_shadow = false;
     ShadowLookup shadow_lookup = ShadowLookup::disk;
@@ -41,8 +48,8 @@ struct Params {
     float exempt_2_u = 0, exempt_2_v = 0, exempt_2_radius = 0;
     bool cull_distance = false;
     float cull_beyond_mm = 3000;
-    bool specular_shadow = true;
-    float specular_shadow_scale = 1.5f;
+    SpecularShadow specular_shadow = SpecularShadow::shadow_map;
+    float specular_shadow_scale = 1;
     float specular_shadow_bias = 0;
     SpecularModel specular = SpecularModel::ggx;
 };
@@ -52,7 +59,9 @@ struct Params {
 /// Radii are radius * (kernel map * kernel_scale + kernel_bias), in mm or texels.
 struct BlurPlan {
     int size = 1024;  ///< of the light map
+    Filter filter = Filter::gaussian;
     bool in_mm = true;
+    bool keeps_lit = true;  ///< the map before the blur is read by the final mesh too
     float kernel_scale = 0, kernel_bias = 1;
     std::vector<BlurPass> passes;
 };

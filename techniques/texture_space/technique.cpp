@@ -29,8 +29,8 @@ constexpr const char* kOwnView = "light_map";
 int reach_texels(const Params& params, const BlurPlan& plan, float kernel_texels) {
     float reach = 1;
     for (size_t i = 0; i < plan.passes.size(); ++i) {
-        const float radius = params.filter == Filter::kawase ? 1 : plan.passes[i].radius * kernel_texels;
-        reach += std::ceil(widest_tap(params.filter, i) * radius * (plan.in_mm ? 2.0f : 1.0f)) + 1;
+        const float radius = plan.filter == Filter::kawase ? 1 : plan.passes[i].radius * kernel_texels;
+        reach += std::ceil(widest_tap(plan.filter, i) * radius * (plan.in_mm ? 2.0f : 1.0f)) + 1;
     }
     return int(std::min(reach, float(plan.size)));
 }
@@ -59,26 +59,31 @@ AtlasLightSettings atlas_settings(const Params& params, const BlurPlan& plan, co
 
 constexpr std::array<float, 4> kNothingWritten = {0, 0, 0, 1};
 
+// Where pass `index` reads, and the pass before it wrote: the light is lit into light_map_a and blurred by
+// turns.
+std::string source_of(const BlurPlan& plan, size_t index) {
+    if (index % 2 == 1) return "light_map_b";
+    return plan.keeps_lit && index > 0 ? "light_map_c" : "light_map_a";
+}
+
 Pass blur_pass(const Params& params, const BlurPlan& plan, size_t index) {
-    const bool to_b = index % 2 == 0;
     // The source dilates in the first pass only; leaving out what was never written must hold in all.
     const Dilate dilate = params.dilate == Dilate::source && index > 0 ? Dilate::off : params.dilate;
     const BlurPass& blur = plan.passes[index];
-    return {.name = "blur " + std::to_string(index + 1),
-            .kind = PassKind::fullscreen,
-            .shader = "texture_space/blur.frag",
-            .reads = {{"source", to_b ? "light_map_a" : "light_map_b"}},
-            .colors = {{.image = to_b ? "light_map_b" : "light_map_a",
-                        .load = LoadOp::discard,
-                        .clear = kNothingWritten}},
-            .constants = {{"blur_filter", int32_t(params.filter)},
-                          {"dilate", int32_t(dilate)},
-                          {"as_printed", int32_t(params.blur == Blur::source)}},
-            .values = {{"radius", blur.radius},
-                       {"kernel_scale", plan.kernel_scale},
-                       {"kernel_bias", plan.kernel_bias},
-                       {"pass_index", float(index)},
-                       {"share", blur.share}}};
+    return {
+        .name = "blur " + std::to_string(index + 1),
+        .kind = PassKind::fullscreen,
+        .shader = "texture_space/blur.frag",
+        .reads = {{"source", source_of(plan, index)}},
+        .colors = {{.image = source_of(plan, index + 1), .load = LoadOp::discard, .clear = kNothingWritten}},
+        .constants = {{"blur_filter", int32_t(plan.filter)},
+                      {"dilate", int32_t(dilate)},
+                      {"as_printed", int32_t(params.blur == Blur::source)}},
+        .values = {{"radius", blur.radius},
+                   {"kernel_scale", plan.kernel_scale},
+                   {"kernel_bias", plan.kernel_bias},
+                   {"pass_index", float(index)},
+                   {"share", blur.share}}};
 }
 
 Pass blur_mm_pass(const Params& params, const BlurPlan& plan, const AtlasLightSettings& atlas, size_t index) {
@@ -120,24 +125,28 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 
     const BlurPlan plan = blur_plan(params, frame);
     const ImageSize size = {plan.size, plan.size};
-    const std::string result = plan.passes.size() % 2 == 0 ? "light_map_a" : "light_map_b";
+    const std::string result = source_of(plan, plan.passes.size());
     // In mm charts and gutters must agree to a thousandth, which halves lose in a few passes.
     const ImageFormat format = plan.in_mm ? ImageFormat::rgba32f : ImageFormat::rgba16f;
     PassList list;
-    for (const char* name : {"light_map_a", "light_map_b"})
-        if (name == result || ((!plan.passes.empty() || plan.in_mm) && !kept))
-            list.images.push_back({.name = name,
-                                   .format = format,
-                                   .size = size,
-                                   .persistent = params.cull_distance && name == result});
+    const bool keeps_lit = plan.keeps_lit && !plan.passes.empty();
+    for (const std::string name : {"light_map_a", "light_map_b", "light_map_c"}) {
+        const bool read_later = name == result || (keeps_lit && name == "light_map_a");
+        const bool passed = name == "light_map_c" ? plan.keeps_lit && plan.passes.size() > 1
+                                                  : !plan.passes.empty() || plan.in_mm;
+        if (!read_later && (kept || !passed)) continue;
+        list.images.push_back(
+            {.name = name, .format = format, .size = size, .persistent = params.cull_distance && read_later});
+    }
     const AtlasLightSettings atlas = atlas_settings(params, plan, frame, far);
     add_shadow_channels(list, atlas.shadow, frame);
     if (!kept) add_light_map(list, params, plan, atlas, frame);
 
     Pass skin = forward_skin_pass("texture_space/final.frag", params.specular, frame, kOwnView);
-    skin.reads = {{"light_map", result}};
+    skin.reads = {{"light_map", result}, {"light_map_lit", keeps_lit ? "light_map_a" : result}};
     skin.constants.insert(skin.constants.end(), {{"specular_shadow", int32_t(params.specular_shadow)},
-                                                 {"light_map_texels", texels_of(params, plan)}});
+                                                 {"light_map_texels", texels_of(params, plan)},
+                                                 {"detail", keeps_lit ? kDetailPixel : kDetailMap}});
     read_shadow_channels(skin, atlas.shadow, frame);
     list.passes.push_back(std::move(skin));
     return list;

@@ -29,6 +29,7 @@ class TextureSpace : public RenderTest {
     /// Colours of the light map after the last pass, all of it drawn.
     static Image light_map(Renderer& renderer, ParameterValues values, const char* image) {
         for (const char* cull : {"cull_frustum", "cull_back_face"}) EXPECT_TRUE(values.set(cull, "off"));
+        EXPECT_TRUE(values.set("detail", "map"));
         draw(renderer, values);
         return to_linear_float(*renderer.read(image));
     }
@@ -129,4 +130,51 @@ TEST_F(TextureSpace, kawases_first_pass_is_the_binomial_filter_and_its_second_re
             count += std::abs(none.at(x, y, 0) - none.at(x + 1, y, 0)) > 4e-3f;
         }
     EXPECT_GT(count, 100u) << "a filter of flat light shows nothing";
+}
+
+namespace {
+
+class TextureSpaceSpecular : public TextureSpace {
+  protected:
+    static constexpr DrawSettings kSpecular = {
+        .width = 128, .height = 128, .view = "specular", .deep = true, .shadow_map_size = 512};
+
+    static Image specular(const Scene& scene, const char* how) {
+        Renderer renderer = make_renderer(scene);
+        return radiance(renderer, built_in_technique("texture_space"), with({{"specular_shadow", how}}),
+                        kSpecular);
+    }
+    static Scene lit_by(float key_intensity) {
+        Scene scene = load("bust");
+        for (Light& light : scene.lights) light.intensity = light.is_key ? key_intensity : 0;
+        scene.environment = {.kind = EnvironmentKind::studio, .intensity = 1};
+        return scene;
+    }
+    /// What the key's shadow takes from the specular, summed, for a key of intensity 1.
+    static double taken(const char* how, float key_intensity) {
+        const Scene scene = lit_by(key_intensity);
+        const Image off = specular(scene, "off"), dimmed = specular(scene, how);
+        double sum = 0;
+        for (int y = 0; y < off.height; ++y)
+            for (int x = 0; x < off.width; ++x) sum += double(off.at(x, y, 0)) - double(dimmed.at(x, y, 0));
+        return sum / double(key_intensity);
+    }
+};
+
+}  // namespace
+
+TEST_F(TextureSpaceSpecular, its_shadow_does_not_depend_on_how_bright_the_key_is) {
+    const double bright = taken("shadow_map", 6), dim = taken("shadow_map", 1);
+    EXPECT_GT(bright, 0);
+    EXPECT_NEAR(dim, bright, 1e-2 * bright);
+    // The source's does.
+    EXPECT_LT(taken("source", 1), 0.5 * taken("source", 6));
+}
+
+TEST_F(TextureSpaceSpecular, is_every_other_techniques) {
+    const Scene scene = load("bust");
+    Renderer renderer = make_renderer(scene);
+    const Image lambert = radiance(renderer, built_in_technique("lambert"), kSpecular);
+    EXPECT_LT(mean_difference(lambert, specular(scene, "shadow_map")), 1e-5);
+    EXPECT_GT(mean_difference(lambert, specular(scene, "source")), 2e-4);
 }

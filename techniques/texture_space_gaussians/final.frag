@@ -8,7 +8,7 @@ layout(scalar) uniform Params { float pre_scatter; };
 void main() {
     Surface s = load_surface();
     vec3 exitance;
-    if (!read_light_map(s, kTexelsPremultiplied, exitance))
+    if (!read_light_map(light_map, s, kTexelsPremultiplied, exitance))
         exitance = unblurred_exitance(s) * pow(s.albedo_linear, vec3(pre_scatter));
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {

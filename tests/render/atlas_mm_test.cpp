@@ -22,6 +22,8 @@ struct Blur {
 const std::vector<Blur>& blurs_in_mm() {
     static const std::vector<Blur> kBlurs = {{"texture_space",
                                               {{"blur", "set"},
+                                               {"filter", "poisson"},
+                                               {"detail", "map"},
                                                {"blur_passes", "2"},
                                                {"blur_scale", "0"},
                                                {"blur_bias", "1.5"},
