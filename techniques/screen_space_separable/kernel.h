@@ -1,8 +1,8 @@
 #pragma once
 // The one-dimensional kernel of the separable blur.
 
-#include "dermis/optics/profile.h"
 #include "dermis/base/vec.h"
+#include "dermis/optics/profile.h"
 
 namespace dermis::screen_space_separable {
 
@@ -19,10 +19,10 @@ struct TwoGaussians {
 /// Where the kernel is cut off: a multiple of its widest standard deviation; 1 without any Gaussian.
 [[nodiscard]] float reach_mm(const GaussianSum& profile, float width);
 
-/// The part of the light that a line spread function leaves within `distance_mm` on both sides: the profile integrated
-/// over one direction, which is what an edge of a shadow shows. Sum of w erf(d / sqrt(2 v)) over sum of w. Lengths of the
-/// profile are multiplied by `width`.
-/// Source: Jimenez et al. 2015, Separable Subsurface Scattering, section 4 (pre-integrated kernel).
+/// The part of the light that a line spread function leaves within `distance_mm` on both sides: the profile
+/// integrated over one direction, which is what an edge of a shadow shows. Sum of w erf(d / sqrt(2 v)) over
+/// sum of w. Lengths of the profile are multiplied by `width`. Source: Jimenez et al. 2015, Separable
+/// Subsurface Scattering, section 4 (pre-integrated kernel).
 [[nodiscard]] double share_within(const GaussianSum& profile, float width, int channel, double distance_mm);
 
 }  // namespace dermis::screen_space_separable

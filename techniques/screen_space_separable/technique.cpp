@@ -1,7 +1,8 @@
-// Jimenez, Zsolnai, Jarabo, Freude, Auzinger, Wu, von der Pahlen, Wimmer, Gutierrez 2015, "Separable Subsurface
-// Scattering" (Computer Graphics Forum 34): the skin's diffuse light on the picture, before the base colour, is blurred
-// along x and then along y by a one-dimensional kernel of the profile. Changed: distances are those of the points on the
-// skin, and a tap's weight is the kernel's integral over its cell (blur.frag).
+// Jimenez, Zsolnai, Jarabo, Freude, Auzinger, Wu, von der Pahlen, Wimmer, Gutierrez 2015, "Separable
+// Subsurface Scattering" (Computer Graphics Forum 34): the skin's diffuse light on the picture, before the
+// base colour, is blurred along x and then along y by a one-dimensional kernel of the profile. Changed:
+// distances are those of the points on the skin, and a tap's weight is the kernel's integral over its cell
+// (blur.frag).
 
 #include <cstring>
 
@@ -54,7 +55,8 @@ int32_t half_taps(Taps taps) {
 
 GaussianSum kernel_of(const Params& params, const GaussianSum& skin) {
     if (params.kernel == Kernel::profile) return skin;
-    return to_gaussian_sum({.near_mm = params.near_mm, .far_mm = params.far_mm, .far_share = params.far_share});
+    return to_gaussian_sum(
+        {.near_mm = params.near_mm, .far_mm = params.far_mm, .far_share = params.far_share});
 }
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
@@ -65,15 +67,16 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     for (const char* name : {"skin_light_x", "skin_light_xy"})
         list.images.push_back({.name = name, .format = ImageFormat::rgba32f});
     for (const bool along_v : {false, true})
-        list.passes.push_back({.name = along_v ? "blur along y" : "blur along x",
-                               .kind = PassKind::fullscreen,
-                               .shader = "screen_space_separable/blur.frag",
-                               .reads = {{"light", along_v ? "skin_light_x" : "skin_light"}, "skin_z", "skin_kernel"},
-                               .colors = {{.image = along_v ? "skin_light_xy" : "skin_light_x", .load = LoadOp::discard}},
-                               .constants = {{"half_taps", half_taps(params.taps)},
-                                             {"along_v", int32_t(along_v)},
-                                             {"follow", int32_t(params.follow)}},
-                               .values = {{"reach_mm", reach}}});
+        list.passes.push_back(
+            {.name = along_v ? "blur along y" : "blur along x",
+             .kind = PassKind::fullscreen,
+             .shader = "screen_space_separable/blur.frag",
+             .reads = {{"light", along_v ? "skin_light_x" : "skin_light"}, "skin_z", "skin_kernel"},
+             .colors = {{.image = along_v ? "skin_light_xy" : "skin_light_x", .load = LoadOp::discard}},
+             .constants = {{"half_taps", half_taps(params.taps)},
+                           {"along_v", int32_t(along_v)},
+                           {"follow", int32_t(params.follow)}},
+             .values = {{"reach_mm", reach}}});
     add_screen_skin(list, "skin_light_xy", params.specular, frame, kOwnView);
     return list;
 }
@@ -86,7 +89,8 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
     std::vector<float> rgba;
     for (int i = 0; i < kTexels; ++i) {
         const double x = double(i) / (kTexels - 1);
-        for (int c = 0; c < 3; ++c) rgba.push_back(float(share_within(kernel, params.width, c, reach * x * x)));
+        for (int c = 0; c < 3; ++c)
+            rgba.push_back(float(share_within(kernel, params.width, c, reach * x * x)));
         rgba.push_back(1);
     }
     TableImage image{.name = "skin_kernel", .format = ImageFormat::rgba32f, .width = kTexels, .height = 1};
