@@ -103,7 +103,8 @@ double root_mean_square(const std::vector<float>& errors) {
     return count > 0 ? std::sqrt(sum / double(count)) : 0;
 }
 
-// A pixel rests when it and its eight neighbours are good enough: one that looks good by luck has worse
+// Sampling of a pixel stops when its error and its eight neighbours' are small enough: a pixel whose error
+// is underestimated by chance has worse
 // neighbours.
 void let_rest(Canvas& canvas, const std::vector<float>& errors, double wanted) {
     for (int y = 0; y < canvas.height; ++y)
