@@ -17,7 +17,7 @@ constexpr int kPassesBeforeResting = 16;
 constexpr float kDarkShare = 0.05f;
 
 // The places of samples within a pixel form blocks of kBlock that lie evenly (a net of the Owen sequence), so
-// block means scatter less than single samples would make believe.
+// block means vary less than single samples suggest.
 constexpr uint32_t kBlock = 4;
 
 // Sums of squared differences from the mean, updated as Welford 1962 does, so that little noise on much light

@@ -114,7 +114,7 @@ inline constexpr size_t kMaxSceneBytes = size_t{1} << 20;
 [[nodiscard]] Result<Scene> build_scene(const SceneDescription& description,
                                         std::span<const Subject> subjects);
 
-/// Whether a mesh or a map of [maps] is an asset that is nowhere.
+/// Whether a mesh or a map of [maps] is an asset that is in none of the directories.
 [[nodiscard]] bool lacks_asset(const SceneDescription& description);
 
 /// The manual page of the scene file, in Markdown, out of the tables that parse it.

@@ -48,7 +48,7 @@ TEST(Script, what_is_wrong_is_told_with_its_line_and_what_would_be_right) {
     EXPECT_THAT(error_of("wait 1e99"), HasSubstr("not a number"));
     EXPECT_THAT(error_of("wait nan"), HasSubstr("not a number"));
     EXPECT_THAT(error_of("resize 0 10"), HasSubstr("resize 640 480"));
-    EXPECT_THAT(error_of("open \"a"), HasSubstr("quote"));
+    EXPECT_THAT(error_of("open \"a"), HasSubstr("quotation mark"));
     EXPECT_THAT(error_of("key shft+A"), HasSubstr("'shft'; did you mean 'shift'?"));
 }
 
