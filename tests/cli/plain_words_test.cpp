@@ -1,4 +1,5 @@
-// Pages and messages use the terms of docs/terminology.md: these metaphors and vague words have come back before.
+// Pages and messages use the terms of docs/terminology.md: these metaphors and vague words have come back
+// before.
 
 #include <gtest/gtest.h>
 
@@ -33,8 +34,7 @@ std::string wrong_word(const std::string& text) {
     for (const Avoided& avoided : kAvoided) {
         const std::regex word("\\b" + std::string(avoided.pattern) + "\\b", std::regex::icase);
         std::smatch match;
-        if (std::regex_search(text, match, word))
-            return "'" + match[0].str() + "': write " + avoided.write;
+        if (std::regex_search(text, match, word)) return "'" + match[0].str() + "': write " + avoided.write;
     }
     return {};
 }
@@ -66,7 +66,8 @@ TEST(Docs, messages_help_and_labels_use_the_terms_of_the_field) {
     size_t literals = 0;
     for (const fs::path& source : program_sources())
         for (const std::string& text : literals_of(read(source))) {
-            if (text.find(' ') != std::string::npos) EXPECT_EQ(wrong_word(text), "") << source << ": " << text;
+            if (text.find(' ') != std::string::npos)
+                EXPECT_EQ(wrong_word(text), "") << source << ": " << text;
             ++literals;
         }
     EXPECT_GT(literals, 3000u);
