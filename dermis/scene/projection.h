@@ -1,6 +1,6 @@
 #pragma once
-// View and projection matrices of cameras and lights, for Vulkan's depth: 0 at the near plane, 1 at the far one. Column
-// vectors and a right-handed view space: +x right, +y up, the view along -z.
+// View and projection matrices of cameras and lights, for Vulkan's depth: 0 at the near plane, 1 at the far
+// one. Column vectors and a right-handed view space: +x right, +y up, the view along -z.
 
 #include "dermis/base/vec.h"
 
