@@ -37,17 +37,6 @@ Result<TableStorage> TableOutput::chosen_storage(TableStorage preferred) const {
     return Error{unknown_name("storage", storage, kNames)};
 }
 
-Result<Size> parse_table_size(const std::string& text) {
-    const std::vector<std::string_view> sides = split(text, 'x');
-    const std::optional<double> width = parse_number(sides.front()), height = parse_number(sides.back());
-    const auto is_side = [](std::optional<double> side) {
-        return side && std::abs(*side) < 1e9 && *side == int(*side);
-    };
-    if (sides.size() > 2 || !is_side(width) || !is_side(height))
-        return Error{"--size is '" + text + "', must be WIDTHxHEIGHT or one side, like 512x256"};
-    return Size{int(*width), int(*height)};
-}
-
 Result<Range> parse_range(const std::string& option, const std::string& text) {
     const std::vector<std::string_view> ends = split(text, ',');
     const std::optional<double> min = parse_number(ends.front()), max = parse_number(ends.back());

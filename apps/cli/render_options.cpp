@@ -22,15 +22,15 @@ void RenderOptions::add_to(Command& command) {
     command.add_flag("--validate", validation, "run under the Vulkan validation layers; fail on any message");
 }
 
-Result<std::pair<int, int>> parse_size(std::string_view text) {
-    const std::vector<std::string_view> parts = split(text, 'x');
-    const auto side = [](std::string_view part) -> int {
-        const auto value = parse_number(part);
-        return value && *value >= 1 && *value <= 8192 && *value == int(*value) ? int(*value) : 0;
-    };
-    if (parts.size() == 2 && side(parts[0]) && side(parts[1]))
-        return std::pair(side(parts[0]), side(parts[1]));
-    return Error{"--size '" + std::string(text) + "': write WIDTHxHEIGHT, each 1 to 8192, such as 1024x1024"};
+Result<void> check_samples(int samples) {
+    if (samples == 1 || samples == 4) return {};
+    return Error{"--samples " + std::to_string(samples) + ": 1 or 4"};
+}
+
+Result<void> check_view(const Technique& technique, const std::string& view) {
+    const std::vector<std::string> views = view_names(technique);
+    if (std::ranges::find(views, view) != views.end()) return {};
+    return Error{unknown_name("view", view, views)};
 }
 
 Result<void> apply_setting(ParameterValues& values, const std::string& setting) {
@@ -40,10 +40,9 @@ Result<void> apply_setting(ParameterValues& values, const std::string& setting) 
 }
 
 Result<Prepared> prepare(const RenderOptions& options) {
-    const Result<std::pair<int, int>> size = parse_size(options.size);
+    const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
-    if (options.samples != 1 && options.samples != 4)
-        return Error{"--samples " + std::to_string(options.samples) + ": 1 or 4"};
+    if (Result<void> good = check_samples(options.samples); !good) return good.error();
     if (!options.technique.empty())
         if (const auto known = find_technique(built_in_catalog().techniques, options.technique); !known)
             return known.error();
@@ -67,16 +66,14 @@ Result<Prepared> prepare(const RenderOptions& options) {
     for (const std::string& setting : options.settings)
         if (Result<void> set = apply_setting(values, setting); !set) return set.error();
 
-    const std::vector<std::string> views = view_names(**technique);
-    if (std::ranges::find(views, options.view) == views.end())
-        return Error{unknown_name("view", options.view, views)};
+    if (Result<void> good = check_view(**technique, options.view); !good) return good.error();
     return Prepared{
         .scene = std::move(*scene),
         .as_filed = std::move(as_filed),
         .technique = *technique,
         .values = values,
         .draw = {
-            .width = size->first, .height = size->second, .samples = options.samples, .view = options.view}};
+            .width = size->width, .height = size->height, .samples = options.samples, .view = options.view}};
 }
 
 }  // namespace dermis::cli

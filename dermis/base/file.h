@@ -37,6 +37,10 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 /// it again with every directory that it needed. Errors as those of write_file().
 [[nodiscard]] Result<void> try_output(const std::filesystem::path& path);
 
+/// From here on an interrupt, a hangup or a request to end removes the temporary files of the functions above
+/// before the program ends. For programs, not for libraries: it replaces the handlers of these signals.
+void remove_temporary_files_on_signals();
+
 [[nodiscard]] inline std::span<const std::byte> as_bytes(std::string_view text) {
     return std::as_bytes(std::span(text.data(), text.size()));
 }

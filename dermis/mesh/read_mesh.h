@@ -41,7 +41,10 @@ struct LoadedMesh {
 /// path that leaves the mesh's directory.
 using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::string& relative_path)>;
 
-/// By extension: .obj, .gltf, .glb. Node transforms are applied, mirrored ones keep their fronts outside.
+/// By its extension: .obj, .gltf or .glb.
+[[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);
+
+/// Node transforms are applied, mirrored ones keep their fronts outside.
 /// Every value of the result is finite and every index in range. Normals are unit, computed where the file
 /// has none (normals.h), and so are tangents (tangents.h).
 ///

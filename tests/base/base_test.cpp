@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+#include <fstream>
+#include <new>
 
 #include <algorithm>
 #include <atomic>
@@ -130,6 +135,28 @@ TEST(File, a_failed_write_keeps_the_old_file_and_removes_the_new) {
     EXPECT_EQ(dir.file_count(), 1u);
 }
 
+TEST(File, an_interrupt_while_writing_leaves_the_old_file_and_nothing_beside) {
+    const TemporaryDirectory dir;
+    const fs::path path = dir.path / "a.txt";
+    ASSERT_TRUE(write_text_file(path, "old"));
+    const pid_t child = ::fork();
+    ASSERT_NE(child, -1);
+    if (child == 0) {
+        remove_temporary_files_on_signals();
+        (void)write_beside(path, [](const fs::path& temporary) -> Result<void> {
+            std::ofstream(temporary) << "half";
+            std::raise(SIGTERM);
+            return {};
+        });
+        ::_exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+    EXPECT_EQ(*read_text_file(path), "old");
+    EXPECT_EQ(dir.file_count(), 1u);
+}
+
 TEST(File, a_full_disk_is_an_error) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     EXPECT_FALSE(write_text_file("/dev/full", "x"));
@@ -201,4 +228,16 @@ TEST(ParallelFor, visits_every_item_once_for_any_thread_count) {
     }
     set_thread_limit(0);
     parallel_for(0, 1, [](size_t, size_t) { FAIL(); });
+}
+
+TEST(ParallelFor, throws_again_what_a_body_throws) {
+    for (unsigned threads : {1u, 3u}) {
+        set_thread_limit(threads);
+        EXPECT_THROW(parallel_for(1000, 1,
+                                  [](size_t begin, size_t) {
+                                      if (begin >= 100 || begin == 0) throw std::bad_alloc();
+                                  }),
+                     std::bad_alloc);
+    }
+    set_thread_limit(0);
 }

@@ -13,7 +13,7 @@ struct Options {
 };
 
 Result<int> run(const Options& options) {
-    const Result<Size> size = parse_table_size(options.size);
+    const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
     BeckmannOptions beckmann{.width = size->width, .height = size->height};
     if (options.layout == "gems")

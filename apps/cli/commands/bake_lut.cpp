@@ -61,7 +61,7 @@ Result<int> run(const Options& options) {
         lut->profile = std::move(*profile);
     }
     if (!options.size.empty()) {
-        const Result<Size> size = parse_table_size(options.size);
+        const Result<Size> size = parse_size(options.size);
         if (!size) return size.error();
         lut->width = size->width;
         lut->height = size->height;

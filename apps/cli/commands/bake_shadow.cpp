@@ -16,7 +16,7 @@ struct Options {
 Result<int> run(const Options& options) {
     Result<Profile> profile = find_profile(options.profile);
     if (!profile) return profile.error();
-    const Result<Size> size = parse_table_size(options.size);
+    const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
     const Result<Range> range = parse_range("--range", options.range);
     if (!range) return range.error();

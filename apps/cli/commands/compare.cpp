@@ -36,9 +36,9 @@ struct Options {
 };
 
 Result<ComparisonSettings> settings_of(const Options& options) {
-    const Result<std::pair<int, int>> size = parse_size(options.size);
+    const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
-    ComparisonSettings settings = comparison_settings(size->first, size->second);
+    ComparisonSettings settings = comparison_settings(size->width, size->height);
     settings.frames = options.frames;
     settings.noise = options.noise;
     settings.samples = options.samples;

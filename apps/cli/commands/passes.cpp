@@ -25,6 +25,8 @@ Result<int> print_passes(const Options& options) {
     ParameterValues values((*technique)->parameters);
     for (const std::string& setting : options.settings)
         if (Result<void> set = apply_setting(values, setting); !set) return set.error();
+    if (Result<void> good = check_view(**technique, options.view); !good) return good.error();
+    if (Result<void> good = check_samples(options.samples); !good) return good.error();
     const PassList own = (*technique)->build(values, {.view = options.view});
     std::printf("%s",
                 describe(frame_passes(own, {.samples = options.samples, .view = options.view})).c_str());

@@ -49,9 +49,22 @@ extern "C" void stop_on_signal(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
-void on_signals(void (*handler)(int)) {
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, handler);
-}
+// While it exists, the signals only ask to stop.
+class StopOnSignals {
+  public:
+    StopOnSignals()
+        : interrupt_(std::signal(SIGINT, stop_on_signal)), terminate_(std::signal(SIGTERM, stop_on_signal)) {}
+    ~StopOnSignals() {
+        std::signal(SIGINT, interrupt_);
+        std::signal(SIGTERM, terminate_);
+    }
+    StopOnSignals(const StopOnSignals&) = delete;
+    StopOnSignals& operator=(const StopOnSignals&) = delete;
+
+  private:
+    void (*interrupt_)(int);
+    void (*terminate_)(int);
+};
 
 // Before the work rather than after it.
 Result<void> try_outputs(const Options& options) {
@@ -145,12 +158,10 @@ Result<ReferenceSettings> settings_of(const Options& options) {
                                .width_scale = options.width_scale};
     settings.lighting.penumbra_mm = options.penumbra_mm;
     if (options.noise != 0) settings.noise = options.noise;
-    const std::vector<std::string_view> sides = split(options.size, 'x');
-    const std::optional<double> width = parse_number(sides[0]), height = parse_number(sides.back());
-    if (sides.size() > 2 || !width || !height || *width != int(*width) || *height != int(*height))
-        return Error{"--size '" + options.size + "' is not WIDTHxHEIGHT, such as 512x512"};
-    settings.width = int(*width);
-    settings.height = int(*height);
+    const Result<Size> size = parse_size(options.size);
+    if (!size) return size.error();
+    settings.width = size->width;
+    settings.height = size->height;
     for (const Result<void>& step :
          {set(settings.integrator, "integrator", options.integrator, kIntegrators),
           set(settings.filter, "pixel filter", options.filter, kFilters),
@@ -197,7 +208,6 @@ nlohmann::ordered_json description(const Options& options, const ReferenceSettin
             {"penumbra_mm", options.penumbra_mm},
             {"relative_error", picture.relative_error},
             {"noise_reached", picture.reached_noise},
-            {"time_ms", picture.time_ms},
             {"stopped", stopped},
             {"warnings", picture.warnings}};
 }
@@ -229,8 +239,8 @@ Result<int> run(const Options& options) {
     if (Result<void> tried = try_outputs(options); !tried) return tried.error();
     const Result<Scene> scene = scene_of(options);
     if (!scene) return scene.error();
-    on_signals(stop_on_signal);
     Result<ReferencePicture> picture = [&] {
+        const StopOnSignals stop;
         constexpr double kSteps = 1000;
         Progress line("ground truth", size_t(kSteps));
         size_t shown = 0;
@@ -243,12 +253,12 @@ Result<int> run(const Options& options) {
             },
             &g_stop);
     }();
-    on_signals(SIG_DFL);
     if (!picture) return picture.error();
     picture->warnings.insert(picture->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
-    const nlohmann::ordered_json json = description(options, *settings, *picture, g_stop);
+    nlohmann::ordered_json json = description(options, *settings, *picture, g_stop);
     if (Result<void> written = write_picture(options, *scene, *picture, json.dump()); !written)
         return written.error();
+    json["time_ms"] = picture->time_ms;  // not in the file: the same seed gives the same bytes
     if (Result<void> written = write_preview(options, *scene, *picture); !written) return written.error();
     for (const std::string& warning : picture->warnings) print_warning(warning);
     if (options.json)

@@ -109,6 +109,9 @@ Result<int> render(Options options) {
     if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
     if (options.frames < 1 || options.frames > 100000)
         return Error{"--frames " + std::to_string(options.frames) + ": 1 to 100000"};
+    if (options.frames > 1 && !options.timings && frame_path(options.output, 0) == options.output)
+        return Error{"--frames " + std::to_string(options.frames) + " would write " + options.output +
+                     " again and again; number them: -o out/%04d.png"};
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
     for (const std::string& warning : prepared->scene.warnings) print_warning(warning);

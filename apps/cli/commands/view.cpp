@@ -51,12 +51,12 @@ Result<int> view_scene(Options options) {
         const view::WindowState state = view::load_state();
         options.render.size = std::to_string(state.width) + "x" + std::to_string(state.height);
     }
-    const Result<std::pair<int, int>> size = parse_size(options.render.size);
+    const Result<Size> size = parse_size(options.render.size);
     if (!size) return size.error();
     view::ViewerOptions viewer = {.catalog = built_in_catalog(),
                                   .scene_path = options.render.scene.name,
                                   .load = [&options] { return first_scene(options.render); },
-                                  .size = {size->first, size->second},
+                                  .size = {size->width, size->height},
                                   .device = options.render.device,
                                   .validation = options.render.validation,
                                   .samples = options.render.samples,
