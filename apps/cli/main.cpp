@@ -14,10 +14,10 @@ namespace dermis::cli {
 namespace {
 
 int run(int argc, char** argv) {
-    CommandLine line(
-        "dermis " DERMIS_VERSION,
-        "Human skin in real time: renders skin with published techniques, bakes their tables, measures them.",
-        "dermis render scenes/spheres.toml --technique lambert -o out/spheres.png");
+    CommandLine line("dermis " DERMIS_VERSION,
+                     "Human skin in real time: renders it with several techniques, bakes their tables, "
+                     "measures them against a ground truth.",
+                     "dermis render scenes/spheres.toml --technique lambert -o out/spheres.png");
     add_all_commands(line);
     if (const std::optional<int> exit_code = line.parse(argc, argv)) return *exit_code;
     const Result<int> exit_code = line.action();
@@ -26,7 +26,7 @@ int run(int argc, char** argv) {
     return 1;
 }
 
-// The libraries report errors as values; what is thrown is what they cannot foresee: memory and threads.
+// The libraries return errors as values; only failing memory and threads throw.
 int run_and_catch(int argc, char** argv) {
     try {
         return run(argc, argv);

@@ -11,14 +11,16 @@ namespace dermis::cli {
 void RenderOptions::add_to(Command& command) {
     scene.add_to(command)->capture_default_str();
     command.add_option("-t,--technique", technique,
-                       "see dermis techniques (default: the scene's, or lambert)");
-    command.add_option("--set", settings, "a parameter of the technique, name=value; may be repeated")
+                       "id of the technique, listed by dermis techniques (default: the scene's, or lambert)");
+    command.add_option("--set", settings, "a parameter of the technique, NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command.add_option("--view", view, "final, diffuse, specular, normal, albedo, curvature, shadow, ...")
+    command
+        .add_option("--view", view,
+                    "what is shown: final, diffuse, specular, normal, albedo, curvature, shadow, ...")
         ->capture_default_str();
-    command.add_option("--samples", samples, "a pixel: 1 or 4")->capture_default_str();
-    command.add_option("--device", device, "part of a Vulkan device's name");
+    command.add_option("--samples", samples, "samples a pixel: 1 or 4")->capture_default_str();
+    command.add_option("--device", device, "use the Vulkan device with this text in its name");
     command.add_flag("--validate", validation, "run under the Vulkan validation layers; fail on any message");
 }
 

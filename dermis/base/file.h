@@ -27,7 +27,7 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// The same promise for libraries that insist on writing to a path: `write` gets the temporary path (same
+/// The same for libraries that can only write to a path: `write` gets the temporary path (same
 /// extension as the target) and the rename follows only if it returns success.
 [[nodiscard]] Result<void> write_beside(
     const std::filesystem::path& path,

@@ -15,13 +15,13 @@
 
 namespace dermis {
 
-/// What a program can do something about; everything else is for a person to read.
+/// Errors that a program handles; every other error is text for the user.
 enum class ErrorCode {
     general,
-    device_lost  ///< the GPU's driver crashed or timed out: a new device may go on
+    device_lost  ///< the GPU's driver crashed or timed out: a new device may work
 };
 
-/// One line for a person: the file, the place in it, and the mend. No trailing newline, no leading "error:".
+/// One line for the user: the file, the place in it, how to correct it. No newline, no leading "error:".
 struct Error {
     std::string message;
     ErrorCode code = ErrorCode::general;

@@ -32,7 +32,7 @@ struct MeshOptions {
 
 struct LoadedMesh {
     Mesh mesh;
-    std::vector<std::string> warnings;  ///< one line each, for a person
+    std::vector<std::string> warnings;  ///< one line each, for the user
     /// By read_mesh: the file, and what it names beside it, there or not. Maps stand in the materials.
     std::vector<std::filesystem::path> files;
 };
@@ -64,7 +64,7 @@ using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::stri
 
 enum class MeshFormat { obj, gltf, glb };
 
-/// The same from memory. `name` stands for the file in messages and gives image paths their directory.
+/// The same from memory. `name` is the file in messages and gives image paths their directory.
 [[nodiscard]] Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat format,
                                             const std::filesystem::path& name,
                                             const ReadSibling& read_sibling, const MeshOptions& options = {});

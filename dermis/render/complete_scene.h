@@ -1,14 +1,14 @@
 #pragma once
-// What shading wants and files do not have: how the skin curves at each vertex, and how much of its
-// surroundings the vertex sees.
+// What shading needs and files do not have: the curvature of the skin at each vertex, and the occlusion of
+// the environment there.
 
 #include "dermis/base/result.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
 
-/// Curvature is taken over this distance, a few mean free paths of red light: what scattering sees of the
-/// shape.
+/// Curvature is taken over this distance, a few mean free paths of red light: the scale on which
+/// scattering depends on the shape.
 inline constexpr double kCurvatureSmoothingMm = 3;
 
 /// Fills Mesh::curvatures_per_mm and Mesh::occlusions of every object that lacks them, occluded by all opaque

@@ -27,7 +27,7 @@ struct Parts {
 
     const ViewerOptions& options;
     Clock clock;
-    // In this order: what is below dies before what is above.
+    // In this order: what is below is destroyed before what is above.
     Window window;
     gpu::Device device;
     std::optional<Presenter> presenter;  ///< there once open() is done, as `interface` is

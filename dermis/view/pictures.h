@@ -11,7 +11,7 @@
 namespace dermis::view {
 
 /// Ends the notice of a file that changed and cannot be used.
-inline constexpr const char* kLastGood = "  (the last good one goes on)";
+inline constexpr const char* kLastGood = "  (the last version without an error stays in use)";
 
 class Pictures {
   public:

@@ -97,7 +97,7 @@ Result<void> slide_widget(Parts& p, Command command) {
     for (const auto& [name, region] : p.widgets) names.push_back(name);
     if (widget == p.widgets.end()) return Error{unknown_name("widget", command.words[0], names)};
     if (widget->second.y + widget->second.height > float(p.presenter->size().height))
-        return Error{command.words[0] + " is out of sight; make the window higher"};
+        return Error{command.words[0] + " is not visible; make the window higher"};
     p.input.play(slide_frames(widget->second, command.numbers[0]));
     return {};
 }

@@ -31,7 +31,7 @@ Result<ViewerReport> Session::run() {
         store_state(state_);
     }
     if (const std::vector<std::string> said = p.device.messages(); !said.empty())
-        return Error{"the validation layers complained: " + join(said, "; ")};
+        return Error{"the validation layers reported errors: " + join(said, "; ")};
     return report_;
 }
 

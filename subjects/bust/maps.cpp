@@ -1,4 +1,4 @@
-// Every texel asks the skin at its own point of the surface; the relief's slope becomes the normal map.
+// Every texel evaluates the skin at its own point of the surface; the relief's slope becomes the normal map.
 
 #include "subjects/bust/maps.h"
 
@@ -12,7 +12,7 @@
 namespace dermis::bust {
 namespace {
 
-constexpr int kBand = 32;  // rows that one task fills; nobody else writes them
+constexpr int kBand = 32;  // rows that one task fills; no other task writes them
 
 struct Barycentric {
     double a, b, c;

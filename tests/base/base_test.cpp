@@ -183,7 +183,7 @@ TEST(Cache, returns_what_was_stored_and_nothing_from_a_damaged_file) {
     ::unsetenv("DERMIS_CACHE");
 }
 
-TEST(Cache, an_entry_under_anothers_name_is_made_anew) {
+TEST(Cache, an_entry_under_anothers_name_is_made_again) {
     const TemporaryDirectory dir;
     ::setenv("DERMIS_CACHE", dir.path.c_str(), 1);
     const std::vector<std::byte> bytes(8, std::byte{1});
@@ -201,7 +201,7 @@ TEST(Cache, an_entry_under_anothers_name_is_made_anew) {
     ::unsetenv("DERMIS_CACHE");
 }
 
-TEST(Cache, an_entry_of_another_size_is_made_anew) {
+TEST(Cache, an_entry_of_another_size_is_made_again) {
     const TemporaryDirectory dir;
     ::setenv("DERMIS_CACHE", dir.path.c_str(), 1);
     ASSERT_TRUE(cache_store("kind", "hash", std::vector<std::byte>(3)));

@@ -1,4 +1,4 @@
-// dermis info, as a person or a script reads it.
+// dermis info, as text and as JSON.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

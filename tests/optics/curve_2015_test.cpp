@@ -1,4 +1,4 @@
-// The published curves, held against what the article shows of them.
+// The published curves, compared with what the article shows of them.
 
 #include "dermis/optics/curve_2015.h"
 
@@ -19,7 +19,7 @@ TEST(Curve2015, is_the_table_at_large_radii) {
                 << t << " " << c;
 }
 
-TEST(Curve2015, rises_with_n_dot_l_and_glows_red_in_the_dark_on_tight_skin) {
+TEST(Curve2015, rises_with_n_dot_l_and_is_red_past_the_terminator_at_small_radii) {
     for (const double curvature : {1.0 / 2, 1.0 / 4, 1.0 / 8})
         for (size_t c = 0; c < 3; ++c)
             for (double t = -1; t < 0.99; t += 0.01)
@@ -36,7 +36,7 @@ TEST(Curve2015, counts_radii_outside_2_to_16_mm_as_those) {
     EXPECT_EQ(curve_2015_zonal(7), curve_2015_zonal(0.5));
 }
 
-TEST(Curve2015, has_the_harmonics_of_a_ring_that_makes_light) {
+TEST(Curve2015, has_the_harmonics_of_a_ring_that_does_not_conserve_energy) {
     const auto tight = curve_2015_zonal(0.5), flat = curve_2015_zonal(1.0 / 16);
     EXPECT_NEAR(tight[0][0], 1.02, 0.01) << "the article's own; the sphere has 0.886";
     for (size_t c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-// Blurs over the atlas in millimetres: the unwrap must not matter.
+// Blurs over the atlas in millimetres: the UV layout must not matter.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ class AtlasMm : public RenderTest {
 
 }  // namespace
 
-TEST_F(AtlasMm, the_unwrap_does_not_matter) {
+TEST_F(AtlasMm, the_uv_layout_does_not_matter) {
     for (const Blur& blur : blurs_in_mm()) {
         const Image plain = draw(half_shadowed(plane(one_chart)), blur);
         EXPECT_LT(largest_difference(plain, draw(half_shadowed(plane(stretched)), blur)), 0.06)
@@ -78,7 +78,7 @@ TEST_F(AtlasMm, the_unwrap_does_not_matter) {
               0.06);
 }
 
-TEST_F(AtlasMm, a_seam_a_millimetre_from_the_shadow_does_not_show) {
+TEST_F(AtlasMm, a_seam_a_millimetre_from_the_shadow_is_not_visible) {
     for (const Blur& blur : blurs_in_mm()) {
         const bool gaussians = std::string(blur.technique) == "texture_space_gaussians";
         const Image whole = draw(half_shadowed(plane(one_chart)), blur);
@@ -124,7 +124,7 @@ TEST(SeamMap, unfolds_the_neighbour_over_the_shared_edge) {
             const Vec2 to = map.carried[size_t(y * 256 + x)];
             if (to.x < 0) continue;
             ++carried;
-            // Back through the unwrap of the chart whose gutter it is, and of the one it stands for.
+            // Back through the UV layout of the chart whose gutter it is, and of the one that it shows.
             const Vec2 uv = {(float(x) + 0.5f) / 256, (float(y) + 0.5f) / 256};
             const Vec2 left_mm = {(uv.x - 0.45f) * kSideMm / 0.8f, (0.5f - uv.y) * kSideMm / 0.8f};
             const Vec2 right_mm = {(to.y / 256 - 0.1f) * kSideMm / 1.1f,

@@ -41,7 +41,7 @@ void add_bake_beckmann_command(CommandLine& line) {
                  "  dermis bake beckmann --layout gems --size 512 -o beckmann.png",
                  bake_group(line));
     command->add_option("--size", options->size, "WIDTHxHEIGHT or one side");
-    command->add_option("--layout", options->layout, "linear, or gems (value^0.1 / 2, 8 bit)");
+    command->add_option("--layout", options->layout, "encoding: linear, or gems (value^0.1 / 2, 8 bit)");
     options->output.add_to(command);
     line.when_chosen(command, [options] { return run(*options); });
 }

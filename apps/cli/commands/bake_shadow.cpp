@@ -47,9 +47,9 @@ void add_bake_shadow_command(CommandLine& line) {
     command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");
     command->add_option("--size", options->size, "WIDTHxHEIGHT");
     command->add_option("--range", options->range, "MIN,MAX of the penumbra's width in mm");
-    command->add_option("--warp", options->warp, "linear or squared (finer near MIN)");
+    command->add_option("--warp", options->warp, "spacing of the rows: linear, or squared (finer near MIN)");
     command->add_option("--sharpening", options->sharpening,
-                        "the light's edge takes 1/this of the filter's width");
+                        "width of the filter divided by the width of the light's edge");
     options->output.add_to(command);
     line.when_chosen(command, [options] { return run(*options); });
 }

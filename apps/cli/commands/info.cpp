@@ -140,9 +140,8 @@ void print_uv(const UvReport& uv) {
 void print_flesh(const Flesh& flesh) {
     if (flesh.hidden_triangles > 0)
         fmt::print(
-            "  hidden skin: {} triangles, {:.1f} of {:.1f} cm2, that the outside cannot see; the ground "
-            "truth takes "
-            "the cavities behind them for flesh\n",
+            "  hidden skin: {} triangles, {:.1f} of {:.1f} cm2, not visible from outside; the ground truth "
+            "treats the cavities behind it as flesh\n",
             flesh.hidden_triangles, flesh.hidden_area_mm2 / 100, flesh.skin_area_mm2 / 100);
     if (flesh.mesh_openings > 0)
         fmt::print("  {} opening{} in the surface; the walks of the ground truth are reflected there\n",
@@ -227,13 +226,15 @@ Result<int> run_info(const InfoArguments& arguments) {
 void add_info_command(CommandLine& line) {
     const auto arguments = std::make_shared<InfoArguments>();
     Command* command =
-        line.add("info", "What a mesh or a scene holds, and what its UV layout is worth for maps of skin",
+        line.add("info", "Describes a mesh or a scene: size, materials, maps, UV layout, warnings",
                  "dermis info head.obj --unit-mm 45");
     command
         ->add_option("MESH", arguments->mesh,
                      ".obj, .gltf, .glb, a scene file, name of a scene, or builtin:NAME")
         ->required();
-    command->add_option("--unit-mm", arguments->unit_mm, "millimetres a file unit (glTF: 1000, OBJ: 1)")
+    command
+        ->add_option("--unit-mm", arguments->unit_mm,
+                     "length of one unit of the file in mm (default: glTF 1000, OBJ 1)")
         ->check_positive();
     command->add_flag("--json", arguments->json, "one JSON object on standard output");
     line.when_chosen(command, [arguments] { return run_info(*arguments); });

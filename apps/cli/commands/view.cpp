@@ -87,22 +87,24 @@ void add_view_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     options->render.size = "";  // the last window's
     options->render.samples = 4;
-    Command* command = line.add("view", "look at a scene in a window, in real time (F1 there: help)",
+    Command* command = line.add("view", "Shows a scene in a window, in real time; F1 lists the keys",
                                 "dermis view head_scan --technique preintegrated");
     options->render.add_to(*command);
     command->add_option("--interface-scale", options->interface_scale,
-                        "size of letters and widgets (default: from the display)");
+                        "factor on the size of text and controls (default: from the display)");
     command->add_option("--truth", options->truth,
-                        "a picture to compare with: what dermis reference wrote, or any");
-    command->add_option("--turntable", options->turn_frames, "no window: so many frames of one turn into -o");
+                        "picture to compare with, for example one of dermis reference");
+    command->add_option("--turntable", options->turn_frames,
+                        "no window: write one full turn of the camera in this number of frames");
     command
         ->add_option("-o,--output", options->turntable.output,
-                     "of the turntable: out/%04d.png, or a film.mp4")
+                     "output of --turntable: numbered pictures (out/%04d.png) or a video (.mp4)")
         ->capture_default_str();
     command->add_option("--shaders", options->shader_root,
-                        "folder with shaders/ and techniques/ to follow (default: the source tree)");
-    command->add_option("--frames", options->frames, "close after so many");
-    command->add_option("--script", options->script, "a file of input instead of a person; see docs/view.md");
+                        "folder with shaders/ and techniques/ to watch (default: the source tree)");
+    command->add_option("--frames", options->frames, "close after this number of frames");
+    command->add_option("--script", options->script,
+                        "UI script: simulated mouse and keyboard (docs/view.md)");
     line.when_chosen(command, [options] { return view_scene(*options); });
 }
 
