@@ -51,22 +51,6 @@ class Comparisons : public RenderTest {
 
 }  // namespace
 
-TEST_F(Comparisons, a_kept_truth_with_more_samples_than_are_allowed_is_taken_as_it_is) {
-    const Scene scene = load("builtin:spheres");
-    EffectTruthSettings settings = {.reference = quick().reference, .noise = 1e-6, .samples = 32};
-    settings.reference.grid = 2;
-    settings.reference.width = settings.reference.height = 24;
-    const auto fine = make_effect_truth(scene, settings);
-    ASSERT_TRUE(fine) << fine.error().message;
-    EXPECT_EQ(fine->samples, 32);
-    settings.samples = 16;
-    const auto taken = make_effect_truth(scene, settings);
-    ASSERT_TRUE(taken) << taken.error().message;
-    EXPECT_TRUE(taken->from_cache);
-    EXPECT_EQ(taken->samples, 32);
-    EXPECT_FALSE(taken->reached);
-}
-
 TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
     Scene scene = load("builtin:spheres");
     scene.name = "</script><b>\"spheres\"";
@@ -101,6 +85,21 @@ TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
     EXPECT_THAT(*page, Not(HasSubstr("</script><b>")));
     EXPECT_THAT(*page, Not(HasSubstr("http://")));
     EXPECT_THAT(*page, Not(HasSubstr("https://")));
+}
+
+TEST_F(Comparisons, a_finer_truth_of_another_run_is_taken_as_it_is) {
+    const Scene scene = load("builtin:spheres");
+    ComparisonSettings fine = quick(), coarse = quick();
+    fine.noise = 1e-6;
+    fine.samples = 32;
+    coarse.noise = 1e-6;
+    const auto first = compare_techniques(device(), built_in_catalog(), scene, contestants("lambert"), fine);
+    ASSERT_TRUE(first) << first.error().message;
+    const auto second =
+        compare_techniques(device(), built_in_catalog(), scene, contestants("lambert"), coarse);
+    ASSERT_TRUE(second) << second.error().message;
+    EXPECT_TRUE(second->truth.from_cache);
+    EXPECT_EQ(second->truth.samples, first->truth.samples);
 }
 
 TEST_F(Comparisons, whatever_the_truth_depends_on_changes_its_hash) {
