@@ -61,9 +61,8 @@ class Lighting {
           environment_(environment),
           settings_(settings),
           reflection_(reflection),
-          harmonic_entry_(settings.entry_eta > 1
-                              ? float(1 - diffuse_external_reflectance(settings.entry_eta))
-                              : 1.0f) {}
+          harmonic_entry_(settings.entry_eta > 1 ? float(1 - diffuse_external_reflectance(settings.entry_eta))
+                                                 : 1.0f) {}
 
     /// An unbiased estimate of the irradiance, linear; exact (no noise) without penumbra and traced
     /// environment.
