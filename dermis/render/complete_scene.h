@@ -7,8 +7,8 @@
 
 namespace dermis {
 
-/// Curvature is taken over this distance, a few mean free paths of red light: what scattering sees of the
-/// shape.
+/// Curvature is taken over this distance, a few mean free paths of red light: the scale on which
+/// scattering depends on the shape.
 inline constexpr double kCurvatureSmoothingMm = 3;
 
 /// Fills Mesh::curvatures_per_mm and Mesh::occlusions of every object that lacks them, occluded by all opaque

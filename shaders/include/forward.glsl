@@ -37,7 +37,7 @@ vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility);
 // the visibility of the light, which a technique may want to scatter too.
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility);
 
-// Irradiance from the environment, as the skin answers to it.
+// Diffuse light of the skin from the environment.
 vec3 ambient_response(Surface s);
 
 void main() {

@@ -1,7 +1,7 @@
 // Gosselin, Sander, Mitchell 2004, "Real-Time Texture-Space Skin Rendering" (ShaderX3): light the skin in its
 // texture atlas, blur that image with a kernel whose size is painted, and read it back through the camera.
 // Four steps: shadow map (shared), light map, dilation and blur, final mesh. The source's blur knows
-// texels, so its width on the skin follows the unwrap; with space=mm it knows the surface.
+// only texels, so its width on the skin depends on the UV layout; with space=mm it is in millimetres.
 
 #include <algorithm>
 #include <cmath>

@@ -25,7 +25,7 @@ vec3 reach(Surface s) {
     return min(kReachScale * second_moment_mm2 * k2 / (1.0 + bend_mm2 * k2), vec3(1.0));
 }
 
-// (n.l + w) / (1 + w), scaled by 1 / (1 + w) more so that no light is made: the integral over the sphere of directions
+// (n.l + w) / (1 + w), scaled by a further 1 / (1 + w) so that energy is conserved: the integral over the sphere of directions
 // then stays pi (McAuley 2010).
 vec3 wrapped_cosine(float n_dot_l, vec3 w) { return max(n_dot_l + w, vec3(0.0)) / ((1.0 + w) * (1.0 + w)); }
 

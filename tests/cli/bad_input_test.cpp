@@ -97,6 +97,8 @@ TEST_F(BadInput, comparisons_that_cannot_be_made_leave_nothing) {
     expect_error("compare builtin:spheres --size 16x16 --samples 1" + to, "--samples 1: at least twice");
     expect_error("compare builtin:spheres --samples-per-pixel 15" + to, "a square number");
     expect_error("compare no/such.toml" + to, "no/such.toml");
+    expect_error("compare unit --scene mesh.shape=cilinder" + to, "did you mean 'cylinder'?");
+    expect_error("compare unit --scene mesh.scale=2" + to, "--scene mesh.scale: of the set of test scenes");
     EXPECT_FALSE(fs::exists(path("report")));
     expect_error("compare builtin:spheres -o " + file("plain", "x"), "is a file; name a directory");
 }
@@ -178,7 +180,7 @@ TEST_F(BadInput, keys_of_any_depth_are_refused) {
     expect_error("render " + file("table.toml", "[" + deep + "]\n"), "table.toml:1: nested deeper than");
 }
 
-TEST_F(BadInput, messages_name_the_mend) {
+TEST_F(BadInput, messages_say_how_to_correct_the_input) {
     expect_error("info " + file("none.glb", ""), "none.glb: the file is empty");
     expect_error("render " + file("point.toml", "[skin]\nroughness = .4\n"), "write 0.5, not .5");
     expect_error(kQuick + path("x.png") + " --frames 3", "number them: -o out/%04d.png");
