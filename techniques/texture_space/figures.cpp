@@ -39,14 +39,18 @@ FigureCell image_cell(std::string label, std::string image, FigureImageChannels 
 
 Figure light_map_figure() {
     const Settings whole = {{"cull_back_face", "off"}, {"cull_frustum", "off"}};
-    Settings raw = whole;
+    Settings raw = whole, blurred = whole;
     raw.emplace_back("blur_passes", "0");
-    return {.id = "light_map",
-            .title = "The light map",
-            .source = kSource + "2.8.2",
-            .rows = {{"",
-                      {image_cell("lit, without blur", "light_map_a", FigureImageChannels::rgb, raw),
-                       image_cell("dilated and blurred", "light_map_a", FigureImageChannels::rgb, whole)}}}};
+    // An even number of passes, none of whose maps is kept: the last is light_map_a.
+    for (const auto& [name, text] : {std::pair{"blur", "source"}, {"blur_passes", "2"}})
+        blurred.emplace_back(name, text);
+    return {
+        .id = "light_map",
+        .title = "The light map",
+        .source = kSource + "2.8.2",
+        .rows = {{"",
+                  {image_cell("lit, without blur", "light_map_a", FigureImageChannels::rgb, raw),
+                   image_cell("dilated and blurred", "light_map_a", FigureImageChannels::rgb, blurred)}}}};
 }
 
 Figure shadow_map_figure() {
@@ -76,19 +80,22 @@ Figure translucent_figure() {
 }
 
 Figure kernel_figure() {
-    return {
-        .id = "kernel_map",
-        .title = "The blur kernel's size over the atlas",
-        .source = kSource + "2.8.5",
-        .note = "The light map's alpha; 1 (white) is where no triangle was drawn.",
-        .scene = "bust",
-        .rows = {{"",
-                  {image_cell("kernel size", "light_map_a", FigureImageChannels::alpha,
-                              {{"cull_back_face", "off"}, {"cull_frustum", "off"}, {"blur_passes", "0"}})}}}};
+    return {.id = "kernel_map",
+            .title = "The blur kernel's size over the atlas",
+            .source = kSource + "2.8.5",
+            .note = "The light map's alpha; 1 (white) is where no triangle was drawn.",
+            .scene = "bust",
+            .rows = {{"",
+                      {image_cell("kernel size", "light_map_a", FigureImageChannels::alpha,
+                                  {{"space", "texels"},
+                                   {"cull_back_face", "off"},
+                                   {"cull_frustum", "off"},
+                                   {"blur_passes", "0"}})}}}};
 }
 
 Figure dilation_figure() {
-    const Settings wide = {{"light_map_size", "512"}, {"blur_bias", "4"}};
+    const Settings wide = {{"light_map_size", "512"}, {"blur", "set"},      {"space", "texels"},
+                           {"detail", "map"},         {"blur_passes", "2"}, {"blur_bias", "6"}};
     const auto dilate = [&](const char* how) {
         Settings settings = wide;
         settings.emplace_back("dilate", how);
@@ -107,11 +114,17 @@ Figure dilation_figure() {
 }
 
 Figure specular_figure() {
+    FigureRow row = {"",
+                     {cell("without", "without", {{"specular_shadow", "off"}}),
+                      cell("by the blurred light, as the source", "source", {{"specular_shadow", "source"}}),
+                      cell("by the shadow map", "with", {})}};
+    row.cells[1].compare_to = row.cells[2].compare_to = "without";
+    // From above and behind, so that reflections graze along what is in shadow.
+    for (FigureCell& one : row.cells) one.view = "specular", one.light = "yaw=-110 pitch=35 intensity=9";
     return {.id = "specular_shadow",
             .title = "With and without shadowing the specular term",
             .source = kSource + "2.8.7",
-            .rows = {with_and_without(cell("without", "without", {{"specular_shadow", "off"}}),
-                                      cell("with", "with", {}), 8)}};
+            .rows = {row}};
 }
 
 Figure cull_figure() {
@@ -128,9 +141,10 @@ Figure cull_figure() {
 }
 
 Figure millimetres_figure() {
-    const Settings texels = {{"blur_passes", "3"}, {"blur_scale", "0"}, {"blur_bias", "4"}};
-    const Settings drop = {
-        {"space", "mm"}, {"seams", "drop"}, {"blur_passes", "3"}, {"blur_scale", "0"}, {"blur_bias", "2"}};
+    const Settings texels = {{"blur", "set"},      {"space", "texels"}, {"detail", "map"},
+                             {"blur_passes", "3"}, {"blur_scale", "0"}, {"blur_bias", "4"}};
+    const Settings drop = {{"blur", "set"},      {"seams", "drop"},   {"detail", "map"},
+                           {"blur_passes", "3"}, {"blur_scale", "0"}, {"blur_bias", "2"}};
     Settings carry = drop;
     carry[1].second = "carry";
     FigureRow row = {
