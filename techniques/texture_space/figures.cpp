@@ -120,7 +120,8 @@ Figure specular_figure() {
                       cell("by the shadow map", "with", {})}};
     row.cells[1].compare_to = row.cells[2].compare_to = "without";
     // From above and behind, so that reflections graze along what is in shadow.
-    for (FigureCell& one : row.cells) one.view = "specular", one.light = "yaw=-110 pitch=35 intensity=9";
+    for (FigureCell& one : row.cells)
+        one.view = "specular", one.light = "yaw_deg=-110 pitch_deg=35 intensity=9";
     return {.id = "specular_shadow",
             .title = "With and without shadowing the specular term",
             .source = kSource + "2.8.7",
