@@ -34,12 +34,26 @@ std::vector<T> filled(const std::vector<T>& attribute, size_t count, T neutral) 
     return attribute.size() == count ? attribute : std::vector<T>(count, neutral);
 }
 
+// Where a mesh has no tensors it bends alike in all directions.
+std::vector<CurvatureTensor> curvature_tensors(const Mesh& mesh, const std::vector<Vec3>& normals) {
+    if (mesh.curvature_tensors_per_mm.size() == normals.size()) return mesh.curvature_tensors_per_mm;
+    const auto curvatures = filled(mesh.curvatures_per_mm, normals.size(), 0.0f);
+    std::vector<CurvatureTensor> tensors;
+    for (size_t i = 0; i < normals.size(); ++i)
+        tensors.push_back(isotropic_curvature(curvatures[i], normals[i]));
+    return tensors;
+}
+
 Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
     const auto normals = filled(mesh.normals, count, Vec3{0, 0, 1});
     const auto tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
     const auto uvs = filled(mesh.uvs, count, Vec2{});
-    const auto curvatures = filled(mesh.curvatures_per_mm, count, 0.0f);
+    std::vector<Vec3> diagonals, mixed;
+    for (const CurvatureTensor& tensor : curvature_tensors(mesh, normals)) {
+        diagonals.push_back(tensor.diagonal);
+        mixed.push_back(tensor.mixed);
+    }
     const auto occlusions = filled(mesh.occlusions, count, 1.0f);
     const UvDerivatives derivatives =
         mesh.uvs.size() == count ? vertex_uv_derivatives(mesh) : UvDerivatives{};
@@ -49,7 +63,8 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
                                          {"normal", 3, floats_of(normals)},
                                          {"tangent", 4, floats_of(tangents)},
                                          {"uv", 2, floats_of(uvs)},
-                                         {"curvature_per_mm", 1, curvatures},
+                                         {"curvature_diagonal_per_mm", 3, floats_of(diagonals)},
+                                         {"curvature_mixed_per_mm", 3, floats_of(mixed)},
                                          {"occlusion", 1, occlusions},
                                          {"du_mm", 3, floats_of(du_mm)},
                                          {"dv_mm", 3, floats_of(dv_mm)}};

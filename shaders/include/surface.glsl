@@ -8,8 +8,9 @@ layout(location = 0) in vec3 p_world_mm_in;
 layout(location = 1) in vec3 n_world_in;
 layout(location = 2) in vec4 t_world_in;
 layout(location = 3) in vec2 uv_in;
-layout(location = 4) in float curvature_per_mm_in;
-layout(location = 5) in float occlusion_in;
+layout(location = 4) in float occlusion_in;
+layout(location = 5) in vec3 curvature_diagonal_per_mm_in;
+layout(location = 6) in vec3 curvature_mixed_per_mm_in;
 
 layout(scalar) uniform Material {
     vec3 albedo_linear;
@@ -42,8 +43,12 @@ struct Surface {
     float roughness;        // perceptual; alpha = roughness^2
     float f0;
     float occlusion;
-    float curvature_per_mm;
+    mat3 curvature_tensor_per_mm;  // dermis/mesh/mesh.h
 };
+
+float mean_curvature_per_mm(Surface s) {
+    return 0.5 * (s.curvature_tensor_per_mm[0][0] + s.curvature_tensor_per_mm[1][1] + s.curvature_tensor_per_mm[2][2]);
+}
 
 // Levels that the normal map is magnified by, 0 when it is not. A bias adds to the level before it is clamped to 0, so
 // under magnification a smoother read has to add these too.
@@ -73,7 +78,8 @@ Surface load_surface() {
     s.roughness = clamp(roughness * texture(sampler2D(roughness_map, trilinear_repeat), uv_in).r, 0.03, 1.0);
     s.f0 = f0 * specular * texture(sampler2D(specular_map, trilinear_repeat), uv_in).r;
     s.occlusion = occlusion_in * texture(sampler2D(occlusion_map, trilinear_repeat), uv_in).r;
-    s.curvature_per_mm = curvature_per_mm_in;
+    vec3 d = curvature_diagonal_per_mm_in, m = curvature_mixed_per_mm_in;
+    s.curvature_tensor_per_mm = mat3(d.x, m.z, m.y, m.z, d.y, m.x, m.y, m.x, d.z);
     return s;
 }
 

@@ -23,6 +23,7 @@ layout(constant_id = 3) const int shadow = kShadowScattered;
 #include "shaders/include/forward.glsl"
 #include "shaders/include/texel_centres.glsl"
 #include "techniques/preintegrated/closed_form.glsl"
+#include "techniques/preintegrated/curvature.glsl"
 #include "techniques/preintegrated/curve_2015.glsl"
 #include "techniques/preintegrated/transmission.glsl"
 #include "techniques/preintegrated/zonal.glsl"
@@ -44,10 +45,10 @@ uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
 uniform texture2D skin_transmission;  // distance
 
 // What prepare_surface() found; the same for every light.
-float skin_curvature_per_mm;
+mat3 skin_tensor_per_mm;
+float curvature_around_per_mm;
 vec3 n_smooth_world;
 vec3 smooth_weight;
-ClosedForm closed_form_row;
 
 float beckmann(float n_dot_h, float alpha) {
     float root = textureLod(sampler2D(skin_beckmann, linear_clamp), vec2(sqrt(1.0 - n_dot_h), sqrt(alpha)), 0.0).r;
@@ -61,13 +62,13 @@ float derivative_curvature(Surface s) {
     return clamp(length(fwidth(s.n_geometry_world)), 0.0, 1.0) / (length(fwidth(s.p_world_mm)) * tune_curvature);
 }
 
-// Concave skin scatters as convex skin of the same curvature does.
-float chosen_curvature_per_mm(Surface s) {
-    float k = s.curvature_per_mm;
-    if (curvature == kCurvatureDerivative) k = derivative_curvature(s);
-    if (curvature == kCurvatureImage)
-        k = curvature_scale_per_mm * (texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r - curvature_mid);
-    return clamp(abs(k) * curvature_gain, 0.0, kMaxCurvaturePerMm);
+mat3 chosen_tensor_per_mm(Surface s) {
+    if (curvature == kCurvatureVertex) return curvature_gain * s.curvature_tensor_per_mm;
+    float k = curvature == kCurvatureDerivative
+                  ? derivative_curvature(s)
+                  : curvature_scale_per_mm *
+                        (texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r - curvature_mid);
+    return isotropic_curvature(curvature_gain * k, s.n_geometry_world);
 }
 
 // What a texel of the normal map covers on the skin, along the atlas axis that is stretched more: how the position moves
@@ -95,32 +96,34 @@ void blend_normals(Surface s) {
 void prepare_surface(inout Surface s) {
     s.f0 *= oiliness;
     s.roughness = clamp(s.roughness * roughness_scale, 0.03, 1.0);
-    skin_curvature_per_mm = chosen_curvature_per_mm(s);
+    skin_tensor_per_mm = chosen_tensor_per_mm(s);
+    curvature_around_per_mm = curvature_around(skin_tensor_per_mm);
     if (normals == kNormalsSmooth)
         n_smooth_world =
             mapped_normal_world(s.n_geometry_world, s.uv, normal_lod_bias + magnification_levels(s.uv));
     if (normals == kNormalsBlended) blend_normals(s);
-    if (diffuse == kDiffuseClosedForm) {
-        float size = float(textureSize(sampler2D(skin_closed_form, linear_clamp), 0).x);
-        closed_form_row = read_closed_form(skin_closed_form, linear_clamp,
-                                           texel_centres(skin_curvature_per_mm / kMaxCurvaturePerMm, size));
-    }
 }
 
-vec3 falloff(float n_dot_l) {
-    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(vec3(n_dot_l), skin_curvature_per_mm);
-    if (diffuse == kDiffuseClosedForm) return closed_form(closed_form_row, vec3(n_dot_l));
-    vec2 uv = vec2(n_dot_l * 0.5 + 0.5, skin_curvature_per_mm / kMaxCurvaturePerMm);
+vec3 falloff(float n_dot_l, float k) {
+    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(vec3(n_dot_l), k);
+    if (diffuse == kDiffuseClosedForm) {
+        float size = float(textureSize(sampler2D(skin_closed_form, linear_clamp), 0).x);
+        return closed_form(
+            read_closed_form(skin_closed_form, linear_clamp, texel_centres(k / kMaxCurvaturePerMm, size)),
+            vec3(n_dot_l));
+    }
+    vec2 uv = vec2(n_dot_l * 0.5 + 0.5, k / kMaxCurvaturePerMm);
     return textureLod(sampler2D(skin_lut, linear_clamp), uv, 0.0).rgb;
 }
 
 // Light is what scatters, so the answers to both normals are mixed, not the normals: a bump's lit side still counts where
 // the mean normal has turned away, and the table is read twice instead of once a channel.
 vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
-    if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world));
-    vec3 sharp = falloff(dot(s.n_world, to_light_world));
+    float k = curvature_towards(skin_tensor_per_mm, s.n_geometry_world, to_light_world);
+    if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world), k);
+    vec3 sharp = falloff(dot(s.n_world, to_light_world), k);
     if (normals == kNormalsSharp) return sharp;
-    return mix(sharp, falloff(dot(n_smooth_world, to_light_world)), smooth_weight);
+    return mix(sharp, falloff(dot(n_smooth_world, to_light_world), k), smooth_weight);
 }
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
@@ -143,12 +146,12 @@ vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility) {
 vec3 ambient_response(Surface s) {
     vec3 zh[3];
     if (ambient == kAmbientCurve2015) {
-        curve_2015_zonal(skin_curvature_per_mm, zh);
+        curve_2015_zonal(curvature_around_per_mm, zh);
     } else if (ambient == kAmbientExact) {
-        exact_zonal(skin_gaussians, nearest_clamp, skin_curvature_per_mm, zh);
+        exact_zonal(skin_gaussians, nearest_clamp, curvature_around_per_mm, zh);
     } else {
         float width = float(textureSize(sampler2D(skin_zonal, linear_clamp), 0).x);
-        float u = texel_centres(skin_curvature_per_mm / kMaxCurvaturePerMm, width);
+        float u = texel_centres(curvature_around_per_mm / kMaxCurvaturePerMm, width);
         for (int l = 0; l < 3; ++l)
             zh[l] = textureLod(sampler2D(skin_zonal, linear_clamp), vec2(u, (float(l) + 0.5) / 3.0), 0.0).rgb;
     }
@@ -157,4 +160,4 @@ vec3 ambient_response(Surface s) {
 }
 
 // The curvature that shades, whatever it comes from: radiance 1 is 1/4 mm.
-vec3 own_view(Surface s) { return vec3(4.0 * skin_curvature_per_mm); }
+vec3 own_view(Surface s) { return vec3(4.0 * curvature_around_per_mm); }

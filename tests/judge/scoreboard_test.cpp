@@ -32,8 +32,8 @@ constexpr double kTolerance = 0.02;
 ComparisonSettings small() {
     ComparisonSettings settings = comparison_settings(64, 64);
     settings.grid = 3;
-    settings.samples = 540;
-    settings.noise = 0.15;
+    settings.samples = 720;
+    settings.noise = 0.13;
     settings.probes = 16;
     settings.shadow_map_size = 2048;
     settings.frames = 0;
