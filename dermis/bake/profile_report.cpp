@@ -130,7 +130,7 @@ Plot profile_plot(const Profile& profile, const GaussianFit& fit) {
                     .x = {.label = "r (mm)", .scale = PlotScale::logarithmic},
                     .y = {.label = "part of the light", .min = 0, .max = 1}}};
     if (!exact)
-        plot.panels.push_back({.title = "What the fit misses",
+        plot.panels.push_back({.title = "Error of the fit",
                                .x = {.label = "r (mm)", .scale = PlotScale::logarithmic},
                                .y = {.label = "fit − profile, part of the light"}});
     for (int c = 0; c < 3; ++c) {
@@ -183,7 +183,7 @@ std::string profile_tables_markdown() {
     return "### Presets\n\n" + presets_table() + "\n### What each tool means\n\n" + conventions_table() +
            "\n### One skin in every tool\n\n" + one_skin_in_all_tools("jensen_skin1") + "\n" +
            one_skin_in_all_tools("gpu_gems_3") + "\n### How well Gaussians fit\n\n" +
-           "Largest part of the light in the wrong place.\n\n" + fit_table();
+           "Largest part of the light at a wrong distance.\n\n" + fit_table();
 }
 
 }  // namespace dermis

@@ -2,7 +2,7 @@
 // The same skin in the words of other tools, and back.
 //
 // "Radius" is four different lengths in them: Burley's d, the mean free path 1 / sigma_t, the diffuse mean
-// free path 1 / sigma_tr, or a look radius; in mm, cm, m or scene units. Everything goes through one
+// free path 1 / sigma_tr, or the width of a blur; in mm, cm, m or scene units. Everything goes through one
 // canonical form, per channel {albedo A, Burley d in mm}, so that a conversion is two steps and each names
 // its quantity, unit and boundary assumption. The table of docs/profiles.md is made from this.
 //

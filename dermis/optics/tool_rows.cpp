@@ -185,14 +185,14 @@ ToolKey length_key(std::string_view name, double value, std::string_view unit, s
     return {name, 1, {value}, kMinLength, kMaxLength, unit, meaning};
 }
 
-constexpr std::string_view kAlbedoInMap = "the albedo (it lies in the base colour map; read as 1)";
+constexpr std::string_view kAlbedoInMap = "the albedo (it is in the base colour map; read as 1)";
 constexpr std::string_view kWalkBoundary =
     "albedo inverted for an index-matched half-space; light enters diffusely";
 
 ToolRow faceworks() {
     return {{ToolId::faceworks,
              "faceworks",
-             "look radius: the standard deviation of the widest of six Gaussians",
+             "width of a blur: the standard deviation of the widest of six Gaussians",
              "none: a normalised blur of irradiance",
              "the albedo, and any shape but that of GPU Gems 3: red's "
              "mean radius is kept, green and blue follow",
@@ -205,7 +205,7 @@ ToolRow faceworks() {
 ToolRow separable_sss_row() {
     return {{ToolId::separable_sss,
              "separable_sss",
-             "look radius: the blur's half width, over which its kernel runs from 0 to 3",
+             "width of a blur: half of it, over which its kernel runs from 0 to 3",
              "none: a normalised blur of irradiance",
              kAlbedoInMap,
              {length_key("sssWidth", 3, "mm",

@@ -1,5 +1,5 @@
-// Curvature from the vertices or from an image belongs to the skin, so looking closer must not change it; the
-// derivative quotient sees facets, and how much it changes is measured here.
+// Curvature from the vertices or from an image is a property of the skin, so the camera must not change it.
+// The quotient of derivatives depends on facets and camera; its change is measured here.
 
 #include <gtest/gtest.h>
 
@@ -46,8 +46,7 @@ struct ZoomChange {
 class PreintegratedZoom : public PreintegratedTest {
   protected:
     // Diffuse light of the picture's middle against the same seen through a quarter of the angle: the centre
-    // of wide pixel i lies between the zoomed pixels 4 i - 191 and 4 i - 190. Relative to the light plus
-    // 0.05.
+    // of wide pixel i lies between the zoomed pixels 4 i - 191 and 4 i - 190. Relative to the light plus 1.
     static ZoomChange zoom_by_four(const Scene& wide_scene, const std::string& curvature) {
         Scene zoomed_scene = wide_scene;
         zoomed_scene.camera.vertical_fov_rad =

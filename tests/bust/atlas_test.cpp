@@ -103,7 +103,7 @@ TEST(BustAtlas, PiecesStayEightTexelsApartAndOffTheBorder) {
     EXPECT_EQ(too_near, 0u);
 }
 
-TEST(BustAtlas, StretchesNoMoreThanThreeAtTheNinetyFifthPercentile) {
+TEST(BustAtlas, StretchesLessThanTwoAndAHalfAtTheNinetyFifthPercentile) {
     const Mesh& mesh = standard_bust().mesh;
     struct Face {
         double anisotropy, area;
