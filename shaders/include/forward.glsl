@@ -37,7 +37,7 @@ vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility);
 // the visibility of the light, which a technique may want to scatter too.
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility);
 
-// Irradiance from the environment, as the skin answers to it.
+// Irradiance from the environment behind what occludes it, as the skin answers to it.
 vec3 ambient_response(Surface s);
 
 void main() {
@@ -49,7 +49,7 @@ void main() {
 #ifdef DERMIS_OWN_VIEW
     own_radiance = own_view(s);
 #endif
-    vec3 exitance = ambient_response(s) * s.occlusion;
+    vec3 exitance = ambient_response(s);
     vec3 specular_radiance =
         reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {

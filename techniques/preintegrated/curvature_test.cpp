@@ -10,8 +10,8 @@ using namespace dermis;
 
 namespace {
 
-// The grid as if every tile lay on a surface that bends by `across` times the tile's curvature in the plane of
-// the light and by `along` times it at right angles.
+// The grid as if every tile lay on a surface that bends by `across` times the tile's curvature in the plane
+// of the light and by `along` times it at right angles.
 Scene bent_grid(float across, float along) {
     Scene scene = make_grid_scene();
     Mesh& mesh = scene.objects[0].mesh;

@@ -13,6 +13,9 @@ layout(scalar) uniform Params {
     float oiliness;
     float roughness_scale;
 };
+layout(push_constant, scalar) uniform PassValues {
+    vec3 occlusion_weight_0, occlusion_weight_1, occlusion_weight_2;  // of Surface::occlusion_blurred
+};
 layout(constant_id = 3) const int shadow = kShadowScattered;
 // A plain shadow keeps the scene's penumbra, so that both variants filter what they should.
 #define DERMIS_SHADOW_WIDTH_MM (shadow == kShadowScattered ? shadow_width_mm : penumbra_mm)
@@ -48,7 +51,8 @@ uniform texture2D skin_transmission;  // distance
 mat3 skin_tensor_per_mm;
 float curvature_around_per_mm;
 vec3 n_smooth_world;
-vec3 smooth_weight;
+vec3 smooth_weight;    // of the answer to it; 1 where only it counts
+float smooth_levels;   // how many it lies above the sharp one
 
 float beckmann(float n_dot_h, float alpha) {
     float root = textureLod(sampler2D(skin_beckmann, linear_clamp), vec2(sqrt(1.0 - n_dot_h), sqrt(alpha)), 0.0).r;
@@ -90,7 +94,7 @@ void blend_normals(Surface s) {
     float u = texel_centres((log_mm - kMinLogMm) / (kMaxLogMm - kMinLogMm), size);
     vec4 blend = textureLod(sampler2D(skin_normal_blend, linear_clamp), vec2(u, 0.5), 0.0);
     smooth_weight = blend.rgb;
-    n_smooth_world = mapped_normal_world(s.n_geometry_world, s.uv, blend.a + magnification_levels(s.uv));
+    smooth_levels = blend.a;
 }
 
 void prepare_surface(inout Surface s) {
@@ -98,10 +102,12 @@ void prepare_surface(inout Surface s) {
     s.roughness = clamp(s.roughness * roughness_scale, 0.03, 1.0);
     skin_tensor_per_mm = chosen_tensor_per_mm(s);
     curvature_around_per_mm = curvature_around(skin_tensor_per_mm);
-    if (normals == kNormalsSmooth)
-        n_smooth_world =
-            mapped_normal_world(s.n_geometry_world, s.uv, normal_lod_bias + magnification_levels(s.uv));
+    if (normals == kNormalsSharp) return;
+    smooth_weight = vec3(1.0);
+    smooth_levels = normal_lod_bias;
     if (normals == kNormalsBlended) blend_normals(s);
+    n_smooth_world =
+        normalize(mean_normal_world(s.n_geometry_world, s.uv, smooth_levels + magnification_levels(normal_map, s.uv)));
 }
 
 vec3 falloff(float n_dot_l, float k) {
@@ -143,7 +149,7 @@ vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility) {
 }
 
 // sqrt(4 pi / (2 l + 1)) zh_l in place of the cosine lobe's bands (Ramamoorthi, Hanrahan 2001).
-vec3 ambient_response(Surface s) {
+void ambient_bands(out vec3 band[3]) {
     vec3 zh[3];
     if (ambient == kAmbientCurve2015) {
         curve_2015_zonal(curvature_around_per_mm, zh);
@@ -155,8 +161,28 @@ vec3 ambient_response(Surface s) {
         for (int l = 0; l < 3; ++l)
             zh[l] = textureLod(sampler2D(skin_zonal, linear_clamp), vec2(u, (float(l) + 0.5) / 3.0), 0.0).rgb;
     }
-    return environment_convolved(s.n_world, sqrt(4.0 * kPi) * zh[0], sqrt(4.0 * kPi / 3.0) * zh[1],
-                                 sqrt(4.0 * kPi / 5.0) * zh[2]);
+    for (int l = 0; l < 3; ++l) band[l] = sqrt(4.0 * kPi / float(2 * l + 1)) * zh[l];
+}
+
+// Occluded light scatters too: a crease is lit through its sides, in red farther than in blue. The vertices' occlusion
+// by the weights of occlusion_blend.h, the material's map as the normal map.
+vec3 scattered_occlusion(Surface s) {
+    vec3 weight_0 = occlusion_weight_0, weight_1 = occlusion_weight_1, weight_2 = occlusion_weight_2;
+    vec3 of_vertices = (1.0 - weight_0 - weight_1 - weight_2) * s.occlusion_vertex + weight_0 * s.occlusion_blurred.x +
+                       weight_1 * s.occlusion_blurred.y + weight_2 * s.occlusion_blurred.z;
+    float levels = smooth_levels + magnification_levels(occlusion_map, s.uv);
+    float sharp = texture(sampler2D(occlusion_map, trilinear_repeat), s.uv).r;
+    if (normals == kNormalsSharp) return of_vertices * sharp;
+    return of_vertices * mix(vec3(sharp), texture(sampler2D(occlusion_map, trilinear_repeat), s.uv, levels).rrr, smooth_weight);
+}
+
+vec3 ambient_response(Surface s) {
+    vec3 band[3];
+    ambient_bands(band);
+    vec3 arriving = environment_convolved(s.n_world, band[0], band[1], band[2]);
+    if (normals != kNormalsSharp)
+        arriving = mix(arriving, environment_convolved(n_smooth_world, band[0], band[1], band[2]), smooth_weight);
+    return arriving * scattered_occlusion(s);
 }
 
 // The curvature that shades, whatever it comes from: radiance 1 is 1/4 mm.

@@ -5,6 +5,7 @@
 
 #include "dermis/technique/forward.h"
 #include "techniques/preintegrated/figures.h"
+#include "techniques/preintegrated/occlusion_blend.h"
 #include "techniques/preintegrated/tables.h"
 
 namespace dermis {
@@ -88,6 +89,10 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_closed_form", "skin_gaussians",
                               "skin_normal_blend", "skin_beckmann", "skin_transmission"})
         pass.reads.push_back(table);
+    const std::array<Rgb, 3> weights = occlusion_blend(frame.skin_gaussians);
+    for (size_t i = 0; i < weights.size(); ++i)
+        pass.values.push_back({"occlusion_weight_" + std::to_string(i),
+                               Vec3{float(weights[i][0]), float(weights[i][1]), float(weights[i][2])}});
     PassList list = {.passes = {pass}};
     if (params.curvature == Curvature::image) list.needed_maps = {"curvature_map"};
     return list;
