@@ -48,7 +48,7 @@ Run run_of(const std::string& id, const std::string& parameter = "", const std::
     return run;
 }
 
-// Lambert, then every technique (or one), and the variants of the one whose cost is promised.
+// Lambert, then every technique (or one), and the settings of preintegrated whose costs its page states.
 std::vector<Run> runs(const std::string& only) {
     std::vector<Run> all = {run_of("lambert")};
     for (const Technique& technique : built_in_catalog().techniques) {

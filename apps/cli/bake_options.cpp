@@ -10,7 +10,7 @@ namespace dermis::cli {
 
 Command* bake_group(CommandLine& line) {
     if (Command* group = line.find("bake")) return group;
-    Command* group = line.add("bake", "Tables and maps that techniques need",
+    Command* group = line.add("bake", "Bakes tables and maps for techniques",
                               "dermis bake lut --profile jensen_skin1 -o skin.exr --plot skin.svg");
     group->require_subcommand();
     return group;
@@ -19,10 +19,11 @@ Command* bake_group(CommandLine& line) {
 void TableOutput::add_to(Command* command) {
     command
         ->add_option("-o,--output", path,
-                     "File: .exr, .png, .ktx2, .dds, .h or .csv; FILE.json is written beside")
+                     "file to write: .exr, .png, .ktx2, .dds, .h or .csv; FILE.json has its convention")
         ->required();
-    command->add_option("--storage", storage, "auto, 8, 16 (PNG), half, float (EXR)");
-    command->add_option("--plot", plot_path, "SVG of the curves and of the file's error");
+    command->add_option("--storage", storage,
+                        "numbers in the file: auto, 8 or 16 (PNG), half or float (EXR)");
+    command->add_option("--plot", plot_path, "SVG file: the curves, and the error of the written table");
 }
 
 Result<TableStorage> TableOutput::chosen_storage(TableStorage preferred) const {
@@ -35,17 +36,6 @@ Result<TableStorage> TableOutput::chosen_storage(TableStorage preferred) const {
             return storage_for(path, TableStorage(i));
         }
     return Error{unknown_name("storage", storage, kNames)};
-}
-
-Result<Size> parse_table_size(const std::string& text) {
-    const std::vector<std::string_view> sides = split(text, 'x');
-    const std::optional<double> width = parse_number(sides.front()), height = parse_number(sides.back());
-    const auto is_side = [](std::optional<double> side) {
-        return side && std::abs(*side) < 1e9 && *side == int(*side);
-    };
-    if (sides.size() > 2 || !is_side(width) || !is_side(height))
-        return Error{"--size is '" + text + "', must be WIDTHxHEIGHT or one side, like 512x256"};
-    return Size{int(*width), int(*height)};
 }
 
 Result<Range> parse_range(const std::string& option, const std::string& text) {

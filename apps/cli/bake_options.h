@@ -20,11 +20,6 @@ struct TableOutput {
     [[nodiscard]] Result<TableStorage> chosen_storage(TableStorage preferred = TableStorage::automatic) const;
 };
 
-/// "512x256" or "512" (square).
-struct Size {
-    int width = 0, height = 0;
-};
-[[nodiscard]] Result<Size> parse_table_size(const std::string& text);
 /// "0,0.5".
 struct Range {
     double min = 0, max = 0;

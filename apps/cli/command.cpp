@@ -1,7 +1,9 @@
 #include "command.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <type_traits>
 #include <utility>
 
 #include "dermis/base/text.h"
@@ -15,6 +17,18 @@ void print_message(std::string_view text) {
 
 void print_warning(std::string_view text) {
     print_message("warning: " + std::string(text));
+}
+
+Result<Size> parse_size(std::string_view text) {
+    const std::vector<std::string_view> sides = split(text, 'x');
+    const auto side = [](std::string_view part) -> int {
+        const std::optional<double> value = parse_number(part);
+        return value && *value >= 1 && *value <= 8192 && *value == int(*value) ? int(*value) : 0;
+    };
+    const Size size = {side(sides.front()), side(sides.back())};
+    if (sides.size() <= 2 && size.width != 0 && size.height != 0) return size;
+    return Error{"--size '" + std::string(text) +
+                 "': write WIDTHxHEIGHT or one side, each 1 to 8192, such as 1024x768"};
 }
 
 Option* Option::required() {
@@ -37,9 +51,24 @@ Option* Option::allow_extra_args(bool allowed) {
     return this;
 }
 
+namespace {
+
+// CLI11 takes "nan" and "inf" for numbers. Empty when the text is fine.
+std::string finite_number(const std::string& text) {
+    const std::optional<double> number = parse_number(text);
+    return !number || std::isfinite(*number) ? "" : text + " is no finite number";
+}
+
+template <class Value>
+constexpr bool kIsReal = std::is_floating_point_v<Value> || std::is_same_v<Value, std::optional<double>>;
+
+}  // namespace
+
 template <class Value>
 Option* Command::add_any(const std::string& names, Value& value, const std::string& help) {
-    return &options_.emplace_back(app_->add_option(names, value, help));
+    CLI::Option* option = app_->add_option(names, value, help);
+    if constexpr (kIsReal<Value>) option->check(CLI::Validator(finite_number, ""));
+    return &options_.emplace_back(option);
 }
 
 Option* Command::add_option(const std::string& names, std::string& value, const std::string& help) {

@@ -92,6 +92,13 @@ class CommandLine {
     std::deque<Command> commands_;
 };
 
+/// Of a picture or a table.
+struct Size {
+    int width = 0, height = 0;
+};
+/// "1024x768", or "512" for a square; each side 1 to 8192. The error names --size.
+[[nodiscard]] Result<Size> parse_size(std::string_view text);
+
 /// One line on the error stream, whatever file names and values it quotes (printable_line).
 void print_message(std::string_view text);
 void print_warning(std::string_view text);

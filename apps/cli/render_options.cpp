@@ -11,26 +11,28 @@ namespace dermis::cli {
 void RenderOptions::add_to(Command& command) {
     scene.add_to(command)->capture_default_str();
     command.add_option("-t,--technique", technique,
-                       "see dermis techniques (default: the scene's, or lambert)");
-    command.add_option("--set", settings, "a parameter of the technique, name=value; may be repeated")
+                       "id of the technique, listed by dermis techniques (default: the scene's, or lambert)");
+    command.add_option("--set", settings, "a parameter of the technique, NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command.add_option("--view", view, "final, diffuse, specular, normal, albedo, curvature, shadow, ...")
+    command
+        .add_option("--view", view,
+                    "what is shown: final, diffuse, specular, normal, albedo, curvature, shadow, ...")
         ->capture_default_str();
-    command.add_option("--samples", samples, "a pixel: 1 or 4")->capture_default_str();
-    command.add_option("--device", device, "part of a Vulkan device's name");
+    command.add_option("--samples", samples, "samples a pixel: 1 or 4")->capture_default_str();
+    command.add_option("--device", device, "use the Vulkan device with this text in its name");
     command.add_flag("--validate", validation, "run under the Vulkan validation layers; fail on any message");
 }
 
-Result<std::pair<int, int>> parse_size(std::string_view text) {
-    const std::vector<std::string_view> parts = split(text, 'x');
-    const auto side = [](std::string_view part) -> int {
-        const auto value = parse_number(part);
-        return value && *value >= 1 && *value <= 8192 && *value == int(*value) ? int(*value) : 0;
-    };
-    if (parts.size() == 2 && side(parts[0]) && side(parts[1]))
-        return std::pair(side(parts[0]), side(parts[1]));
-    return Error{"--size '" + std::string(text) + "': write WIDTHxHEIGHT, each 1 to 8192, such as 1024x1024"};
+Result<void> check_samples(int samples) {
+    if (samples == 1 || samples == 4) return {};
+    return Error{"--samples " + std::to_string(samples) + ": 1 or 4"};
+}
+
+Result<void> check_view(const Technique& technique, const std::string& view) {
+    const std::vector<std::string> views = view_names(technique);
+    if (std::ranges::find(views, view) != views.end()) return {};
+    return Error{unknown_name("view", view, views)};
 }
 
 Result<void> apply_setting(ParameterValues& values, const std::string& setting) {
@@ -40,10 +42,9 @@ Result<void> apply_setting(ParameterValues& values, const std::string& setting) 
 }
 
 Result<Prepared> prepare(const RenderOptions& options) {
-    const Result<std::pair<int, int>> size = parse_size(options.size);
+    const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
-    if (options.samples != 1 && options.samples != 4)
-        return Error{"--samples " + std::to_string(options.samples) + ": 1 or 4"};
+    if (Result<void> good = check_samples(options.samples); !good) return good.error();
     if (!options.technique.empty())
         if (const auto known = find_technique(built_in_catalog().techniques, options.technique); !known)
             return known.error();
@@ -67,16 +68,14 @@ Result<Prepared> prepare(const RenderOptions& options) {
     for (const std::string& setting : options.settings)
         if (Result<void> set = apply_setting(values, setting); !set) return set.error();
 
-    const std::vector<std::string> views = view_names(**technique);
-    if (std::ranges::find(views, options.view) == views.end())
-        return Error{unknown_name("view", options.view, views)};
+    if (Result<void> good = check_view(**technique, options.view); !good) return good.error();
     return Prepared{
         .scene = std::move(*scene),
         .as_filed = std::move(as_filed),
         .technique = *technique,
         .values = values,
         .draw = {
-            .width = size->first, .height = size->second, .samples = options.samples, .view = options.view}};
+            .width = size->width, .height = size->height, .samples = options.samples, .view = options.view}};
 }
 
 }  // namespace dermis::cli

@@ -34,8 +34,10 @@ struct Prepared {
 /// Everything that can be wrong with the options is found here, before a device is opened.
 [[nodiscard]] Result<Prepared> prepare(const RenderOptions& options);
 
-/// "1024x768", each side 1 to 8192.
-[[nodiscard]] Result<std::pair<int, int>> parse_size(std::string_view text);
+/// 1 or 4 a pixel.
+[[nodiscard]] Result<void> check_samples(int samples);
+/// A debug view that the technique has.
+[[nodiscard]] Result<void> check_view(const Technique& technique, const std::string& view);
 
 /// Splits name=value and sets it.
 [[nodiscard]] Result<void> apply_setting(ParameterValues& values, const std::string& setting);

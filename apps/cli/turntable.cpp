@@ -83,7 +83,8 @@ Result<void> draw_film(const Turntable& turntable) {
     const fs::path folder = turntable.output + ".frames";
     const std::string pattern = (folder / "%04d.png").string();
     std::error_code ec;
-    if (fs::exists(folder, ec)) return Error{folder.string() + " is in the way: the frames would go there"};
+    if (fs::exists(folder, ec))
+        return Error{folder.string() + " exists already; the frames would be written there"};
     const Result<OutputSettings> drawn = draw_turn(turntable, pattern);
     Result<void> done = drawn ? Result<void>() : drawn.error();
     if (drawn)
@@ -93,7 +94,8 @@ Result<void> draw_film(const Turntable& turntable) {
             if (status == 0) return {};
             if (status == 127 || status == -1)
                 return Error{
-                    "a film needs ffmpeg (Debian: apt-get install ffmpeg); -o out/%04d.png does without"};
+                    "a video needs ffmpeg (Debian: apt-get install ffmpeg); numbered pictures (-o "
+                    "out/%04d.png) do not"};
             const Result<std::string> said = read_text_file(log);
             return Error{"ffmpeg: " + (said ? std::string(trim(split(*said, '\n')[0])) : "failed")};
         });
@@ -129,7 +131,7 @@ Result<int> run_turntable(const Turntable& turntable) {
     const bool film = to_lower(fs::path(turntable.output).extension().string()) == ".mp4";
     if (!film && frame_path(turntable.output, 0) == turntable.output)
         return Error{"-o " + turntable.output +
-                     ": a turntable is numbered pictures (out/%04d.png) or a film (.mp4)"};
+                     ": a turntable writes numbered pictures (out/%04d.png) or a video (.mp4)"};
     if (!film)
         if (Result<void> good = check_output(turntable.output, {}); !good) return good.error();
     if (film) {

@@ -125,7 +125,7 @@ std::string convention_json(const Convention& convention, int width, int height)
 
 Result<ParsedConvention> parse_convention(std::string_view text, std::string_view place) {
     const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object()) return Error{std::string(place) + ": the convention is no JSON object"};
+    if (!json.is_object()) return Error{std::string(place) + ": the convention is not a JSON object"};
     Reader reader(json, std::string(place));
     ParsedConvention parsed;
     Convention& convention = parsed.convention;

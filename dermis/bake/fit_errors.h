@@ -1,5 +1,5 @@
 #pragma once
-// How far the fits are from the integral they stand for, over radius.
+// Errors of the fits against the integral that they replace, over radius.
 
 #include <span>
 #include <string>

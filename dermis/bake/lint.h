@@ -44,7 +44,7 @@ struct LintReport {
     double error_rms = 0, error_max = 0, error_max_n_dot_l = 0, error_max_radius_mm = 0;
     /// `best` leaves an rms under 0.01.
     bool explained = false;
-    std::vector<std::string> findings;  ///< one line each, for a person
+    std::vector<std::string> findings;  ///< one line each, for the user
     std::vector<std::string> advice;
 };
 

@@ -33,7 +33,7 @@ std::string stored_text(StoredAs stored_as) {
         case StoredAs::srgb:
             return "sRGB-encoded numbers";
         case StoredAs::decoded_twice:
-            return "numbers that were sRGB-decoded once too often";
+            return "linear numbers that were decoded from sRGB by mistake";
         case StoredAs::difference:
             return "differences from max(0, N.L), FaceWorks' encoding";
     }
@@ -104,15 +104,15 @@ void advise_on_construction(LintReport& report, const Image& image) {
     const LintHypothesis& best = report.best;
     if (best.how.construction == Construction::half_ring && best.axis.name == "curvature_per_mm")
         report.findings.push_back("the same as " + axis_text(scaled_axis(best.axis, 1 / std::sqrt(1.414))) +
-                                  " with all variances x 1.414, as one widely copied code has it");
+                                  " with all variances x 1.414, as in widely copied code");
     if (report.error_max < 0.01) {
-        report.advice.push_back("nothing else: it is the exact table within " + rounded(report.error_max));
+        report.advice.push_back("no change: it is the exact table within " + rounded(report.error_max));
         return;
     }
     if (best.how.construction != Construction::sphere)
         report.advice.push_back(
-            "a ring is no closed surface: it makes light where it is strongly curved; the "
-            "sphere is right");
+            "a ring is not a closed surface and does not conserve energy where it is strongly curved; use "
+            "the sphere");
     report.advice.push_back("bake the exact table over the same axis: " + rebake_text(best, image));
 }
 
@@ -134,9 +134,9 @@ void lint::explain(LintReport& report, const Image& image) {
                               rounded(report.runner_up.rms) + ")");
     if (!report.explained) {
         report.findings.push_back(
-            "that is no explanation (rms above 0.01): not a pre-integrated table of a known "
-            "profile, or one that was edited");
-        report.advice.push_back("bake a table whose meaning is known: dermis bake lut -o skin.exr");
+            "no good match (rms above 0.01): not a pre-integrated table of a known profile, or one that was "
+            "edited");
+        report.advice.push_back("bake a table with a known convention: dermis bake lut -o skin.exr");
         return;
     }
     report.findings.push_back("against the exact sphere of that profile: rms " + rounded(report.error_rms) +

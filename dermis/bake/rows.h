@@ -9,7 +9,7 @@
 
 namespace dermis {
 
-/// The radius an axis value stands for: itself on "radius_mm", its reciprocal (infinite at 0) on
+/// The radius that an axis value means: itself on "radius_mm", its reciprocal (infinite at 0) on
 /// "curvature_per_mm".
 [[nodiscard]] double radius_of(const TableAxis& axis, double value);
 

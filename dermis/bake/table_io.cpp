@@ -88,7 +88,7 @@ Result<ParsedConvention> load_convention(const fs::path& path, const std::string
         sidecar = std::move(*text);
     }
     if (embedded.empty() && sidecar.empty())
-        return Error{path.string() + ": carries no convention (neither inside nor as " +
+        return Error{path.string() + ": has no convention (neither inside nor as " +
                      beside.filename().string() + "); 'dermis lint' finds out what it is"};
     if (!embedded.empty() && !sidecar.empty() && trim(embedded) != trim(sidecar))
         return Error{path.string() + ": the convention inside differs from the one in " +
@@ -136,7 +136,7 @@ Result<void> check_flag(std::span<const std::byte> file, const Convention& conve
     if (convention.encoding == TableEncoding::srgb || !png_is_flagged_srgb(file)) return {};
     return Error{path.string() + ": the PNG is flagged sRGB, but convention key 'encoding' is '" +
                  std::string(dermis::name_of(convention.encoding)) +
-                 "'; some tool resaved it: bake it again or remove its sRGB chunk"};
+                 "'; another tool saved it again: bake it again or remove its sRGB chunk"};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// How good a table is once it is a file: what a bilinear lookup returns, held against the exact function; as
+// The error of a table in its file: a bilinear lookup compared with the exact function; as
 // numbers and as a plot.
 
 #include <functional>

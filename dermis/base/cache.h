@@ -22,7 +22,7 @@ namespace dermis {
 /// Best effort; false when nothing could be stored (a full disk, a read-only home).
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);
 
-/// Loads, or makes and stores. An entry of another size than `expected_bytes` is made anew. For content that
+/// Loads, or makes and stores. An entry of another size than `expected_bytes` is made again. For content that
 /// can be wrong in other ways: cache_load, decode, and cache_store again if that fails.
 [[nodiscard]] Result<std::vector<std::byte>> cached(
     std::string_view kind, std::string_view hash, size_t expected_bytes,

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <utility>
 
@@ -25,12 +27,52 @@ struct Descriptor {
     }
 };
 
-fs::path temporary_name(const fs::path& path) {
-    static std::atomic<unsigned> counter = 0;
-    fs::path name = path;
-    name.replace_filename("." + path.stem().string() + ".part" + std::to_string(::getpid()) + "-" +
-                          std::to_string(counter++) + path.extension().string());
-    return name;
+// The temporary files there are at the moment, where a signal handler can read them: it may neither lock nor
+// allocate. A file beyond the slots, or with a longer path, is only not removed by a signal.
+struct Slot {
+    enum State { unused, filling, filled };
+    std::atomic<State> state = unused;
+    char path[1024] = {};
+};
+std::array<Slot, 32> g_slots;
+
+// A file beside its target, under a name of its own; removed at the end, unless it was renamed.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const fs::path& target) : path_(target) {
+        static std::atomic<unsigned> counter = 0;
+        path_.replace_filename("." + target.stem().string() + ".part" + std::to_string(::getpid()) + "-" +
+                               std::to_string(counter++) + target.extension().string());
+        const std::string text = path_.string();
+        for (Slot& slot : g_slots) {
+            Slot::State free = Slot::unused;
+            if (text.size() >= sizeof slot.path || !slot.state.compare_exchange_strong(free, Slot::filling))
+                continue;
+            std::memcpy(slot.path, text.c_str(), text.size() + 1);
+            slot.state = Slot::filled;
+            slot_ = &slot;
+            break;
+        }
+    }
+    ~TemporaryFile() {
+        std::error_code ec;
+        fs::remove(path_, ec);
+        if (slot_) slot_->state = Slot::unused;
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+    Slot* slot_ = nullptr;
+};
+
+extern "C" void remove_temporary_files(int signal) {
+    for (const Slot& slot : g_slots)
+        if (slot.state == Slot::filled) ::unlink(slot.path);
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
 }
 
 Result<void> write_all(const fs::path& path, std::span<const std::byte> bytes) {
@@ -103,18 +145,11 @@ Result<void> write_beside(const fs::path& path, const std::function<Result<void>
         return {};
     }
     if (Result<void> made = make_parent(path); !made) return made;
-    const fs::path temporary = temporary_name(path);
-    const Result<void> written = write(temporary);
-    if (!written) {
-        fs::remove(temporary, ec);
-        return Error{path.string() + ": cannot write: " + written.error().message};
-    }
-    fs::rename(temporary, path, ec);
-    if (ec) {
-        const std::string reason = ec.message();
-        fs::remove(temporary, ec);
-        return Error{path.string() + ": cannot write: " + reason};
-    }
+    const TemporaryFile temporary(path);
+    const Result<void> written = write(temporary.path());
+    if (!written) return Error{path.string() + ": cannot write: " + written.error().message};
+    fs::rename(temporary.path(), path, ec);
+    if (ec) return Error{path.string() + ": cannot write: " + ec.message()};
     return {};
 }
 
@@ -131,15 +166,19 @@ Result<void> try_output(const fs::path& path) {
     for (fs::path at = fs::absolute(path, ec).parent_path(); !at.empty() && !fs::exists(at, ec);
          at = at.parent_path())
         missing.push_back(at);
-    const fs::path trial = temporary_name(path);
     Result<void> tried = make_parent(path);
     if (tried) {
-        tried = write_all(trial, {});
+        const TemporaryFile trial(path);
+        tried = write_all(trial.path(), {});
         if (!tried) tried = Error{path.string() + ": cannot write: " + tried.error().message};
     }
-    fs::remove(trial, ec);
     for (const fs::path& made : missing) fs::remove(made, ec);
     return tried;
+}
+
+void remove_temporary_files_on_signals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        if (std::signal(signal, remove_temporary_files) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup
 }
 
 Result<void> write_text_file(const fs::path& path, std::string_view text) {

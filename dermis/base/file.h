@@ -27,7 +27,7 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// The same promise for libraries that insist on writing to a path: `write` gets the temporary path (same
+/// The same for libraries that can only write to a path: `write` gets the temporary path (same
 /// extension as the target) and the rename follows only if it returns success.
 [[nodiscard]] Result<void> write_beside(
     const std::filesystem::path& path,
@@ -36,6 +36,10 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 /// Whether write_file() could write there, before hours of work: makes a file beside the target and removes
 /// it again with every directory that it needed. Errors as those of write_file().
 [[nodiscard]] Result<void> try_output(const std::filesystem::path& path);
+
+/// From here on an interrupt, a hangup or a request to end removes the temporary files of the functions above
+/// before the program ends. For programs, not for libraries: it replaces the handlers of these signals.
+void remove_temporary_files_on_signals();
 
 [[nodiscard]] inline std::span<const std::byte> as_bytes(std::string_view text) {
     return std::as_bytes(std::span(text.data(), text.size()));

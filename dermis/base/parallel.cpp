@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -12,6 +15,15 @@ std::atomic<unsigned> g_limit = 0;
 
 void set_thread_limit(unsigned threads) {
     g_limit = threads;
+}
+
+bool can_start_thread() {
+    try {
+        std::jthread([] {});
+        return true;
+    } catch (const std::system_error&) {
+        return false;
+    }
 }
 
 unsigned thread_limit() {
@@ -29,13 +41,27 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
     // cold.
     const size_t chunk = std::max(grain, count / (threads * 8));
     std::atomic<size_t> next = 0;
+    std::once_flag first;
+    std::exception_ptr thrown;
     const auto work = [&] {
-        for (size_t begin; (begin = next.fetch_add(chunk)) < count;)
-            body(begin, std::min(begin + chunk, count));
+        try {
+            for (size_t begin; (begin = next.fetch_add(chunk)) < count;)
+                body(begin, std::min(begin + chunk, count));
+        } catch (...) {
+            std::call_once(first, [&] { thrown = std::current_exception(); });
+            next = count;
+        }
     };
-    std::vector<std::jthread> workers;
-    for (size_t i = 1; i < threads; ++i) workers.emplace_back(work);
-    work();
+    {
+        std::vector<std::jthread> workers;
+        workers.reserve(threads);
+        try {
+            for (size_t i = 1; i < threads; ++i) workers.emplace_back(work);
+        } catch (const std::system_error&) {  // no more threads: those that there are do the work
+        }
+        work();
+    }
+    if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace dermis

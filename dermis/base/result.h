@@ -15,9 +15,19 @@
 
 namespace dermis {
 
-/// One line for a person: the file, the place in it, and the mend. No trailing newline, no leading "error:".
+/// Errors that a program handles; every other error is text for the user.
+enum class ErrorCode {
+    general,
+    device_lost  ///< the GPU's driver crashed or timed out: a new device may go on
+};
+
+/// One line for the user: the file, the place in it, how to correct it. No newline, no leading "error:".
 struct Error {
     std::string message;
+    ErrorCode code = ErrorCode::general;
+
+    /// "PLACE: message"; the code stays.
+    [[nodiscard]] Error within(const std::string& place) const { return {place + ": " + message, code}; }
 };
 
 template <class T>

@@ -1,6 +1,6 @@
 #pragma once
-// Text that people and files read: numbers that round-trip whatever the locale, and names they may have
-// meant.
+// Text for users and files: numbers that round-trip in every locale, and suggestions for misspelt
+// names.
 
 #include <charconv>
 #include <optional>
@@ -27,7 +27,7 @@ namespace dermis {
 /// and bytes that are not UTF-8 become '?', and what is beyond `max_bytes` "...".
 [[nodiscard]] std::string printable_line(std::string_view text, size_t max_bytes = 1000);
 
-/// The candidate a person most likely meant (edit distance at most a third of the word, or the word and a
+/// The candidate that was most likely meant (edit distance at most a third of the word, or the word and a
 /// unit behind an underscore), if there is one.
 [[nodiscard]] std::optional<std::string> closest_name(std::string_view wrong,
                                                       std::span<const std::string> names);

@@ -9,7 +9,7 @@ namespace dermis::gpu {
 namespace {
 
 // Lists that alternate keep their images; a window being resized does not pile them up.
-constexpr uint64_t kIdleRuns = 8;
+constexpr uint64_t kIdleImageRuns = 8;
 
 VkExtent2D resolve_size(const ImageSize& size, int width, int height) {
     if (size.width > 0 && size.height > 0) return {uint32_t(size.width), uint32_t(size.height)};
@@ -53,7 +53,7 @@ Result<void> FrameImages::prepare(const PassList& list, int width, int height) {
         found->second.last_run = run_;
         current_[declaration.name] = &found->second;
     }
-    std::erase_if(images_, [&](const auto& entry) { return entry.second.last_run + kIdleRuns < run_; });
+    std::erase_if(images_, [&](const auto& entry) { return entry.second.last_run + kIdleImageRuns < run_; });
     return {};
 }
 

@@ -9,9 +9,9 @@
 namespace dermis::gpu {
 namespace {
 
-// More than this many pipelines, and those that have been idle for kIdleRuns go.
+// More than this many pipelines, and those that have been idle for kIdlePipelineRuns go.
 constexpr size_t kManyPipelines = 256;
-constexpr uint64_t kIdleRuns = 64;
+constexpr uint64_t kIdlePipelineRuns = 64;
 
 // A shader stage ready for creation; the module lives as long as this. Points into itself.
 struct Stage {
@@ -173,7 +173,8 @@ Result<const Pipeline*> PipelineStore::compute(const Pass& pass, const Shader& s
 void PipelineStore::begin_run() {
     ++run_;
     if (pipelines_.size() <= kManyPipelines) return;
-    std::erase_if(pipelines_, [&](const auto& entry) { return entry.second.last_run + kIdleRuns < run_; });
+    std::erase_if(pipelines_,
+                  [&](const auto& entry) { return entry.second.last_run + kIdlePipelineRuns < run_; });
 }
 
 }  // namespace dermis::gpu

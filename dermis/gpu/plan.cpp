@@ -64,17 +64,17 @@ class Planner {
         const std::string_view vertex_name =
             pass.vertex_shader.empty() ? default_vertex_shader(pass.kind) : pass.vertex_shader;
         const Result<const Shader*> vertex = context_.shaders.get(vertex_name, VK_SHADER_STAGE_VERTEX_BIT);
-        if (!vertex) return pass_error(pass, vertex.error().message);
+        if (!vertex) return vertex.error().within(pass_label(pass));
         const Shader* fragment = nullptr;
         if (!pass.shader.empty()) {
             const Result<const Shader*> shader =
                 context_.shaders.get(pass.shader, VK_SHADER_STAGE_FRAGMENT_BIT);
-            if (!shader) return pass_error(pass, shader.error().message);
+            if (!shader) return shader.error().within(pass_label(pass));
             fragment = *shader;
         }
         const Result<const Pipeline*> pipeline =
             context_.pipelines.graphics(pass, **vertex, fragment, formats);
-        if (!pipeline) return pass_error(pass, pipeline.error().message);
+        if (!pipeline) return pipeline.error().within(pass_label(pass));
         planned.pipeline = *pipeline;
         if (Result<void> ok = resolver_.push_constants(planned); !ok) return ok;
         return is_geometry(pass.kind) ? geometry(planned, vertex_name) : fullscreen(planned, vertex_name);
@@ -165,9 +165,9 @@ class Planner {
         const Pass& pass = *planned.pass;
         if (pass.storage.empty()) return pass_error(pass, "a compute pass needs a storage image");
         const Result<const Shader*> shader = context_.shaders.get(pass.shader, VK_SHADER_STAGE_COMPUTE_BIT);
-        if (!shader) return pass_error(pass, shader.error().message);
+        if (!shader) return shader.error().within(pass_label(pass));
         const Result<const Pipeline*> pipeline = context_.pipelines.compute(pass, **shader);
-        if (!pipeline) return pass_error(pass, pipeline.error().message);
+        if (!pipeline) return pipeline.error().within(pass_label(pass));
         planned.pipeline = *pipeline;
         planned.extent = context_.images.find(pass.storage.front().image)->extent();
         for (const ImageRead& storage : pass.storage)

@@ -11,7 +11,7 @@ VkAttachmentLoadOp load_op(LoadOp load) {
     return kOps[size_t(load)];
 }
 
-// Writes one pass after another; knows the upload buffer and the queries.
+// Records one pass after another, with the upload buffer and the queries.
 class Recorder {
   public:
     Recorder(const Context& context, VkCommandBuffer commands, VkBuffer uploads, const FrameQueries& queries)

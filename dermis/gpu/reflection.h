@@ -1,6 +1,6 @@
 #pragma once
 // What a shader wants, read from its SPIR-V by name: bindings, blocks, constants, inputs and outputs.
-// Binding numbers in the source do not matter: they are given out anew for each pipeline, name by name.
+// Binding numbers in the source do not matter: each pipeline assigns its own, by name.
 
 #include <array>
 #include <cstdint>

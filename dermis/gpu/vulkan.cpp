@@ -40,7 +40,8 @@ Result<void> check(VkResult result, std::string_view what) {
     if (result >= 0) return {};
     std::string reason(result_text(result));
     if (reason.empty()) reason = "Vulkan error " + std::to_string(int(result));
-    return Error{"cannot " + std::string(what) + ": " + reason};
+    return Error{"cannot " + std::string(what) + ": " + reason,
+                 result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::general};
 }
 
 void set_object_name(const Context& context, VkObjectType type, uint64_t handle, std::string_view name) {

@@ -14,8 +14,8 @@ constexpr float from_half(uint16_t half) {
     const uint32_t sign = uint32_t(half & 0x8000u) << 16;
     const uint32_t magnitude = half & 0x7fffu;
     if (magnitude >= 0x7c00u) return std::bit_cast<float>(sign | 0x7f800000u | (magnitude & 0x3ffu) << 13);
-    // The bits shifted into a float's place have an exponent too small by 127 - 15; the product mends it, and
-    // it is exact for denormal halves too (they are normal floats).
+    // The bits shifted into a float's place have an exponent too small by 127 - 15; the product corrects it,
+    // and it is exact for denormal halves too (they are normal floats).
     const float value = std::bit_cast<float>(magnitude << 13) * 0x1p112f;
     return std::bit_cast<float>(std::bit_cast<uint32_t>(value) | sign);
 }

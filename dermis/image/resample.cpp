@@ -102,12 +102,6 @@ Image resize_linear(const Image& linear, int width, int height, Texels texels, P
     return out;
 }
 
-int wrap_index(int i, int side, Wrap wrap) {
-    if (wrap == Wrap::clamp) return std::clamp(i, 0, side - 1);
-    const int r = i % side;
-    return r < 0 ? r + side : r;
-}
-
 }  // namespace
 
 Image resize(const Image& image, int width, int height, Texels texels) {
@@ -128,10 +122,8 @@ std::vector<Image> mip_chain(const Image& image, Texels texels) {
     return levels;
 }
 
-Vec4 sample_bilinear(const Image& image, Vec2 uv, Wrap wrap) {
-    // Whole turns are taken off (or the far outside clamped) before texels are counted, which keeps int from
-    // overflowing.
-    if (wrap == Wrap::repeat) uv = {uv.x - std::floor(uv.x), uv.y - std::floor(uv.y)};
+Vec4 sample_bilinear(const Image& image, Vec2 uv) {
+    // The far outside is clamped before texels are counted, which keeps int from overflowing.
     const float x = std::clamp(uv.x, -1.0f, 2.0f) * float(image.width) - 0.5f;
     const float y = std::clamp(uv.y, -1.0f, 2.0f) * float(image.height) - 0.5f;
     const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
@@ -140,8 +132,8 @@ Vec4 sample_bilinear(const Image& image, Vec2 uv, Wrap wrap) {
 
     std::array<float, 4> sum = {};
     for (int k = 0; k < 4; ++k) {
-        const int tx = wrap_index(x0 + (k & 1), image.width, wrap),
-                  ty = wrap_index(y0 + (k >> 1), image.height, wrap);
+        const int tx = std::clamp(x0 + (k & 1), 0, image.width - 1),
+                  ty = std::clamp(y0 + (k >> 1), 0, image.height - 1);
         const float* texel =
             image.floats().data() + (size_t(ty) * size_t(image.width) + size_t(tx)) * size_t(image.channels);
         for (int c = 0; c < image.channels; ++c) sum[size_t(c)] += weights[k] * texel[c];

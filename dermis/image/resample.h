@@ -23,11 +23,10 @@ enum class Texels { values, unit_vectors };
 /// level is filtered from the unrounded one before it.
 [[nodiscard]] std::vector<Image> mip_chain(const Image& image, Texels texels = Texels::values);
 
-enum class Wrap { clamp, repeat };
-
 /// Linear interpolation between the four nearest texel centres of an f32 linear image. (0,0) is the upper
 /// left corner of the upper left texel, v points down. One channel comes back as grey, missing green and blue
-/// are 0, missing alpha is 1. uv may be any finite number.
-[[nodiscard]] Vec4 sample_bilinear(const Image& image, Vec2 uv, Wrap wrap = Wrap::clamp);
+/// are 0, missing alpha is 1. uv may be any finite number; outside
+/// 0..1 the border's texels go on.
+[[nodiscard]] Vec4 sample_bilinear(const Image& image, Vec2 uv);
 
 }  // namespace dermis

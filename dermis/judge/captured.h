@@ -37,7 +37,7 @@ struct CapturedShare {
     double effect_rms = 0;   ///< of S, its noise taken out
     double truth_noise = 0;  ///< n
 
-    /// Whether it may be told: the truth is fine enough for an interval of at most 0.05 to each side, or a
+    /// Whether it may be printed: the truth is fine enough for an interval of at most 0.05 to each side, or a
     /// twentieth of 1 - share where that is more.
     [[nodiscard]] bool known() const;
 };

@@ -1,5 +1,6 @@
 #pragma once
-// Techniques held against the ground truth of the same scene: captured share, pictures, errors, times, bytes.
+// Techniques compared with the ground truth of the same scene: captured share, pictures, errors, times,
+// bytes.
 //
 // All show the same: skin's diffuse transport, direct lights with the key light's shadow, specular reflection
 // by GGX, the environment as the renderer approximates it (order-2 harmonics, split sum, occlusion). The
@@ -34,8 +35,8 @@ struct ComparisonSettings {
     /// twentieth of the effect on spheres of 2 and 8 mm was missing, with 64 it is below the noise.
     int probes = 64;
     int frames = 5;  ///< timed ones, after one that compiles; 0: none are
-    /// Integrator, lighting and seed of the truth. Its size is the comparison's. As it is, a truth
-    /// that is looked at beside one frame, pixel middle against pixel middle.
+    /// Integrator, lighting and seed of the truth. Its size is the comparison's. The defaults are
+    /// for a truth that is compared with one frame without multisampling.
     ReferenceSettings reference;
 };
 

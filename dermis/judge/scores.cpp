@@ -48,7 +48,7 @@ Result<Scores> score(const Image& radiance, const Image& reference, const SkinMa
                      const Display& display) {
     if (radiance.width != reference.width || radiance.height != reference.height)
         return Error{"a picture of " + std::to_string(radiance.width) + "x" +
-                     std::to_string(radiance.height) + " cannot be held against one of " +
+                     std::to_string(radiance.height) + " cannot be compared with one of " +
                      std::to_string(reference.width) + "x" + std::to_string(reference.height)};
     const Image light = masked_radiance(radiance, reference, masks.skin);
     const Image shown = tone_mapped(light, display.tone_map, display.exposure);

@@ -58,7 +58,7 @@ struct ScoreRow {
     double time_ms = 0;
     size_t bytes = 0;
     double time_ratio = 0;      ///< frame time over lambert's in the same rounds; 0: not known
-    double reference_rmse = 0;  ///< noise of the ground truth that the raw errors are held against
+    double reference_rmse = 0;  ///< noise of the ground truth that the raw errors are measured with
 };
 
 /// A numeric column of scores.csv. A missing value is a share whose truth is too noisy, or a part that the

@@ -87,7 +87,7 @@ Result<std::vector<Contestant>> parse_technique_list(std::span<const Technique> 
         for (const Contestant& other : list)
             if (same_values(other, *contestant))
                 return Error{"--techniques: '" + contestant->name() + "' and '" + other.name() +
-                             "' are set alike; leave one out"};
+                             "' have the same settings; remove one"};
         list.push_back(std::move(*contestant));
     }
     return list;

@@ -1,5 +1,5 @@
 #pragma once
-// Which techniques to hold against each other, and how each is set: "lambert,wrap[wrap=0.4],preintegrated".
+// Which techniques to compare, and the settings of each: "lambert,wrap[wrap=0.4],preintegrated".
 
 #include <span>
 #include <string>

@@ -13,10 +13,10 @@ struct NormalOptions {
 
 /// Angle-weighted (Thuermer and Wuethrich 1998, "Computing Vertex Normals from Polygonal Facets"), summed
 /// over all faces around a position that hang together by edges, whether or not a UV seam runs between them.
-/// Surfaces that only touch in a point are kept apart. Where a sum cancels (a fold of two opposite sheets)
-/// each face keeps its own normal. Afterwards every normal is unit and finite; a vertex without any proper
-/// face gets (0, 1, 0). Tangents and curvatures are dropped, since they depend on the normals. Linear time,
-/// about 4 ms a 10,000 vertices.
+/// Surfaces that only touch in a point are kept apart. Where a sum cancels (a fold whose two sides are
+/// opposite) each face keeps its own normal. Afterwards every normal is unit and finite; a vertex without any
+/// proper face gets (0, 1, 0). Tangents and curvatures are dropped, since they depend on the normals. Linear
+/// time, about 4 ms a 10,000 vertices.
 void compute_normals(Mesh& mesh, const NormalOptions& options = {});
 
 /// Only where a normal is zero or not finite; the others are kept, and made unit.

@@ -134,6 +134,10 @@ void finish_normals(Mesh& mesh, const fs::path& name, std::vector<std::string>& 
 
 }  // namespace
 
+bool is_mesh_file(const fs::path& path) {
+    return bool(format_of(path));
+}
+
 bool stays_inside(std::string_view path) {
     if (path.empty() || path.size() > 4096) return false;
     if (path.find_first_of("\\:") != std::string_view::npos || path.find('\0') != std::string_view::npos)

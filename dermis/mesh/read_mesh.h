@@ -32,7 +32,7 @@ struct MeshOptions {
 
 struct LoadedMesh {
     Mesh mesh;
-    std::vector<std::string> warnings;  ///< one line each, for a person
+    std::vector<std::string> warnings;  ///< one line each, for the user
     /// By read_mesh: the file, and what it names beside it, there or not. Maps stand in the materials.
     std::vector<std::filesystem::path> files;
 };
@@ -41,7 +41,10 @@ struct LoadedMesh {
 /// path that leaves the mesh's directory.
 using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::string& relative_path)>;
 
-/// By extension: .obj, .gltf, .glb. Node transforms are applied, mirrored ones keep their fronts outside.
+/// By its extension: .obj, .gltf or .glb.
+[[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);
+
+/// Node transforms are applied, mirrored ones keep their fronts outside.
 /// Every value of the result is finite and every index in range. Normals are unit, computed where the file
 /// has none (normals.h), and so are tangents (tangents.h).
 ///
@@ -61,7 +64,7 @@ using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::stri
 
 enum class MeshFormat { obj, gltf, glb };
 
-/// The same from memory. `name` stands for the file in messages and gives image paths their directory.
+/// The same from memory. `name` is the file in messages and gives image paths their directory.
 [[nodiscard]] Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat format,
                                             const std::filesystem::path& name,
                                             const ReadSibling& read_sibling, const MeshOptions& options = {});

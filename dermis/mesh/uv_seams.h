@@ -19,7 +19,7 @@ struct AtlasPart {
 /// Rows from the top; a texel's centre is at (x + 0.5, y + 0.5).
 struct SeamMap {
     int size = 0;
-    /// Of a gutter texel: where in the atlas (in texels) the surface it stands for lies, the neighbouring
+    /// Of a gutter texel: where in the atlas (in texels) the surface that it shows lies, the neighbouring
     /// chart unfolded over the shared edge; (-1, -1) inside charts, at open borders and far from any chart.
     std::vector<Vec2> carried;
     /// Whose texel it is, gutter included: 0 nobody's, else 1 to 255 (charts beyond repeat).

@@ -159,9 +159,10 @@ Result<Image> traced_values(std::span<const SceneObject> objects, const UvRaster
         return depth.found > 0 ? depth.sum_mm / float(depth.found) : settings.max_mm;
     });
     if (empty > 0 && double(empty) > 1e-3 * double(found + empty))
-        map.warnings.push_back(to_text(std::round(1000.0 * double(empty) / double(found + empty)) / 10) +
-                               " % of the surface has no far side (the mesh is open); it reads " +
-                               to_text(settings.max_mm) + " mm");
+        map.warnings.push_back(
+            to_text(std::round(1000.0 * double(empty) / double(found + empty)) / 10) +
+            " % of the surface has no opposite side (the mesh is open); its thickness is set to " +
+            to_text(settings.max_mm) + " mm");
     return enlarged(std::move(image), coarse, raster);
 }
 
@@ -197,7 +198,7 @@ Result<void> check_raster(std::span<const SceneObject> objects, const UvRaster& 
     if (double(raster.overlapping) > kOverlapWorthSaying * double(raster.covered))
         map.warnings.push_back(
             to_text(std::round(1000.0 * double(raster.overlapping) / double(raster.covered)) / 10) +
-            " % of the map lies under more than one triangle; the last one counts (choose a material)");
+            " % of the map is covered by more than one triangle; the last one is used (choose a material)");
     if (raster.outside > 0)
         map.warnings.push_back(std::to_string(raster.outside) +
                                " triangles have UVs outside 0..1 and are left out");

@@ -61,7 +61,7 @@ struct BakedMap {
 };
 
 /// Kernel size: s / (s + t), t the thickness and s the radius within which 95 % of the light of the profile's
-/// widest channel leaves; at most 254/255, because 1 stands for "not written" in the texture-space method
+/// widest channel leaves; at most 254/255, because 1 means "not written" in the texture-space method
 /// (Gosselin, Sander, Mitchell 2004). Half where the skin is as thick as light spreads; an ear of 4 mm reads
 /// .53 with the GPU Gems 3 profile.
 [[nodiscard]] float kernel_size_of_thickness(float spread_mm, float thickness_mm);

@@ -22,7 +22,7 @@ constexpr int kFleshVersion = 1;
 constexpr int kRays = 256;
 // Of kRays: what hidden parts grow over (2 %), and what a part enclosed by them may see at most (5 %).
 constexpr int kGrowRays = 5, kEnclosedRays = 12;
-// By which most of a hidden face's rays are told.
+// Enough to classify most rays of a hidden face.
 constexpr int kBuriedRays = 31;
 // A hidden patch smaller than this share of the skin is the bottom of a crease, not a cavity.
 constexpr double kLeastCavityShare = 1e-4;

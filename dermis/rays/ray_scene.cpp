@@ -1,4 +1,5 @@
 #include "dermis/rays/ray_scene.h"
+#include "dermis/base/parallel.h"
 
 #include <embree3/rtcore.h>
 
@@ -201,6 +202,9 @@ struct RayScene::Impl {
         }
         if (triangles == 0) return Error{"the scene has no triangle to trace rays against"};
         epsilon_mm = 2e-6f * extent_mm;
+        // The library's own thread pool ends the program where it gets no thread.
+        if (!can_start_thread())
+            return Error{"no thread can be started; raise the limit on processes (ulimit -u)"};
         device.reset(rtcNewDevice(nullptr));
         if (!device) return Error{"the ray library (Embree) does not start on this machine"};
         for (const RaySet which : {RaySet::opaque, RaySet::skin, RaySet::translucent, RaySet::flesh})

@@ -1,5 +1,5 @@
 #pragma once
-// Light from all around for the ground truth: radiance from a direction, and directions drawn where it is
+// The environment for the ground truth: radiance from a direction, and directions drawn where it is
 // bright.
 
 #include <vector>

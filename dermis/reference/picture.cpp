@@ -69,7 +69,7 @@ struct Canvas {
     std::vector<uint8_t> active;
 };
 
-// The luminance below which an error is held against this one: a part of the brightest percentile of
+// The luminance below which an error is measured relative to this one: a part of the brightest percentile of
 // surfaces.
 float least_luminance(const Canvas& canvas) {
     std::vector<float> values;
@@ -252,9 +252,9 @@ Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSet
     picture.walks = counts.walks;
     picture.lost_walks = counts.lost;
     if (picture.lost_walks > 0)
-        picture.warnings.push_back(std::to_string(picture.lost_walks) + " of " +
-                                   std::to_string(picture.walks) +
-                                   " walks found no way out: the skin has holes, and is too dark near them");
+        picture.warnings.push_back(
+            std::to_string(picture.lost_walks) + " of " + std::to_string(picture.walks) +
+            " walks were lost: the skin has holes, and the picture is too dark near them");
     picture.time_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return picture;

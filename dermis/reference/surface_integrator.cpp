@@ -13,7 +13,8 @@ namespace {
 // Chances of the disk's axis: the normal, and two tangents for what the normal's probes pass at a flat angle.
 constexpr float kNormalChance = 0.5f, kTangentChance = 0.25f;
 constexpr size_t kMostHits = 32;
-// A point that would count less than this many times the typical one is looked at by that chance only.
+// Russian roulette: a point whose weight is less than this many times the typical weight is evaluated with
+// the probability of that ratio only.
 constexpr float kFullWeight = 0.1f;
 
 float most(Vec3 v) {

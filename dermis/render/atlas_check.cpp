@@ -66,10 +66,9 @@ Result<std::vector<std::string>> check_skin_atlas(const Scene& scene) {
             has_skin = true;
             const std::string& name = mesh.materials[submesh.material].name;
             if (mesh.uvs.size() != mesh.positions_mm.size())
-                return Error{
-                    "'" + object.name + "': skin material '" + name +
-                    "' has no UVs, and this technique lights the skin in its UV atlas; unwrap the mesh, or "
-                    "choose a technique that needs no atlas"};
+                return Error{"'" + object.name + "': skin material '" + name +
+                             "' has no UVs, and this technique lights the skin in its UV atlas; add UVs to "
+                             "the mesh, or choose a technique that needs no atlas"};
             if (std::ranges::find(materials, "'" + name + "'") == materials.end())
                 materials.push_back("'" + name + "'");
             if (std::string warning = tiles_warning(mesh, submesh); !warning.empty())
@@ -82,10 +81,10 @@ Result<std::vector<std::string>> check_skin_atlas(const Scene& scene) {
     all.submeshes = {{.name = "skin", .first_index = 0, .index_count = uint32_t(all.indices.size())}};
     const UvReport report = analyze_uvs(all);
     if (report.overlap > kOverlapWorthSaying)
-        warnings.push_back(percent(report.overlap) +
-                           " of the skin's atlas lies under more than one triangle (" +
-                           join(materials, ", ") +
-                           "): places that share texels share light, so that one shows the other's shadows");
+        warnings.push_back(
+            percent(report.overlap) + " of the skin's atlas is covered by more than one triangle (" +
+            join(materials, ", ") +
+            "): these parts of the skin share texels, so that each has the light and shadows of the other");
     return warnings;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What shading wants and files do not have: how the skin curves at each vertex, and how much of its
-// surroundings the vertex sees.
+// What shading needs and files do not have: the curvature of the skin at each vertex, and the occlusion of
+// the environment there.
 
 #include "dermis/base/result.h"
 #include "dermis/scene/scene.h"

@@ -113,7 +113,7 @@ Result<void> Renderer::prepare_legend(const std::string& view) {
     // Views without a scale declare the texture too; any will do for them.
     if (legend_ && (!has_legend(view) || view == legend_view_)) return {};
     const Result<Image> ink = make_legend(view);
-    if (!ink) return Error{"view " + view + ": " + ink.error().message};
+    if (!ink) return ink.error().within("view " + view);
     Result<gpu::Texture> texture = gpu::Texture::upload(*device_, {.name = "view_legend",
                                                                    .format = ImageFormat::r8,
                                                                    .width = ink->width,

@@ -151,7 +151,7 @@ Result<SubjectScene> add_objects(const SceneDescription& description, const Mesh
             const auto found = description.materials.find(material.name);
             const MaterialDescription* given =
                 found == description.materials.end() ? nullptr : &found->second;
-            // What is made by code knows which of its parts are not skin.
+            // A subject states which of its materials are not skin.
             const size_t index = object.classes.size();
             const bool knows = index < own.size() && own[index] != MaterialClass::skin;
             object.classes.push_back(given && given->material_class ? *given->material_class

@@ -1,5 +1,5 @@
 #pragma once
-// Light from all around, made ready for shading: order-2 spherical harmonics of its radiance and a cube
+// Light from the environment, prepared for shading: order-2 spherical harmonics of its radiance and a cube
 // prefiltered with GGX. Everything is in the environment's own frame; Environment::yaw_rad and intensity are
 // applied where it is looked up.
 

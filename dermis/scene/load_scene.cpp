@@ -87,11 +87,6 @@ Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) 
     return scene;
 }
 
-bool is_mesh(const fs::path& path) {
-    const std::string extension = to_lower(path.extension().string());
-    return extension == ".obj" || extension == ".gltf" || extension == ".glb";
-}
-
 bool looks_like_a_name(std::string_view text) {
     return text.find('/') == std::string_view::npos && text.find('.') == std::string_view::npos;
 }
@@ -99,9 +94,9 @@ bool looks_like_a_name(std::string_view text) {
 }  // namespace
 
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
-    const bool is_mesh_file = is_mesh(path_or_name);
+    const bool is_mesh = is_mesh_file(path_or_name);
     const auto subject = subject_name(path_or_name);
-    if (subject || is_mesh_file)
+    if (subject || is_mesh)
         if (Result<void> refused = refuse_words(path_or_name, options); !refused) return refused.error();
     if (subject) return load_subject(*subject, options.subjects);
     const fs::path path = path_or_name;
@@ -112,7 +107,7 @@ Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& op
         return Error{unknown_name("scene", path_or_name, scene_names()) +
                      ", or a .toml, .obj, .gltf or .glb file"};
     }
-    if (is_mesh_file) return load_mesh_file(path, options);
+    if (is_mesh) return load_mesh_file(path, options);
     if (to_lower(path.extension().string()) == ".toml") return load_scene_file(path, options);
     return Error{path_or_name + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)"};
 }

@@ -19,9 +19,8 @@ Result<void> check_light(const SceneDescription& scene, const LightDescription& 
             std::string("light.") + (light.position_mm ? "position_mm" : "distance_mm") +
                 ": a directional light has none; give yaw_deg and pitch_deg, or kind = \"point\"");
     if (light.position_mm && orbits)
-        return error_at(
-            scene, light.line,
-            "light.position_mm excludes yaw_deg, pitch_deg and distance_mm; leave one or the others out");
+        return error_at(scene, light.line,
+                        "light.position_mm excludes yaw_deg, pitch_deg and distance_mm; remove it or those");
     if (!directional && !light.position_mm && !light.distance_mm)
         return error_at(
             scene, light.line,
@@ -36,7 +35,7 @@ Result<void> check_mesh(const SceneDescription& scene, const MeshDescription& me
     if (!subject_name(mesh.file.text)) return {};
     if (mesh.subdivision > 0)
         return error_at(scene, mesh.line,
-                        "mesh.subdivision: " + mesh.file.text + " is made as fine as it needs; leave it out");
+                        "mesh.subdivision: " + mesh.file.text + " is fine enough already; remove this key");
     if (mesh.unit_mm)
         return error_at(scene, mesh.line,
                         "mesh.unit_mm: " + mesh.file.text + " is in millimetres; use scale to resize it");
@@ -67,16 +66,15 @@ Result<void> check_environment(const SceneDescription& scene) {
         return error_at(scene, environment.line, "environment.kind = \"file\" needs file = \"PANORAMA.hdr\"");
     if (environment.file.given() && environment.kind && *environment.kind != EnvironmentKind::file)
         return error_at(scene, environment.file.line,
-                        "environment.file: only for kind = \"file\"; leave kind or file out");
+                        "environment.file: only for kind = \"file\"; remove kind or file");
     return {};
 }
 
 Result<void> check_camera(const SceneDescription& scene) {
     const CameraDescription& camera = scene.camera;
     if (camera.eye_mm && (camera.yaw_deg || camera.pitch_deg || camera.distance_mm))
-        return error_at(
-            scene, camera.line,
-            "camera.eye_mm excludes yaw_deg, pitch_deg and distance_mm; leave one or the others out");
+        return error_at(scene, camera.line,
+                        "camera.eye_mm excludes yaw_deg, pitch_deg and distance_mm; remove it or those");
     return {};
 }
 

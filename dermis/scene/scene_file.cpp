@@ -12,7 +12,7 @@
 namespace dermis {
 namespace {
 
-// Sets what the section's table knows; `nested` are tables inside it that somebody else reads.
+// Sets the keys of the section's table; `nested` are tables inside it that are read elsewhere.
 template <class Target>
 Result<void> read_section(const TomlNode& section, const std::string& path, const KeyTable<Target>& table,
                           Target& target, const TomlPlace& place, const std::set<std::string>& nested = {}) {

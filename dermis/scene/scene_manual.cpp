@@ -46,11 +46,11 @@ std::string section_text(const std::string& heading, const std::string& intro,
 constexpr std::string_view kIntroduction =
     R"(# The scene file
 
-A scene is a TOML file: meshes, their maps, the skin, lights, surroundings and a camera. Everything but one
-`[[mesh]]` may be left out. Lengths are in mm and colours linear; a key with a unit says so in its name. An unknown
+A scene is a TOML file: meshes, their maps, the skin, lights, environment and a camera. Only one
+`[[mesh]]` is required. Lengths are in mm and colours are linear; the name of a key contains its unit. An unknown
 key, a wrong type, a value out of range and a missing file are errors that name file, line and key.
 
-Paths are relative to the scene file. A path that starts with `assets:` is looked for in `$DERMIS_ASSETS`, in
+Paths are relative to the scene file. A path that starts with `assets:` is searched in `$DERMIS_ASSETS`, in
 `../shared/assets` beside the source tree, and where `tools/get_head` puts its files (`~/.local/share/dermis`). The
 scenes of `scenes/` are also found by name: `dermis render head_scan`.
 
@@ -84,7 +84,7 @@ name: `--scene mesh.tone=5`. `--camera "yaw_deg=30 fov_deg=20"` is short for `--
 camera.fov_deg=20`, and `--light "..."` the same for `light.key`. A camera or a light keeps what is not named. Meshes,
 maps, materials and settings can be changed of scene files only, not of a bare mesh or a `builtin:NAME`.
 
-This page is what `dermis keys` prints; a test compares the two.
+`dermis keys` prints this page; a test compares the two.
 )";
 
 }  // namespace
@@ -101,26 +101,27 @@ std::string scene_file_manual(std::span<const Subject> subjects) {
         }
     text += section_text("`[maps]`",
                          "For every material of class skin. A material's own maps, under "
-                         "`[material.NAME.maps]` with the same keys, "
-                         "win. Maps multiply the constant beside them.",
+                         "`[material.NAME.maps]` with the same keys, take precedence. A map is multiplied by "
+                         "the constant of the same name.",
                          maps_keys());
-    text += section_text(
-        "`[material.NAME]`",
-        "NAME is the material's name in the mesh file. What is not given stays as the mesh file has it, or, "
-        "for skin, as `[skin]` has it.",
-        material_keys());
-    text += section_text("`[skin]`", "What all skin materials share.", skin_keys());
+    text += section_text("`[material.NAME]`",
+                         "NAME is the material's name in the mesh file. A missing key keeps the value of the "
+                         "mesh file, or, for skin, of `[skin]`.",
+                         material_keys());
+    text += section_text("`[skin]`", "Values for all skin materials.", skin_keys());
     text += section_text(
         "`[[light]]`",
-        "Any number; without any, one warm key light from the upper left. A light is aimed from a yaw and a "
-        "pitch around a target, or, unless directional, stands at a position.",
+        "Any number; without any, one warm key light from the upper left. A light has a direction by yaw and "
+        "pitch around a target; point and spot lights may have a position instead.",
         light_keys());
-    text += section_text("`[environment]`",
-                         "Light from everywhere else; without the section, the studio at three quarters.",
-                         environment_keys());
-    text +=
-        section_text("`[camera]`", "An orbit around a target, or an eye. What is missing frames the scene.",
-                     camera_keys());
+    text += section_text(
+        "`[environment]`",
+        "Light from all other directions. Without this section: `studio` with an intensity of 0.75.",
+        environment_keys());
+    text += section_text("`[camera]`",
+                         "A position by angles and a distance around a target, or by `eye_mm`. Missing "
+                         "values are chosen so that the whole scene is visible.",
+                         camera_keys());
     text += R"(
 ## `[settings]`
 

@@ -55,21 +55,20 @@ const KeyTable<HeadDescription>& head_keys() {
     using D = HeadDescription;
     static const KeyTable<D> table =
         KeyTable<D>()
-            .text(&D::name, {.name = "name",
-                             .doc = "what lists and windows call the scene; the file's name when absent"})
-            .text(&D::credit, {.name = "credit", .doc = "stands wherever a picture of the scene stands"})
-            .text(
-                &D::without_assets,
-                {.name = "without_assets",
-                 .doc = "scene beside this one that is drawn, with a warning, where an `assets:` mesh or map "
-                        "of this one is missing"})
+            .text(&D::name,
+                  {.name = "name", .doc = "name in lists and in the viewer; default: the file's name"})
+            .text(&D::credit,
+                  {.name = "credit", .doc = "text that is written with every picture of the scene"})
+            .text(&D::without_assets, {.name = "without_assets",
+                                       .doc = "scene in the same folder that is drawn instead, with a "
+                                              "warning, if an `assets:` mesh or map is missing"})
             .color(&D::background_linear, {.name = "background",
                                            .unit = "linear",
-                                           .doc = "radiance behind everything",
+                                           .doc = "radiance of the background",
                                            .max = 1e3,
                                            .changeable = true})
             .choice<ToneMap>(&D::tone_map, {.name = "tone_map",
-                                            .doc = "from radiance to the display",
+                                            .doc = "conversion of radiance to the display",
                                             .choices = {tone_map_names().begin(), tone_map_names().end()},
                                             .changeable = true})
             .number(&D::exposure_ev, {.name = "exposure_ev",
@@ -91,34 +90,36 @@ const KeyTable<MeshDescription>& mesh_keys() {
             .file(&D::file, {.name = "file",
                              .doc = "`.obj`, `.gltf`, `.glb`, or `builtin:NAME`, a subject of "
                                     "`dermis subjects`"})
-            .text(&D::name, {.name = "name", .doc = "of the object; the file's name when absent"})
-            .number(&D::unit_mm,
-                    {.name = "unit_mm",
-                     .unit = "mm",
-                     .doc = "length of one unit of the file; 1000 for glTF and 1 for OBJ when absent",
-                     .min = 1e-6,
-                     .max = 1e6})
-            .number(
-                &D::scale,
-                {.name = "scale", .doc = "enlarges the mesh before it is turned", .min = 1e-6, .max = 1e6})
-            .vector(&D::rotate_deg,
-                    {.name = "rotate_deg",
-                     .unit = "degrees",
-                     .doc = "turns about X, then Y, then Z, counter-clockwise seen from the axis's tip",
-                     .min = -360,
-                     .max = 360})
+            .text(&D::name, {.name = "name", .doc = "name of the object; default: the file's name"})
+            .number(&D::unit_mm, {.name = "unit_mm",
+                                  .unit = "mm",
+                                  .doc = "length of one unit of the file; default: 1000 for glTF, 1 for OBJ",
+                                  .min = 1e-6,
+                                  .max = 1e6})
+            .number(&D::scale, {.name = "scale",
+                                .doc = "factor on the size, applied before the rotation",
+                                .min = 1e-6,
+                                .max = 1e6})
+            .vector(&D::rotate_deg, {.name = "rotate_deg",
+                                     .unit = "degrees",
+                                     .doc = "rotation about X, then Y, then Z, counter-clockwise as seen "
+                                            "from the axis's positive end",
+                                     .min = -360,
+                                     .max = 360})
             .vector(&D::translate_mm, {.name = "translate_mm",
                                        .unit = "mm",
-                                       .doc = "moves the mesh after it was turned",
+                                       .doc = "translation, applied after the rotation",
                                        .min = -kMaxLengthMm,
                                        .max = kMaxLengthMm})
-            .integer(&D::subdivision, {.name = "subdivision",
-                                       .unit = "levels",
-                                       .doc = "of Catmull-Clark; each makes four times the faces",
-                                       .max = 4})
-            .choice<MaterialClass>(&D::default_class, {.name = "default_class",
-                                                       .doc = "class of the materials that state none",
-                                                       .choices = kMaterialClasses});
+            .integer(&D::subdivision,
+                     {.name = "subdivision",
+                      .unit = "levels",
+                      .doc = "Catmull-Clark subdivision; each level has four times as many faces",
+                      .max = 4})
+            .choice<MaterialClass>(&D::default_class,
+                                   {.name = "default_class",
+                                    .doc = "class of materials without a class of their own",
+                                    .choices = kMaterialClasses});
     return table;
 }
 
@@ -128,17 +129,16 @@ const KeyTable<MapsDescription>& maps_keys() {
         KeyTable<D>()
             .file(&D::albedo, {.name = "albedo", .doc = "diffuse colour, sRGB"})
             .file(&D::normal, {.name = "normal", .doc = "normals as n * 0.5 + 0.5"})
-            .choice<NormalSpace>(
-                &D::normal_space,
-                {.name = "normal_space",
-                 .doc = "`object`: in the axes of the mesh as it stands in the scene, after rotate_deg",
-                 .choices = {"tangent", "object"}})
+            .choice<NormalSpace>(&D::normal_space,
+                                 {.name = "normal_space",
+                                  .doc = "`object`: in the axes of the scene, after rotate_deg",
+                                  .choices = {"tangent", "object"}})
             .number(&D::normal_scale,
                     {.name = "normal_scale", .doc = "scales the slope; tangent space only", .max = 10})
             .file(&D::specular,
                   {.name = "specular", .doc = "scales the reflectance at normal incidence; red channel"})
             .file(&D::roughness, {.name = "roughness", .doc = "perceptual roughness; red channel"})
-            .file(&D::occlusion, {.name = "occlusion", .doc = "visibility of the surroundings; red channel"})
+            .file(&D::occlusion, {.name = "occlusion", .doc = "visibility of the environment; red channel"})
             .file(&D::thickness,
                   {.name = "thickness", .doc = "thickness of the body behind the surface; green channel"})
             .number(&D::thickness_scale_mm, {.name = "thickness_scale_mm",
@@ -158,19 +158,20 @@ const KeyTable<MapsDescription>& maps_keys() {
                   {.name = "displacement", .doc = "moves vertices along the normal; red channel"})
             .number(&D::curvature_mid,
                     {.name = "curvature_mid",
-                     .doc = "the map value of flat skin; 0.5 for maps whose mid-grey is flat"})
+                     .doc = "map value of flat skin; 0.5 for maps in which mid-grey is flat"})
             .number(&D::displacement_mid,
-                    {.name = "displacement_mid", .doc = "the map value (0..1) that moves nothing"})
+                    {.name = "displacement_mid", .doc = "map value (0..1) of no displacement"})
             .number(&D::displacement_amplitude_mm, {.name = "displacement_amplitude_mm",
                                                     .unit = "mm",
-                                                    .doc = "movement for a step of 1 in map value",
+                                                    .doc = "displacement for a difference of 1 in map value",
                                                     .min = -100,
                                                     .max = 100})
             .file(&D::opacity, {.name = "opacity", .doc = "coloured transmittance of translucent materials"})
-            .integer(&D::dilate_texels, {.name = "dilate_texels",
-                                         .unit = "texels",
-                                         .doc = "grows the UV islands of maps that have no gutter",
-                                         .max = 64});
+            .integer(&D::dilate_texels,
+                     {.name = "dilate_texels",
+                      .unit = "texels",
+                      .doc = "width of the gutter that is added around the UV islands of maps without one",
+                      .max = 64});
     return table;
 }
 
@@ -192,11 +193,11 @@ const KeyTable<MaterialDescription>& material_keys() {
             .number(&D::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 3})
             .number(&D::metallic, {.name = "metallic", .doc = "0 dielectric, 1 metal"})
             .number(&D::opacity,
-                    {.name = "opacity", .doc = "coverage; below 1 what lies behind shows through"})
+                    {.name = "opacity", .doc = "coverage; below 1 the surfaces behind are visible"})
             .color(&D::emission_linear,
-                   {.name = "emission", .unit = "linear", .doc = "radiance of its own", .max = 1e3})
-            .toggle(&D::double_sided, {.name = "double_sided", .doc = "draws back faces too"})
-            .toggle(&D::visible, {.name = "visible", .doc = "false leaves its triangles out"});
+                   {.name = "emission", .unit = "linear", .doc = "emitted radiance", .max = 1e3})
+            .toggle(&D::double_sided, {.name = "double_sided", .doc = "back faces are drawn too"})
+            .toggle(&D::visible, {.name = "visible", .doc = "false removes its triangles"});
     return table;
 }
 
@@ -225,7 +226,7 @@ const KeyTable<LightDescription>& light_keys() {
     using D = LightDescription;
     static const KeyTable<D> table =
         KeyTable<D>()
-            .text(&D::name, {.name = "name", .doc = "for messages and windows"})
+            .text(&D::name, {.name = "name", .doc = "name in messages and in the viewer"})
             .choice<LightKind>(&D::kind, {.name = "kind",
                                           .doc = "point and spot fall off with the square of the distance",
                                           .choices = {"directional", "point", "spot"}})
@@ -233,8 +234,8 @@ const KeyTable<LightDescription>& light_keys() {
                    {.name = "color", .unit = "linear", .doc = "multiplies the intensity", .max = 1e3})
             .number(&D::intensity, {.name = "intensity",
                                     .unit = "irradiance",
-                                    .doc = "directional: on a surface that faces the light (pi makes white "
-                                           "Lambert shine with radiance 1); point "
+                                    .doc = "directional: on a surface that faces the light (pi gives a white "
+                                           "Lambert surface the radiance 1); point "
                                            "and spot: the same at 1 m",
                                     .max = 1e6})
             .number(&D::yaw_deg,
@@ -258,11 +259,12 @@ const KeyTable<LightDescription>& light_keys() {
                                       .doc = "point and spot: instead of yaw_deg, pitch_deg and distance_mm",
                                       .min = -kMaxLengthMm,
                                       .max = kMaxLengthMm})
-            .vector(&D::target_mm, {.name = "target_mm",
-                                    .unit = "mm",
-                                    .doc = "what the light is aimed at; the centre of the scene when absent",
-                                    .min = -kMaxLengthMm,
-                                    .max = kMaxLengthMm})
+            .vector(&D::target_mm,
+                    {.name = "target_mm",
+                     .unit = "mm",
+                     .doc = "the point at which the light is aimed; default: the centre of the scene",
+                     .min = -kMaxLengthMm,
+                     .max = kMaxLengthMm})
             .number(&D::inner_angle_deg, {.name = "inner_angle_deg",
                                           .unit = "degrees",
                                           .doc = "spot: full light up to this angle from its axis",
@@ -272,9 +274,9 @@ const KeyTable<LightDescription>& light_keys() {
                                           .doc = "spot: no light beyond it",
                                           .min = 0.1,
                                           .max = 89.5})
-            .toggle(&D::key,
-                    {.name = "key",
-                     .doc = "casts the shadow; exactly one light does. A single light need not say so"});
+            .toggle(&D::key, {.name = "key",
+                              .doc = "the light that casts the shadow; exactly one. A single light is the "
+                                     "key light without it"});
     return table;
 }
 
@@ -290,10 +292,10 @@ const KeyTable<EnvironmentDescription>& environment_keys() {
             .number(&D::intensity, {.name = "intensity", .doc = "multiplies its radiance", .max = 1e3})
             .number(&D::yaw_deg, {.name = "yaw_deg",
                                   .unit = "degrees",
-                                  .doc = "turns it about Y; positive moves what is in front (+Z) towards +X",
+                                  .doc = "rotation about Y; positive moves what is in front (+Z) towards +X",
                                   .min = -360,
                                   .max = 360})
-            .toggle(&D::visible, {.name = "visible", .doc = "shows it as the background"});
+            .toggle(&D::visible, {.name = "visible", .doc = "the environment is the background"});
     return table;
 }
 
@@ -308,7 +310,7 @@ const KeyTable<CameraDescription>& camera_keys() {
                                  .max = kMaxLengthMm})
             .vector(&D::target_mm, {.name = "target_mm",
                                     .unit = "mm",
-                                    .doc = "the middle of the picture; the centre of the scene when absent",
+                                    .doc = "centre of the picture; default: the centre of the scene",
                                     .min = -kMaxLengthMm,
                                     .max = kMaxLengthMm})
             .number(&D::yaw_deg, {.name = "yaw_deg",
@@ -321,7 +323,7 @@ const KeyTable<CameraDescription>& camera_keys() {
                 {.name = "pitch_deg", .unit = "degrees", .doc = "positive from above", .min = -90, .max = 90})
             .number(&D::distance_mm, {.name = "distance_mm",
                                       .unit = "mm",
-                                      .doc = "from the target; frames the scene when absent",
+                                      .doc = "from the target; default: the whole scene is visible",
                                       .min = 0.1,
                                       .max = kMaxLengthMm})
             .number(&D::fov_deg, {.name = "fov_deg",

@@ -1,5 +1,5 @@
 #pragma once
-// The built-in surroundings: a dark studio with soft boxes, as a function of direction.
+// The built-in environment: a dark studio with soft boxes, as a function of direction.
 
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"

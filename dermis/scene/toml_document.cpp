@@ -87,6 +87,18 @@ int invalid_utf8_line(std::string_view text) {
     return 0;
 }
 
+// toml++ follows a dotted key by recursion, without a limit. 0 when no line nests that deep.
+int too_deep_line(std::string_view text) {
+    constexpr int kMostDots = 1000;
+    int line = 1, dots = 0;
+    for (const char c : text) {
+        if (c == '.' && ++dots > kMostDots) return line;
+        if (c == '\n') ++line;
+        if (c == '\n' || c == ',' || c == '=' || c == '[' || c == '{') dots = 0;
+    }
+    return 0;
+}
+
 bool asserts(std::string_view text) {
     try {
         (void)toml::parse(text);
@@ -161,12 +173,15 @@ Result<TomlNode> parse_toml(std::string_view text, const std::string& file) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
     if (const int line = invalid_utf8_line(text))
         return place.at(line).error("not TOML: bytes that are not UTF-8");
+    if (const int line = too_deep_line(text)) return place.at(line).error("nested deeper than 1000 levels");
     const std::string escaped = escape_bytes(text);
     try {
         return convert(toml::parse(escaped));
     } catch (const toml::parse_error& wrong) {
         return place.at(int(wrong.source().begin.line))
-            .error("not TOML: " + unescape_bytes(wrong.description()));
+            .error("not TOML: " + unescape_bytes(wrong.description()) +
+                   (wrong.description().ends_with("expected decimal digit, saw '.'") ? "; write 0.5, not .5"
+                                                                                     : ""));
     } catch (const TomlAssertion&) {
         return place.at(asserting_line(escaped)).error("not TOML: a name in brackets or a key is malformed");
     }

@@ -27,7 +27,7 @@ struct FrameContext {
     /// that persistent images hold what this frame would draw again; else 0.
     float previous_camera_distance_mm = 0;
     int shadow_map_size = 2048;    ///< of the frame's "shadow_map", which a pass may test against
-    bool has_translucent = false;  ///< the scene has sheets that tint the key light
+    bool has_translucent = false;  ///< the scene has translucent surfaces, which tint the key light
     bool has_second_light = false;
     /// Longest step in UV that a millimetre on the skin takes, in 99 % of its area.
     float densest_uv_per_mm = 0.004f;

@@ -9,7 +9,7 @@ const ScriptCommand* ScriptPlayer::next(bool settled) {
 }
 
 Error ScriptPlayer::error_at(const ScriptCommand& command, const Error& error) const {
-    return Error{name_ + ":" + std::to_string(command.line) + ": " + error.message};
+    return error.within(name_ + ":" + std::to_string(command.line));
 }
 
 }  // namespace dermis::view

@@ -5,8 +5,6 @@
 namespace dermis::view {
 namespace {
 
-// In every message of a lost device (dermis/gpu).
-constexpr std::string_view kDeviceLost = "the GPU was lost";
 constexpr double kScriptFrameS = 1.0 / 30;
 
 }  // namespace
@@ -97,7 +95,7 @@ Result<ViewerReport> run_viewer(const ViewerOptions& options) {
         Result<std::unique_ptr<Session>> session = Session::open(current);
         if (!session) return session.error();
         Result<ViewerReport> report = (*session)->run();
-        const bool lost = !report && report.error().message.find(kDeviceLost) != std::string::npos;
+        const bool lost = !report && report.error().code == ErrorCode::device_lost;
         if (!lost || losses == kMostLosses || !(*session)->has_scene()) return report;
         (*session)->hand_over(current);
     }

@@ -98,7 +98,7 @@ Result<void> Session::run_command(const ScriptCommand& command) {
         case CommandKind::capture:
             return presenter_->capture(command.words[0]);
         case CommandKind::lose_device:
-            return Error{"the GPU was lost, as the script says"};
+            return Error{"the GPU was lost, as the script says", ErrorCode::device_lost};
         case CommandKind::print:
             if (options_->print) options_->print(state_text());
             return {};

@@ -1,7 +1,7 @@
 // Blurs over the atlas in millimetres. A light map's texels are (exitance, 1) where skin is and 0 elsewhere, so that sums
 // of taps divided by their alpha leave out what was never written. atlas_metric has two steps along the surface, at right
 // angles to each other there, in texels; their directions depend on the surface normal alone, so that the two sides of
-// a seam agree on them, whatever their unwrap (separable blurs need that).
+// a seam agree on them, independent of their UV layout (separable blurs need that).
 #ifndef DERMIS_ATLAS_MM_GLSL
 #define DERMIS_ATLAS_MM_GLSL
 

@@ -1,4 +1,4 @@
-// Light from all around: irradiance as order-2 spherical harmonics, reflections as a prefiltered cube.
+// Light from the environment: irradiance as order-2 spherical harmonics, reflections as a prefiltered cube.
 #ifndef DERMIS_ENVIRONMENT_GLSL
 #define DERMIS_ENVIRONMENT_GLSL
 

@@ -109,8 +109,8 @@ double Ear::add(double d, Point p) const {
     double all = smooth_min(d, ear * scale_, 4.5);
     // The concha, with the root of the helix running out into it.
     const Ellipsoid cavum = {{5.2, -3.8, 1.6}, {9.6, 9.4, 9.4}}, cymba = {{7.4, 7.6, 1.2}, {8.2, 5.2, 7.4}};
-    const double hollow = smooth_min(cavum.distance_mm(q), cymba.distance_mm(q), 5.0);
-    all = smooth_max(all, -hollow * scale_, 2.4);
+    const double concha = smooth_min(cavum.distance_mm(q), cymba.distance_mm(q), 5.0);
+    all = smooth_max(all, -concha * scale_, 2.4);
     const double root = smooth_min(swept_ball(q, {-6.8, 11, -0.6}, 2.8, {-1, 6.6, -3.6}, 1.9),
                                    swept_ball(q, {-1, 6.6, -3.6}, 1.9, {4.5, 4.6, -7.6}, 1.0), 2.5);
     all = smooth_min(all, root * scale_, 3.0);

@@ -44,7 +44,7 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
                 {{42, 29, 89}, 7, -0.6}});
     brush.both(
         {{{15, 19, 96}, 7, -2.2}, {{19, 12, 96}, 8, -2.0}, {{26, 7, 95}, 9, -1.0}, {{33, 5, 93}, 9, -0.3}});
-    // Cheekbone from beside the nose to the arch before the ear; the hollow under it.
+    // Cheekbone from beside the nose to the arch before the ear; the cavity under it.
     brush.both({{{33, 0, 93}, 16, 0.6},
                 {{44, 3, 86}, 20, 1.7},
                 {{55, 5, 73}, 20, 2.4},
@@ -65,7 +65,7 @@ void add_form_strokes(StrokeLayer& layer, const StrokeLayer::Snap& snap) {
     brush.middle({{{-19, -78, 103}, 15, 1.8}, {{0, -77, 108}, 16, 2.2}, {{19, -78, 103}, 15, 1.8}});
     brush.middle({{{-22, -56, 99}, 11, -0.7}, {{0, -58.5, 106}, 10, -2.8}, {{22, -56, 99}, 11, -0.7}});
     // Back: the occiput with its bump over the muscles' line, the furrow of the nape between two cords of
-    // muscle, the seventh neck vertebra, and the hollow of the spine below it between the trapezius' halves.
+    // muscle, the seventh neck vertebra, and the groove of the spine below it between the trapezius' halves.
     brush.middle({{{-16, 12, -86}, 26, 1.0}, {{0, 8, -87}, 26, 2.2}, {{16, 12, -86}, 26, 1.0}});
     brush.middle({{{0, -14, -84}, 13, 1.1}});
     brush.both({{{14, -22, -80}, 14, -0.7}, {{34, -20, -70}, 16, -0.9}, {{50, -14, -50}, 16, -0.8}});

@@ -1,4 +1,4 @@
-// Every texel asks the skin at its own point of the surface; the relief's slope becomes the normal map.
+// Every texel evaluates the skin at its own point of the surface; the relief's slope becomes the normal map.
 
 #include "subjects/bust/maps.h"
 

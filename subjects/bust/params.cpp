@@ -18,10 +18,11 @@ const ParameterTable& bust_parameters() {
                     "angle between the ear and the side of the head")
             .number(&P::tone, "tone", "", 1, 6, "skin I (very fair) to VI (dark), or between two")
             .number(&P::freckles, "freckles", "", 0, 1, "how many freckles")
-            .number(&P::stubble, "stubble", "", 0, 1, "shade of a shaved beard")
-            .number(&P::asymmetry, "asymmetry", "", 0, 2, "1 is natural, about a millimetre")
+            .number(&P::stubble, "stubble", "", 0, 1, "darkness of the shaved beard and hair")
+            .number(&P::asymmetry, "asymmetry", "", 0, 2,
+                    "0 symmetric; 1 natural, left and right differ by 1 to 2 mm")
             .integer(&P::seed, "seed", "", 0, std::numeric_limits<int32_t>::max(),
-                     "moves pores, freckles, hairs and the asymmetry")
+                     "changes the pattern of pores, freckles, hairs and the asymmetry")
             .build();
     return table;
 }

@@ -23,7 +23,7 @@ namespace dermis::bust {
 /// and 48.
 [[nodiscard]] double lid_slit_y(double x);
 [[nodiscard]] double add_nose(double d, Point p);
-/// To the hollow that the nostrils are carved with.
+/// To the solid that is cut out for the nostrils.
 [[nodiscard]] double nostril_distance_mm(Point p);
 /// Lips swell out of the face; see LipShape.
 [[nodiscard]] double add_lips(double d, Point p, double fullness);

@@ -2,7 +2,7 @@
 // origin between the ears); other heads move it by the scene's keys. Each lens is a single surface, so that
 // light is tinted once; its UVs run over 0..1.
 //
-// Rims, bridge and temples are tubes swept along curves, the lenses sheets stretched over the rims' curve.
+// Rims, bridge and temples are tubes swept along curves, the lenses surfaces stretched over the rims' curve.
 // All of it lies on one gently curved front, which wraps back towards the temples and leans in below.
 
 #include <algorithm>

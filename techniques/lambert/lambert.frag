@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Lambert: light leaves where it entered. No scattering at all; the baseline that every technique is held against.
+// Lambert: light leaves where it entered. No scattering; the baseline that every technique is compared with.
 #include "shaders/include/forward.glsl"
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {

@@ -1,5 +1,5 @@
-// Even light from all around: the shader's closed form against the model summed over the hemisphere of
-// lights.
+// An environment of constant radiance: the shader's closed form against the model summed over the hemisphere
+// of lights.
 
 #include <gtest/gtest.h>
 

@@ -26,7 +26,7 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
     return vec3(n_dot_l * (facet_a() + facet_b() * facets) * visibility);
 }
 
-// Even light from all around: the model integrated over the hemisphere of lights. With the eye at the polar angle v
+// Light of equal radiance from all directions: the model integrated over the hemisphere of lights. With the eye at the polar angle v
 //     int max(0, cos dphi) sin a tan b cos l dw = sin v (v - sin v cos v) + 2/3 tan v (1 - sin^3 v),
 // the first term from lights nearer to the normal than the eye, the second from the others. Exact for an even environment.
 float even_light_response(float n_dot_v) {

@@ -1,5 +1,5 @@
 // Oren, Nayar 1994: diffuse reflection of a surface made of Lambertian facets. Flattens the shading as rough
-// skin does; knows no scattering.
+// skin does; without scattering.
 
 #include "dermis/technique/forward.h"
 

@@ -15,7 +15,7 @@ struct Variant {
     const char* id;
     const char* name;
     Settings settings;
-    const char* compare_to;  // id of the variant it is held against
+    const char* compare_to;  // id of the variant that it is compared with
 };
 
 Settings with(Settings settings, const Settings& more) {
@@ -174,9 +174,9 @@ Figure baselines_figure() {
 std::vector<Figure> curve_figures() {
     return {curves_figure(),
             spheres_figure("spheres_direct", "Spheres under one light", "none"),
-            spheres_figure("spheres_with_sh", "Spheres under one light and light from all around", "studio"),
+            spheres_figure("spheres_with_sh", "Spheres under one light and an environment", "studio"),
             heads_figure("head_direct", "Under one light", {.view = "diffuse", .environment = "none"}),
-            heads_figure("head_with_sh", "Under one light and light from all around", {.view = "diffuse"}),
+            heads_figure("head_with_sh", "Under one light and an environment", {.view = "diffuse"}),
             together_figure(),
             baselines_figure()};
 }

@@ -1,4 +1,4 @@
-// Lights of every kind and number, light from all around, occlusion, and the specular table.
+// Lights of every kind and number, the environment, occlusion, and the specular table.
 
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ TEST_F(PreintegratedLights, from_all_around_differ_with_the_published_curves_whe
                 curve = draw_grid(scene, {{"ambient", "curve_2015"}});
     const double tight = red(curve, kMiddle, kGrid - 1) / red(exact, kMiddle, kGrid - 1),
                  flat = red(curve, kMiddle, 8) / red(exact, kMiddle, 8);
-    EXPECT_GT(tight, 1.05) << "the ring they were fitted to makes light";
+    EXPECT_GT(tight, 1.05) << "the ring they were fitted to does not conserve energy";
     EXPECT_NEAR(flat, 1, 0.03);
 }
 

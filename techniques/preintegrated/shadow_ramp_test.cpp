@@ -1,4 +1,4 @@
-// The shadow table: its ends, the edge it stands for, and that skin out of the penumbra keeps its light.
+// The shadow table: its ends, the edge that it describes, and the light of skin outside the penumbra.
 
 #include "techniques/preintegrated/shadow_ramp.h"
 

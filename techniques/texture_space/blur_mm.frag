@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One pass of the same blur with its radius in millimetres: taps are on a disk on the surface, whatever the unwrap, and
+// One pass of the same blur with its radius in millimetres: taps are on a disk on the surface, independent of the UV layout, and
 // follow it across seams.
 #include "shaders/atlas/blur_mm.glsl"
 #include "techniques/texture_space/taps.glsl"

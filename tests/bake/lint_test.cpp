@@ -26,7 +26,7 @@ Table baked(std::string_view convention, int width = 64, int height = 32) {
     return *bake_lut(lut);
 }
 
-// As a tool that knows nothing of conventions would save the decoded values.
+// As a tool without conventions would save the decoded values.
 template <class Change>
 Image picture_of(const Table& table, PixelFormat format, Change change) {
     Image image(table.width, table.height, 3);
@@ -63,7 +63,7 @@ TEST(Lint, an_exact_table_needs_nothing) {
     EXPECT_NEAR(report.best.axis.min, 0, 0.003);
     EXPECT_NEAR(report.best.axis.max, 0.5, 0.003);
     EXPECT_LT(report.error_max, 1e-3);
-    EXPECT_TRUE(mentions(report.advice, "nothing else"));
+    EXPECT_TRUE(mentions(report.advice, "no change"));
     EXPECT_TRUE(mentions(report.advice, "vec2(0.5 + 0.5 * n_dot_l, curvature_per_mm / 0.5)"));
     EXPECT_GT(report.runner_up.rms, 10 * report.best.rms);
 }
@@ -141,7 +141,7 @@ TEST(Lint, what_is_no_table_is_called_so) {
             for (int c = 0; c < 3; ++c) image.set(x, y, c, float((x * 7 + y * 13 + c * 5) % 11) / 11);
     const LintReport report = *lint_table(image);
     EXPECT_FALSE(report.explained);
-    EXPECT_TRUE(mentions(report.findings, "that is no explanation"));
+    EXPECT_TRUE(mentions(report.findings, "no good match"));
 }
 
 TEST(Lint, pictures_that_cannot_be_tables_are_refused) {

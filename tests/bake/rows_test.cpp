@@ -1,4 +1,4 @@
-// Every preset against the tests' own adaptive quadrature, at the radii of the promise.
+// Every preset against the tests' own adaptive quadrature, at radii from 0.25 to 1000 mm.
 
 #include "dermis/bake/rows.h"
 

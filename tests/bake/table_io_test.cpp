@@ -124,14 +124,14 @@ TEST(TableFile, missing_contradicting_and_broken_conventions_are_refused) {
     const TemporaryDirectory dir;
     const auto path = dir.path / "a.png";
     ASSERT_TRUE(write_image(path, Image(4, 4, 3, PixelFormat::u8)));
-    EXPECT_NE(refusal(path).find("carries no convention"), std::string::npos);
+    EXPECT_NE(refusal(path).find("has no convention"), std::string::npos);
     ASSERT_TRUE(write_table(path, small_lut()));
     ASSERT_TRUE(write_text_file(sidecar_path(path), "{}"));
     EXPECT_NE(refusal(path).find("differs from the one in a.png.json"), std::string::npos);
     const auto dds = dir.path / "a.dds";
     ASSERT_TRUE(write_table(dds, small_lut()));
     ASSERT_TRUE(write_text_file(sidecar_path(dds), "{"));
-    EXPECT_NE(refusal(dds).find("is no JSON object"), std::string::npos);
+    EXPECT_NE(refusal(dds).find("is not a JSON object"), std::string::npos);
     ASSERT_TRUE(write_text_file(sidecar_path(dds), convention_json(small_lut().convention, 8, 5)));
     EXPECT_NE(refusal(dds).find("9 x 5 texels, convention keys 'width' and 'height' say 8 x 5"),
               std::string::npos);

@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+#include <fstream>
+#include <new>
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +16,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
+#include "dermis/base/result.h"
 #include "dermis/base/text.h"
 
 namespace fs = std::filesystem;
@@ -32,6 +38,14 @@ struct TemporaryDirectory {
 };
 
 }  // namespace
+
+TEST(Error, keeps_its_code_when_a_place_is_put_before_it) {
+    const Error lost{"the GPU was lost", ErrorCode::device_lost};
+    const Error placed = lost.within("script.txt:3");
+    EXPECT_EQ(placed.message, "script.txt:3: the GPU was lost");
+    EXPECT_EQ(placed.code, ErrorCode::device_lost);
+    EXPECT_EQ(Error{"no file"}.code, ErrorCode::general);
+}
 
 TEST(Text, numbers_round_trip_in_their_shortest_form) {
     EXPECT_EQ(to_text(0.1f), "0.1");
@@ -121,6 +135,28 @@ TEST(File, a_failed_write_keeps_the_old_file_and_removes_the_new) {
     EXPECT_EQ(dir.file_count(), 1u);
 }
 
+TEST(File, an_interrupt_while_writing_leaves_the_old_file_and_nothing_beside) {
+    const TemporaryDirectory dir;
+    const fs::path path = dir.path / "a.txt";
+    ASSERT_TRUE(write_text_file(path, "old"));
+    const pid_t child = ::fork();
+    ASSERT_NE(child, -1);
+    if (child == 0) {
+        remove_temporary_files_on_signals();
+        (void)write_beside(path, [](const fs::path& temporary) -> Result<void> {
+            std::ofstream(temporary) << "half";
+            std::raise(SIGTERM);
+            return {};
+        });
+        ::_exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+    EXPECT_EQ(*read_text_file(path), "old");
+    EXPECT_EQ(dir.file_count(), 1u);
+}
+
 TEST(File, a_full_disk_is_an_error) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     EXPECT_FALSE(write_text_file("/dev/full", "x"));
@@ -147,7 +183,7 @@ TEST(Cache, returns_what_was_stored_and_nothing_from_a_damaged_file) {
     ::unsetenv("DERMIS_CACHE");
 }
 
-TEST(Cache, an_entry_under_anothers_name_is_made_anew) {
+TEST(Cache, an_entry_under_anothers_name_is_made_again) {
     const TemporaryDirectory dir;
     ::setenv("DERMIS_CACHE", dir.path.c_str(), 1);
     const std::vector<std::byte> bytes(8, std::byte{1});
@@ -165,7 +201,7 @@ TEST(Cache, an_entry_under_anothers_name_is_made_anew) {
     ::unsetenv("DERMIS_CACHE");
 }
 
-TEST(Cache, an_entry_of_another_size_is_made_anew) {
+TEST(Cache, an_entry_of_another_size_is_made_again) {
     const TemporaryDirectory dir;
     ::setenv("DERMIS_CACHE", dir.path.c_str(), 1);
     ASSERT_TRUE(cache_store("kind", "hash", std::vector<std::byte>(3)));
@@ -192,4 +228,16 @@ TEST(ParallelFor, visits_every_item_once_for_any_thread_count) {
     }
     set_thread_limit(0);
     parallel_for(0, 1, [](size_t, size_t) { FAIL(); });
+}
+
+TEST(ParallelFor, throws_again_what_a_body_throws) {
+    for (unsigned threads : {1u, 3u}) {
+        set_thread_limit(threads);
+        EXPECT_THROW(parallel_for(1000, 1,
+                                  [](size_t begin, size_t) {
+                                      if (begin >= 100 || begin == 0) throw std::bad_alloc();
+                                  }),
+                     std::bad_alloc);
+    }
+    set_thread_limit(0);
 }

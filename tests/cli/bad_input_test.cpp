@@ -155,6 +155,43 @@ TEST_F(BadInput, places_that_cannot_be_written_keep_what_is_there) {
         EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
 }
 
+TEST_F(BadInput, what_standard_output_does_not_take_is_an_error) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    for (const char* command : {"techniques", "--help", "profile list", "info builtin:spheres --json"})
+        expect_error(std::string(command) + " > /dev/full", "standard output: cannot write");
+}
+
+TEST_F(BadInput, out_of_memory_is_one_line) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "AddressSanitizer reserves more memory than the limit";
+#endif
+    expect_error("bake lut --size 64x64 -o good.exr >/dev/null && ulimit -v 1500000 && " DERMIS_PROGRAM
+                 " bake lut --size 8192x8192 -o a.exr",
+                 "out of memory");
+    EXPECT_FALSE(fs::exists(path("a.exr")));
+}
+
+TEST_F(BadInput, keys_of_any_depth_are_refused) {
+    std::string deep = "a";
+    for (int i = 0; i < 50000; ++i) deep += ".a";
+    expect_error("render " + file("key.toml", "x = 1\n" + deep + " = 1\n"), "key.toml:2: nested deeper than");
+    expect_error("render " + file("table.toml", "[" + deep + "]\n"), "table.toml:1: nested deeper than");
+}
+
+TEST_F(BadInput, messages_name_the_mend) {
+    expect_error("info " + file("none.glb", ""), "none.glb: the file is empty");
+    expect_error("render " + file("point.toml", "[skin]\nroughness = .4\n"), "write 0.5, not .5");
+    expect_error(kQuick + path("x.png") + " --frames 3", "number them: -o out/%04d.png");
+    expect_error("info builtin:spheres --unit-mm 2", "--unit-mm is for mesh files");
+}
+
+TEST_F(BadInput, numbers_are_finite) {
+    expect_error("render spheres --turn nan", "--turn: nan is no finite number");
+    expect_error("info a.obj --unit-mm inf", "--unit-mm: inf is no finite number");
+    expect_error("passes lambert --samples 3", "--samples 3: 1 or 4");
+    expect_error("passes lambert --view zz", "unknown view 'zz'");
+}
+
 TEST_F(BadInput, help_of_every_command_has_an_example) {
     const ProgramResult all = dermis("--help");
     EXPECT_EQ(all.exit_code, 0);

@@ -29,7 +29,7 @@ class Commands : public testing::Test {
 
 TEST_F(Commands, render_prints_one_json_object_with_a_time_for_every_pass) {
     const ProgramResult result = dermis(
-        "render builtin:spheres -t wrap --set wrap=0.5 --size 32x16 --frames 2 --json "
+        "render builtin:spheres -t wrap --set wrap=0.5 --size 32x16 --frames 2 --timings --json "
         "--validate -o " +
         path("a.png"));
     ASSERT_EQ(result.exit_code, 0) << result.err;

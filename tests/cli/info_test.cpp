@@ -1,4 +1,4 @@
-// dermis info, as a person or a script reads it.
+// dermis info, as text and as JSON.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -78,4 +78,13 @@ TEST_F(Info, a_file_that_is_not_there_is_one_line) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err, HasSubstr("none.obj"));
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+}
+
+TEST_F(Info, scenes_are_told_by_name_and_by_file) {
+    const ProgramResult named = info("spheres");
+    EXPECT_EQ(named.exit_code, 0) << named.err;
+    EXPECT_THAT(named.out, HasSubstr("sphere_16mm"));
+    const ProgramResult wrong = info("spheers");
+    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_THAT(wrong.err, HasSubstr("did you mean 'spheres'?"));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the command line as a person would.
+// Runs the command line as a user does.
 
 #include <sys/wait.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What follows a successful load: the promises of read_mesh.h hold, and nothing computed from the mesh
+// What follows a successful load: what read_mesh.h states holds, and nothing computed from the mesh
 // crashes.
 
 #include <cmath>

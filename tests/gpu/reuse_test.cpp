@@ -41,7 +41,7 @@ TEST_F(ReuseTest, a_persistent_image_starts_at_zero_and_keeps_its_content) {
     }
 }
 
-TEST_F(ReuseTest, another_size_starts_a_persistent_image_anew) {
+TEST_F(ReuseTest, another_size_clears_a_persistent_image) {
     Executor executor = make_executor(history_shaders());
     run(executor, history_list(), {.width = 2, .height = 2});
     run(executor, history_list(), {.width = 3, .height = 2});

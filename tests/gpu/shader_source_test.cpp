@@ -59,7 +59,7 @@ TEST_F(ShaderSourceTest, changed_shaders_and_includes_are_read_again_when_forgot
     EXPECT_THAT(texel(read(executor, "out"), 0, 0), ElementsAre(2, 2, 2, 2));
 }
 
-TEST_F(ShaderSourceTest, a_shader_with_a_mistake_gives_the_compilers_message_and_can_be_mended) {
+TEST_F(ShaderSourceTest, a_shader_with_a_mistake_gives_the_compilers_message_and_can_be_corrected) {
     ShaderTree tree;
     tree.write("techniques/demo/flat.frag", constant_color("1, oops"));
     Executor executor = make_executor(tree.source());

@@ -23,7 +23,7 @@ ScoreRow row(const std::string& scene, const std::string& technique, double shar
     return r;
 }
 
-// Shares that were measured when the techniques were last right; DERMIS_UPDATE_SCORES=1 records them anew,
+// Shares of the last accepted measurement; DERMIS_UPDATE_SCORES=1 records them again,
 // =missing those alone that have no record.
 constexpr const char* kRecorded = DERMIS_SOURCE_DIR "/tests/judge/recorded_scores.csv";
 // Drivers round differently from one CPU to another.
@@ -127,7 +127,7 @@ TEST_F(Scoreboards, no_technique_captures_less_than_it_did) {
         const bool missing_only = std::string_view(update) == "missing";
         ASSERT_TRUE(
             write_text_file(kRecorded, scores_csv(missing_only ? with_missing(*recorded, made) : made)));
-        GTEST_SKIP() << "recorded anew";
+        GTEST_SKIP() << "recorded again";
     }
     for (const ScoreRow& now : made) {
         const auto before = std::ranges::find_if(*recorded, [&](const ScoreRow& r) {

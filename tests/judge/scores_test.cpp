@@ -102,7 +102,7 @@ TEST(Scores, nan_and_other_sizes_are_refused) {
     EXPECT_THAT(sizes.error().message, HasSubstr("8x8"));
 }
 
-TEST(Scores, the_table_has_the_promised_columns_and_quotes_settings) {
+TEST(Scores, the_table_has_the_stated_columns_and_quotes_settings) {
     ScoreRow row{
         .scene = "head, scanned", .technique = "wrap", .settings = "wrap=0.4,specular=ggx", .bytes = 7};
     row.captured.all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .truth_noise = 0.125};

@@ -45,8 +45,8 @@ TEST(TechniqueList, mistakes_are_named) {
     EXPECT_THAT(error_of("wrap[wrap]"), HasSubstr("write name=value"));
     EXPECT_THAT(error_of("wrap[scater_width=1]"), HasSubstr("did you mean 'scatter_width'?"));
     EXPECT_THAT(error_of("wrap[wrap=3]"), HasSubstr("'3' is not in its range, 0 to 1"));
-    EXPECT_THAT(error_of("wrap,wrap"), HasSubstr("are set alike"));
-    EXPECT_THAT(error_of("wrap,wrap[wrap=0.25]"), HasSubstr("are set alike"));
+    EXPECT_THAT(error_of("wrap,wrap"), HasSubstr("have the same settings"));
+    EXPECT_THAT(error_of("wrap,wrap[wrap=0.25]"), HasSubstr("have the same settings"));
 }
 
 TEST(TechniqueList, by_default_all_techniques_run_and_lambert_first) {

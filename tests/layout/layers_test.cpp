@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -159,6 +160,22 @@ TEST(Layout, techniques_and_subjects_include_no_renderer) {
             for (const std::string& folder : included_folders(read(path)))
                 EXPECT_TRUE(folders.contains(folder)) << path << " includes " << folder;
         }
+}
+
+TEST(Layout, each_technique_has_a_page_and_a_test_in_its_folder) {
+    size_t techniques = 0;
+    for (const fs::path& path :
+         files_under("techniques", [](const fs::path& p) { return p.filename() == "technique.cpp"; })) {
+        const fs::path folder = path.parent_path();
+        EXPECT_TRUE(fs::exists(folder / "README.md")) << folder;
+        EXPECT_TRUE(std::ranges::any_of(fs::directory_iterator(folder),
+                                        [](const fs::directory_entry& entry) {
+                                            return entry.path().filename().string().ends_with("_test.cpp");
+                                        }))
+            << folder << " has no test";
+        ++techniques;
+    }
+    EXPECT_GE(techniques, 6u);
 }
 
 TEST(Layout, no_library_of_dermis_knows_what_is_built_in) {

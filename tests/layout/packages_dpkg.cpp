@@ -1,4 +1,4 @@
-// What dpkg knows of the installed packages, and which files the CMake packages among them require.
+// What dpkg says of the installed packages, and which files the CMake packages among them require.
 
 #include <array>
 #include <cstdio>

@@ -1,5 +1,5 @@
 #pragma once
-// What shows that a Debian package is used, and what dpkg knows of installed ones.
+// What shows that a Debian package is used, and what dpkg says of installed ones.
 
 #include <filesystem>
 #include <map>

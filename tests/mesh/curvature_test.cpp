@@ -125,7 +125,7 @@ TEST(Curvature, of_a_plane_and_of_a_catenoid_is_zero) {
         }
 }
 
-TEST(Curvature, is_negative_where_the_surface_is_hollow) {
+TEST(Curvature, is_negative_where_the_surface_is_concave) {
     Mesh bowl = make_sphere(5, 48);
     for (Vec3& n : bowl.normals) n = -n;
     for (size_t i = 0; i < bowl.indices.size(); i += 3) std::swap(bowl.indices[i], bowl.indices[i + 1]);

@@ -181,7 +181,7 @@ TEST(GltfUv, each_materials_set_and_transform_change_its_primitives_uvs) {
     }
 }
 
-TEST(GltfUv, tangents_of_a_turned_texture_are_computed_anew) {
+TEST(GltfUv, tangents_of_a_rotated_texture_are_computed_again) {
     const GltfBuilder builder =
         triangle()
             .accessor<float>(5126, "VEC2", 3, {0, 1, 1, 1, 0, 0})

@@ -47,7 +47,7 @@ inline bool any_contains(const std::vector<std::string>& lines, const std::strin
     return false;
 }
 
-/// What read_mesh promises of every result.
+/// What read_mesh.h states of every result.
 inline void expect_sound(const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
     ASSERT_EQ(mesh.normals.size(), count);

@@ -39,7 +39,8 @@ TEST(ClosedForm, its_odd_part_is_exact_and_flat_skin_is_lambert) {
 }
 
 TEST(ClosedForm, states_an_error_that_is_the_largest_found) {
-    // A fit of a single wide Gaussian at one curvature, held against the integral at the fit's own curvature.
+    // A fit of a single wide Gaussian at one curvature, compared with the integral at the fit's own
+    // curvature.
     const GaussianSum wide = {"wide", {{4.0, {1, 1, 1}}}};
     const Result<ClosedForm> form = fit_closed_form(wide, 0.5, 2);
     ASSERT_TRUE(form);

@@ -1,4 +1,4 @@
-// The published curves, held against what the article shows of them.
+// The published curves, compared with what the article shows of them.
 
 #include "dermis/optics/curve_2015.h"
 
@@ -19,7 +19,7 @@ TEST(Curve2015, is_the_table_at_large_radii) {
                 << t << " " << c;
 }
 
-TEST(Curve2015, rises_with_n_dot_l_and_glows_red_in_the_dark_on_tight_skin) {
+TEST(Curve2015, rises_with_n_dot_l_and_is_red_past_the_terminator_at_small_radii) {
     for (const double curvature : {1.0 / 2, 1.0 / 4, 1.0 / 8})
         for (size_t c = 0; c < 3; ++c)
             for (double t = -1; t < 0.99; t += 0.01)

@@ -1,4 +1,4 @@
-// General profiles on the sphere: held against the Gaussian machinery, the tests' integrator and the Legendre
+// General profiles on the sphere: compared with sums of Gaussians, the tests' integrator and the Legendre
 // sum.
 
 #include <gtest/gtest.h>

@@ -89,7 +89,7 @@ TEST(BakeMap, the_curvature_of_a_sphere_is_one_over_its_radius) {
     });
 }
 
-TEST(BakeMap, a_hollow_is_negative) {
+TEST(BakeMap, a_cavity_is_negative) {
     Mesh mesh = test::uv_sphere(40, 64, 32);
     for (size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     for (Vec3& n : mesh.normals) n = -n;
@@ -156,12 +156,12 @@ TEST(BakeMap, a_sphere_s_thickness_follows_the_cone) {
     }
 }
 
-TEST(BakeMap, an_open_sheet_reads_the_maximum_and_says_so) {
+TEST(BakeMap, an_open_surface_gets_the_maximum_and_a_warning) {
     const auto map = bake_map(object_of(test::plane(100, 0)), small(MapKind::thickness, 16));
     ASSERT_TRUE(map);
     for_covered(*map, [](float value, float, float) { EXPECT_EQ(value, 200); });
     ASSERT_FALSE(map->warnings.empty());
-    EXPECT_NE(map->warnings[0].find("no far side"), std::string::npos);
+    EXPECT_NE(map->warnings[0].find("no opposite side"), std::string::npos);
 }
 
 TEST(BakeMap, the_kernel_is_wide_where_the_skin_is_thin_and_never_one) {
@@ -181,7 +181,7 @@ TEST(BakeMap, the_kernel_is_wide_where_the_skin_is_thin_and_never_one) {
 
 TEST(BakeMap, stretch_is_the_size_of_the_uv_square) {
     const Mesh mesh = test::grid(4, 4, [](float u, float v) {
-        return test::Placed{{u * 30 + v * 10, -v * 20, 0}, {0, 0, 1}};  // a sheared sheet
+        return test::Placed{{u * 30 + v * 10, -v * 20, 0}, {0, 0, 1}};  // a sheared plane
     });
     const auto map = bake_map(object_of(mesh), small(MapKind::stretch, 32));
     ASSERT_TRUE(map);

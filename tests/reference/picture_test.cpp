@@ -99,7 +99,7 @@ TEST(ReferencePicture, a_wide_profile_is_not_lambert) {
     EXPECT_GT(difference / 24, 0.01);
 }
 
-TEST(ReferencePicture, under_even_light_a_white_sphere_is_as_bright_as_its_surroundings) {
+TEST(ReferencePicture, under_a_constant_environment_a_white_sphere_has_its_radiance) {
     Scene scene = white_sphere();
     light_from_everywhere(scene);
     ReferenceSettings settings = small(Integrator::surface, 16);
@@ -138,7 +138,7 @@ TEST(ReferencePicture, a_walk_takes_every_profile) {
         const auto surface = render_reference(scene, small(Integrator::surface, 8));
         const auto walk = render_reference(scene, small(Integrator::walk, 8));
         ASSERT_TRUE(walk) << walk.error().message;
-        // Red bleeds over the terminator, and further than blue, as by the surface integral.
+        // Red light reaches past the terminator, and further than blue, as by the surface integral.
         double bled[3] = {}, expected[3] = {};
         for (int y = 0; y < 24; ++y)
             for (int x = 0; x < 24; ++x)

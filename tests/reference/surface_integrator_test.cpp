@@ -125,7 +125,7 @@ TEST(SurfaceIntegrator, without_normalisation_a_plane_returns_the_albedo) {
     EXPECT_LT(m.standard_error.x, 0.02 * m.mean.x);
 }
 
-TEST(SurfaceIntegrator, a_shadow_s_edge_bleeds_by_the_integral_of_the_profile) {
+TEST(SurfaceIntegrator, a_shadow_s_edge_is_blurred_by_the_integral_of_the_profile) {
     // A wall's shadow covers x < 0 of the floor. One Gaussian across a straight edge is the normal
     // distribution of the distance to it.
     Mesh floor = test::plane(200, 0, 4);
@@ -145,7 +145,7 @@ TEST(SurfaceIntegrator, a_shadow_s_edge_bleeds_by_the_integral_of_the_profile) {
     }
 }
 
-TEST(SurfaceIntegrator, light_crosses_a_thin_sheet) {
+TEST(SurfaceIntegrator, light_is_transmitted_through_a_thin_slab) {
     // Two faces of a sheet of thickness h, light from behind: the back's Gaussian at distance h, over both
     // faces'.
     const float h_mm = 2;

@@ -34,7 +34,7 @@ class AtlasCull : public RenderTest {
         return {*renderer.radiance(), samples(*frame, "light map")};
     }
 
-    /// 12 views all around, every third from nearby; the share of lit texels that the culls keep, summed.
+    /// 12 views around the head, every third from nearby; the share of lit texels that culling keeps, summed.
     static void expect_same_in_12_views(const std::string& name, const Settings& more,
                                         const char* technique = "texture_space", double share = 0.85) {
         Scene scene = load(name);

@@ -1,4 +1,4 @@
-// Small pictures of every technique, held against those in tests/golden/.
+// Small pictures of every technique, compared with those in tests/golden/.
 
 #include <gtest/gtest.h>
 

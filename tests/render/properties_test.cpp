@@ -1,4 +1,4 @@
-// What physics asks of every technique, whatever it does.
+// Physical properties that every technique must have.
 
 #include <gtest/gtest.h>
 
@@ -106,7 +106,8 @@ TEST_F(Properties, without_a_specular_model_nothing_is_reflected) {
 }
 
 TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
-    // The diffuse light of a white sphere under even light from all around is 1, whatever the scattering.
+    // The diffuse light of a white sphere under an environment of constant radiance is 1, with any
+    // scattering.
     Scene scene = load("builtin:spheres");
     scene.lights.clear();
     scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 3);

@@ -1,4 +1,4 @@
-// A plane under tinted sheets, lit from above: what arrives in the light map is known exactly.
+// A plane under tinted translucent surfaces, lit from above: what arrives in the light map is known exactly.
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST_F(TranslucentShadow, is_the_tint_to_the_given_power_between_occluded_and_wh
     }
 }
 
-TEST_F(TranslucentShadow, of_two_sheets_is_the_product_of_their_tints) {
+TEST_F(TranslucentShadow, of_two_surfaces_is_the_product_of_their_tints) {
     const Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent),
                                      sheet({0.5f, 0.5f, 0.5f}, 30, MaterialClass::translucent)});
     Renderer renderer = make_renderer(scene);
@@ -104,7 +104,7 @@ TEST_F(TranslucentShadow, reads_the_colours_of_an_opacity_map) {
     expect_near(at(light_map(renderer, {}), 48, 32), Vec3{1, 0.503f, 0} * kIrradiance);
 }
 
-TEST_F(TranslucentShadow, leaves_the_depth_in_alpha_and_ignores_sheets_behind_opaque_things) {
+TEST_F(TranslucentShadow, leaves_the_depth_in_alpha_and_ignores_surfaces_behind_opaque_ones) {
     const Scene bare =
         plane_under({sheet(kTint, 20, MaterialClass::other), sheet(kTint, 40, MaterialClass::other)});
     const Scene tinted =
@@ -118,7 +118,7 @@ TEST_F(TranslucentShadow, leaves_the_depth_in_alpha_and_ignores_sheets_behind_op
     const Image depth_only = to_linear_float(*without.read("shadow_channels"));
     for (int y = 0; y < channels.height; ++y)
         for (int x = 0; x < channels.width; ++x) {
-            ASSERT_EQ(channels.at(x, y, 0), 0) << "tint behind an opaque sheet, or beside it";
+            ASSERT_EQ(channels.at(x, y, 0), 0) << "tint behind an opaque surface, or beside it";
             ASSERT_EQ(channels.at(x, y, 3), depth_only.at(x, y, 3)) << x << " " << y;
         }
 }
@@ -154,10 +154,10 @@ TEST_F(TranslucentShadow, of_a_second_light_lies_in_the_channels_that_one_light_
     const Image off = light_map(renderer, {});
     const Image on = light_map(renderer, {{"second_light_shadow", "on"}});
     const auto texel = [](float x_mm) { return int((x_mm + 50) / 100 * 64); };
-    // At x = 30 the key light and the fill both come through the sheet; one channel of opacity each.
+    // At x = 30 the key light and the fill both come through the surface; one channel of opacity each.
     EXPECT_NEAR(off.at(texel(30), 32, 1), kIrradiance * kTint.y + fill, 5e-3f);
     EXPECT_NEAR(on.at(texel(30), 32, 1), (kIrradiance + fill) * kTint.x, 5e-3f);
-    // At x = -7 the fill comes through the sheet, at -35 it meets the blocker.
+    // At x = -7 the fill comes through the surface, at -35 it meets the blocker.
     EXPECT_NEAR(on.at(texel(-7), 32, 0), fill * kTint.x, 5e-3f);
     EXPECT_NEAR(on.at(texel(-35), 32, 0), 0, 5e-3f);
     EXPECT_NEAR(off.at(texel(-35), 32, 0), fill, 5e-3f);

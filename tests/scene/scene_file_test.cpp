@@ -226,7 +226,7 @@ TEST(SceneFile, a_scene_needs_a_mesh_and_a_mesh_needs_a_file) {
 
 TEST(SceneFile, a_built_in_mesh_takes_no_unit_and_no_refinement) {
     EXPECT_EQ(error_of(kMesh + "subdivision = 1\n"),
-              "s.toml:1: mesh.subdivision: builtin:spheres is made as fine as it needs; leave it out");
+              "s.toml:1: mesh.subdivision: builtin:spheres is fine enough already; remove this key");
     EXPECT_EQ(error_of(kMesh + "unit_mm = 10\n"),
               "s.toml:1: mesh.unit_mm: builtin:spheres is in millimetres; use scale to resize it");
     EXPECT_EQ(error_of(kMesh + "scale = 2\n"), "");
@@ -250,23 +250,21 @@ TEST(SceneFile, lights_and_cameras_are_placed_in_one_way_only) {
               "s.toml:3: light.position_mm: a directional light has none; give yaw_deg and pitch_deg, or "
               "kind = \"point\"");
     EXPECT_EQ(error_of(kMesh + "[[light]]\nkind = \"point\"\nposition_mm = [0, 0, 1]\nyaw_deg = 3\n"),
-              "s.toml:3: light.position_mm excludes yaw_deg, pitch_deg and distance_mm; leave one or the "
-              "others out");
+              "s.toml:3: light.position_mm excludes yaw_deg, pitch_deg and distance_mm; remove it or those");
     EXPECT_EQ(
         error_of(kMesh + "[[light]]\nkind = \"point\"\nyaw_deg = 3\n"),
         "s.toml:3: light: a point or spot light needs position_mm, or yaw_deg, pitch_deg and distance_mm");
     EXPECT_EQ(error_of(kMesh + "[[light]]\nkind = \"spot\"\ndistance_mm = 300\ninner_angle_deg = 40\n"),
               "s.toml:3: light.inner_angle_deg must be smaller than outer_angle_deg");
-    EXPECT_EQ(
-        error_of(kMesh + "[camera]\neye_mm = [0, 0, 1]\nyaw_deg = 3\n"),
-        "s.toml:3: camera.eye_mm excludes yaw_deg, pitch_deg and distance_mm; leave one or the others out");
+    EXPECT_EQ(error_of(kMesh + "[camera]\neye_mm = [0, 0, 1]\nyaw_deg = 3\n"),
+              "s.toml:3: camera.eye_mm excludes yaw_deg, pitch_deg and distance_mm; remove it or those");
 }
 
 TEST(SceneFile, an_environment_of_kind_file_needs_one_and_no_other_kind_takes_one) {
     EXPECT_EQ(error_of(kMesh + "[environment]\nkind = \"file\"\n"),
               "s.toml:3: environment.kind = \"file\" needs file = \"PANORAMA.hdr\"");
     EXPECT_EQ(error_of(kMesh + "[environment]\nkind = \"none\"\nfile = \"a.hdr\"\n"),
-              "s.toml:5: environment.file: only for kind = \"file\"; leave kind or file out");
+              "s.toml:5: environment.file: only for kind = \"file\"; remove kind or file");
 }
 
 TEST(SceneFile, control_characters_in_names_do_not_break_the_line) {

@@ -13,7 +13,7 @@ struct Options {
 };
 
 Result<int> run(const Options& options) {
-    const Result<Size> size = parse_table_size(options.size);
+    const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
     BeckmannOptions beckmann{.width = size->width, .height = size->height};
     if (options.layout == "gems")
@@ -41,7 +41,7 @@ void add_bake_beckmann_command(CommandLine& line) {
                  "  dermis bake beckmann --layout gems --size 512 -o beckmann.png",
                  bake_group(line));
     command->add_option("--size", options->size, "WIDTHxHEIGHT or one side");
-    command->add_option("--layout", options->layout, "linear, or gems (value^0.1 / 2, 8 bit)");
+    command->add_option("--layout", options->layout, "encoding: linear, or gems (value^0.1 / 2, 8 bit)");
     options->output.add_to(command);
     line.when_chosen(command, [options] { return run(*options); });
 }

@@ -72,14 +72,15 @@ Result<int> run(const Options& options) {
 void add_bake_closed_form_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
     Command* command = line.add(
-        "closed_form", "Coefficients of the fit that needs no table, and its errors",
+        "closed_form", "Coefficients and errors of the closed form, which needs no table",
         "dermis bake closed_form --profile jensen_skin1 -o skin.csv --plot errors.svg", bake_group(line));
     command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");
     command->add_option("--construction", options->construction, "sphere, ring or half_ring");
-    command->add_option("--max-curvature", options->max_curvature_per_mm, "1/mm, of the last row");
-    command->add_option("--rows", options->rows, "even steps of curvature from 0");
-    command->add_option("-o,--output", options->output, "CSV of the coefficients");
-    command->add_option("--plot", options->plot, "SVG of the errors over radius (sphere only)");
+    command->add_option("--max-curvature", options->max_curvature_per_mm,
+                        "curvature of the last row in 1/mm");
+    command->add_option("--rows", options->rows, "number of rows, in equal steps of curvature from 0");
+    command->add_option("-o,--output", options->output, "CSV file of the coefficients");
+    command->add_option("--plot", options->plot, "SVG file: errors over radius (sphere only)");
     line.when_chosen(command, [options] { return run(*options); });
 }
 

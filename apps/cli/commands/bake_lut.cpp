@@ -61,7 +61,7 @@ Result<int> run(const Options& options) {
         lut->profile = std::move(*profile);
     }
     if (!options.size.empty()) {
-        const Result<Size> size = parse_table_size(options.size);
+        const Result<Size> size = parse_size(options.size);
         if (!size) return size.error();
         lut->width = size->width;
         lut->height = size->height;
@@ -87,17 +87,18 @@ void add_bake_lut_command(CommandLine& line) {
                  "  dermis bake lut --convention unity_2011 -o old.png",
                  bake_group(line));
     command->add_option("--convention", options->convention,
-                        "dermis (exact, sphere), penner, unity_2011 or faceworks: reproduces their tables");
+                        "dermis (exact, sphere), or a published table: penner, unity_2011, faceworks");
     command->add_option("--construction", options->construction,
                         "sphere, ring or half_ring (-90 to 90 degrees)");
-    command->add_option("--ring-weights", options->ring_weights, "line (as published code) or area");
+    command->add_option("--ring-weights", options->ring_weights,
+                        "normalisation of the ring's Gaussians: line (as in published code) or area");
     command->add_option("--variance-scale", options->variance_scale, "factor on every variance");
     command->add_option("--profile", options->profile,
                         "preset, CSV file or burley:R,G,B (see dermis profile list)");
     command->add_option("--size", options->size, "WIDTHxHEIGHT or one side");
-    command->add_option("--axis", options->axis, "rows: curvature (1/mm) or radius (mm)");
+    command->add_option("--axis", options->axis, "meaning of the rows: curvature (1/mm) or radius (mm)");
     command->add_option("--range", options->range, "MIN,MAX of the rows' axis");
-    command->add_option("--warp", options->warp, "linear or squared (finer near MIN)");
+    command->add_option("--warp", options->warp, "spacing of the rows: linear, or squared (finer near MIN)");
     options->output.add_to(command);
     line.when_chosen(command, [options] { return run(*options); });
 }

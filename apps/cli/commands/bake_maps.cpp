@@ -60,22 +60,25 @@ Result<int> run(Options options) {
 void add_common(Command* command, Options& options) {
     BakeMapSettings& s = options.settings;
     command->add_option("mesh", options.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
-    command->add_option("-o,--output", options.output, "FILE.exr; sidecar and preview come beside it")
+    command
+        ->add_option("-o,--output", options.output,
+                     "file to write, .exr; FILE.exr.json and FILE_preview.png are written too")
         ->required();
-    command->add_option("--size", s.size, "texels a side")->capture_default_str();
-    command->add_option("--gutter", s.gutter_texels, "islands grow by so many texels")->capture_default_str();
-    command->add_option("--material", options.material, "only this material; else all skin");
-    command->add_option("--unit-mm", options.unit_mm, "millimetres a unit of a bare OBJ");
+    command->add_option("--size", s.size, "side of the map in texels")->capture_default_str();
+    command->add_option("--gutter", s.gutter_texels, "width of the gutter around UV islands in texels")
+        ->capture_default_str();
+    command->add_option("--material", options.material, "bake this material only (default: all skin)");
+    command->add_option("--unit-mm", options.unit_mm, "length of one unit of the mesh file in mm");
 }
 
 void add_rays(Command* command, BakeMapSettings& s) {
-    command->add_option("--rays", s.rays, "rays a texel")->capture_default_str();
+    command->add_option("--rays", s.rays, "rays for each texel")->capture_default_str();
     command
-        ->add_option("--ray-size", s.ray_size, "rays are traced on a grid of at most so many texels a side")
+        ->add_option("--ray-size", s.ray_size, "maximum side of the grid on which rays are traced, in texels")
         ->capture_default_str();
     command
         ->add_option("--max-mm", s.max_mm,
-                     "thickness of what is open; how far occlusion looks, 0: any distance")
+                     "thickness where the mesh is open; for occlusion the maximum distance (0: no limit)")
         ->capture_default_str();
 }
 
@@ -90,7 +93,8 @@ void add_map(CommandLine& line, Command* group, MapKind kind, const std::string&
     add_common(command, *options);
     if (depth || kind == MapKind::occlusion) add_rays(command, s);
     if (depth)
-        command->add_option("--cone-rad", s.cone_rad, "half angle of the inward rays")->capture_default_str();
+        command->add_option("--cone-rad", s.cone_rad, "half angle of the cone of inward rays in radians")
+            ->capture_default_str();
     if (kind == MapKind::curvature)
         command
             ->add_option("--smoothing-mm", s.smoothing_mm, "averages features narrower than about twice this")
@@ -106,14 +110,14 @@ void add_bake_maps_command(CommandLine& line) {
     Command* group = bake_group(line);
     add_map(line, group, MapKind::curvature, "Signed mean curvature in 1/mm over the UV atlas",
             "dermis bake curvature head_scan --smoothing-mm 2 -o curvature.exr");
-    add_map(line, group, MapKind::thickness, "Millimetres of material under the surface",
+    add_map(line, group, MapKind::thickness, "Thickness of the body behind the surface in mm",
             "dermis bake thickness head_scan -o thickness.exr");
-    add_map(line, group, MapKind::kernel_size,
-            "Blur size of the texture-space method, from thickness and profile",
+    add_map(line, group, MapKind::kernel_size, "Kernel size for texture_space, from thickness and profile",
             "dermis bake kernel-size head_scan --profile gpu_gems_3 -o kernel.exr");
-    add_map(line, group, MapKind::stretch, "Millimetres a unit of u and of v, and the cosine between them",
+    add_map(line, group, MapKind::stretch,
+            "Stretch: mm per unit of u and of v, and the cosine between both directions",
             "dermis bake stretch head_scan -o stretch.exr");
-    add_map(line, group, MapKind::occlusion, "Ambient visibility, cosine-weighted",
+    add_map(line, group, MapKind::occlusion, "Occlusion: cosine-weighted visibility of the environment",
             "dermis bake occlusion head_scan -o occlusion.exr");
 }
 

@@ -16,7 +16,7 @@ struct Options {
 Result<int> run(const Options& options) {
     Result<Profile> profile = find_profile(options.profile);
     if (!profile) return profile.error();
-    const Result<Size> size = parse_table_size(options.size);
+    const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
     const Result<Range> range = parse_range("--range", options.range);
     if (!range) return range.error();
@@ -47,9 +47,9 @@ void add_bake_shadow_command(CommandLine& line) {
     command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");
     command->add_option("--size", options->size, "WIDTHxHEIGHT");
     command->add_option("--range", options->range, "MIN,MAX of the penumbra's width in mm");
-    command->add_option("--warp", options->warp, "linear or squared (finer near MIN)");
+    command->add_option("--warp", options->warp, "spacing of the rows: linear, or squared (finer near MIN)");
     command->add_option("--sharpening", options->sharpening,
-                        "the light's edge takes 1/this of the filter's width");
+                        "width of the filter divided by the width of the light's edge");
     options->output.add_to(command);
     line.when_chosen(command, [options] { return run(*options); });
 }

@@ -65,11 +65,11 @@ void add_bake_zh_command(CommandLine& line) {
                                 bake_group(line));
     command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");
     command->add_option("--construction", options->construction, "sphere, ring or half_ring");
-    command->add_option("--axis", options->axis, "curvature (1/mm) or radius (mm)");
+    command->add_option("--axis", options->axis, "meaning of the columns: curvature (1/mm) or radius (mm)");
     command->add_option("--range", options->range, "MIN,MAX of the axis");
     command->add_option("--size", options->width, "columns");
     command->add_option("--layout", options->layout,
-                        "float (3 rows) or remapped (2 rows, 0.75..1.05, 8 bit)");
+                        "encoding: float (3 rows) or remapped (2 rows, 0.75..1.05, 8 bit)");
     options->output.add_to(command);
     line.when_chosen(command, [options] { return run(*options); });
 }

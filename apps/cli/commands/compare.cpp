@@ -1,4 +1,4 @@
-// dermis compare: techniques held against the ground truth, as a page and a table.
+// dermis compare: techniques compared with the ground truth, as a page and a table.
 
 #include <algorithm>
 #include <cmath>
@@ -36,9 +36,9 @@ struct Options {
 };
 
 Result<ComparisonSettings> settings_of(const Options& options) {
-    const Result<std::pair<int, int>> size = parse_size(options.size);
+    const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
-    ComparisonSettings settings = comparison_settings(size->first, size->second);
+    ComparisonSettings settings = comparison_settings(size->width, size->height);
     settings.frames = options.frames;
     settings.noise = options.noise;
     settings.samples = options.samples;
@@ -130,7 +130,7 @@ void print_table(const Comparison& comparison) {
                 comparison.truth.from_cache ? "from the cache" : "made now");
 }
 
-// What a person must know before believing the numbers.
+// What limits the numbers.
 std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {
     std::vector<std::string> warnings = comparison.truth.warnings;
     const EffectNoise& noise = comparison.truth.noise;
@@ -201,11 +201,12 @@ Result<int> run(const Options& options) {
 
 void add_compare_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    Command* command = line.add(
-        "compare", "techniques held against the ground truth: a page with a wipe slider, a table of errors",
-        "dermis compare head_scan --techniques "
-        "\"lambert,wrap,preintegrated[diffuse=curve_2015,shadow=plain]\" "
-        "-o out/compare");
+    Command* command =
+        line.add("compare",
+                 "Compares techniques with the ground truth: captured shares, errors, a report with pictures",
+                 "dermis compare head_scan --techniques "
+                 "\"lambert,wrap,preintegrated[diffuse=curve_2015,shadow=plain]\" "
+                 "-o out/compare");
     options->scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
@@ -213,25 +214,28 @@ void add_compare_command(CommandLine& line) {
         ->add_option("-o,--output", options->output, "directory for report.html, scores.csv and regions.csv")
         ->required();
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command->add_option("--integrator", options->integrator, "of the ground truth: surface or walk")
+    command
+        ->add_option("--integrator", options->integrator, "integrator of the ground truth: surface or walk")
         ->capture_default_str();
     command
         ->add_option("--ambient", options->ambient,
-                     "of the ground truth: renderer (the same approximation on both sides) or traced")
+                     "environment in the ground truth: renderer (the renderer's approximation) or traced")
         ->capture_default_str();
     command
         ->add_option("--samples-per-pixel", options->samples_per_pixel,
-                     "points of a pixel that both sides average, a square number")
+                     "sample points in each pixel, the same in both pictures; a square number")
         ->capture_default_str();
     command
         ->add_option("--noise", options->noise,
-                     "of the effect of scattering at which the ground truth is fine enough")
+                     "noise at which the ground truth stops, over the effect of scattering")
         ->capture_default_str();
-    command->add_option("--samples,--spp", options->samples, "samples a pixel of the ground truth, at most")
+    command->add_option("--samples,--spp", options->samples, "maximum samples a pixel of the ground truth")
         ->capture_default_str();
-    command->add_option("--frames", options->frames, "how many are timed, after one that compiles")
+    command
+        ->add_option("--frames", options->frames,
+                     "frames that are timed, after a first one that compiles the shaders")
         ->capture_default_str();
-    command->add_option("--device", options->device, "part of a Vulkan device's name");
+    command->add_option("--device", options->device, "use the Vulkan device with this text in its name");
     command->add_flag("--json", options->json, "print one JSON object");
     line.when_chosen(command, [options] { return run(*options); });
 }

@@ -45,12 +45,12 @@ std::string flag_of(std::string_view name) {
 
 void add_export_mesh_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
-    Command* command = line.add("export-mesh", "The built-in head with its skin, as GLB or OBJ",
+    Command* command = line.add("export-mesh", "Writes the built-in head with its skin as GLB or OBJ",
                                 "dermis export-mesh builtin:bust -o bust.glb\n"
                                 "  dermis export-mesh builtin:bust --tone 5 --maps maps/ -o bust.obj");
     command->add_option("mesh", options->mesh, "builtin:bust");
     command->add_option("-o,--output", options->path, "file to write, .glb or .obj")->required();
-    command->add_option("--maps", options->maps, "folder for all maps as PNG, the kernel size among them");
+    command->add_option("--maps", options->maps, "folder for all maps as PNG, kernel size included");
     for (const Parameter& row : bust_parameters().parameters)
         command->add_option(flag_of(row.name), options->parameters[row.name],
                             row.doc + ", " + range_text(row));

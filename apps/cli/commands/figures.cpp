@@ -77,16 +77,19 @@ Result<int> make_figures(const Options& options) {
 
 void add_figures_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    Command* command = line.add("figures", "Makes the figures of a technique's source again, with numbers",
-                                "dermis figures preintegrated -o out/figures --size 400");
-    command->add_option("technique", options->technique, "see dermis techniques")->required();
+    Command* command =
+        line.add("figures", "Reproduces the figures of a technique's source, with differences in numbers",
+                 "dermis figures preintegrated -o out/figures --size 400");
+    command->add_option("technique", options->technique, "id of the technique (dermis techniques lists them)")
+        ->required();
     command->add_option("scene", options->scene.name, "draw this scene instead of each figure's own");
     options->scene.add_options_to(*command);
-    command->add_option("-o,--output", options->output, "directory; one PNG a figure")->capture_default_str();
+    command->add_option("-o,--output", options->output, "directory; each figure is one PNG")
+        ->capture_default_str();
     command->add_option("--size", options->size, "height of a cell in pixels")->capture_default_str();
-    command->add_option("--only", options->only, "the id of one figure");
-    command->add_option("--samples", options->samples, "a pixel: 1 or 4")->capture_default_str();
-    command->add_option("--device", options->device, "part of a Vulkan device's name");
+    command->add_option("--only", options->only, "draw only the figure with this id");
+    command->add_option("--samples", options->samples, "samples a pixel: 1 or 4")->capture_default_str();
+    command->add_option("--device", options->device, "use the Vulkan device with this text in its name");
     line.when_chosen(command, [options] { return make_figures(*options); });
 }
 

@@ -1,4 +1,5 @@
-// dermis info MESH: what is in a mesh file, and what its UV layout is worth for maps of skin.
+// dermis info MESH: what is in a mesh file or in the meshes of a scene, and what its UV layout is worth for
+// maps of skin.
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/uv_report.h"
 #include "dermis/rays/flesh.h"
-#include "dermis/scene/subject.h"
+#include "dermis/scene/load_scene.h"
 
 namespace dermis::cli {
 namespace {
@@ -139,9 +140,8 @@ void print_uv(const UvReport& uv) {
 void print_flesh(const Flesh& flesh) {
     if (flesh.hidden_triangles > 0)
         fmt::print(
-            "  hidden skin: {} triangles, {:.1f} of {:.1f} cm2, that the outside cannot see; the ground "
-            "truth takes "
-            "the cavities behind them for flesh\n",
+            "  hidden skin: {} triangles, {:.1f} of {:.1f} cm2, not visible from outside; the ground truth "
+            "treats the cavities behind it as flesh\n",
             flesh.hidden_triangles, flesh.hidden_area_mm2 / 100, flesh.skin_area_mm2 / 100);
     if (flesh.mesh_openings > 0)
         fmt::print("  {} opening{} in the surface; the walks of the ground truth are reflected there\n",
@@ -177,8 +177,7 @@ struct NamedMesh {
 
 Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
     std::vector<NamedMesh> meshes;
-    const auto subject = subject_name(arguments.mesh);
-    if (!subject) {
+    if (is_mesh_file(arguments.mesh)) {
         MeshOptions options;
         if (arguments.unit_mm > 0) options.unit_mm = arguments.unit_mm;
         Result<LoadedMesh> loaded = read_mesh(arguments.mesh, options);
@@ -186,9 +185,13 @@ Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
         meshes.push_back({arguments.mesh, std::move(*loaded)});
         return meshes;
     }
-    Result<SubjectScene> made = make_subject(built_in_catalog().subjects, *subject);
-    if (!made) return made.error();
-    for (SceneObject& object : made->objects) meshes.push_back({object.name, {std::move(object.mesh), {}}});
+    if (arguments.unit_mm > 0)
+        return Error{"--unit-mm is for mesh files; " + arguments.mesh +
+                     " states the unit of each of its meshes"};
+    Result<Scene> scene = load_scene(arguments.mesh, {.subjects = built_in_catalog().subjects});
+    if (!scene) return scene.error();
+    for (SceneObject& object : scene->objects) meshes.push_back({object.name, {std::move(object.mesh), {}}});
+    if (!meshes.empty()) meshes.front().loaded.warnings = scene->warnings;
     return meshes;
 }
 
@@ -215,17 +218,23 @@ Result<int> run_info(const InfoArguments& arguments) {
     if (arguments.json)
         fmt::print("{}\n",
                    (list.size() == 1 ? list[0] : list).dump(1, ' ', false, Json::error_handler_t::replace));
-    return std::fflush(stdout) == 0 ? Result<int>(0) : Error{"cannot write to standard output"};
+    return 0;
 }
 
 }  // namespace
 
 void add_info_command(CommandLine& line) {
     const auto arguments = std::make_shared<InfoArguments>();
-    Command* command = line.add("info", "What a mesh holds, and what its UV layout is worth for maps of skin",
-                                "dermis info head.obj --unit-mm 45");
-    command->add_option("MESH", arguments->mesh, ".obj, .gltf, .glb, or builtin:NAME")->required();
-    command->add_option("--unit-mm", arguments->unit_mm, "millimetres a file unit (glTF: 1000, OBJ: 1)")
+    Command* command =
+        line.add("info", "Describes a mesh or a scene: size, materials, maps, UV layout, warnings",
+                 "dermis info head.obj --unit-mm 45");
+    command
+        ->add_option("MESH", arguments->mesh,
+                     ".obj, .gltf, .glb, a scene file, name of a scene, or builtin:NAME")
+        ->required();
+    command
+        ->add_option("--unit-mm", arguments->unit_mm,
+                     "length of one unit of the file in mm (default: glTF 1000, OBJ 1)")
         ->check_positive();
     command->add_flag("--json", arguments->json, "one JSON object on standard output");
     line.when_chosen(command, [arguments] { return run_info(*arguments); });

@@ -20,7 +20,7 @@ Result<int> run(const std::string& path) {
 
 void add_lint_command(CommandLine& line) {
     auto path = std::make_shared<std::string>();
-    Command* command = line.add("lint", "What a pre-integrated table from anywhere is, and how wrong",
+    Command* command = line.add("lint", "Finds how a pre-integrated table was made, and its error",
                                 "dermis lint DiffuseScatteringOnRing.png");
     command->add_option("file", *path, "PNG, EXR, DDS or KTX2")->required();
     line.when_chosen(command, [path] { return run(*path); });

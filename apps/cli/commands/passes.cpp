@@ -25,6 +25,8 @@ Result<int> print_passes(const Options& options) {
     ParameterValues values((*technique)->parameters);
     for (const std::string& setting : options.settings)
         if (Result<void> set = apply_setting(values, setting); !set) return set.error();
+    if (Result<void> good = check_view(**technique, options.view); !good) return good.error();
+    if (Result<void> good = check_samples(options.samples); !good) return good.error();
     const PassList own = (*technique)->build(values, {.view = options.view});
     std::printf("%s",
                 describe(frame_passes(own, {.samples = options.samples, .view = options.view})).c_str());
@@ -37,10 +39,11 @@ void add_passes_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     Command* command = line.add("passes", "Prints the passes of a technique's frame, without a GPU",
                                 "dermis passes lambert --set specular=blinn_phong");
-    command->add_option("id", options->technique, "the technique")->required();
+    command->add_option("id", options->technique, "id of the technique (dermis techniques lists them)")
+        ->required();
     command->add_option("--set", options->settings, "a parameter, name=value; may be repeated")
         ->allow_extra_args(false);
-    command->add_option("--samples", options->samples, "a pixel: 1 or 4")->capture_default_str();
+    command->add_option("--samples", options->samples, "samples a pixel: 1 or 4")->capture_default_str();
     command->add_option("--view", options->view, "debug view")->capture_default_str();
     line.when_chosen(command, [options] { return print_passes(*options); });
 }

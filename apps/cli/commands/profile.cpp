@@ -98,7 +98,7 @@ void print_profile(const Profile& profile, const GaussianFit& fit) {
     for (const double thickness_mm : {1.0, 3.0}) {
         Rgb passed;
         for (int c = 0; c < 3; ++c) passed[size_t(c)] = slab_transmittance(profile, c, thickness_mm);
-        print_row("part that passes " + number_text(thickness_mm) + " mm", passed);
+        print_row("transmittance of " + number_text(thickness_mm) + " mm", passed);
     }
     if (const auto* dipole = std::get_if<DipoleProfile>(&profile.model)) {
         Rgb length;
@@ -231,7 +231,9 @@ Result<int> convert(const Options& options) {
         print("albedo " + value_text(source->albedo) + ", Burley d " + value_text(source->d_mm) +
               " mm (red, green, blue)\n");
     if (!options.json && source->albedo == Rgb{1, 1, 1})
-        print("This is a pure blur. Lengths that depend on albedo need the surface's: --albedo R,G,B\n");
+        print(
+            "This profile is a pure blur (albedo 1). Lengths that depend on the albedo need that of the "
+            "surface: --albedo R,G,B\n");
     for (const ToolId target : targets) {
         const ToolSettings settings = to_tool(target, *source);
         if (options.json)
@@ -253,28 +255,29 @@ std::string tool_list() {
 
 void add_profile_command(CommandLine& line) {
     Command* profile =
-        line.add("profile", "Diffusion profiles: the published skins and their numbers in other tools",
+        line.add("profile", "Diffusion profiles: published skins, and their parameters in other tools",
                  "dermis profile convert jensen_skin1 --to hdrp");
     profile->require_subcommand();
     const auto options = std::make_shared<Options>();
     const char* name_help = "a preset's name, a CSV file, or burley:R,G,B (d in mm)";
 
-    Command* list_command = line.add("list", "The published skins", "dermis profile list --json", profile);
-    list_command->add_option("--plot", options->plot, "all of them in one plot (.svg)");
+    Command* list_command =
+        line.add("list", "Lists the built-in profiles", "dermis profile list --json", profile);
+    list_command->add_option("--plot", options->plot, "SVG file: all profiles in one plot");
     list_command->add_flag("--json", options->json, "print JSON");
     line.when_chosen(list_command, [options] { return list(*options); });
 
-    Command* show_command = line.add("show", "A profile's lengths, albedo and Gaussians",
+    Command* show_command = line.add("show", "Prints a profile's lengths, albedo and Gaussians",
                                      "dermis profile show jensen_skin1 --plot skin1.svg", profile);
     show_command->add_option("name", options->name, name_help)->required();
-    show_command->add_option("--plot", options->plot, "its curves (.svg)");
-    show_command->add_option("--terms", options->terms, "Gaussians a channel of the fit, 1 to 12")
+    show_command->add_option("--plot", options->plot, "SVG file: the curves of the profile");
+    show_command->add_option("--terms", options->terms, "number of Gaussians of the fit, 1 to 12")
         ->capture_default_str();
     show_command->add_flag("--json", options->json, "print JSON");
     line.when_chosen(show_command, [options] { return show(*options); });
 
     Command* convert_command = line.add(
-        "convert", "The same skin in another tool's words: quantity, unit, boundary assumption",
+        "convert", "Converts a profile to another tool's parameters, with quantity, unit and boundary",
         "dermis profile convert --from unreal --set mean_free_path_distance=3 --to blender_burley", profile);
     convert_command->add_option("name", options->name, name_help);
     convert_command->add_option("--from", options->from,
@@ -287,7 +290,7 @@ void add_profile_command(CommandLine& line) {
     convert_command->add_flag("--json", options->json, "print JSON");
     line.when_chosen(convert_command, [options] { return convert(*options); });
 
-    Command* table_command = line.add("table", "The generated tables of docs/profiles.md, as Markdown",
+    Command* table_command = line.add("table", "Prints the tables of docs/profiles.md as Markdown",
                                       "dermis profile table > tables.md", profile);
     line.when_chosen(table_command, [] {
         print(profile_tables_markdown());

@@ -49,9 +49,22 @@ extern "C" void stop_on_signal(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
-void on_signals(void (*handler)(int)) {
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, handler);
-}
+// While it exists, the signals only ask to stop.
+class StopOnSignals {
+  public:
+    StopOnSignals()
+        : interrupt_(std::signal(SIGINT, stop_on_signal)), terminate_(std::signal(SIGTERM, stop_on_signal)) {}
+    ~StopOnSignals() {
+        std::signal(SIGINT, interrupt_);
+        std::signal(SIGTERM, terminate_);
+    }
+    StopOnSignals(const StopOnSignals&) = delete;
+    StopOnSignals& operator=(const StopOnSignals&) = delete;
+
+  private:
+    void (*interrupt_)(int);
+    void (*terminate_)(int);
+};
 
 // Before the work rather than after it.
 Result<void> try_outputs(const Options& options) {
@@ -103,7 +116,7 @@ Result<void> set(Enum& target, std::string_view what, const std::string& text, c
     return {};
 }
 
-// "sigma_s=1,2,3 sigma_a=.1,.2,.3 g=0 eta=1.4", 1/mm; one number stands for all three channels.
+// "sigma_s=1,2,3 sigma_a=.1,.2,.3 g=0 eta=1.4", 1/mm; one number is used for all three channels.
 Result<ScatteringMedium> parse_medium(const std::string& text) {
     const auto wrong = [&](std::string_view part) {
         return Error{"--medium: '" + std::string(part) +
@@ -145,12 +158,10 @@ Result<ReferenceSettings> settings_of(const Options& options) {
                                .width_scale = options.width_scale};
     settings.lighting.penumbra_mm = options.penumbra_mm;
     if (options.noise != 0) settings.noise = options.noise;
-    const std::vector<std::string_view> sides = split(options.size, 'x');
-    const std::optional<double> width = parse_number(sides[0]), height = parse_number(sides.back());
-    if (sides.size() > 2 || !width || !height || *width != int(*width) || *height != int(*height))
-        return Error{"--size '" + options.size + "' is not WIDTHxHEIGHT, such as 512x512"};
-    settings.width = int(*width);
-    settings.height = int(*height);
+    const Result<Size> size = parse_size(options.size);
+    if (!size) return size.error();
+    settings.width = size->width;
+    settings.height = size->height;
     for (const Result<void>& step :
          {set(settings.integrator, "integrator", options.integrator, kIntegrators),
           set(settings.filter, "pixel filter", options.filter, kFilters),
@@ -197,7 +208,6 @@ nlohmann::ordered_json description(const Options& options, const ReferenceSettin
             {"penumbra_mm", options.penumbra_mm},
             {"relative_error", picture.relative_error},
             {"noise_reached", picture.reached_noise},
-            {"time_ms", picture.time_ms},
             {"stopped", stopped},
             {"warnings", picture.warnings}};
 }
@@ -229,8 +239,8 @@ Result<int> run(const Options& options) {
     if (Result<void> tried = try_outputs(options); !tried) return tried.error();
     const Result<Scene> scene = scene_of(options);
     if (!scene) return scene.error();
-    on_signals(stop_on_signal);
     Result<ReferencePicture> picture = [&] {
+        const StopOnSignals stop;
         constexpr double kSteps = 1000;
         Progress line("ground truth", size_t(kSteps));
         size_t shown = 0;
@@ -243,12 +253,12 @@ Result<int> run(const Options& options) {
             },
             &g_stop);
     }();
-    on_signals(SIG_DFL);
     if (!picture) return picture.error();
     picture->warnings.insert(picture->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
-    const nlohmann::ordered_json json = description(options, *settings, *picture, g_stop);
+    nlohmann::ordered_json json = description(options, *settings, *picture, g_stop);
     if (Result<void> written = write_picture(options, *scene, *picture, json.dump()); !written)
         return written.error();
+    json["time_ms"] = picture->time_ms;  // not in the file: the same seed gives the same bytes
     if (Result<void> written = write_preview(options, *scene, *picture); !written) return written.error();
     for (const std::string& warning : picture->warnings) print_warning(warning);
     if (options.json)
@@ -271,42 +281,55 @@ Result<int> run(const Options& options) {
 void add_reference_command(CommandLine& line) {
     auto options = std::make_shared<Options>();
     Command* command = line.add(
-        "reference",
-        "The ground truth of a scene: surface integral of the diffusion profile, or random walks",
+        "reference", "Renders the ground truth of a scene: surface integral of the profile, or random walks",
         "dermis reference head_scan -o truth.exr --noise 0.01\n"
         "  dermis reference head_scan --integrator walk --profile jensen_skin1 --samples 256 -o walk.exr\n"
         "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin\n"
-        "  Ctrl-C (or SIGTERM) writes the picture so far and says how noisy it is\n"
+        "  Ctrl-C (or SIGTERM) writes the picture so far and prints its error\n"
         "  exit code 3: the picture is written, but --samples ended it before --noise was reached");
     options->scene.add_to(*command)->required();
     command->add_option("-o,--output", options->output, "FILE.exr")->required();
-    command->add_option("--preview", options->preview, "FILE.png, tone-mapped as the scene says");
+    command->add_option("--preview", options->preview, "FILE.png: the picture with the scene's tone map");
     command->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
-    command->add_option("--integrator", options->integrator, "surface, walk or lambert")
+    command->add_option("--integrator", options->integrator, "integrator: surface, walk or lambert")
         ->capture_default_str();
     command->add_option("--samples,--spp", options->samples,
-                        "samples a pixel, at most (64; with --noise as many as it takes)");
+                        "maximum samples a pixel (default: 64; with --noise as many as it needs)");
     command->add_option("--noise", options->noise, "stop at this relative error, such as 0.01");
-    command->add_option("--seed", options->seed, "same seed, same picture")->capture_default_str();
-    command->add_option("--probes", options->probes, "probes or walks a sample, even")->capture_default_str();
+    command
+        ->add_option("--seed", options->seed,
+                     "seed of the random numbers; the same seed gives the same picture")
+        ->capture_default_str();
+    command->add_option("--probes", options->probes, "probes or walks for each sample, an even number")
+        ->capture_default_str();
     command->add_option("--profile", options->profile, "diffusion profile instead of the scene's");
     command->add_option(
         "--medium", options->medium,
         "walk: \"sigma_s=1,1,1 sigma_a=.1,.1,.1 g=0 eta=1.4\" in 1/mm instead of the profile's");
     command
-        ->add_option("--width-scale", options->width_scale, "stretches the profile or medium; 0 is Lambert")
+        ->add_option("--width-scale", options->width_scale,
+                     "factor on the lengths of profile or medium; 0 is Lambert")
         ->capture_default_str();
-    command->add_option("--normalisation", options->normalisation, "area, or none")->capture_default_str();
+    command
+        ->add_option("--normalisation", options->normalisation,
+                     "normalisation of the surface integral: area or none")
+        ->capture_default_str();
     command
         ->add_option("--cavities", options->cavities,
-                     "flesh behind skin that the outside cannot see, or open as the mesh has it")
+                     "cavities not visible from outside: flesh, or open as in the mesh")
         ->capture_default_str();
-    command->add_option("--filter", options->filter, "box, or center as without multisampling")
+    command
+        ->add_option("--filter", options->filter,
+                     "pixel filter: box, or center (one point, as without multisampling)")
         ->capture_default_str();
-    command->add_option("--shadows", options->shadows, "key, or all lights")->capture_default_str();
-    command->add_option("--ambient", options->ambient, "traced, or renderer for its approximation")
+    command->add_option("--shadows", options->shadows, "lights that cast shadows: key or all")
         ->capture_default_str();
-    command->add_option("--specular", options->specular, "ggx, blinn_phong or none")->capture_default_str();
+    command
+        ->add_option("--ambient", options->ambient,
+                     "environment: traced, or renderer (the renderer's approximation)")
+        ->capture_default_str();
+    command->add_option("--specular", options->specular, "specular model: ggx, blinn_phong or none")
+        ->capture_default_str();
     command->add_option("--penumbra-mm", options->penumbra_mm, "width of the key light's shadow edge")
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one JSON object");

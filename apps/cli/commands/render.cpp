@@ -109,6 +109,9 @@ Result<int> render(Options options) {
     if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
     if (options.frames < 1 || options.frames > 100000)
         return Error{"--frames " + std::to_string(options.frames) + ": 1 to 100000"};
+    if (options.frames > 1 && !options.timings && frame_path(options.output, 0) == options.output)
+        return Error{"--frames " + std::to_string(options.frames) + " would write " + options.output +
+                     " again and again; number them: -o out/%04d.png"};
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
     for (const std::string& warning : prepared->scene.warnings) print_warning(warning);
@@ -136,7 +139,7 @@ Result<int> render(Options options) {
     }
     for (const std::string& message : device->messages())
         std::fprintf(stderr, "dermis: %s\n", message.c_str());
-    if (!device->messages().empty()) return Error{"the validation layers complained (above)"};
+    if (!device->messages().empty()) return Error{"the validation layers reported errors (see above)"};
     return 0;
 }
 
@@ -145,17 +148,18 @@ Result<int> render(Options options) {
 void add_render_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     Command* command =
-        line.add("render", "Draws a scene with a technique",
+        line.add("render", "Renders a scene with a technique",
                  "dermis render head_scan --technique wrap --set wrap=0.4 -o out/head.png --timings");
     options->render.add_to(*command);
     command
         ->add_option("-o,--output", options->output,
                      "picture: .png (tone-mapped) or .exr (linear); %04d numbers frames")
         ->capture_default_str();
-    command->add_option("--bits", options->file.png_bits, "of a PNG: 8 or 16")->capture_default_str();
+    command->add_option("--bits", options->file.png_bits, "bits of a PNG channel: 8 or 16")
+        ->capture_default_str();
     command->add_flag("--layers", options->file.layers, "all debug views as layers of the EXR");
-    command->add_option("--frames", options->frames, "how many to draw")->capture_default_str();
-    command->add_option("--turn", options->turn_deg, "degrees the camera turns over all frames")
+    command->add_option("--frames", options->frames, "number of frames")->capture_default_str();
+    command->add_option("--turn", options->turn_deg, "angle in degrees that the camera turns over all frames")
         ->capture_default_str();
     command->add_flag("--timings", options->timings,
                       "print the time of each pass (median, first frame left out)");

@@ -144,8 +144,8 @@ std::string variable_text() {
 Result<int> print_report() {
     const std::string missing = DERMIS_VIEW_MISSING;
     const std::string text = "version:   " + version_text() + "\nsystem:    " + system_text() +
-                             "\nprocessor: " + processor_text() + "\n" + device_text() + "window:    " +
-                             (missing.empty() ? "built" : "not built, for want of " + missing) +
+                             "\nprocessor: " + processor_text() + "\n" + device_text() +
+                             "window:    " + (missing.empty() ? "built" : "not built, missing " + missing) +
                              "\nscenes:    " + join(scene_names(), " ") + "\nvariables: " + variable_text() +
                              "\npackages:  " + package_text() + "\n";
     std::fwrite(text.data(), 1, text.size(), stdout);
@@ -156,8 +156,7 @@ Result<int> print_report() {
 
 void add_report_command(CommandLine& line) {
     Command* command =
-        line.add("report",
-                 "Version, devices, drivers and packages as text to paste into a fault report; sends nothing",
+        line.add("report", "Prints version, devices, drivers and packages for a fault report; sends nothing",
                  "dermis report > report.txt");
     line.when_chosen(command, print_report);
 }

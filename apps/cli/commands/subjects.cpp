@@ -30,7 +30,7 @@ Result<int> list_subjects(bool json) {
 void add_subjects_command(CommandLine& line) {
     const auto json = std::make_shared<bool>(false);
     Command* command =
-        line.add("subjects", "Built-in things to draw, with their parameters", "dermis subjects");
+        line.add("subjects", "Lists the built-in subjects with their parameters", "dermis subjects");
     command->add_flag("--json", *json, "as JSON");
     line.when_chosen(command, [json] { return list_subjects(*json); });
 }

@@ -46,8 +46,9 @@ void add_techniques_command(CommandLine& line) {
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    Command* command = line.add("techniques", "Techniques with their parameters", "dermis techniques wrap");
-    command->add_option("id", options->only, "only this one");
+    Command* command =
+        line.add("techniques", "Lists the techniques with their parameters", "dermis techniques wrap");
+    command->add_option("id", options->only, "list this technique only");
     command->add_flag("--json", options->json, "as JSON");
     line.when_chosen(command, [options] { return list_techniques(options->only, options->json); });
 }

@@ -51,12 +51,12 @@ Result<int> view_scene(Options options) {
         const view::WindowState state = view::load_state();
         options.render.size = std::to_string(state.width) + "x" + std::to_string(state.height);
     }
-    const Result<std::pair<int, int>> size = parse_size(options.render.size);
+    const Result<Size> size = parse_size(options.render.size);
     if (!size) return size.error();
     view::ViewerOptions viewer = {.catalog = built_in_catalog(),
                                   .scene_path = options.render.scene.name,
                                   .load = [&options] { return first_scene(options.render); },
-                                  .size = {size->first, size->second},
+                                  .size = {size->width, size->height},
                                   .device = options.render.device,
                                   .validation = options.render.validation,
                                   .samples = options.render.samples,
@@ -87,22 +87,24 @@ void add_view_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     options->render.size = "";  // the last window's
     options->render.samples = 4;
-    Command* command = line.add("view", "look at a scene in a window, in real time (F1 there: help)",
+    Command* command = line.add("view", "Shows a scene in a window, in real time; F1 lists the keys",
                                 "dermis view head_scan --technique preintegrated");
     options->render.add_to(*command);
     command->add_option("--interface-scale", options->interface_scale,
-                        "size of letters and widgets (default: from the display)");
+                        "factor on the size of text and controls (default: from the display)");
     command->add_option("--truth", options->truth,
-                        "a picture to compare with: what dermis reference wrote, or any");
-    command->add_option("--turntable", options->turn_frames, "no window: so many frames of one turn into -o");
+                        "picture to compare with, for example one of dermis reference");
+    command->add_option("--turntable", options->turn_frames,
+                        "no window: write one full turn of the camera in this number of frames");
     command
         ->add_option("-o,--output", options->turntable.output,
-                     "of the turntable: out/%04d.png, or a film.mp4")
+                     "output of --turntable: numbered pictures (out/%04d.png) or a video (.mp4)")
         ->capture_default_str();
     command->add_option("--shaders", options->shader_root,
-                        "folder with shaders/ and techniques/ to follow (default: the source tree)");
-    command->add_option("--frames", options->frames, "close after so many");
-    command->add_option("--script", options->script, "a file of input instead of a person; see docs/view.md");
+                        "folder with shaders/ and techniques/ to watch (default: the source tree)");
+    command->add_option("--frames", options->frames, "close after this number of frames");
+    command->add_option("--script", options->script,
+                        "UI script: simulated mouse and keyboard (docs/view.md)");
     line.when_chosen(command, [options] { return view_scene(*options); });
 }
 

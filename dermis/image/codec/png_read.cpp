@@ -22,12 +22,12 @@ struct Source {
     char message[160] = {};
 };
 
-void on_error(png_structp png, png_const_charp message) {
+void on_read_error(png_structp png, png_const_charp message) {
     auto* source = static_cast<Source*>(png_get_error_ptr(png));
     std::snprintf(source->message, sizeof(source->message), "%s", message);
     png_longjmp(png, 1);
 }
-void on_warning(png_structp, png_const_charp) {}
+void on_read_warning(png_structp, png_const_charp) {}
 
 void on_read(png_structp png, png_bytep to, size_t count) {
     auto* source = static_cast<Source*>(png_get_io_ptr(png));
@@ -124,7 +124,7 @@ Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
     if (Result<void> whole = check_chunks(file); !whole) return whole.error();
     Reader r;
     r.source.rest = file;
-    r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r.source, on_error, on_warning);
+    r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r.source, on_read_error, on_read_warning);
     r.info = r.png ? png_create_info_struct(r.png) : nullptr;
     if (!r.info) return Error{"libpng has no memory"};
     if (!guarded(r.png, read_png_header, &r, use)) return corrupt(r);

@@ -13,27 +13,27 @@ namespace {
 // larger.
 constexpr int kCompressionLevel = 4;
 
-struct Target {
+struct PngTarget {
     Buffer bytes;
     char message[160] = {};
 };
 
-void on_error(png_structp png, png_const_charp message) {
-    auto* target = static_cast<Target*>(png_get_error_ptr(png));
+void on_write_error(png_structp png, png_const_charp message) {
+    auto* target = static_cast<PngTarget*>(png_get_error_ptr(png));
     std::snprintf(target->message, sizeof(target->message), "%s", message);
     png_longjmp(png, 1);
 }
-void on_warning(png_structp, png_const_charp) {}
+void on_write_warning(png_structp, png_const_charp) {}
 
 void on_write(png_structp png, png_bytep from, size_t count) {
-    auto* target = static_cast<Target*>(png_get_io_ptr(png));
+    auto* target = static_cast<PngTarget*>(png_get_io_ptr(png));
     const auto* bytes = reinterpret_cast<const std::byte*>(from);
     target->bytes.insert(target->bytes.end(), bytes, bytes + count);
 }
 void on_flush(png_structp) {}
 
 struct Writer {
-    Target target;
+    PngTarget target;
     png_structp png = nullptr;
     png_infop info = nullptr;
     ~Writer() { png_destroy_write_struct(&png, &info); }
@@ -89,7 +89,7 @@ Result<Buffer> encode_png(const Image& image, const ImageText& text) {
         rows[y] = reinterpret_cast<png_bytep>(const_cast<std::byte*>(image.bytes.data())) + y * row_bytes;
 
     Writer w;
-    w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w.target, on_error, on_warning);
+    w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w.target, on_write_error, on_write_warning);
     w.info = w.png ? png_create_info_struct(w.png) : nullptr;
     if (!w.info) return Error{"libpng has no memory"};
     if (!guarded_write(w, image, chunks, rows)) return Error{std::string("libpng: ") + w.target.message};

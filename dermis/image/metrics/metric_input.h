@@ -20,7 +20,7 @@ struct Plane {
     explicit Plane(const Image& map);
 };
 
-/// Both images in linear f32, checked as metrics.h promises.
+/// Both images in linear f32, checked as metrics.h says.
 struct Pair {
     Image image, reference;
 };

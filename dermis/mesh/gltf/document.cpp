@@ -81,6 +81,7 @@ bool too_deep(std::string_view json) {
 }
 
 void parse_json(std::string_view text, Document& document) {
+    if (text.empty()) return document.complaints.fail("", "the file is empty");
     if (too_deep(text)) return document.complaints.fail("", "JSON nested deeper than 128 levels");
     try {
         document.root = nlohmann::json::parse(text.begin(), text.end());

@@ -79,7 +79,7 @@ class MaterialReader {
         const JsonView specular = extensions["KHR_materials_specular"];
         material.specular = number(specular["specularFactor"], 1, 0, 1);
         material.specular_map = texture(specular["specularTexture"]);
-        // 0 stands for "no Fresnel at all", which nothing here is.
+        // 0 means "no Fresnel at all", which no material here has.
         const double ior = extensions["KHR_materials_ior"]["ior"].number(1.5);
         material.ior = ior >= 1 ? float(ior) : 1.5f;
         const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1);

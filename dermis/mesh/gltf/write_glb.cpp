@@ -11,14 +11,11 @@
 namespace dermis {
 namespace {
 
+using gltf::array_of;
 using gltf::GlbContent;
 using gltf::Json;
 
 enum : int { kU32 = 5125, kF32 = 5126, kArrayBuffer = 34962, kElementArrayBuffer = 34963 };
-
-Json array_of(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
 
 size_t add_accessor(GlbContent& glb, std::span<const std::byte> bytes, size_t count, int component,
                     const char* type, int target) {

@@ -9,10 +9,6 @@
 namespace dermis::gltf {
 namespace {
 
-Json array_of(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-
 // By the first bytes; empty for anything else.
 std::string mime_type(std::span<const std::byte> bytes) {
     const auto starts_with = [&](std::string_view magic) {
@@ -48,7 +44,7 @@ class MaterialWriter {
         pbr["roughnessFactor"] = m.roughness;
         add_texture(pbr, "baseColorTexture", m.base_color_map);
         add_texture(pbr, "metallicRoughnessTexture", m.metallic_roughness_map);
-        // glTF knows normal maps in tangent space only.
+        // glTF has normal maps in tangent space only.
         if (m.normal_space == NormalSpace::tangent) add_texture(json, "normalTexture", m.normal_map);
         if (json.contains("normalTexture")) json["normalTexture"]["scale"] = m.normal_scale;
         add_texture(json, "occlusionTexture", m.occlusion_map);

@@ -13,6 +13,10 @@ namespace dermis::gltf {
 
 using Json = nlohmann::ordered_json;
 
+[[nodiscard]] inline Json array_of(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+
 struct GlbContent {
     Json root;
     std::vector<std::byte> binary;  ///< the one buffer

@@ -1,0 +1,186 @@
+// The documentation names files, headings, parameters of techniques and benchmarks: each of them exists.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "cli/docs_pages.h"
+#include "cli/run_program.h"
+#include "dermis/base/text.h"
+#include "support/temporary_directory.h"
+
+using namespace dermis;
+using namespace dermis::docs;
+using testing::Contains;
+using testing::IsEmpty;
+
+namespace {
+
+// "dermis/render/shared_passes" names shared_passes.h and .cpp; *, NAME and my_skin are examples of names.
+bool exists(const std::string& path) {
+    static const std::regex example("[*<>{]|NAME|my_skin");
+    if (std::regex_search(path, example)) return true;
+    if (fs::exists(kRoot / path)) return true;
+    const fs::path full = kRoot / path;
+    if (!fs::is_directory(full.parent_path())) return false;
+    return std::ranges::any_of(fs::directory_iterator(full.parent_path()), [&](const auto& entry) {
+        return entry.path().stem() == full.filename() ||
+               entry.path().filename().string().starts_with(full.filename().string() + ".");
+    });
+}
+
+// The anchor of a heading: lower case, spaces as hyphens, without other punctuation.
+std::string anchor_of(const std::string& heading) {
+    std::string anchor;
+    for (const char c : heading)
+        if (c == ' ')
+            anchor += '-';
+        else if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || (c & 0x80) != 0)
+            anchor += char(std::tolower(static_cast<unsigned char>(c)));
+    return anchor;
+}
+
+std::set<std::string> anchors_of(const std::string& page) {
+    std::set<std::string> anchors;
+    bool fenced = false;
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("```")) fenced = !fenced;
+        const size_t text = line.find_first_not_of('#');
+        if (!fenced && text != 0 && text != std::string::npos && line[text] == ' ')
+            anchors.insert(anchor_of(line.substr(text + 1)));
+    }
+    return anchors;
+}
+
+// What is wrong with a link of a page; empty when nothing is.
+std::string wrong_link(const fs::path& page, const std::string& link) {
+    if (link.find("://") != std::string::npos) return {};
+    const size_t hash = link.find('#');
+    const fs::path file = hash == 0 ? page : page.parent_path() / link.substr(0, hash);
+    if (!fs::exists(file)) return "no file " + file.string();
+    if (hash == std::string::npos) return {};
+    const std::string anchor = link.substr(hash + 1);
+    return anchors_of(read(file)).contains(anchor) ? "" : "no heading #" + anchor;
+}
+
+// Every path of the repository's sources.
+const std::vector<std::string>& source_files() {
+    static const std::vector<std::string> kFiles = [] {
+        std::vector<std::string> files;
+        for (const char* tree : {"apps", "bench", "catalog", "cmake", "dermis", "scenes", "shaders",
+                                 "subjects", "techniques", "tests", "tools"})
+            for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree))
+                if (entry.is_regular_file())
+                    files.push_back("/" + fs::relative(entry.path(), kRoot).string());
+        return files;
+    }();
+    return kFiles;
+}
+
+// "normal_blend.h" and "preintegrated/normal_blend.h" name techniques/preintegrated/normal_blend.h.
+bool is_source(const std::string& name) {
+    return std::ranges::any_of(source_files(),
+                               [&](const std::string& file) { return file.ends_with("/" + name); });
+}
+
+/// Choices by parameter, over all techniques; none for a number.
+using Parameters = std::map<std::string, std::set<std::string>>;
+
+const Parameters& all_parameters() {
+    static const Parameters kParameters = [] {
+        TemporaryDirectory scratch;
+        const std::string text =
+            run_shell(std::string(DERMIS_PROGRAM) + " techniques", scratch.path.string()).out;
+        static const std::regex row("\\n    ([a-z0-9_]+) +([^ ]+).* default ");
+        Parameters parameters;
+        for (std::sregex_iterator it(text.begin(), text.end(), row), end; it != end; ++it) {
+            std::set<std::string>& choices = parameters[(*it)[1]];
+            const std::string range = (*it)[2];
+            if (range.find('|') != std::string::npos)
+                for (const std::string_view choice : split(range, '|')) choices.emplace(choice);
+        }
+        return parameters;
+    }();
+    return kParameters;
+}
+
+// What is wrong with "shadow=scattered|plain"; empty when nothing is, or when it is no setting.
+std::string wrong_setting(const std::string& code) {
+    static const std::regex setting("([a-z][a-z0-9_]*)=([a-z0-9_.|\\\\]*)");
+    std::smatch match;
+    if (!std::regex_match(code, match, setting)) return {};
+    const auto parameter = all_parameters().find(match[1]);
+    if (parameter == all_parameters().end()) return "no parameter " + match[1].str();
+    std::string values = match[2];
+    std::erase(values, '\\');
+    for (const std::string_view value : split(values, '|'))
+        if (!value.empty() && !parameter->second.empty() && !parameter->second.contains(std::string(value)))
+            return match[1].str() + " cannot be " + std::string(value);
+    return {};
+}
+
+}  // namespace
+
+TEST(Docs, every_file_and_heading_that_a_page_links_exists) {
+    static const std::regex link("\\]\\(([^) ]+)\\)");
+    size_t anchors = 0;
+    for (const fs::path& page : pages())
+        for (const std::string& target : matches(read(page), link, 1)) {
+            EXPECT_THAT(wrong_link(page, target), IsEmpty()) << page << ": " << target;
+            anchors += target.find('#') != std::string::npos;
+        }
+    EXPECT_GT(anchors, 0u);
+}
+
+TEST(Docs, every_source_file_that_a_page_names_exists) {
+    static const std::regex named(
+        "^((?:dermis|techniques|subjects|catalog|shaders|apps|tests|tools|bench|scenes|docs|cmake)/[^ "
+        ":,]*)$");
+    static const std::regex source("[a-z0-9_/]+\\.(cpp|h|glsl|frag|vert|comp)");
+    for (const fs::path& page : pages())
+        for (const std::string& code : code_of(read(page))) {
+            std::smatch match;
+            if (std::regex_match(code, match, named)) EXPECT_TRUE(exists(match[1])) << page << ": " << code;
+            if (std::regex_match(code, source)) EXPECT_TRUE(is_source(code)) << page << ": " << code;
+        }
+}
+
+TEST(Docs, every_benchmark_that_a_page_names_exists) {
+    static const std::regex named("build/bench/([a-z_]+)");
+    size_t found = 0;
+    for (const fs::path& page : pages())
+        for (const std::string& name : matches(read(page), named, 1)) {
+            EXPECT_TRUE(fs::exists(kRoot / "bench" / (name + ".cpp"))) << page << ": " << name;
+            ++found;
+        }
+    EXPECT_GT(found, 3u);
+}
+
+TEST(Docs, every_setting_that_a_page_on_techniques_names_is_one_of_a_technique) {
+    ASSERT_GT(all_parameters().size(), 20u);
+    for (const fs::path& page : pages()) {
+        if (page.string().find("/techniques/") == std::string::npos && page.filename() != "sources.md")
+            continue;
+        for (const std::string& code : code_of(read(page)))
+            EXPECT_THAT(wrong_setting(code), IsEmpty()) << page << ": " << code;
+    }
+}
+
+TEST(Docs, unknown_files_headings_and_settings_are_found) {
+    EXPECT_FALSE(exists("dermis/render/no_such_file"));
+    EXPECT_TRUE(exists("dermis/render/renderer"));
+    EXPECT_FALSE(is_source("no_such_test.cpp"));
+    EXPECT_TRUE(is_source("docs_names_test.cpp"));
+    const fs::path page = kRoot / "docs/terminology.md";
+    EXPECT_EQ(wrong_link(page, "profiles.md#no-such-heading"), "no heading #no-such-heading");
+    EXPECT_EQ(wrong_link(page, "profiles.md#sums-of-gaussians"), "");
+    EXPECT_EQ(wrong_link(page, "#light"), "");
+    EXPECT_NE(wrong_link(page, "images/no_such.jpg"), "");
+    EXPECT_EQ(wrong_setting("shadow=scatered"), "shadow cannot be scatered");
+    EXPECT_EQ(wrong_setting("shadows=plain"), "no parameter shadows");
+    EXPECT_EQ(wrong_setting("shadow=scattered\\|plain"), "");
+}
