@@ -56,11 +56,12 @@ TEST_F(PreintegratedAmbient, scatters_over_an_edge_of_its_occlusion) {
         for (int c = 0; c < 3; ++c) {
             double expected = 0, total = 0;
             for (const GaussianTerm& term : gpu_gems_3_skin().terms) {
-                expected +=
-                    term.weight[size_t(c)] * 0.5 * std::erfc((x_mm - 0.17) / std::sqrt(2 * term.variance_mm2));
+                expected += term.weight[size_t(c)] * 0.5 *
+                            std::erfc((x_mm - 0.17) / std::sqrt(2 * term.variance_mm2));
                 total += term.weight[size_t(c)];
             }
-            EXPECT_NEAR(image.at(x, row, c) / image.at(4, row, c), expected / total, 0.05) << x_mm << " " << c;
+            EXPECT_NEAR(image.at(x, row, c) / image.at(4, row, c), expected / total, 0.05)
+                << x_mm << " " << c;
         }
     }
     const int dark = kGrid / 2 + 1;  // 1.5 mm behind the edge
@@ -69,11 +70,14 @@ TEST_F(PreintegratedAmbient, scatters_over_an_edge_of_its_occlusion) {
 }
 
 TEST(OcclusionBlend, gives_a_gaussian_of_a_stored_variance_to_that_blur) {
-    for (const auto& [variance_mm2, expected] :
-         {std::pair{0.5, std::array{1.0, 0.0, 0.0}}, {2.0, std::array{0.0, 1.0, 0.0}},
-          {8.0, std::array{0.0, 0.0, 1.0}}, {30.0, std::array{0.0, 0.0, 1.0}},
-          {0.0, std::array{0.0, 0.0, 0.0}}, {1.25, std::array{0.5, 0.5, 0.0}}}) {
-        const auto weights = occlusion_blend({.terms = {{.variance_mm2 = variance_mm2, .weight = {2, 2, 2}}}});
+    for (const auto& [variance_mm2, expected] : {std::pair{0.5, std::array{1.0, 0.0, 0.0}},
+                                                 {2.0, std::array{0.0, 1.0, 0.0}},
+                                                 {8.0, std::array{0.0, 0.0, 1.0}},
+                                                 {30.0, std::array{0.0, 0.0, 1.0}},
+                                                 {0.0, std::array{0.0, 0.0, 0.0}},
+                                                 {1.25, std::array{0.5, 0.5, 0.0}}}) {
+        const auto weights =
+            occlusion_blend({.terms = {{.variance_mm2 = variance_mm2, .weight = {2, 2, 2}}}});
         for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(weights[i][1], expected[i], 1e-12) << variance_mm2;
     }
 }
