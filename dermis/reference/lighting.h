@@ -12,8 +12,8 @@
 
 namespace dermis {
 
-/// Which lights cast shadows: the key light alone, as the renderer has it, or every one.
-enum class ShadowCasters { key, all };
+/// Which lights cast shadows: those with a shadow map in the renderer (Scene::shadow_maps), or every one.
+enum class ShadowCasters { scene, all };
 
 /// Environment light: traced through the scene, or as the renderer approximates it (order-2 harmonics times
 /// the vertices' ambient visibility, and the split sum for its reflections when a Lighting is given one).
@@ -22,7 +22,7 @@ enum class AmbientModel { traced, renderer };
 enum class SpecularReflection { none, blinn_phong, ggx };
 
 struct LightingSettings {
-    ShadowCasters shadows = ShadowCasters::key;
+    ShadowCasters shadows = ShadowCasters::scene;
     AmbientModel ambient = AmbientModel::traced;
     SpecularReflection specular = SpecularReflection::ggx;
     /// Full width of the edge of every shadow, as the renderer's filter makes it: the shadow ray starts
@@ -59,7 +59,8 @@ class Lighting {
           materials_(materials),
           environment_(environment),
           settings_(settings),
-          reflection_(reflection) {}
+          reflection_(reflection),
+          shadow_maps_(scene.shadow_maps()) {}
 
     /// An unbiased estimate of the irradiance, linear; exact (no noise) without penumbra and traced
     /// environment.
@@ -78,7 +79,7 @@ class Lighting {
     [[nodiscard]] const LightingSettings& settings() const { return settings_; }
 
   private:
-    [[nodiscard]] Vec3 light_visibility(const Light& light, const Receiver& receiver, Vec3 to_light,
+    [[nodiscard]] Vec3 light_visibility(size_t light, const Receiver& receiver, Vec3 to_light,
                                         float distance_mm, Vec2 u) const;
     [[nodiscard]] Vec3 environment_irradiance(const Receiver& receiver, const LightingRandom& random) const;
     [[nodiscard]] Vec3 environment_reflection(const ShadingPoint& point, Vec3 to_eye, Vec2 u) const;
@@ -89,6 +90,7 @@ class Lighting {
     const EnvironmentSampler& environment_;
     LightingSettings settings_;
     const SplitSumReflection* reflection_;
+    std::vector<int> shadow_maps_;
 };
 
 /// What reaches `p_mm` of a light that nothing blocks.

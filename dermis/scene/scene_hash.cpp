@@ -64,6 +64,8 @@ void add(Hasher& hasher, const Light& light) {
     add(hasher, light.position_mm);
     hasher.add(light.kind).add(light.intensity).add(light.inner_angle_rad).add(light.outer_angle_rad);
     hasher.add(light.is_key);
+    // Only what differs from a scene with one light, so that its cached ground truth is found.
+    if (light.casts_shadow != light.is_key) hasher.add("shadow").add(light.casts_shadow);
 }
 
 void add(Hasher& hasher, const Camera& camera) {

@@ -105,7 +105,7 @@ void prepare_surface(inout Surface s) {
     if (normals == kNormalsSharp) return;
     smooth_weight = vec3(1.0);
     smooth_levels = normal_lod_bias;
-    if (normals == kNormalsBlended) blend_normals(s);
+    if (normals == kNormalsBlended || normals == kNormalsLerp) blend_normals(s);
     n_smooth_world =
         normalize(mean_normal_world(s.n_geometry_world, s.uv, smooth_levels + magnification_levels(normal_map, s.uv)));
 }
@@ -122,11 +122,23 @@ vec3 falloff(float n_dot_l, float k) {
     return textureLod(sampler2D(skin_lut, linear_clamp), uv, 0.0).rgb;
 }
 
+// One N.L a channel.
+vec3 falloff_of_channels(vec3 n_dot_l, float k) {
+    return vec3(falloff(n_dot_l.r, k).r, falloff(n_dot_l.g, k).g, falloff(n_dot_l.b, k).b);
+}
+
+// The normal of a channel as Penner 2011 has it: mixed itself.
+vec3 lerped_normal(Surface s, float weight) { return normalize(mix(s.n_world, n_smooth_world, weight)); }
+
 // Light is what scatters, so the answers to both normals are mixed, not the normals: a bump's lit side still counts where
 // the mean normal has turned away, and the table is read twice instead of once a channel.
 vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
     float k = curvature_towards(skin_tensor_per_mm, s.n_geometry_world, to_light_world);
     if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world), k);
+    if (normals == kNormalsLerp)
+        return falloff_of_channels(vec3(dot(lerped_normal(s, smooth_weight.r), to_light_world),
+                                        dot(lerped_normal(s, smooth_weight.g), to_light_world),
+                                        dot(lerped_normal(s, smooth_weight.b), to_light_world)), k);
     vec3 sharp = falloff(dot(s.n_world, to_light_world), k);
     if (normals == kNormalsSharp) return sharp;
     return mix(sharp, falloff(dot(n_smooth_world, to_light_world), k), smooth_weight);
@@ -180,8 +192,12 @@ vec3 ambient_response(Surface s) {
     vec3 band[3];
     ambient_bands(band);
     vec3 arriving = environment_convolved(s.n_world, band[0], band[1], band[2]);
-    if (normals != kNormalsSharp)
+    if (normals == kNormalsLerp) {
+        for (int c = 0; c < 3; ++c)
+            arriving[c] = environment_convolved(lerped_normal(s, smooth_weight[c]), band[0], band[1], band[2])[c];
+    } else if (normals != kNormalsSharp) {
         arriving = mix(arriving, environment_convolved(n_smooth_world, band[0], band[1], band[2]), smooth_weight);
+    }
     return arriving * scattered_occlusion(s);
 }
 

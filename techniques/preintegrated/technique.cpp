@@ -22,7 +22,12 @@ enum class Curvature : int32_t {
     derivative = kCurvatureDerivative,
     image = kCurvatureImage
 };
-enum class Normals : int32_t { sharp = kNormalsSharp, smooth = kNormalsSmooth, blended = kNormalsBlended };
+enum class Normals : int32_t {
+    sharp = kNormalsSharp,
+    smooth = kNormalsSmooth,
+    blended = kNormalsBlended,
+    lerp = kNormalsLerp
+};
 enum class Shadow : int32_t { plain = kShadowPlain, scattered = kShadowScattered };
 enum class Transmission : int32_t { none = kTransmissionNone, shadow_map = kTransmissionShadowMap };
 enum class Ambient : int32_t { exact = kAmbientExact, lut = kAmbientLut, curve_2015 = kAmbientCurve2015 };
@@ -58,7 +63,7 @@ ParameterTable parameters() {
                 "times the curvature, for effect; 1 is right")
         .number(&Params::tune_curvature, "tune_curvature", "", 0.01, 100,
                 "divides the derivative's curvature; 1 is right in mm")
-        .choice(&Params::normals, "normals", {"sharp", "smooth", "blended"},
+        .choice(&Params::normals, "normals", {"sharp", "smooth", "blended", "lerp"},
                 "diffuse normal: as mapped, from a smaller mip, or one a channel by the profile's width")
         .number(&Params::normal_lod_bias, "normal_lod_bias", "mip levels", 0, 8,
                 "how much smaller the mip is, at most")

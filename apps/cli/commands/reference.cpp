@@ -25,7 +25,8 @@ namespace {
 struct Options {
     SceneChoice scene;
     std::string output, preview, size = "512x512", profile;
-    std::string integrator = "surface", filter = "box", shadows = "key", ambient = "traced", specular = "ggx";
+    std::string integrator = "surface", filter = "box", shadows = "scene", ambient = "traced",
+                specular = "ggx";
     std::string normalisation = "area", cavities = "flesh", medium;
     int samples = 0, probes = 16;  // 0: kSamples, or as many as the noise takes
     uint32_t seed = 1;
@@ -98,7 +99,7 @@ Result<Enum> choose(std::string_view what, const std::string& text, const Named<
 constexpr Named<Integrator> kIntegrators[] = {
     {"surface", Integrator::surface}, {"walk", Integrator::walk}, {"lambert", Integrator::lambert}};
 constexpr Named<PixelFilter> kFilters[] = {{"box", PixelFilter::box}, {"center", PixelFilter::center}};
-constexpr Named<ShadowCasters> kShadows[] = {{"key", ShadowCasters::key}, {"all", ShadowCasters::all}};
+constexpr Named<ShadowCasters> kShadows[] = {{"scene", ShadowCasters::scene}, {"all", ShadowCasters::all}};
 constexpr Named<AmbientModel> kAmbient[] = {{"traced", AmbientModel::traced},
                                             {"renderer", AmbientModel::renderer}};
 constexpr Named<SpecularReflection> kSpecular[] = {{"none", SpecularReflection::none},
