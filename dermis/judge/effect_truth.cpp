@@ -128,7 +128,8 @@ bool fine_enough(const State& state, const EffectTruthSettings& settings) {
 // The next batch of a half, in passes: whole rounds over the grid; 0 when the limit leaves none.
 int next_passes(const State& state, const EffectTruthSettings& settings) {
     const int cells = settings.reference.grid * settings.reference.grid;
-    const int left = (settings.samples / 2 - state.header.passes) / cells;
+    // The cache may hold a finer truth, of a run with a higher limit.
+    const int left = std::max(0, settings.samples / 2 - state.header.passes) / cells;
     if (state.header.passes == 0) return cells * std::min(left, 1);
     const double wanted = (passes_wanted(state, settings) - state.header.passes) / cells;
     return cells * std::min({left, kMostRounds, std::max(1, int(std::ceil(wanted)))});

@@ -96,7 +96,7 @@ Result<Json> images_of(const Scene& scene, const Comparison& comparison, const I
     add("effect", "ground truth", signed_uri(effect));
     for (const Compared& row : comparison.rows) add("effect", row.contestant.name(), signed_uri(row.effect));
     for (const Compared& row : comparison.rows)
-        add("left over", row.contestant.name(), signed_uri(difference(row.effect, effect)));
+        add("error of the effect", row.contestant.name(), signed_uri(difference(row.effect, effect)));
     for (const Compared& row : comparison.rows)
         add("FLIP", row.contestant.name(), data_uri(heat_map(row.flip, scales.flip, skin)));
     for (const Compared& row : comparison.rows)

@@ -56,7 +56,7 @@ Result<LoadedMesh> load_obj(std::span<const std::byte> bytes, const fs::path& na
     return LoadedMesh{.mesh = triangulate(*refined), .warnings = std::move(file->warnings)};
 }
 
-// glTF knows triangles only: they are the cage.
+// glTF has triangles only: they are the control cage.
 Result<LoadedMesh> load_gltf(std::span<const std::byte> bytes, const fs::path& name,
                              const ReadSibling& read_sibling, const MeshOptions& options) {
     Result<LoadedMesh> loaded = gltf::parse_gltf(bytes, name, read_sibling, options);

@@ -72,7 +72,7 @@ Result<ViewerReport> Session::run() {
         store_state(state_);
     }
     if (const std::vector<std::string> said = device_.messages(); !said.empty())
-        return Error{"the validation layers complained: " + join(said, "; ")};
+        return Error{"the validation layers reported errors: " + join(said, "; ")};
     return report_;
 }
 

@@ -80,7 +80,7 @@ class Session {
 
     const ViewerOptions* options_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-    // In this order: what is below dies before what is above.
+    // In this order: what is below is destroyed before what is above.
     Window window_;
     gpu::Device device_;
     std::optional<Presenter> presenter_;

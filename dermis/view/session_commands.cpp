@@ -66,7 +66,7 @@ Result<void> Session::run_command(const ScriptCommand& command) {
             for (const auto& [name, region] : widgets_) names.push_back(name);
             if (widget == widgets_.end()) return Error{unknown_name("widget", command.words[0], names)};
             if (widget->second.y + widget->second.height > float(presenter_->size().height))
-                return Error{command.words[0] + " is out of sight; make the window higher"};
+                return Error{command.words[0] + " is not visible; make the window higher"};
             input_.play(slide_frames(widget->second, command.numbers[0]));
             return {};
         }

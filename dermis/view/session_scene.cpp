@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLookEveryS = 0.3;
 constexpr const char* kShaderTopic = "shader ";
-constexpr const char* kLastGood = "  (the last good one goes on)";
+constexpr const char* kLastGood = "  (the last version without an error stays in use)";
 
 // The baseline, or against the baseline the technique after it.
 const Technique& compared_with(const Technique& technique, std::span<const Technique> all) {
