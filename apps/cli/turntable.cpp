@@ -44,8 +44,8 @@ Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& 
     return output;
 }
 
-// The matrix and the curve are stated, inside the file too: players guess by size otherwise, and skin turns
-// red or green. Sides must be even.
+// The matrix and the curve are stated, inside the file too: otherwise players choose them by the size, and
+// skin turns red or green. Sides must be even.
 std::vector<std::string> film_command(const std::string& pattern, const std::string& film,
                                       const OutputSettings& output) {
     return {"ffmpeg",

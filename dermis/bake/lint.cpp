@@ -209,7 +209,7 @@ Result<LintReport> lint_file(const std::filesystem::path& path) {
     const bool numbers_are_srgb = report->best.stored_as == StoredAs::srgb;
     if (png_is_flagged_srgb(*file) && !numbers_are_srgb && report->explained) {
         report->findings.push_back("the PNG is flagged sRGB, its numbers are not");
-        report->advice.push_back("import it as data (no sRGB), whatever its flag says");
+        report->advice.push_back("import it as data (no sRGB), against its flag");
     }
     if (const Result<Table> own = read_table(path, {}))
         report->findings.push_back("its own convention says: " + describe(*own));

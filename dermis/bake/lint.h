@@ -1,10 +1,11 @@
 #pragma once
-// What is this table? Finds the convention that explains a pre-integrated diffuse table from anywhere best,
-// says how far it is from the exact function, and what to do about it.
+// Analysis of a pre-integrated diffuse table from another tool: the convention that explains it best, its
+// error against the exact function, and what to change.
 //
-// The search holds every candidate model (construction x profile, and the published taps) against a sample of
-// the texels, for each way the picture may lie and be encoded; the radius of each row is free at first, which
-// needs no guess about the axis. The best few are then fitted with a straight axis in curvature or in radius.
+// The search compares every candidate model (construction x profile, and the published taps) with a sample of
+// the texels, for each orientation and encoding of the picture; the radius of each row is free at first,
+// which needs no guess about the axis. The best few are then fitted with a straight axis in curvature or in
+// radius.
 
 #include <filesystem>
 #include <string>
@@ -19,7 +20,7 @@ namespace dermis {
 enum class StoredAs {
     linear,         ///< light as it is
     srgb,           ///< sRGB-encoded light
-    decoded_twice,  ///< light that went through an sRGB decoding it never needed
+    decoded_twice,  ///< linear light that was decoded from sRGB by mistake
     difference      ///< 2 (light - max(0, N.L)) + 1/2, FaceWorks
 };
 
@@ -33,7 +34,7 @@ struct LintHypothesis {
     bool n_dot_l_mirrored = false;  ///< the lit side comes first
     TexelSampling sampling = TexelSampling::centre;
     TableAxis axis;           ///< of the other direction, as of texel centres, first to last in the picture
-    double rms = 0, max = 0;  ///< what it leaves unexplained, in light
+    double rms = 0, max = 0;  ///< the remaining difference, in light
 };
 
 struct LintReport {

@@ -57,7 +57,7 @@ void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> lig
               const std::vector<double>& radii_mm, LintHypothesis& hypothesis);
 
 /// What a table may have been made of: construction and profile of the hypothesis are set. Profiles that are
-/// no sums of Gaussians go through their fit, good enough to tell them apart.
+/// no sums of Gaussians are replaced by their fit, which is exact enough to distinguish them.
 struct Model {
     LintHypothesis hypothesis;
     std::shared_ptr<const Profile> profile;

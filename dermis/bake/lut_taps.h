@@ -1,5 +1,5 @@
 #pragma once
-// The published loops, literally: for reproducing old tables, never for new ones.
+// The published loops, unchanged: for reproducing old tables, never for new ones.
 
 #include <span>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Profiles for people: plots, and the tables of docs/profiles.md.
+// Reports on profiles: plots, and the tables of docs/profiles.md.
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ namespace dermis {
 /// The fractions of light whose radii are reported.
 inline constexpr double kReportedFractions[] = {0.5, 0.9, 0.99, 0.997};
 
-/// R(r), the light that leaves within r, and what the fit misses; one curve a channel, the fit dashed.
+/// R(r), the light that leaves within r, and the error of the fit; one curve a channel, the fit dashed.
 [[nodiscard]] Plot profile_plot(const Profile& profile, const GaussianFit& fit);
 
 /// The light that leaves within r, one panel a channel, one curve a profile.

@@ -16,8 +16,8 @@ namespace dermis {
 /// Errors: an axis other than those two, or bounds outside 0..1000 per mm, 0.001..1e6 mm.
 [[nodiscard]] Result<void> check_curvature_axis(const TableAxis& axis);
 
-/// Exact values, interleaved RGB, one row of n_dot_l a radius, in parallel. Gaussian sums take about 20
-/// microseconds a row of 512; other profiles quadrature (sphere only), 30 microseconds a value, which is
+/// Exact values, interleaved RGB, one row of n_dot_l a radius, in parallel. Gaussian sums take about 15
+/// microseconds a row of 512; other profiles quadrature (sphere only), 20 microseconds a value, which is
 /// cached on disk. Errors name what is wrong with the profile.
 [[nodiscard]] Result<std::vector<float>> integrate_rows(const Profile& profile,
                                                         std::span<const double> n_dot_l,

@@ -11,7 +11,7 @@
 namespace dermis {
 
 /// Counts finished items from any thread; draws on standard error at most ten times a second, after the first
-/// second. The line is erased when the object dies.
+/// second. The destructor erases the line.
 class Progress {
   public:
     Progress(std::string what, size_t total);

@@ -18,7 +18,7 @@ namespace dermis {
 /// Errors that a program handles; every other error is text for the user.
 enum class ErrorCode {
     general,
-    device_lost  ///< the GPU's driver crashed or timed out: a new device may go on
+    device_lost  ///< the GPU's driver crashed or timed out: a new device may work
 };
 
 /// One line for the user: the file, the place in it, how to correct it. No newline, no leading "error:".

@@ -32,7 +32,7 @@ struct DeviceInfo {
 /// Every Vulkan device, the one that Device::create would take first. Errors: no loader or driver.
 [[nodiscard]] Result<std::vector<DeviceInfo>> list_devices();
 
-/// Movable handle; everything made from it must die first. Not for several threads at once.
+/// Movable handle; everything made from it must be destroyed first. Not for several threads at once.
 class Device {
   public:
     /// Errors: no loader, driver or suitable device, no validation layer; each says what to install.

@@ -1,6 +1,6 @@
 #pragma once
-// A pass list with every name resolved: what the recorder writes down without further thought. All errors of
-// a list come up here, before anything is recorded.
+// A pass list with every name resolved, ready for the recorder. All errors of a list are found here, before
+// anything is recorded.
 
 #include <optional>
 

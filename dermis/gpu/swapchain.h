@@ -32,7 +32,7 @@ struct SwapchainOptions {
 /// resize: the window has changed; call Swapchain::resize with its new size, then present again.
 enum class Presented { shown, resize };
 
-/// Movable handle; dies before its device, and after it the window may.
+/// Movable handle; must be destroyed before its device and before the window.
 class Swapchain {
   public:
     /// Errors: no surface, a device that cannot show pictures on it, DeviceOptions without the window's

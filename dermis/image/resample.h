@@ -26,7 +26,7 @@ enum class Texels { values, unit_vectors };
 /// Linear interpolation between the four nearest texel centres of an f32 linear image. (0,0) is the upper
 /// left corner of the upper left texel, v points down. One channel comes back as grey, missing green and blue
 /// are 0, missing alpha is 1. uv may be any finite number; outside
-/// 0..1 the border's texels go on.
+/// 0..1 the border's texels are repeated.
 [[nodiscard]] Vec4 sample_bilinear(const Image& image, Vec2 uv);
 
 }  // namespace dermis

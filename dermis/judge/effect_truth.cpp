@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kEffectVersion = "effect 1";
 // Rounds over the grid in one batch at most: what a run that is stopped loses.
 constexpr int kMostRounds = 8;
-// The estimate of what is left is exceeded by this, so that it is not missed by a hair.
+// Factor on the estimated number of passes, so that the wanted noise is not missed by a small amount.
 constexpr double kMargin = 1.05;
 
 // What is stored: the header, then the floats of every image in the order of images().
@@ -128,7 +128,8 @@ bool fine_enough(const State& state, const EffectTruthSettings& settings) {
 // The next batch of a half, in passes: whole rounds over the grid; 0 when the limit leaves none.
 int next_passes(const State& state, const EffectTruthSettings& settings) {
     const int cells = settings.reference.grid * settings.reference.grid;
-    const int left = (settings.samples / 2 - state.header.passes) / cells;
+    // The cache may hold a finer truth, of a run with a higher limit.
+    const int left = std::max(0, settings.samples / 2 - state.header.passes) / cells;
     if (state.header.passes == 0) return cells * std::min(left, 1);
     const double wanted = (passes_wanted(state, settings) - state.header.passes) / cells;
     return cells * std::min({left, kMostRounds, std::max(1, int(std::ceil(wanted)))});

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The maps' last colour is this share of the largest value, so that one wild pixel does
-// not darken all others.
+// The maps' last colour is this share of the largest value, so that a single outlier does
+// not darken all other pixels.
 constexpr double kFullQuantile = 0.995;
 
 Result<std::string> data_uri(const Image& image) {
@@ -44,7 +44,7 @@ double quantile(const Image& values, const Image& mask, double share) {
     return *at;
 }
 
-// Two figures, so that people can read it, and never 0.
+// Two figures, for reading, and never 0.
 double rounded_up(double full) {
     full = std::max(full, 1e-6);
     const double unit = std::pow(10.0, std::floor(std::log10(full)) - 1);
@@ -96,7 +96,7 @@ Result<Json> images_of(const Scene& scene, const Comparison& comparison, const I
     add("effect", "ground truth", signed_uri(effect));
     for (const Compared& row : comparison.rows) add("effect", row.contestant.name(), signed_uri(row.effect));
     for (const Compared& row : comparison.rows)
-        add("left over", row.contestant.name(), signed_uri(difference(row.effect, effect)));
+        add("error of the effect", row.contestant.name(), signed_uri(difference(row.effect, effect)));
     for (const Compared& row : comparison.rows)
         add("FLIP", row.contestant.name(), data_uri(heat_map(row.flip, scales.flip, skin)));
     for (const Compared& row : comparison.rows)

@@ -10,7 +10,7 @@
 
 namespace dermis {
 
-/// How an image goes on beyond its edges.
+/// What an image has beyond its edges.
 enum class TextureWrap { repeat, clamp, mirror };
 
 /// An image named by a mesh file or a scene: a path, the encoded bytes of an embedded one, or the pixels of
@@ -55,14 +55,14 @@ struct Material {
     ImageSource thickness_map;           ///< G
     ImageSource opacity_map;             ///< coloured transmittance of translucent objects
     ImageSource transmission_map;        ///< A
-    ImageSource roughness_map;           ///< perceptual, R; when present it wins over metallic_roughness_map
+    ImageSource roughness_map;           ///< perceptual, R; when present it replaces metallic_roughness_map's
     ImageSource kernel_size_map;         ///< R, multiplies the width of scattering
     ImageSource curvature_map;           ///< R; (value - curvature_mid) * curvature_scale_per_mm
 
     float thickness_scale_mm = 1;         ///< thickness of a map value of 1
     float curvature_scale_per_mm = 1;     ///< curvature of a map value of 1
     float curvature_mid = 0;              ///< the map value of flat skin
-    float displacement_mid = 0.5f;        ///< the map value that moves nothing
+    float displacement_mid = 0.5f;        ///< the map value of no displacement
     float displacement_amplitude_mm = 0;  ///< along the normal, for a step of 1 in map value
     int dilate_texels = 0;                ///< maps without a gutter: grow the UV islands by so much on load
 

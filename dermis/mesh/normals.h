@@ -12,7 +12,7 @@ struct NormalOptions {
 };
 
 /// Angle-weighted (Thuermer and Wuethrich 1998, "Computing Vertex Normals from Polygonal Facets"), summed
-/// over all faces around a position that hang together by edges, whether or not a UV seam runs between them.
+/// over all faces around a position that are connected by edges, whether or not a UV seam runs between them.
 /// Surfaces that only touch in a point are kept apart. Where a sum cancels (a fold whose two sides are
 /// opposite) each face keeps its own normal. Afterwards every normal is unit and finite; a vertex without any
 /// proper face gets (0, 1, 0). Tangents and curvatures are dropped, since they depend on the normals. Linear

@@ -1,5 +1,5 @@
-// Reads by extension, then does what every mesh needs: one unit, complete normals, and the warnings that
-// spare a person an hour (wrong unit, UDIM tiles, missing UVs).
+// Reads by extension, then does what every mesh needs: one unit, complete normals, and warnings of
+// frequent mistakes (wrong unit, UDIM tiles, missing UVs).
 
 #include "dermis/mesh/read_mesh.h"
 
@@ -56,7 +56,7 @@ Result<LoadedMesh> load_obj(std::span<const std::byte> bytes, const fs::path& na
     return LoadedMesh{.mesh = triangulate(*refined), .warnings = std::move(file->warnings)};
 }
 
-// glTF knows triangles only: they are the cage.
+// glTF has triangles only: they are the control cage.
 Result<LoadedMesh> load_gltf(std::span<const std::byte> bytes, const fs::path& name,
                              const ReadSibling& read_sibling, const MeshOptions& options) {
     Result<LoadedMesh> loaded = gltf::parse_gltf(bytes, name, read_sibling, options);

@@ -22,7 +22,7 @@ struct SeamMap {
     /// Of a gutter texel: where in the atlas (in texels) the surface that it shows lies, the neighbouring
     /// chart unfolded over the shared edge; (-1, -1) inside charts, at open borders and far from any chart.
     std::vector<Vec2> carried;
-    /// Whose texel it is, gutter included: 0 nobody's, else 1 to 255 (charts beyond repeat).
+    /// Whose texel it is, gutter included: 0 no chart's, else 1 to 255 (charts beyond repeat).
     std::vector<uint8_t> chart;
 };
 

@@ -3,13 +3,13 @@
 // five coefficients a colour are functions of curvature alone.
 //
 // The clamped cosine is t/2 + |t|/2 and the scattering lobe is symmetric, so D(t) = (A t + E(t)) / 2 with A
-// exact and E even: a blurred |t|. A profile is narrow and wide Gaussians at once; the narrow ones leave a
-// rounded corner at the terminator, which a hyperbola has too, the wide ones a bowl:
+// exact and E even: a blurred |t|. A profile is narrow and wide Gaussians at once; the narrow ones round
+// the corner at the terminator, as a hyperbola does, the wide ones add a curve like a parabola:
 //
 //     E(t) = s sqrt(q^2 + t^2) + k0 + k1 t^2
 //
 // s, k0, k1 by least squares, q by search. Measured against the integral, GPU Gems 3 skin on the sphere, all
-// r from 1 mm: 0.0018 at most, less than half of an 8-bit code (tests/optics holds it).
+// r from 1 mm: 0.0017 at most, less than half of an 8-bit code (tests/optics/closed_form_test.cpp).
 
 #include <vector>
 

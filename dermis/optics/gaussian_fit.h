@@ -18,7 +18,7 @@ inline constexpr int kMaxGaussianFitTerms = 12;
 struct GaussianFit {
     GaussianSum sum;
     /// Largest and root-mean-square |S - S_fit| per channel, over 200 radii from the 0.1 % to the 99.99 %
-    /// radius evenly in log r: the part of the light in the wrong place. 0 for what is a sum of Gaussians
+    /// radius evenly in log r: the part of the light at a wrong distance. 0 for what is a sum of Gaussians
     /// already.
     std::array<double, 3> max_error = {0, 0, 0};
     std::array<double, 3> rms_error = {0, 0, 0};

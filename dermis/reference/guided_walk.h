@@ -39,7 +39,7 @@ struct GuidedStep {
 [[nodiscard]] Vec3 guided_weight(const WalkMedium& medium, const WalkGuide& guide, Vec3 throughput,
                                  const GuidedStep& step, float cosine_out, float distance_mm, bool collides);
 
-/// Collisions after which a walk goes on unguided: the weights of every guided step multiply, and those of
+/// Collisions after which a walk is no longer guided: the weights of every guided step multiply, and those of
 /// hundreds (a medium that hardly absorbs) would leave the light to a few rare paths.
 inline constexpr int kGuidedCollisions = 64;
 

@@ -17,7 +17,7 @@ constexpr int kPassesBeforeResting = 16;
 constexpr float kDarkShare = 0.05f;
 
 // The places of samples within a pixel form blocks of kBlock that lie evenly (a net of the Owen sequence), so
-// block means scatter less than single samples would make believe.
+// block means vary less than single samples suggest.
 constexpr uint32_t kBlock = 4;
 
 // Sums of squared differences from the mean, updated as Welford 1962 does, so that little noise on much light
@@ -103,7 +103,8 @@ double root_mean_square(const std::vector<float>& errors) {
     return count > 0 ? std::sqrt(sum / double(count)) : 0;
 }
 
-// A pixel rests when it and its eight neighbours are good enough: one that looks good by luck has worse
+// Sampling of a pixel stops when its error and its eight neighbours' are small enough: a pixel whose error
+// is underestimated by chance has worse
 // neighbours.
 void let_rest(Canvas& canvas, const std::vector<float>& errors, double wanted) {
     for (int y = 0; y < canvas.height; ++y)

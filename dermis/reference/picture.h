@@ -65,10 +65,10 @@ struct ReferencePicture {
 /// Called after every pass, between 0 and 1.
 using ReferenceProgress = std::function<void(double done)>;
 
-/// One sample a pixel a pass; from the sixteenth pass on, pixels whose neighbourhood has reached the wanted
-/// error rest. Setting `stop` ends it after the rows in work and returns the picture so far (an error when
-/// not even the first pass is complete). Otherwise the result depends on the settings alone, not on the
-/// threads. Errors: sizes out of range, unreadable maps, walk without a medium.
+/// One sample a pixel a pass; from the sixteenth pass on, sampling stops for pixels whose neighbourhood has
+/// reached the wanted error. Setting `stop` ends it after the rows in work and returns the picture so far (an
+/// error when not even the first pass is complete). Otherwise the result depends on the settings alone, not
+/// on the threads. Errors: sizes out of range, unreadable maps, walk without a medium.
 [[nodiscard]] Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
                                                         const ReferenceProgress& progress = {},
                                                         const std::atomic<bool>* stop = nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// The diffuse transport as it is: light scattering in a homogeneous medium behind a smooth boundary.
+// The diffuse transport by simulation: light scattering in a homogeneous medium behind a smooth boundary.
 //
 // A path starts under the visible point and is followed backwards to where its light came in. Free paths come
 // from one channel, chosen by what the path still carries, and are weighted by the mean of all channels'
@@ -23,7 +23,7 @@ namespace dermis {
 struct BoundaryHit {
     float distance_mm = 0;
     Vec3 n_out;           ///< unit, out of the medium
-    bool mirror = false;  ///< the medium goes on behind it as before it: every path is reflected
+    bool mirror = false;  ///< the medium continues behind it in the same way: every path is reflected
 };
 
 /// A path's end. Nothing came back: absorbed, or lost through a hole of the mesh.
@@ -43,7 +43,8 @@ struct WalkMedium {
 };
 [[nodiscard]] WalkMedium walk_medium(const ScatteringMedium& medium);
 
-/// Most collisions of one path: at albedo 1 roulette never ends one, and a path that long carries no picture.
+/// Most collisions of one path: at albedo 1 roulette never ends one, and a path that long adds almost
+/// nothing.
 inline constexpr int kMostCollisions = 100'000;
 
 /// The direction of diffuse light just inside: density proportional to (1 - F) cosine about the inward

@@ -1,7 +1,7 @@
 #pragma once
 // Reflections of the environment as the renderer approximates them (shaders/include/environment.glsl): a
-// prefiltered cube times the split sum's second factor, dimmed by occlusion. So that a comparison of two
-// pictures can be about something else.
+// prefiltered cube times the split sum's second factor, dimmed by occlusion. With it a comparison does
+// not contain the error of that approximation.
 
 #include "dermis/base/result.h"
 #include "dermis/scene/environment.h"

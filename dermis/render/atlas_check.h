@@ -1,5 +1,5 @@
 #pragma once
-// Whether the skin's UVs can hold a light map, and what will look wrong where they cannot.
+// Whether the skin's UVs can hold a light map, and the consequences where they cannot.
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 // What a program is built with, as plain data. The program makes it (catalog/) and hands it down: no library
-// knows a technique, a subject or a technique's shader by name.
+// names a technique, a subject or a technique's shader by name.
 
 #include <span>
 

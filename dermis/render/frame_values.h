@@ -1,5 +1,5 @@
 #pragma once
-// What the shaders know of a frame, by the names of shaders/include/frame.glsl.
+// The values of a frame for the shaders, by the names of shaders/include/frame.glsl.
 
 #include "dermis/gpu/executor.h"
 #include "dermis/scene/scene.h"
@@ -16,7 +16,7 @@ struct FrameValueSettings {
 /// The block Frame.
 [[nodiscard]] gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings);
 
-/// The buffer Lights, one element a light in the scene's order; never empty (a dark light stands in).
+/// The buffer Lights, one element a light in the scene's order; never empty (a dark light if there is none).
 [[nodiscard]] std::vector<gpu::Values> light_values(const Scene& scene);
 
 /// From world mm to the key light's clip space: the frustum that just holds the bounding sphere, so that no

@@ -33,7 +33,7 @@ struct MaterialMap {
 /// One line for each skin material of the scene that has no image for `texture`.
 [[nodiscard]] std::vector<std::string> missing_map_warnings(const Scene& scene, std::string_view texture);
 
-/// A 1 x 1 stand-in.
+/// A texture of 1 x 1 texels in its place.
 [[nodiscard]] gpu::TextureData neutral_map(const MaterialMap& map);
 
 }  // namespace dermis

@@ -10,8 +10,8 @@ namespace dermis {
 
 struct OutputSettings {
     int png_bits = 8;     ///< 8 or 16
-    bool layers = false;  ///< EXR only: diffuse, specular and the G-buffer beside the beauty
-    std::string credit;   ///< travels inside the file
+    bool layers = false;  ///< EXR only: diffuse, specular and the G-buffer beside the picture
+    std::string credit;   ///< is written into the file
     std::string description;
 };
 

@@ -26,7 +26,7 @@ struct DrawSettings {
 class Renderer {
   public:
     /// `device` and `scene` must outlive it. Camera, lights, exposure and the like may change between draws;
-    /// of environment and materials it must be told; objects and maps may not change.
+    /// after changes of environment or materials call the functions below; objects and maps may not change.
     [[nodiscard]] static Result<Renderer> create(gpu::Device& device, gpu::ShaderSource shaders,
                                                  const Scene& scene);
 
@@ -35,7 +35,7 @@ class Renderer {
     [[nodiscard]] Result<Renderer> sibling(gpu::ShaderSource shaders);
 
     /// The scene's environment, or its skin and the values of its materials, have changed. For siblings too.
-    /// An environment that cannot be read leaves the old one standing.
+    /// If an environment cannot be read, the old one stays.
     [[nodiscard]] Result<void> environment_changed();
     void materials_changed() { uploaded_->update_materials(*scene_); }
 
@@ -49,7 +49,7 @@ class Renderer {
     [[nodiscard]] Result<Image> display();
     [[nodiscard]] Result<Image> read(std::string_view image);
 
-    /// What will look wrong, found when a technique first asked for it; one line each.
+    /// Warnings about wrong pictures, found when a technique first asked for it; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
     /// The last frame's list, whole.

@@ -97,7 +97,7 @@ struct Scene {
     Vec3 background_linear = {0.02f, 0.02f, 0.022f};
     ToneMap tone_map = ToneMap::hable;
     float exposure_ev = 0;
-    std::string credit;     ///< stands wherever a picture of the scene stands
+    std::string credit;     ///< text that is written with every picture of the scene
     std::string technique;  ///< optional: id and settings the file asks for
     std::map<std::string, std::string> settings;
     std::vector<std::string> warnings;

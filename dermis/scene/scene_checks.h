@@ -1,5 +1,5 @@
 #pragma once
-// What one key alone cannot know to be wrong: keys that exclude one another, and how many there must be.
+// Checks over several keys: keys that exclude one another, and how many there must be.
 
 #include "dermis/scene/scene_description.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene file says, as plain data: nothing is loaded yet, and every file it names remembers its line.
+// What a scene file says, as plain data: nothing is loaded yet, and every file that it names has its line.
 
 #include <filesystem>
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace dermis {
 
-/// A path as the file has it, and where it stands; `key` is its full name ("maps.albedo").
+/// A path as the file has it, and its place there; `key` is its full name ("maps.albedo").
 struct NamedFile {
     std::string text, key;
     int line = 0;  ///< 0: not from a file
@@ -80,7 +80,7 @@ struct EnvironmentDescription {
     bool visible = false;
 };
 
-/// Keys that stand outside any section.
+/// Keys outside any section.
 struct HeadDescription {
     std::string name, credit, technique;
     std::string without_assets;  ///< the scene to draw where files of this one are missing
@@ -116,7 +116,7 @@ inline constexpr size_t kMaxSceneBytes = size_t{1} << 20;
 [[nodiscard]] Result<Scene> build_scene(const SceneDescription& description,
                                         std::span<const Subject> subjects);
 
-/// Whether a mesh or a map of [maps] is an asset that is nowhere.
+/// Whether a mesh or a map of [maps] is an asset that is in none of the directories.
 [[nodiscard]] bool lacks_asset(const SceneDescription& description);
 
 /// The manual page of the scene file, in Markdown, out of the tables that parse it.

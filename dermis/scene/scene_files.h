@@ -21,7 +21,7 @@ namespace dermis {
 /// The paths a description states, in its order: whatever may stand in quotes in the file.
 [[nodiscard]] std::vector<const NamedFile*> named_files(const SceneDescription& description);
 
-/// Where these files are or would have to be; assets that are nowhere and built-ins are left out.
+/// Where these files are or would have to be; missing assets and built-ins are left out.
 [[nodiscard]] std::vector<std::filesystem::path> paths_of(const SceneDescription& description);
 
 }  // namespace dermis

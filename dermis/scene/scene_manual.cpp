@@ -55,7 +55,7 @@ Paths are relative to the scene file. A path that starts with `assets:` is searc
 scenes of `scenes/` are also found by name: `dermis render head_scan`.
 
 ```toml
-credit = "Scan by somebody, CC BY 4.0"
+credit = "Scan by NAME, CC BY 4.0"
 
 [[mesh]]
 file = "head.obj"

@@ -3,8 +3,8 @@
 // Techniques"): a depth image over the atlas that is 0 where later passes must work and 1 elsewhere; those
 // draw at depth 0 and test for EQUAL.
 //
-// The source marks texels that are in view and face the camera by v.n + 0.3 > 0, and hopes that the 0.3 keeps
-// what the blur carries into view (it exempts the ears, where it did not). Here the marks grow by the blur's
+// The source marks texels that are in view and face the camera by v.n + 0.3 > 0; the 0.3 is to keep what the
+// blur carries into view (it exempts the ears, where that fails). Here the marked area grows by the blur's
 // whole reach, in tiles of 8 texels, so that every texel that can touch a visible one is kept, whatever the
 // curvature.
 

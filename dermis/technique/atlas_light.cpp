@@ -40,7 +40,7 @@ const ParameterTable& atlas_parameters() {
         ParameterTableBuilder<P>()
             .integer(&P::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
             .toggle(&P::translucent_shadows, "translucent_shadows", "translucent objects tint the key light")
-            .number(&P::occluded, "occluded", "", 0, 1, "share of the light that full shadow leaves")
+            .number(&P::occluded, "occluded", "", 0, 1, "part of the key light that remains in full shadow")
             .number(&P::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
                     "exponent of a translucent shadow; larger is darker")
             .toggle(&P::cull_frustum, "cull_frustum", "leave out texels outside the view")

@@ -1,6 +1,6 @@
 #pragma once
 // A frame as data: the images it needs and the passes that fill them. dermis/gpu executes it; nothing here
-// knows Vulkan.
+// uses Vulkan.
 //
 // Names tie it together. A texture, block or specialisation constant in a shader is bound to what carries its
 // name: an image of this list, an input of the frame (shadow_map, environment_cube, ...), a map of the
@@ -138,7 +138,7 @@ struct PassList {
 /// missing shaders, no targets.
 [[nodiscard]] std::vector<std::string> problems(const PassList& list, const std::vector<std::string>& inputs);
 
-/// For people: one line an image, one a pass.
+/// As text: one line an image, one a pass.
 [[nodiscard]] std::string describe(const PassList& list);
 
 }  // namespace dermis

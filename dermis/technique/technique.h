@@ -19,7 +19,7 @@
 
 namespace dermis {
 
-/// What build() may know of the frame.
+/// The values of the frame that build() may use.
 struct FrameContext {
     std::string view = "final";  ///< a debug view: final, diffuse, specular, or one of the technique's own
     float camera_distance_mm = 600;
@@ -59,7 +59,7 @@ struct Technique {
     std::function<PassList(const ParameterValues&, const FrameContext&)> build;
     /// Tables for these settings, baked on the CPU (cached by the bakers); absent when it needs none.
     std::function<Result<std::vector<TableImage>>(const ParameterValues&, const SkinContext&)> tables;
-    /// What stands in for these settings while something moves on a slow device and the picture is drawn
+    /// What replaces these settings while something moves on a slow device and the picture is drawn
     /// with `scale` (under 1) of its sides: the same look with fewer texels, taps or passes, none of which is
     /// more than the settings have. Absent when only pixels cost.
     std::function<ParameterValues(ParameterValues, float scale)> coarse;

@@ -1,5 +1,5 @@
 #pragma once
-// What a person did, from the window or from a script: both take the same way.
+// Input events, from the window or from a script: both are handled alike.
 
 #include <filesystem>
 #include <string>
@@ -43,7 +43,7 @@ struct Event {
     Vec2 position_px = {};
     MouseButton button = MouseButton::left;
     bool pressed = false;  ///< mouse_button, key
-    float scroll = 0;      ///< notches, away from the person is positive
+    float scroll = 0;      ///< notches, away from the user is positive
     Key key = {};
     Modifiers modifiers = {};
     char32_t character = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Which files have changed since they were last looked at, by time and size.
+// Which files have changed since the last check, by time and size.
 
 #include <cstdint>
 #include <filesystem>

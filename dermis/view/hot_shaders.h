@@ -1,6 +1,6 @@
 #pragma once
 // Shaders that follow their source files while the program runs. What was not touched comes out of the
-// program; what was is compiled, and when that fails the last one that worked goes on.
+// program; what was is compiled, and when that fails the last version without an error stays in use.
 
 #include <map>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// Reads scenes beside the window's work, and knows when their files have changed.
+// Reads scenes in the background, and finds out when their files have changed.
 
 #include <future>
 #include <optional>
@@ -12,7 +12,7 @@ namespace dermis::view {
 
 class Loader {
   public:
-    /// The first scene, which somebody has begun to load.
+    /// The first scene, whose loading has begun already.
     Loader(std::future<Result<Start>> first, std::string path, std::span<const Subject> subjects)
         : loading_(std::move(first)), path_(std::move(path)), subjects_(subjects) {}
 

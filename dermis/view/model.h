@@ -1,5 +1,5 @@
 #pragma once
-// What a person has chosen: the scene, the techniques and their settings, what is shown. Plain data; panels,
+// What the user has chosen: the scene, the techniques and their settings, what is shown. Plain data; panels,
 // keys and scripts change it, the stage draws it.
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace dermis::view {
 
-/// One side of a comparison. Every technique keeps its settings while others are looked at.
+/// One side of a comparison. Every technique keeps its settings while others are shown.
 class TechniqueChoice {
   public:
     explicit TechniqueChoice(const Technique& technique) : technique_(&technique) {}
@@ -60,7 +60,7 @@ struct Model {
     int tone = 0;  ///< 0: as the maps are; 1 to 6: OpenPBR's skins
     Compare compare = Compare::off;
     float split = 0.5f;      ///< of the picture's width
-    std::string truth_path;  ///< a picture that stands on the right side instead of a technique
+    std::string truth_path;  ///< a picture that is shown on the right side instead of a technique
     bool truth_is_of_another_view = false;
     std::vector<std::string> recent;
     bool show_panels = true, show_help = false, vsync = true;
@@ -76,7 +76,7 @@ struct Model {
 /// Everything a picture depends on, as text: two equal keys are one picture. `choice` is 0 or 1.
 [[nodiscard]] std::string picture_key(Model& model, size_t choice);
 
-/// The next (or, with -1, the last) of a list of names, round and round.
+/// The next (or, with -1, the last) of a list of names, from the last to the first.
 [[nodiscard]] std::string neighbour(const std::vector<std::string>& names, const std::string& name, int step);
 
 }  // namespace dermis::view

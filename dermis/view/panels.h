@@ -31,7 +31,7 @@ struct PanelFacts {
     double frame_ms = 0;
     std::vector<float> frame_history_ms;  ///< oldest first
     bool loading = false;
-    std::string probe;  ///< what is under the mouse
+    std::string probe;  ///< the surface under the mouse pointer
 };
 
 /// What a panel wants done beyond the model.
@@ -41,8 +41,7 @@ struct PanelRequests {
     std::string open;         ///< a scene
 };
 
-/// Where widgets stand, by what they set ("exposure_ev", a parameter's name): scripts drag them like a
-/// person.
+/// Where widgets are, by what they set ("exposure_ev", a parameter's name): scripts drag them there.
 using WidgetMap = std::map<std::string, Region>;
 
 /// The part of the window that the picture has.

@@ -1,7 +1,7 @@
 #pragma once
 // How finely a picture is drawn: coarse while something moves on a slow device (fewer pixels, and what
 // Technique::coarse leaves out: texels, taps, passes of the blur), whole when it stops, with four samples a
-// pixel when it has stood still for a while.
+// pixel when nothing has moved for a while.
 
 #include <optional>
 
@@ -25,8 +25,8 @@ class QualityLadder {
   public:
     explicit QualityLadder(double guessed_ms_per_megapixel) : ms_per_megapixel_(guessed_ms_per_megapixel) {}
 
-    /// What to draw now; nothing when the picture is as good as it gets, or not due yet. `changed`: since the
-    /// last drawing; `still_s`: since anything changed.
+    /// What to draw now; nothing when the picture has its full quality, or is not due yet. `changed`: since
+    /// the last drawing; `still_s`: since anything changed.
     [[nodiscard]] std::optional<Quality> due(bool changed, double still_s, double megapixels,
                                              const QualityLimits& limits) const;
     void drawn(Quality quality, double megapixels, double time_ms);

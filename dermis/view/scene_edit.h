@@ -1,5 +1,5 @@
 #pragma once
-// A scene file with some of its values changed: everything else, comments too, stays as somebody wrote it.
+// A scene file with some of its values changed: everything else, comments too, stays as it was written.
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 namespace dermis::view {
 
 /// One value. `table`: "" for keys outside of any section, "camera", "light" with the number `index` of its
-/// [[light]]. An empty `value` takes the key out.
+/// [[light]]. An empty `value` removes the key.
 struct TomlEdit {
     std::string table, key, value;  ///< value: as TOML writes it
     int index = 0;

@@ -5,7 +5,7 @@
 namespace dermis::view {
 namespace {
 
-// Rounded as words are: what is equal there is the same to a person.
+// Rounded as in --scene words: what is equal there counts as unchanged.
 std::vector<SceneWord> words_in(const std::vector<SceneWord>& words, std::string_view section) {
     std::vector<SceneWord> some;
     for (const SceneWord& word : words)

@@ -1,12 +1,12 @@
 #pragma once
-// What a person has changed in the window stays when the scene's files are read again. A look is a scene
+// What the user has changed in the window stays when the scene's files are read again. A look is a scene
 // without its objects (without_objects()).
 
 #include "dermis/scene/scene.h"
 
 namespace dermis::view {
 
-/// A scene whose files were read again keeps what a person has changed since (`seen`), except where the file
+/// A scene whose files were read again keeps what the user has changed since (`seen`), except where the file
 /// now says something else than it did (`file_before`).
 void keep_look(const Scene& file_before, const Scene& seen, Scene& fresh);
 

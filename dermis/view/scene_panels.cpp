@@ -23,19 +23,24 @@ void show_light(Scene& scene, WidgetMap& widgets) {
         float yaw_deg = angles.yaw_rad * kDegreesPerRadian, pitch_deg = angles.pitch_rad * kDegreesPerRadian;
         bool moved = rows.number({.name = "yaw",
                                   .unit = "°",
-                                  .doc = "of the key light, 0 in front of the face",
+                                  .doc = "direction of the key light, 0 in front of the face",
                                   .min = -180,
                                   .max = 180},
                                  yaw_deg);
-        moved |= rows.number(
-            {.name = "pitch", .unit = "°", .doc = "of the key light, upwards", .min = -89, .max = 89},
-            pitch_deg);
-        rows.number({.name = "intensity",
-                     .doc = "of the key light: pi on a white wall that faces it gives radiance 1",
-                     .max = 20,
-                     .default_value = std::numbers::pi},
-                    key->intensity);
-        rows.color({.name = "color", .unit = "linear", .doc = "of the key light", .max = 1},
+        moved |= rows.number({.name = "pitch",
+                              .unit = "°",
+                              .doc = "direction of the key light, positive upwards",
+                              .min = -89,
+                              .max = 89},
+                             pitch_deg);
+        rows.number(
+            {.name = "intensity",
+             .doc =
+                 "irradiance of the key light; pi on a white Lambert surface that faces it gives radiance 1",
+             .max = 20,
+             .default_value = std::numbers::pi},
+            key->intensity);
+        rows.color({.name = "color", .unit = "linear", .doc = "colour of the key light", .max = 1},
                    key->color_linear);
         if (moved) {
             key->to_light_world =
@@ -44,18 +49,20 @@ void show_light(Scene& scene, WidgetMap& widgets) {
         }
     }
     if (scene.environment.kind == EnvironmentKind::none) return;
-    rows.number(
-        {.name = "surroundings", .doc = "how much light comes from all around", .max = 4, .default_value = 1},
-        scene.environment.intensity);
+    rows.number({.name = "environment_intensity",
+                 .doc = "factor on the radiance of the environment",
+                 .max = 4,
+                 .default_value = 1},
+                scene.environment.intensity);
     float yaw_deg = scene.environment.yaw_rad * kDegreesPerRadian;
-    if (rows.number({.name = "turned",
+    if (rows.number({.name = "environment_yaw",
                      .unit = "°",
-                     .doc = "the surroundings about the vertical",
+                     .doc = "rotation of the environment about the vertical axis",
                      .min = -180,
                      .max = 180},
                     yaw_deg))
         scene.environment.yaw_rad = yaw_deg / kDegreesPerRadian;
-    rows.toggle({.name = "in_the_picture", .doc = "the surroundings as the background"},
+    rows.toggle({.name = "environment_visible", .doc = "the environment is the background"},
                 scene.environment.visible);
 }
 
@@ -72,7 +79,7 @@ void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets) {
     Skin& skin = model.scene->skin;
     int profile = index_of(kProfiles, skin.profile);
     if (rows.choice({.name = "profile",
-                     .doc = "how far light travels inside; see dermis profile",
+                     .doc = "diffusion profile of the skin; see dermis profile",
                      .default_value = double(profile)},
                     kProfiles, profile))
         skin.profile = kProfiles[size_t(profile)];
@@ -98,7 +105,7 @@ void show_camera(Scene& scene, PanelRequests& requests, WidgetMap& widgets) {
         camera.eye_mm = camera.target_mm + to_eye * kept;
     } else if (rows.number({.name = "distance_mm",
                             .unit = "mm",
-                            .doc = "from the eye to what it looks at",
+                            .doc = "from the camera to its target",
                             .min = scene.bounds_radius_mm * 0.05,
                             .max = scene.bounds_radius_mm * 40,
                             .default_value = distance_mm},

@@ -57,7 +57,8 @@ Result<void> take_word(ScriptCommand& command, char want, const std::string& wor
         command.words.push_back(word);
     } else if (want == 'n') {
         const auto number = parse_number(word);
-        if (!number || !(std::abs(*number) <= kMaxNumber)) return Error{"'" + word + "' is no number here"};
+        if (!number || !(std::abs(*number) <= kMaxNumber))
+            return Error{"'" + word + "' is not a number within -100000 to 100000"};
         command.numbers.push_back(*number);
     } else if (want == 'b') {
         const Result<MouseButton> button = parse_button(word);
@@ -123,7 +124,7 @@ Result<std::vector<ScriptCommand>> parse_script(std::string_view text, const std
         ++line_number;
         const std::string place = file + ":" + std::to_string(line_number) + ": ";
         const auto words = quoted_words(line, "\"", '#');
-        if (!words) return Error{place + "a quote is left open"};
+        if (!words) return Error{place + "a quotation mark is missing"};
         if (words->empty()) continue;
         Result<ScriptCommand> command = parse_command(*words);
         if (!command) return Error{place + command.error().message};

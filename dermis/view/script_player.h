@@ -15,7 +15,7 @@ class ScriptPlayer {
         : commands_(commands), name_(std::move(name)) {}
 
     [[nodiscard]] bool has_script() const { return !commands_.empty(); }
-    /// The command that is due, or null; `settled`: the picture is as good as it gets.
+    /// The command that is due, or null; `settled`: the picture has its full quality.
     [[nodiscard]] const ScriptCommand* next(bool settled);
     /// The next command waits until it is.
     void settle() { settling_ = true; }

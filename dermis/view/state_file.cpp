@@ -47,9 +47,9 @@ WindowState parse_state(std::string_view text) {
 }
 
 std::string state_text(const WindowState& state) {
-    std::string text =
-        "# What dermis view remembers; deleting this file is safe.\nwidth = " + std::to_string(state.width) +
-        "\nheight = " + std::to_string(state.height) + "\nrecent = [\n";
+    std::string text = "# Window size and recent scenes of dermis view; this file may be deleted.\nwidth = " +
+                       std::to_string(state.width) + "\nheight = " + std::to_string(state.height) +
+                       "\nrecent = [\n";
     for (const std::string& path : state.recent)
         if (is_plain(path)) text += "    " + toml_string(path) + ",\n";
     return text + "]\n";

@@ -24,7 +24,7 @@ inline constexpr size_t kMaxRecent = 10;
 [[nodiscard]] std::string state_text(const WindowState& state);
 
 [[nodiscard]] WindowState load_state();
-/// Best effort: a home that cannot be written to costs only the memory.
+/// Best effort: when the file cannot be written, nothing is remembered.
 void store_state(const WindowState& state);
 
 /// Puts `path` first, once. Files become absolute, names stay names.

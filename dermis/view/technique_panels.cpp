@@ -30,8 +30,8 @@ void show_view(Model& model, WidgetMap& widgets) {
     const std::vector<std::string> names = view_names(model.choices[0].technique());
     int index = index_of(names, model.view);
     Rows rows(widgets, "picture.");
-    if (rows.choice({.name = "view", .doc = "the picture, its parts, or what the shading was given"}, names,
-                    index))
+    if (rows.choice({.name = "view", .doc = "the final picture, its parts, or an input of the shading"},
+                    names, index))
         model.view = names[size_t(index)];
     if (!model.scene) return;
     rows.number(
@@ -58,7 +58,7 @@ void show_compare(Model& model, PanelRequests& requests, WidgetMap& widgets) {
         return;
     }
     ImGui::TextDisabled("right side: %s", model.truth_path.c_str());
-    if (ImGui::Button("A technique instead")) model.truth_path.clear();
+    if (ImGui::Button("Compare with a technique")) model.truth_path.clear();
 }
 
 }  // namespace dermis::view

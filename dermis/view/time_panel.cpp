@@ -38,7 +38,7 @@ void show_history(const std::vector<float>& history_ms, float most_ms, ImVec2 si
     ImGui::Dummy(size);
     if (history_ms.empty() || !ImGui::IsItemHovered()) return;
     const auto [least, most] = std::ranges::minmax(history_ms);
-    ImGui::SetTooltip("of the last %d pictures\nleast %s\nmedian %s\nmost %s", int(history_ms.size()),
+    ImGui::SetTooltip("of the last %d pictures\nminimum %s\nmedian %s\nmaximum %s", int(history_ms.size()),
                       time_text(least).c_str(), time_text(median(history_ms)).c_str(),
                       time_text(most).c_str());
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The right side when it is a picture: a file, or the ground truth, which is made beside the window's work.
+// The right side when it is a picture: a file, or the ground truth, which is rendered in the background.
 
 #include <atomic>
 #include <future>

@@ -1,5 +1,5 @@
 #pragma once
-// dermis view: a window in which the techniques are looked at while they move.
+// dermis view: a window that shows the techniques while camera, light and parameters change.
 
 #include <functional>
 #include <optional>
@@ -43,7 +43,7 @@ struct ViewerOptions {
     bool validation = false;    ///< any message of the layers is an error at the end
     int samples = 4;            ///< a pixel of the finished picture: 1 or 4
     float interface_scale = 0;  ///< 0: from the display and the window's height
-    int frames = 0;             ///< end after so many; 0: when the person does
+    int frames = 0;             ///< end after this number of frames; 0: when the user closes the window
     std::vector<ScriptCommand> script;
     std::string
         shader_root;    ///< with shaders/ and techniques/, to follow their changes; empty: the source tree

@@ -25,7 +25,7 @@ class Rows {
     explicit Rows(WidgetMap& widgets, std::string prefix = "")
         : widgets_(&widgets), prefix_(std::move(prefix)) {}
 
-    /// Each returns true when the person changed the value. Right click: the default.
+    /// Each returns true when the user changed the value. Right click: the default.
     bool number(const NumberRow& row, float& value);
     bool color(const NumberRow& row, Vec3& value);
     bool toggle(const NumberRow& row, bool& value);
@@ -52,7 +52,7 @@ class Rows {
 /// Where `name` stands among `names`; -1 when it does not.
 [[nodiscard]] int index_of(const std::vector<std::string>& names, const std::string& name);
 
-/// "shadow_width_mm" as people read it: "shadow width".
+/// The label of a name: "shadow width" for "shadow_width_mm".
 [[nodiscard]] std::string label_of(const std::string& name);
 
 }  // namespace dermis::view

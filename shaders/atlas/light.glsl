@@ -1,4 +1,4 @@
-// The diffuse light of a point of skin before anything blurs it: what techniques that work in the atlas put there.
+// The diffuse light of a point of skin before anything blurs it: what techniques with a light map write there.
 #ifndef DERMIS_ATLAS_LIGHT_GLSL
 #define DERMIS_ATLAS_LIGHT_GLSL
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Two steps on the surface as steps in the atlas (d'Eon, Luebke 2007 keep the stretch along u and v alone; a sheared
-// unwrap needs both steps whole). Their length in mm is kernel size * scale + bias.
+// UV layout needs both steps with both components). Their length in mm is kernel size * scale + bias.
 #include "shaders/include/frame.glsl"
 
 layout(location = 1) in vec3 n_world;

@@ -1,5 +1,5 @@
-// What every shader may know of the frame. Everything is filled by name, so nothing here is written a second time in C++,
-// and no shader numbers its bindings: glslc gives the numbers, the program finds them by reflection.
+// The values of the frame that every shader may read. They are set by name, so that C++ does not repeat the layout,
+// and no shader numbers its bindings: glslc assigns the numbers, the program finds them by reflection.
 #ifndef DERMIS_FRAME_GLSL
 #define DERMIS_FRAME_GLSL
 

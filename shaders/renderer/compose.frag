@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The pictures in their part of the window: one, two with a line that wipes between them, or two side by side.
+// The pictures in their part of the window: one, two with a movable border between them, or two side by side.
 #include "shaders/renderer/constants.h"
 
 layout(push_constant) uniform Push {

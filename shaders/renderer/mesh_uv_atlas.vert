@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Unwrapped: every point of the surface at its place in the UV atlas (Gosselin, Sander, Mitchell 2004).
+// Every point of the surface at its place in the UV atlas (Gosselin, Sander, Mitchell 2004).
 #include "shaders/include/mesh_vertex.glsl"
 
 invariant gl_Position;  // passes that test for equal depth rely on it

@@ -8,8 +8,8 @@ namespace dermis {
 
 /// Distance (mm, negative inside) to the surface of a bust. The zero set is the surface; away from it the
 /// value is a first-order distance (the gradient's length is 1 within about a third on the surface).
-/// Immutable and safe to share between threads; about 1 microsecond a point. Y up, faces +Z, origin between
-/// the ears.
+/// Immutable and safe to share between threads; about half a microsecond a point. Y up, faces +Z, origin
+/// between the ears.
 class BustField {
   public:
     /// Parameters must have passed check_bust_params.

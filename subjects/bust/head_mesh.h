@@ -12,7 +12,7 @@ inline constexpr Box kBustBox = {{-175, -235, -135}, {175, 150, 150}};
 /// Wished edge length in mm at a point of the standard head: short at lids, lips, nose and ears.
 [[nodiscard]] double wished_edge_mm(const Ear& ear, Point p_standard);
 
-/// About 2 s on two cores.
+/// 5 to 7 s of processor time (bench/bust_bench.cpp).
 [[nodiscard]] Surface make_head_surface(const BustField& field);
 
 }  // namespace dermis::bust

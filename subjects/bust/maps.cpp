@@ -12,7 +12,7 @@
 namespace dermis::bust {
 namespace {
 
-constexpr int kBand = 32;  // rows that one task fills; nobody else writes them
+constexpr int kBand = 32;  // rows that one task fills; no other task writes them
 
 struct Barycentric {
     double a, b, c;

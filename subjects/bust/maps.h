@@ -15,7 +15,7 @@ struct SkinMaps {
     Image kernel_size;  ///< one channel u8, factor on the scattering radius
 };
 
-/// Square maps of `side` texels; every chart is continued kGutter texels (at 2048) past its edge. About 5 s
+/// Square maps of `side` texels; every chart is continued kGutter texels (at 2048) past its edge. About 4 s
 /// of one core at 2048.
 [[nodiscard]] SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams& params,
                                   int side);

@@ -28,7 +28,7 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
 
 // Light of equal radiance from all directions: the model integrated over the hemisphere of lights. With the eye at the polar angle v
 //     int max(0, cos dphi) sin a tan b cos l dw = sin v (v - sin v cos v) + 2/3 tan v (1 - sin^3 v),
-// the first term from lights nearer to the normal than the eye, the second from the others. Exact for an even environment.
+// the first term from lights nearer to the normal than the eye, the second from the others. Exact for a constant environment.
 float even_light_response(float n_dot_v) {
     float sin_v = sqrt(1.0 - n_dot_v * n_dot_v);
     float above = sin_v * (acos(n_dot_v) - sin_v * n_dot_v);

@@ -1,5 +1,5 @@
 // The hand-made curves of Simon Yeung 2015, "Pre-Integrated Skin Shading" (his blog): fitted by eye to a ring table for
-// radii of 2 to 16 mm. Error against the sphere integral: 0.20 at r = 2 mm, 0.07 at 4, 0.014 at 8 (red channel).
+// radii of 2 to 16 mm. Error against the sphere integral, largest channel: 0.20 at r = 2 mm, 0.071 at 4, 0.019 at 8.
 #ifndef DERMIS_CURVE_2015_GLSL
 #define DERMIS_CURVE_2015_GLSL
 
@@ -14,7 +14,7 @@ vec3 curve_2015_direct(vec3 n_dot_l, float curvature_per_mm) {
     vec3 x = n_dot_l * 0.5 + 0.5;
     float away = 1.0 - curve_2015_radius(curvature_per_mm);
 
-    // Tightest: a parabola (a cubic in blue) in the dark that turns into a line in the light.
+    // r = 2 mm: a parabola (a cubic in blue) past the terminator, a line on the lit side.
     const vec3 low = vec3(0.0, 0.3, 0.3), high = vec3(1.0, 0.7, 0.7), offset = vec3(0.0, 0.06, 0.06);
     vec3 t = saturate((x - low - offset) / (high - low));
     vec3 dark = t * t * vec3(0.65, 0.5, 0.9) * vec3(1.0, 1.0, t.b) + vec3(0.045, 0.0, 0.0);
@@ -23,14 +23,14 @@ vec3 curve_2015_direct(vec3 n_dot_l, float curvature_per_mm) {
     vec3 m = saturate((x - mix_low) / (mix_high - mix_low));
     vec3 tight = mix(dark, light, m * m);
 
-    // Flattest: lines.
+    // r = 16 mm: lines.
     vec3 flat_skin = saturate((x - 1.0) * vec3(1.95, 2.0, 2.0) + vec3(0.99, 0.99, 1.0));
 
     float away2 = away * away;
     return mix(tight, flat_skin, 1.0 - away2 * away2);
 }
 
-// Orders 0 and 1; order 2 he leaves as it is for Lambert.
+// Orders 0 and 1; order 2 is Lambert's in the article.
 void curve_2015_zonal(float curvature_per_mm, out vec3 zh[3]) {
     float c = curve_2015_radius(curvature_per_mm);
     vec2 near = 1.0 - clamp(c * vec2(3.0, 2.7), 0.0, 1.0);

@@ -59,11 +59,13 @@ Figure curves_figure() {
                              .kind = CellKind::difference,
                              .subject = "curves",
                              .compare_to = "ring"};
-    return {.id = "curves",
-            .title = "The curves and what they were fitted to: N·L to the right, r from 2 to 16 mm downwards",
-            .source = std::string(kSource) + ": shapes of the diffusion curves",
-            .scene = "builtin:spheres",
-            .rows = {{"", {ring, curves, difference}}}};
+    return {
+        .id = "curves",
+        .title =
+            "The curves and the ring that they were fitted to: N·L to the right, r from 2 to 16 mm downwards",
+        .source = std::string(kSource) + ": shapes of the diffusion curves",
+        .scene = "builtin:spheres",
+        .rows = {{"", {ring, curves, difference}}}};
 }
 
 const std::vector<Variant>& sphere_variants() {
@@ -78,7 +80,7 @@ const std::vector<Variant>& sphere_variants() {
 Figure spheres_figure(std::string id, std::string title, std::string environment) {
     Figure figure = {.id = std::move(id), .title = std::move(title), .scene = "builtin:spheres"};
     figure.source = std::string(kSource) + ": spheres of radius 2, 4, 8, 16 mm, table above, curves below";
-    figure.note = "Every sphere is drawn as large as the others.";
+    figure.note = "All spheres are drawn at the same size.";
     for (const Variant& variant : sphere_variants()) {
         FigureRow row = {.label = variant.name};
         for (const char* radius : {"2", "4", "8", "16"})
@@ -102,7 +104,7 @@ Figure heads_figure(std::string id, std::string title, const FigureCell& common)
     figure.source = std::string(kSource) + ": head with table, curves and Lambert";
     for (const CellAlbedo albedo : {CellAlbedo::mapped, CellAlbedo::white}) {
         const std::string suffix = albedo == CellAlbedo::white ? "_light" : "";
-        FigureRow row = {.label = albedo == CellAlbedo::white ? "Light alone" : "With albedo"};
+        FigureRow row = {.label = albedo == CellAlbedo::white ? "Without albedo" : "With albedo"};
         const auto add = [&](const std::string& label, const std::string& name, Settings settings) {
             FigureCell cell = common;
             cell.label = label;

@@ -9,7 +9,7 @@ constexpr const char* kSource = "after a Unity implementation of Penner 2011";
 constexpr const char* kClose = "distance_mm=520";
 
 FigureCell table_cell(std::string id, std::string construction, CellEncoding encoding) {
-    return {.label = encoding == CellEncoding::linear ? "linear values shown as they are"
+    return {.label = encoding == CellEncoding::linear ? "linear values shown unchanged"
                                                       : "encoded for display (sRGB)",
             .id = std::move(id),
             .kind = CellKind::table,
@@ -53,9 +53,8 @@ Figure table_figure() {
             .title = "The table itself: N·L from -1 to 1 to the right, 1/r from 0 to 1/mm downwards",
             .source = std::string(kSource) + ": the lookup texture, as stored and in linear space",
             .note =
-                "A table is data. Read as an sRGB texture it shades as the left column looks beside the "
-                "right: too "
-                "dark in the falloff, as the article's author found.",
+                "A table is data. Read as an sRGB texture it gives the shading of the left column instead of "
+                "the right: too dark near the terminator, as the article's author found.",
             .scene = "builtin:spheres",
             .rows = {published, ring, sphere}};
 }
@@ -86,9 +85,8 @@ Figure curvature_figure() {
             .title = "Curvature",
             .source = std::string(kSource) + ": the curvature of the model",
             .note =
-                "Derivatives of the interpolated normal are constant within a facet, so the mesh shows; the "
-                "estimate "
-                "at the vertices is smoothed over 3 mm of skin.",
+                "Derivatives of the interpolated normal are constant within a facet, so the facets are "
+                "visible; the estimate at the vertices is smoothed over 3 mm of skin.",
             .rows = {shown, shades}};
 }
 
@@ -102,16 +100,15 @@ Figure normals_figure() {
     };
     FigureRow row = {
         "",
-        {cell("as mapped: \"too crispy\"", "sharp"), cell("one normal a channel, blended", "blended"),
-         cell("all from the map three levels up", "smooth")}};
+        {cell("as mapped: \"too crispy\"", "sharp"), cell("blended, one normal in each channel", "blended"),
+         cell("from a mip level that is three higher", "smooth")}};
     row.cells[1].compare_to = row.cells[2].compare_to = "sharp";
     return {.id = "normals",
             .title = "Scattering at small bumps",
             .source = std::string(kSource) + ": \"Softening Finer Details\", mip bias 3.0",
             .note =
-                "The weights come from the profile and the map's scale in mm instead of by eye; the smoother "
-                "read "
-                "stays within red's own width.",
+                "The weights follow from the profile and the map's scale in mm, not from tuning by eye; the "
+                "smoother read is not wider than the scattering of red.",
             .rows = {row}};
 }
 
@@ -131,11 +128,12 @@ Figure parts_figure() {
                       cell("specular alone (ksk)", "preintegrated", "specular"),
                       cell("combined", "preintegrated", "final")}};
     row.cells[1].compare_to = "lambertdiffuse";
-    return {
-        .id = "parts",
-        .title = "Before, and the parts: Kelemen/Szirmay-Kalos with the Beckmann table and Schlick's Fresnel",
-        .source = std::string(kSource) + ": the start, before specular, specular, and both combined",
-        .rows = {row}};
+    return {.id = "parts",
+            .title =
+                "Lambert, and the parts of preintegrated: Kelemen/Szirmay-Kalos with the Beckmann table and "
+                "Schlick's Fresnel",
+            .source = std::string(kSource) + ": the start, before specular, specular, and both combined",
+            .rows = {row}};
 }
 
 Figure shadow_figure() {
@@ -147,7 +145,7 @@ Figure shadow_figure() {
                           .camera = kClose};
     };
     FigureRow row = {"",
-                     {cell("as filtered", "plain"),
+                     {cell("filtered, not scattered", "plain"),
                       cell("scattered into the filter's width", "scattered"),
                       {.label = "difference times 8",
                        .kind = CellKind::difference,

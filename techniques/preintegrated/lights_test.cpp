@@ -70,7 +70,7 @@ TEST_F(PreintegratedLights, add_up_however_many_they_are) {
     EXPECT_NEAR(red(together, kLit, 50), sum, 1e-4 * sum);
 }
 
-TEST_F(PreintegratedLights, from_all_around_are_the_librarys_harmonics_by_table_and_by_closed_form) {
+TEST_F(PreintegratedLights, from_the_environment_are_the_librarys_harmonics_by_table_and_by_closed_form) {
     Scene scene = make_grid_scene();
     scene.lights.clear();
     scene.environment = {.kind = EnvironmentKind::studio, .intensity = 1};
@@ -104,7 +104,7 @@ TEST_F(PreintegratedLights, from_all_around_are_the_librarys_harmonics_by_table_
     }
 }
 
-TEST_F(PreintegratedLights, from_all_around_differ_with_the_published_curves_where_skin_is_tight) {
+TEST_F(PreintegratedLights, from_the_environment_differ_with_the_published_curves_at_small_radii) {
     Scene scene = make_grid_scene();
     scene.lights.clear();
     scene.environment = {.kind = EnvironmentKind::studio, .intensity = 1};
@@ -116,7 +116,7 @@ TEST_F(PreintegratedLights, from_all_around_differ_with_the_published_curves_whe
     EXPECT_NEAR(flat, 1, 0.03);
 }
 
-TEST_F(PreintegratedLights, from_all_around_are_dimmed_by_an_occlusion_map) {
+TEST_F(PreintegratedLights, from_the_environment_are_dimmed_by_an_occlusion_map) {
     Scene scene = make_grid_scene();
     scene.lights.clear();
     scene.environment = {.kind = EnvironmentKind::studio, .intensity = 1};

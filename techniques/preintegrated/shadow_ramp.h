@@ -16,7 +16,7 @@ namespace dermis::preintegrated {
 /// Its inverse: within 1e-9, and -1 or 1 past 0 and 1.
 [[nodiscard]] double disk_offset(double share);
 
-/// The light's own edge: DrawSettings::penumbra_mm of a picture that nobody changed.
+/// The light's own edge: the default of DrawSettings::penumbra_mm.
 inline constexpr double kLightEdgeMm = 2;
 
 /// Light for visibilities 0 to 1 in even steps, both ends included, under a filter of `width_mm`. An edge of

@@ -54,31 +54,34 @@ struct Params {
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
         .choice(&Params::diffuse, "diffuse", {"lut", "curve_2015", "closed_form"},
-                "falloff over N.L and curvature: exact table, hand-made curves, fitted hyperbola")
+                "diffuse light over N.L and curvature: exact table, curves of 2015, closed form")
         .choice(&Params::construction, "construction", {"sphere", "ring"},
-                "what is integrated; the published ring makes light on tight curves")
+                "shape that is integrated; the ring is as published and does not conserve energy")
         .choice(&Params::curvature, "curvature", {"vertex", "derivative", "image"},
-                "where curvature comes from; derivative changes with the camera's distance")
+                "source of the curvature; derivative depends on facets and camera")
         .number(&Params::curvature_gain, "curvature_gain", "", 0, 10,
-                "times the curvature, for effect; 1 is right")
+                "factor on the curvature; 1 is physically right")
         .number(&Params::tune_curvature, "tune_curvature", "", 0.01, 100,
-                "divides the derivative's curvature; 1 is right in mm")
+                "divides the curvature from derivatives; 1 is right for positions in mm")
         .choice(&Params::normals, "normals", {"sharp", "smooth", "blended", "lerp"},
-                "diffuse normal: as mapped, from a smaller mip, or one a channel by the profile's width")
+                "diffuse normal: as mapped, from a smaller mip level, or both by the profile's width in "
+                "each channel: their light blended, or as published the normals mixed")
         .number(&Params::normal_lod_bias, "normal_lod_bias", "mip levels", 0, 8,
-                "how much smaller the mip is, at most")
-        .choice(&Params::shadow, "shadow", {"plain", "scattered"}, "whether light scatters into the penumbra")
+                "maximum difference of the smaller mip level")
+        .choice(&Params::shadow, "shadow", {"plain", "scattered"},
+                "penumbra as filtered, or with scattered light")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
         .choice(&Params::transmission, "transmission", {"none", "shadow_map"},
-                "light through ears and other thin parts, gathered from the shadow map")
-        .choice(
-            &Params::ambient, "ambient", {"exact", "lut", "curve_2015"},
-            "zonal harmonics for light from all around: the sphere's closed form, a table, hand-made curves")
+                "transmission through ears and other thin parts, gathered from the shadow map")
+        .choice(&Params::ambient, "ambient", {"exact", "lut", "curve_2015"},
+                "zonal harmonics for light from the environment: closed form of the sphere, table, curves of "
+                "2015")
         .choice(&Params::specular, "specular", specular_model_names(),
                 "specular model; ksk reads its Beckmann distribution from a table")
-        .number(&Params::oiliness, "oiliness", "", 0, 4, "times the specular reflection of material and map")
+        .number(&Params::oiliness, "oiliness", "", 0, 4,
+                "factor on the specular reflectance of material and map")
         .number(&Params::roughness_scale, "roughness_scale", "", 0.1, 3,
-                "times the roughness of material and map")
+                "factor on the roughness of material and map")
         .build();
 }
 
@@ -122,14 +125,15 @@ std::vector<Figure> figures() {
 }  // namespace
 
 Technique make_preintegrated_technique() {
-    return {.id = "preintegrated",
-            .summary = "scattering by curvature, by bumps and into shadows, from tables or a closed form",
-            .source = "Penner 2011, Pre-Integrated Skin Shading, GPU Pro 2; curves: Yeung 2015",
-            .parameters = parameters(),
-            .views = {kOwnView},
-            .build = build,
-            .tables = tables,
-            .figures = figures};
+    return {
+        .id = "preintegrated",
+        .summary = "scattering on curved skin, at bumps and at shadow edges, from tables or a closed form",
+        .source = "Penner 2011, Pre-Integrated Skin Shading, GPU Pro 2; curves: Yeung 2015",
+        .parameters = parameters(),
+        .views = {kOwnView},
+        .build = build,
+        .tables = tables,
+        .figures = figures};
 }
 
 }  // namespace dermis

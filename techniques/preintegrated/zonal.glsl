@@ -1,4 +1,4 @@
-// Zonal harmonics of the skin's answer on a closed sphere, in closed form: zh_0 = sqrt(pi) / 2, zh_1 = sqrt(pi / 3) sum
+// Zonal harmonics of pre-integrated skin on a closed sphere, in closed form: zh_0 = sqrt(pi) / 2, zh_1 = sqrt(pi / 3) sum
 // w rho_1(kappa), zh_2 = sqrt(5 pi) / 8 sum w rho_2(kappa), kappa = r^2 / v, rho_1 = coth kappa - 1 / kappa, rho_2 = 1 - 3
 // rho_1 / kappa, w the Gaussians' weights times 1 - exp(-2 kappa), summing to 1 (docs/preintegration.md).
 #ifndef DERMIS_ZONAL_GLSL

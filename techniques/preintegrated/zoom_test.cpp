@@ -87,7 +87,7 @@ TEST_F(PreintegratedZoom, changes_nothing_with_curvature_at_the_vertices_or_from
     }
 }
 
-TEST_F(PreintegratedZoom, changes_the_shading_with_the_derivative_and_the_page_says_how_much) {
+TEST_F(PreintegratedZoom, changes_the_shading_with_the_derivative_more_than_with_the_vertices) {
     const Scene scene = bare_bust();
     const ZoomChange vertex = zoom_by_four(scene, "vertex"), derivative = zoom_by_four(scene, "derivative");
     RecordProperty("vertex_mean", std::to_string(vertex.mean));

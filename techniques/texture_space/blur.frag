@@ -20,7 +20,7 @@ void main() {
     vec4 centre = textureLod(sampler2D(source, nearest_clamp), uv, 0.0);
     vec2 radius = texel * (centre.a * blur_scale + blur_bias);
 
-    vec4 lowest = centre;     // the tap with the smallest kernel: surely a written one, if any is
+    vec4 lowest = centre;     // the tap with the smallest kernel: a written one, if there is any
     float flag = centre.a;    // 1 as soon as one tap was never written
     bool count_all = dilate != kDilateWrittenOnly;
     float weight = count_all || centre.a < 1.0 ? centre_weight() : 0.0;

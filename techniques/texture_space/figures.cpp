@@ -45,7 +45,7 @@ Figure light_map_figure() {
             .title = "The light map",
             .source = kSource + "2.8.2",
             .rows = {{"",
-                      {image_cell("as lit", "light_map_a", FigureImageChannels::rgb, raw),
+                      {image_cell("lit, without blur", "light_map_a", FigureImageChannels::rgb, raw),
                        image_cell("dilated and blurred", "light_map_a", FigureImageChannels::rgb, whole)}}}};
 }
 
@@ -54,9 +54,8 @@ Figure shadow_map_figure() {
             .title = "The shadow map's channels",
             .source = kSource + "2.8.3",
             .note =
-                "RGB holds the optical depth of translucent sheets (the source: their opacity), shown as "
-                "what they "
-                "let through; alpha the depth of what is opaque.",
+                "RGB has the optical depth of translucent surfaces (in the source: their opacity), shown as "
+                "their transmittance; alpha has the depth of opaque surfaces.",
             .scene = "glasses",
             .only_in_its_scene = true,
             .rows = {{"",
@@ -81,7 +80,7 @@ Figure kernel_figure() {
         .id = "kernel_map",
         .title = "The blur kernel's size over the atlas",
         .source = kSource + "2.8.5",
-        .note = "In the light map's alpha; 1 (white) is what no triangle wrote.",
+        .note = "The light map's alpha; 1 (white) is where no triangle was drawn.",
         .scene = "bust",
         .rows = {{"",
                   {image_cell("kernel size", "light_map_a", FigureImageChannels::alpha,
@@ -118,9 +117,9 @@ Figure specular_figure() {
 Figure cull_figure() {
     const Settings off = {{"cull_back_face", "off"}, {"cull_frustum", "off"}};
     FigureRow maps = {"The light map",
-                      {image_cell("all of it", "light_map_a", FigureImageChannels::rgb, off),
+                      {image_cell("not culled", "light_map_a", FigureImageChannels::rgb, off),
                        image_cell("culled", "light_map_a", FigureImageChannels::rgb, {})}};
-    FigureRow pictures = {"The picture", {cell("all of it", "off", off), cell("culled", "on", {})}};
+    FigureRow pictures = {"The picture", {cell("not culled", "off", off), cell("culled", "on", {})}};
     pictures.cells[1].compare_to = "off";
     return {.id = "culling",
             .title = "The texture-space computation is culled on back-facing regions",
@@ -136,15 +135,15 @@ Figure millimetres_figure() {
     carry[1].second = "carry";
     FigureRow row = {
         "",
-        {cell("in texels, as the source", "texels", texels),
-         cell("2 mm, taps over seams dropped", "drop", drop),
-         cell("2 mm, carried over seams", "carry", carry), cell("sum of Gaussians", "gaussians", {})}};
+        {cell("in texels, as in the source", "texels", texels),
+         cell("2 mm, taps beyond seams dropped", "drop", drop),
+         cell("2 mm, light from across seams", "carry", carry), cell("sum of Gaussians", "gaussians", {})}};
     row.cells[3].technique = "texture_space_gaussians";
     for (FigureCell& one : row.cells) one.view = "light_map", one.camera = "yaw_deg=60 pitch_deg=8";
     row.cells[2].compare_to = "drop";
     return {.id = "millimetres",
             .title = "The blurred light, in texels and in millimetres",
-            .source = "what the source could not afford; the last after d'Eon, Luebke 2007",
+            .source = "not in the source, which calls it too expensive; the last after d'Eon, Luebke 2007",
             .rows = {row}};
 }
 

@@ -22,7 +22,7 @@ void main() {
         LightSample light = sample_light(i, s.p_world_mm);
         float dimmed = 1.0;
         if (i == key_light && specular_shadow != 0) {
-            // The source multiplies by the luminance as it is, its light being about 1; here by its share of the light.
+            // The source multiplies by the luminance itself, for lights of about 1; here it is divided by the light's irradiance.
             float share = luminance(exitance) / max(luminance(light.irradiance_linear), 1e-4);
             dimmed = clamp(share * specular_shadow_scale + specular_shadow_bias, 0.0, 1.0);
         } else if (i != key_light) {

@@ -1,7 +1,7 @@
 // Gosselin, Sander, Mitchell 2004, "Real-Time Texture-Space Skin Rendering" (ShaderX3): light the skin in its
 // texture atlas, blur that image with a kernel whose size is painted, and read it back through the camera.
 // Four steps: shadow map (shared), light map, dilation and blur, final mesh. The source's blur knows
-// texels, so its width on the skin follows the unwrap; with space=mm it knows the surface.
+// only texels, so its width on the skin depends on the UV layout; with space=mm it is in millimetres.
 
 #include <algorithm>
 #include <cmath>
@@ -53,8 +53,9 @@ struct Params {
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
         .part(&Params::atlas, atlas_parameters())
-        .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"}, "taps of the blur")
-        .integer(&Params::blur_passes, "blur_passes", "", 0, 16, "how often the light map is blurred")
+        .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"},
+                "pattern of the blur's taps")
+        .integer(&Params::blur_passes, "blur_passes", "", 0, 16, "number of blurs of the light map")
         .number(&Params::blur_scale, "blur_scale", "texels or mm", 0, kMaxBlurRadius,
                 "radius of the blur where the kernel map is 1")
         .number(&Params::blur_bias, "blur_bias", "texels or mm", 0, kMaxBlurRadius, "added to every radius")
@@ -62,27 +63,32 @@ ParameterTable parameters() {
             &Params::dilate, "dilate", {"off", "source", "written_only"},
             "at chart borders: nothing, the source's copy in the first pass, or average written texels only")
         .choice(&Params::space, "space", {"texels", "mm"},
-                "the blur's radius is in texels, as in the source, or in mm on the skin, whatever the unwrap")
+                "unit of the blur's radius: texels, as in the source, or mm on the skin, independent of the "
+                "UV layout")
         .choice(&Params::seams, "seams", {"drop", "carry"},
-                "in mm: taps that leave a chart are dropped, or carried into the chart beyond the seam")
+                "space=mm: taps that leave a chart are dropped, or get the light from across the seam")
         .toggle(&Params::single_channel_opacity, "single_channel_opacity",
                 "translucent shadows without colour, from the red channel")
         .toggle(&Params::second_light_shadow, "second_light_shadow",
                 "the second light casts a shadow too, from the channels that one light leaves free")
         .choice(&Params::shadow_lookup, "shadow_lookup", {"disk", "single"},
                 "filtered over the penumbra, or the source's one texel with a bias of 0.01")
-        .number(&Params::exempt_1_u, "exempt_1_u", "uv", 0, 1, "an ear that is never culled: middle")
+        .number(&Params::exempt_1_u, "exempt_1_u", "uv", 0, 1,
+                "u of the centre of a region that is never culled, for example an ear")
         .number(&Params::exempt_1_v, "exempt_1_v", "uv", 0, 1, "the same")
         .number(&Params::exempt_1_radius, "exempt_1_radius", "uv", 0, 1, "its radius; 0: none")
-        .number(&Params::exempt_2_u, "exempt_2_u", "uv", 0, 1, "the other ear: middle")
+        .number(&Params::exempt_2_u, "exempt_2_u", "uv", 0, 1, "u of the centre of a second such region")
         .number(&Params::exempt_2_v, "exempt_2_v", "uv", 0, 1, "the same")
         .number(&Params::exempt_2_radius, "exempt_2_radius", "uv", 0, 1, "its radius; 0: none")
-        .toggle(&Params::cull_distance, "cull_distance", "keep the last light map while the camera is far")
-        .number(&Params::cull_beyond_mm, "cull_beyond_mm", "mm", 0, 1e6, "how far that is")
+        .toggle(&Params::cull_distance, "cull_distance",
+                "keep the last light map while the camera is far away")
+        .number(&Params::cull_beyond_mm, "cull_beyond_mm", "mm", 0, 1e6,
+                "distance from which the camera is far away")
         .toggle(&Params::specular_shadow, "specular_shadow",
-                "dim the key light's specular by the blurred light")
-        .number(&Params::specular_shadow_scale, "specular_shadow_scale", "", 0, 10, "times the light's share")
-        .number(&Params::specular_shadow_bias, "specular_shadow_bias", "", -1, 1, "added to it")
+                "dim the key light's specular reflection by the blurred light")
+        .number(&Params::specular_shadow_scale, "specular_shadow_scale", "", 0, 10,
+                "factor on the blurred light, relative to the key light")
+        .number(&Params::specular_shadow_bias, "specular_shadow_bias", "", -1, 1, "added after the factor")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
 }

@@ -64,7 +64,7 @@ TEST_F(TextureSpace, without_dilation_the_gutter_darkens_the_seams) {
     EXPECT_GT(relative_difference(good, dark, 1), 0.05);
 }
 
-TEST_F(TextureSpace, its_stand_in_for_a_moving_picture_blurs_as_widely) {
+TEST_F(TextureSpace, its_coarse_settings_blur_as_widely) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
     const ParameterValues values = with({{"blur_passes", "8"}, {"blur_bias", "6"}});

@@ -30,11 +30,11 @@ ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
         .part(&Params::atlas, atlas_parameters())
         .number(&Params::width, "width", "", 0, 10, "scales the profile's lengths")
-        .integer(&Params::half_taps, "half_taps", "", 2, 12, "taps on each side of a Gaussian's middle")
+        .integer(&Params::half_taps, "half_taps", "", 2, 12, "taps on each side of a Gaussian's centre")
         .toggle(&Params::carry_seams, "carry_seams",
                 "blur across the atlas's seams; off: taps that leave a chart are dropped")
         .number(&Params::pre_scatter, "pre_scatter", "", 0, 1,
-                "share of the base colour, as an exponent, that the light takes before it is blurred")
+                "exponent of the base colour before the blur; the rest is applied after it")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
 }

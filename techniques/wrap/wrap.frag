@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Wrapped diffuse: light reaches past the terminator, in a colour of its own there (Green 2004, GPU Gems, chapter 16).
+// Wrapped diffuse: light reaches past the terminator, with an added colour there (Green 2004, GPU Gems, chapter 16).
 #include "shaders/include/forward.glsl"
 
 layout(scalar) uniform Params {
@@ -9,7 +9,7 @@ layout(scalar) uniform Params {
     vec3 scatter_color_linear;
 };
 
-// (n.l + w) / (1 + w), scaled by 1 / (1 + w) more so that no light is made: the integral over the sphere of directions
+// (n.l + w) / (1 + w), scaled by a further 1 / (1 + w) so that energy is conserved: the integral over the sphere of directions
 // then stays pi (McAuley 2010).
 float wrapped_cosine(float n_dot_l) { return max(n_dot_l + wrap, 0.0) / ((1.0 + wrap) * (1.0 + wrap)); }
 

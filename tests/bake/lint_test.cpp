@@ -114,7 +114,7 @@ TEST(Lint, a_turned_and_mirrored_srgb_picture_is_recognised) {
     EXPECT_TRUE(mentions(report.advice, ", 0.5 - 0.5 * n_dot_l)"));
 }
 
-TEST(Lint, light_that_was_decoded_once_too_often_is_recognised) {
+TEST(Lint, light_that_was_decoded_by_mistake_is_recognised) {
     const LintReport report =
         *lint_table(picture_of(baked("dermis"), PixelFormat::u16, [](float v) { return srgb_decode(v); }));
     EXPECT_EQ(report.best.stored_as, StoredAs::decoded_twice);

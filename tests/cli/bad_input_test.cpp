@@ -178,7 +178,7 @@ TEST_F(BadInput, keys_of_any_depth_are_refused) {
     expect_error("render " + file("table.toml", "[" + deep + "]\n"), "table.toml:1: nested deeper than");
 }
 
-TEST_F(BadInput, messages_name_the_mend) {
+TEST_F(BadInput, messages_say_how_to_correct_the_input) {
     expect_error("info " + file("none.glb", ""), "none.glb: the file is empty");
     expect_error("render " + file("point.toml", "[skin]\nroughness = .4\n"), "write 0.5, not .5");
     expect_error(kQuick + path("x.png") + " --frames 3", "number them: -o out/%04d.png");

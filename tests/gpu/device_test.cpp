@@ -43,7 +43,7 @@ TEST(Devices, a_name_nobody_has_is_an_error_that_lists_them) {
     EXPECT_THAT(device.error().message, HasSubstr(list_devices()->front().name));
 }
 
-TEST(Devices, a_machine_without_drivers_is_told_what_to_install) {
+TEST(Devices, without_drivers_the_error_names_what_to_install) {
     // The loader reads both variables when an instance is made.
     setenv("VK_DRIVER_FILES", "/nonexistent.json", 1);
     setenv("VK_ICD_FILENAMES", "/nonexistent.json", 1);

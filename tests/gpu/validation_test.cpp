@@ -1,4 +1,4 @@
-// The zero-messages rule of GpuTest means something only if the layers speak up.
+// That GpuTest expects no messages is a test only if the layers report errors.
 
 #include "dermis/gpu/device_state.h"
 #include "support/gpu_fixture.h"

@@ -118,7 +118,7 @@ TEST(Captured, the_interval_holds_the_share_of_other_seeds) {
     }
 }
 
-TEST(Captured, a_truth_that_is_too_noisy_is_not_told) {
+TEST(Captured, a_share_of_a_truth_that_is_too_noisy_is_not_printed) {
     EXPECT_TRUE(share(scaled(effect(), 0.5f), halves(effect(), kNoise, 1)).all.known());
     const Captured noisy = share(scaled(effect(), 0.5f), halves(effect(), 60 * kNoise, 1));
     EXPECT_FALSE(noisy.all.known());

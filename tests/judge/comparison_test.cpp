@@ -87,6 +87,21 @@ TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
     EXPECT_THAT(*page, Not(HasSubstr("https://")));
 }
 
+TEST_F(Comparisons, a_finer_truth_of_another_run_is_taken_as_it_is) {
+    const Scene scene = load("builtin:spheres");
+    ComparisonSettings fine = quick(), coarse = quick();
+    fine.noise = 1e-6;
+    fine.samples = 32;
+    coarse.noise = 1e-6;
+    const auto first = compare_techniques(device(), built_in_catalog(), scene, contestants("lambert"), fine);
+    ASSERT_TRUE(first) << first.error().message;
+    const auto second =
+        compare_techniques(device(), built_in_catalog(), scene, contestants("lambert"), coarse);
+    ASSERT_TRUE(second) << second.error().message;
+    EXPECT_TRUE(second->truth.from_cache);
+    EXPECT_EQ(second->truth.samples, first->truth.samples);
+}
+
 TEST_F(Comparisons, whatever_the_truth_depends_on_changes_its_hash) {
     const Scene scene = load("builtin:spheres");
     const ReferenceSettings settings = quick().reference;

@@ -1,4 +1,4 @@
-// Dependencies between folders of shaders: what techniques include is in shaders/include and shaders/atlas,
+// Dependencies between folders of shaders: what techniques include is in shaders/include, atlas and screen,
 // and neither the renderer's own passes nor another technique's folder.
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ std::string objection(const std::string& folder, const std::string& include) {
     const std::string from = fs::path(include).parent_path().generic_string();
     if (from == folder || from == "shaders/include") return "";
     if (folder == "shaders/include") return "it is to include its own folder only";
-    if (from == "shaders/atlas" && folder.starts_with("techniques/")) return "";
+    if ((from == "shaders/atlas" || from == "shaders/screen") && folder.starts_with("techniques/")) return "";
     return from + " is not for it";
 }
 
@@ -72,7 +72,8 @@ TEST(ShaderIncludes, follow_the_layout) {
         }
     }
     EXPECT_GT(includes, 30u);
-    for (const char* folder : {"shaders/include", "shaders/renderer", "shaders/atlas", "techniques/lambert"})
+    for (const char* folder :
+         {"shaders/include", "shaders/renderer", "shaders/atlas", "shaders/screen", "techniques/lambert"})
         EXPECT_TRUE(folders.contains(folder)) << folder;
 }
 
@@ -84,6 +85,8 @@ TEST(ShaderIncludes, of_the_wrong_folder_are_found) {
     EXPECT_NE(objection("techniques/wrap", "shaders/renderer/tone_map.glsl"), "");
     EXPECT_NE(objection("techniques/wrap", "techniques/texture_space/taps.glsl"), "");
     EXPECT_NE(objection("shaders/include", "shaders/renderer/tone_map.glsl"), "");
+    EXPECT_EQ(objection("techniques/wrap", "shaders/screen/rays.glsl"), "");
+    EXPECT_NE(objection("shaders/atlas", "shaders/screen/rays.glsl"), "");
     EXPECT_NE(objection("shaders/include", "shaders/atlas/light.glsl"), "");
     EXPECT_NE(objection("shaders/renderer", "shaders/atlas/light.glsl"), "");
     EXPECT_NE(objection("shaders/atlas", "techniques/texture_space/taps.glsl"), "");

@@ -132,7 +132,7 @@ TEST(Curvature, is_negative_where_the_surface_is_concave) {
     for (const float h : compute_curvature(bowl)) EXPECT_NEAR(h, -0.2, 0.003);
 }
 
-TEST(Curvature, does_not_know_of_uv_seams) {
+TEST(Curvature, does_not_depend_on_uv_seams) {
     const Mesh mesh = make_sphere(10, 64);
     const std::vector<float> curvatures = compute_curvature(mesh);
     std::map<float, float> left;  // by v
@@ -187,7 +187,7 @@ TEST(Curvature, smoothing_keeps_a_spheres_curvature) {
     for (const float h : compute_curvature(mesh, 2)) EXPECT_NEAR(h * 20, 1, 0.02);
 }
 
-TEST(Curvature, sheets_that_touch_do_not_mix) {
+TEST(Curvature, surfaces_that_touch_do_not_mix) {
     // Two planes 0.01 mm apart, back to back, as closed lips are.
     Mesh mesh = make_plane(10, 10, 10), back = mesh;
     for (Vec3& p : back.positions_mm) p.z = -0.01f;

@@ -43,7 +43,7 @@ TEST(Normals, surfaces_that_touch_in_a_point_are_kept_apart) {
     EXPECT_EQ(loaded->mesh.normals[loaded->mesh.indices[3]], (Vec3{-1, 0, 0}));
 }
 
-TEST(Normals, a_folded_sheet_whose_normals_cancel_keeps_each_sides_own) {
+TEST(Normals, a_folded_surface_whose_normals_cancel_keeps_each_sides_own) {
     const auto loaded = parse_obj_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n");
     ASSERT_TRUE(loaded);
     expect_sound(loaded->mesh);

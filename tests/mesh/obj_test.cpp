@@ -132,7 +132,7 @@ TEST(Obj, degenerate_faces_are_skipped_or_harmless) {
     EXPECT_TRUE(any_contains(loaded->warnings, "2 faces with fewer than three corners"));
 }
 
-TEST(Obj, a_missing_mtl_is_told_unless_the_caller_brings_materials) {
+TEST(Obj, a_missing_mtl_is_reported_unless_the_caller_has_materials) {
     const std::string text = "mtllib none.mtl\nv 0 0 0\nv 200 0 0\nv 0 200 0\nvt 0 0\nf 1/1 2/1 3/1\n";
     const auto told = parse_obj_text(text),
                quiet = parse_obj_text(text, {}, {.ignore_missing_materials = true});

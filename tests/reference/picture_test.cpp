@@ -236,7 +236,7 @@ TEST(ReferencePicture, a_wanted_error_is_reached_with_fewer_samples_than_allowed
     EXPECT_TRUE(picture->reached_noise);
 }
 
-TEST(ReferencePicture, an_error_that_is_not_reached_is_said_to_be_missed) {
+TEST(ReferencePicture, an_error_that_is_not_reached_is_reported) {
     ReferenceSettings settings = small(Integrator::surface, 16);
     settings.noise = 0.001;
     const auto picture = render_reference(white_sphere(4), settings);

@@ -54,7 +54,7 @@ TEST_F(AtlasCheck, uvs_over_the_edge_are_lit_without_scattering) {
     EXPECT_THAT(*check_skin_atlas(one_sphere({0.25f, 0})), ElementsAre(HasSubstr("lie outside 0..1")));
 }
 
-TEST_F(AtlasCheck, overlap_says_what_will_look_wrong) {
+TEST_F(AtlasCheck, overlap_is_reported_with_its_consequence) {
     Scene scene = one_sphere();
     scene.objects.push_back(scene.objects[0]);
     scene.objects[1].mesh.materials[0].name = "twin";

@@ -1,5 +1,5 @@
-// What reaches a surface of each light, in every technique and on what is not skin: a plane under a plate or a
-// tinted sheet that covers the half where x > 0.
+// What reaches a surface of each light, in every technique and on what is not skin: a plane under a plate or
+// a tinted sheet that covers the half where x > 0.
 
 #include <gtest/gtest.h>
 
@@ -67,8 +67,8 @@ const char* const kForward[] = {"lambert", "oren_nayar", "wrap", "preintegrated"
 TEST_F(LightShadows, of_the_second_light_are_as_the_key_lights) {
     Light faint_key = from_above("key", true);
     faint_key.intensity = 0;
-    const Scene scene = plane_under(MaterialClass::other, MaterialClass::skin,
-                                    {faint_key, from_above("second", false)});
+    const Scene scene =
+        plane_under(MaterialClass::other, MaterialClass::skin, {faint_key, from_above("second", false)});
     for (const char* technique : kForward) {
         const Seen seen = drawn(scene, technique);
         EXPECT_GT(seen.open.x, 0.1f) << technique;
@@ -95,8 +95,8 @@ TEST_F(LightShadows, darken_the_second_lights_specular_too) {
 TEST_F(LightShadows, follow_the_key_shadow_and_the_budget) {
     Light faint_key = from_above("key", true);
     faint_key.intensity = 0;
-    Scene scene = plane_under(MaterialClass::other, MaterialClass::other,
-                              {faint_key, from_above("second", false)});
+    Scene scene =
+        plane_under(MaterialClass::other, MaterialClass::other, {faint_key, from_above("second", false)});
     EXPECT_EQ(scene.shadow_maps(), (std::vector{0, 1}));
     EXPECT_LT(drawn(scene, "lambert").covered.x, 0.01f);
     scene.shadow_map_budget = 1;

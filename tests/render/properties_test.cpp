@@ -77,7 +77,7 @@ TEST_F(Properties, every_technique_draws_the_same_frame_twice) {
     }
 }
 
-TEST_F(Properties, baselines_know_no_length) {
+TEST_F(Properties, baselines_do_not_depend_on_the_scale) {
     Scene scene = key_light_only(load("builtin:spheres")), large = scene;
     scale_lengths(large, 10);
     Renderer renderer = make_renderer(scene), large_renderer = make_renderer(large);
@@ -105,7 +105,7 @@ TEST_F(Properties, without_a_specular_model_nothing_is_reflected) {
     }
 }
 
-TEST_F(Properties, no_technique_makes_light_in_a_white_furnace) {
+TEST_F(Properties, no_technique_adds_energy_in_a_white_furnace) {
     // The diffuse light of a white sphere under an environment of constant radiance is 1, with any
     // scattering.
     Scene scene = load("builtin:spheres");

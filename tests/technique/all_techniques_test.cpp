@@ -92,7 +92,7 @@ TEST(AllTechniques, building_is_pure) {
     }
 }
 
-TEST(AllTechniques, stand_ins_for_a_moving_picture_stay_in_their_ranges) {
+TEST(AllTechniques, coarse_settings_stay_in_their_ranges) {
     int with_one = 0;
     for (const Technique& technique : built_in_catalog().techniques) {
         if (!technique.coarse) continue;

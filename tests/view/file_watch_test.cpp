@@ -35,7 +35,7 @@ TEST_F(FileWatchTest, tells_what_changed_came_and_went_once) {
     EXPECT_THAT(watch_.changed(), ElementsAre(a));
 }
 
-TEST_F(FileWatchTest, a_change_before_the_list_is_made_anew_is_not_lost) {
+TEST_F(FileWatchTest, a_change_before_the_list_is_made_again_is_not_lost) {
     const auto a = write("a", "1"), b = write("b", "1");
     watch_.watch({a});
     write("a", "22");

@@ -1,4 +1,4 @@
-// What stays of a person's changes when a scene's files are read again.
+// What stays of the user's changes when a scene's files are read again.
 
 #include "dermis/view/scene_look.h"
 #include "support/built_in.h"
@@ -35,7 +35,7 @@ TEST(SceneLook, what_the_file_does_not_touch_stays_as_it_was_seen) {
     EXPECT_EQ(read.fresh.name, "renamed");
 }
 
-TEST(SceneLook, what_the_file_says_anew_wins) {
+TEST(SceneLook, what_the_file_newly_says_replaces_a_change) {
     Read read;
     EXPECT_TRUE(set_section(read.fresh, "camera", "pitch_deg=10"));
     read.fresh.lights[0].intensity = 5;

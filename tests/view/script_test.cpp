@@ -44,11 +44,11 @@ TEST(Script, what_is_wrong_is_told_with_its_line_and_what_would_be_right) {
                 HasSubstr("s.txt:2: unknown command 'techniqe'; did you mean 'technique'?"));
     EXPECT_THAT(error_of("drag left 1 2 3"), HasSubstr("drag left 300 300 420 280"));
     EXPECT_THAT(error_of("drag lift 1 2 3 4"), HasSubstr("'lift'; did you mean 'left'?"));
-    EXPECT_THAT(error_of("scroll 1 2 x"), HasSubstr("'x' is no number"));
-    EXPECT_THAT(error_of("wait 1e99"), HasSubstr("no number"));
-    EXPECT_THAT(error_of("wait nan"), HasSubstr("no number"));
+    EXPECT_THAT(error_of("scroll 1 2 x"), HasSubstr("'x' is not a number"));
+    EXPECT_THAT(error_of("wait 1e99"), HasSubstr("not a number"));
+    EXPECT_THAT(error_of("wait nan"), HasSubstr("not a number"));
     EXPECT_THAT(error_of("resize 0 10"), HasSubstr("resize 640 480"));
-    EXPECT_THAT(error_of("open \"a"), HasSubstr("quote"));
+    EXPECT_THAT(error_of("open \"a"), HasSubstr("quotation mark"));
     EXPECT_THAT(error_of("key shft+A"), HasSubstr("'shft'; did you mean 'shift'?"));
 }
 

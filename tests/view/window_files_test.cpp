@@ -46,7 +46,7 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_what_is_none_is_a_no
     EXPECT_THAT(last_state(result), HasSubstr("environment studio\n"));
 }
 
-TEST_F(ViewWindow, dropped_panoramas_become_the_surroundings_and_other_pictures_the_right_side) {
+TEST_F(ViewWindow, dropped_panoramas_become_the_environment_and_other_pictures_the_right_side) {
     ASSERT_TRUE(write_image(path("red.hdr"), plain(16, 8, {2, 0, 0})));
     ASSERT_TRUE(write_image(path("green.exr"), plain(16, 8, {0, 2, 0})));
     ASSERT_TRUE(write_image(path("truth.exr"), plain(16, 16, {0.5f, 0.5f, 0.5f})));
@@ -77,7 +77,7 @@ TEST_F(ViewWindow, dropped_panoramas_become_the_surroundings_and_other_pictures_
     EXPECT_THAT(last_state(result), HasSubstr("environment " + path("green.exr") + "\n"));
 }
 
-TEST_F(ViewWindow, a_broken_shader_is_told_and_the_last_good_one_goes_on_until_it_is_mended) {
+TEST_F(ViewWindow, a_broken_shader_is_reported_and_the_last_good_one_stays_until_it_is_corrected) {
     const std::string source = DERMIS_SOURCE_DIR;
     ASSERT_EQ(shell("mkdir " + path("root") + " && cp -r " + source + "/shaders " + source + "/techniques " +
                     path("root"))
@@ -141,7 +141,7 @@ TEST_F(ViewWindow, a_scene_file_is_followed_and_saved_with_what_was_changed) {
     EXPECT_TRUE(std::filesystem::exists(path("state") + "/dermis/view.toml"));
 }
 
-TEST_F(ViewWindow, meshes_maps_and_surroundings_are_followed_and_the_last_good_ones_go_on) {
+TEST_F(ViewWindow, meshes_maps_and_environments_are_followed_and_the_last_good_ones_stay) {
     const Result<std::string> whole = read_text_file(square());
     ASSERT_TRUE(whole);
     std::string smaller = *whole;

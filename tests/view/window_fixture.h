@@ -1,5 +1,5 @@
 #pragma once
-// The program as a person uses it: scripted hands, a display of our own, validation layers on.
+// The program with a UI script, on a virtual display, with validation layers.
 
 #include <gtest/gtest.h>
 

@@ -47,7 +47,7 @@ using Buffer = std::vector<std::byte>;
 /// decoded to stored bytes that the format's compression reaches.
 [[nodiscard]] Result<void> check_ratio(uint64_t decoded_bytes, uint64_t file_bytes, uint64_t most);
 
-/// Little-endian numbers out of bytes nobody vouches for: reading past the end gives zeros and clears ok().
+/// Little-endian numbers out of untrusted bytes: reading past the end gives zeros and clears ok().
 class ByteReader {
   public:
     explicit ByteReader(Bytes bytes, size_t at = 0) : bytes_(bytes), at_(at) {}

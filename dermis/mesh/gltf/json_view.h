@@ -1,5 +1,5 @@
 #pragma once
-// A place in a JSON document that knows its path, so that every complaint names file and place. Internal to
+// A place in a JSON document with its path, so that every message names file and place. Internal to
 // dermis/mesh.
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace dermis::gltf {
 
-/// What reading has complained of so far. Reading goes on after an error with harmless values; the caller
+/// The errors and warnings of reading so far. Reading goes on after an error with harmless values; the caller
 /// asks at the end of each step.
 struct Complaints {
     std::string file;

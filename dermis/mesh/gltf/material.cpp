@@ -57,7 +57,7 @@ class MaterialReader {
         material.emission_linear = color(source["emissiveFactor"], {0, 0, 0});
         material.emission_map = texture(source["emissiveTexture"]);
         if (material.emission_map.present())
-            source["emissiveTexture"].warn("is not drawn yet: emissiveFactor glows everywhere");
+            source["emissiveTexture"].warn("is not drawn yet: emissiveFactor is emitted everywhere");
         material.double_sided = source["doubleSided"].boolean(false);
         read_alpha(source, base[3], material);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Which UVs a texture of a glTF material takes, and how it goes on beyond its edges. Internal to dermis/mesh.
+// Which UVs a texture of a glTF material takes, and what it has beyond its edges. Internal to dermis/mesh.
 
 #include <array>
 #include <cstdint>

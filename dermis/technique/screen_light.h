@@ -1,0 +1,21 @@
+#pragma once
+// What techniques that blur light on the picture share: the skin's diffuse light as the camera sees it, and
+// the pass that shades with it once it is blurred (shaders/screen).
+
+#include <string>
+
+#include "dermis/technique/forward.h"
+#include "dermis/technique/technique.h"
+
+namespace dermis {
+
+/// Declares and fills, one sample a pixel: "skin_light", exitance over albedo with alpha 1 on skin, else 0;
+/// and "skin_z", the distance in mm along the camera's axis, 0 where there is no skin.
+void add_screen_light(PassList& list, const FrameContext& frame);
+
+/// Draws the skin with the diffuse light of `blurred`, an image as "skin_light" is, but without meaning in
+/// its alpha. `own_view` shows that light alone.
+void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular,
+                     const FrameContext& frame, std::string_view own_view);
+
+}  // namespace dermis

@@ -1,0 +1,94 @@
+// Golubev 2018, "Efficient Screen-Space Subsurface Scattering Using Burley's Normalized Diffusion in
+// Real-Time" (SIGGRAPH course), after Christensen, Burley 2015, "Approximate Reflectance Profiles for
+// Efficient Subsurface Scattering": the skin's diffuse light on the picture, before the base colour, is
+// gathered from a disk whose samples follow the profile. Changed: any profile, sampled by the mean of its
+// channels; what leaves within the pixel is not sampled but known.
+
+#include <cstring>
+
+#include "dermis/technique/screen_light.h"
+#include "techniques/screen_space_burley/constants.h"
+#include "techniques/screen_space_burley/tables.h"
+
+namespace dermis {
+namespace {
+
+using namespace screen_space_burley;
+
+constexpr const char* kOwnView = "gathered_light";
+
+struct Params {
+    int32_t samples = 32;
+    float width = 1;
+    bool rotate = true;
+    SpecularModel specular = SpecularModel::ggx;
+};
+
+ParameterTable parameters() {
+    return ParameterTableBuilder<Params>()
+        .integer(&Params::samples, "samples", "", 4, 2048, "samples of the disk")
+        .number(&Params::width, "width", "", 0.01, 10, "scales the profile's lengths")
+        .toggle(&Params::rotate, "rotate", "turns the disk from pixel to pixel: noise instead of bands")
+        .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .build();
+}
+
+PassList build(const ParameterValues& values, const FrameContext& frame) {
+    const auto params = values.as<Params>();
+    PassList list;
+    add_screen_light(list, frame);
+    list.images.push_back({.name = "skin_light_gathered", .format = ImageFormat::rgba32f});
+    list.passes.push_back(
+        {.name = "gather",
+         .kind = PassKind::fullscreen,
+         .shader = "screen_space_burley/gather.frag",
+         .reads = {{"light", "skin_light"}, "skin_z", "skin_density", "skin_radius"},
+         .colors = {{.image = "skin_light_gathered", .load = LoadOp::discard}},
+         .constants = {{"sample_count", params.samples}, {"rotate", int32_t(params.rotate)}}});
+    add_screen_skin(list, "skin_light_gathered", params.specular, frame, kOwnView);
+    return list;
+}
+
+template <class Value>
+TableImage to_image(std::string name, ImageFormat format, int height, const std::vector<Value>& texels) {
+    TableImage image{.name = std::move(name), .format = format, .height = height};
+    image.width = int(texels.size()) / height;
+    image.bytes.resize(texels.size() * sizeof(Value));
+    std::memcpy(image.bytes.data(), texels.data(), image.bytes.size());
+    return image;
+}
+
+Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
+    const Profile profile = scaled(skin.profile, double(values.as<Params>().width));
+    const double reach = reach_mm(profile);
+    std::vector<Texel> density = radial_density(profile, reach, int(kDensityTexels));
+    const std::vector<Texel> part = part_within(profile, reach, int(kDensityTexels));
+    density.insert(density.end(), part.begin(), part.end());
+    return std::vector<TableImage>{
+        to_image("skin_density", ImageFormat::rgba32f, 2, density),
+        to_image("skin_radius", ImageFormat::r32f, 1, radius_of_part(profile, reach, int(kRadiusTexels)))};
+}
+
+// The fewest samples that do not show single taps.
+ParameterValues coarse(ParameterValues values, float) {
+    constexpr int32_t kFewest = 8;
+    auto params = values.as<Params>();
+    params.samples = std::min(params.samples, kFewest);
+    values.put_all(params);
+    return values;
+}
+
+}  // namespace
+
+Technique make_screen_space_burley_technique() {
+    return {.id = "screen_space_burley",
+            .summary = "diffuse light gathered on the picture from a disk of samples",
+            .source = "Golubev 2018, Efficient Screen-Space Subsurface Scattering; Christensen, Burley 2015",
+            .parameters = parameters(),
+            .views = {kOwnView},
+            .build = build,
+            .tables = tables,
+            .coarse = coarse};
+}
+
+}  // namespace dermis

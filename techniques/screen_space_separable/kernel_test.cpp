@@ -1,0 +1,43 @@
+#include "techniques/screen_space_separable/kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace dermis;
+using namespace dermis::screen_space_separable;
+
+// The line spread function is the profile integrated along a line: checked by summing the profile itself.
+TEST(SeparableKernel, is_the_profile_integrated_over_one_direction) {
+    const GaussianSum sum = gpu_gems_3_skin();
+    const Profile profile = {.name = "gpu_gems_3", .model = sum};
+    constexpr double kStep = 0.02, kReach = 10;
+    for (const int channel : {kRed, kGreen, kBlue})
+        for (const double distance_mm : {1.0, 3.0}) {
+            double within = 0, all = 0;
+            for (double x = -kReach + kStep / 2; x < kReach; x += kStep)
+                for (double y = -kReach + kStep / 2; y < kReach; y += kStep) {
+                    const double light = reflectance_per_mm2(profile, channel, std::hypot(x, y));
+                    all += light;
+                    if (std::abs(x) < distance_mm) within += light;
+                }
+            EXPECT_NEAR(share_within(sum, 1, channel, distance_mm), within / all, 2e-3) << channel;
+        }
+}
+
+TEST(SeparableKernel, scales_with_its_width_and_ends_at_its_reach) {
+    const GaussianSum sum = gpu_gems_3_skin();
+    EXPECT_NEAR(share_within(sum, 2, kRed, 2), share_within(sum, 1, kRed, 1), 1e-12);
+    EXPECT_FLOAT_EQ(reach_mm(sum, 2), 2 * reach_mm(sum, 1));
+    EXPECT_GT(share_within(sum, 1, kRed, reach_mm(sum, 1)), 0.997);
+    EXPECT_EQ(reach_mm({}, 1), 1);
+    EXPECT_EQ(share_within(sum, 0, kRed, 0.1), 1);
+}
+
+TEST(SeparableKernel, of_two_gaussians_has_their_shares) {
+    const TwoGaussians two = {.near_mm = 0.1f, .far_mm = 2, .far_share = {0.6f, 0.3f, 0}};
+    const GaussianSum sum = to_gaussian_sum(two);
+    // Between the two widths nearly all of the narrow one and little of the wide one has left.
+    EXPECT_NEAR(share_within(sum, 1, kRed, 0.4), 0.4 + 0.6 * std::erf(0.4 / (2 * std::sqrt(2.0))), 1e-3);
+    EXPECT_NEAR(share_within(sum, 1, kBlue, 0.4), 1, 1e-3);
+}

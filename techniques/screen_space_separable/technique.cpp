@@ -1,0 +1,123 @@
+// Jimenez, Zsolnai, Jarabo, Freude, Auzinger, Wu, von der Pahlen, Wimmer, Gutierrez 2015, "Separable
+// Subsurface Scattering" (Computer Graphics Forum 34): the skin's diffuse light on the picture, before the
+// base colour, is blurred along x and then along y by a one-dimensional kernel of the profile. Changed:
+// distances are those of the points on the skin, and a tap's weight is the kernel's integral over its cell
+// (blur.frag).
+
+#include <cstring>
+
+#include "dermis/technique/screen_light.h"
+#include "techniques/screen_space_separable/constants.h"
+#include "techniques/screen_space_separable/kernel.h"
+
+namespace dermis {
+namespace {
+
+using namespace screen_space_separable;
+
+constexpr const char* kOwnView = "blurred_light";
+constexpr int kTexels = 256;
+
+enum class Kernel : int32_t { profile, two_gaussians };
+enum class Taps : int32_t { taps_7, taps_11, taps_17, taps_25 };
+enum class Follow : int32_t { none = kFollowNone, surface = kFollowSurface };
+
+struct Params {
+    Kernel kernel = Kernel::profile;
+    float width = 1;
+    float near_mm = TwoGaussians().near_mm;
+    float far_mm = TwoGaussians().far_mm;
+    Vec3 far_share = TwoGaussians().far_share;
+    Taps taps = Taps::taps_25;
+    Follow follow = Follow::surface;
+    SpecularModel specular = SpecularModel::ggx;
+};
+
+ParameterTable parameters() {
+    return ParameterTableBuilder<Params>()
+        .choice(&Params::kernel, "kernel", {"profile", "two_gaussians"},
+                "the scene's profile, or two Gaussians that an artist sets")
+        .number(&Params::width, "width", "", 0, 10, "scales the kernel's lengths")
+        .number(&Params::near_mm, "near_mm", "mm", 0.01, 10, "kernel=two_gaussians: the narrower one")
+        .number(&Params::far_mm, "far_mm", "mm", 0.01, 20, "kernel=two_gaussians: the wider one")
+        .color(&Params::far_share, "far_share", 0, 1, "kernel=two_gaussians: share of the wider one")
+        .choice(&Params::taps, "taps", {"7", "11", "17", "25"}, "taps along each direction")
+        .choice(&Params::follow, "follow", {"none", "surface"},
+                "distance to a tap: on the picture's plane, or between the points on the skin")
+        .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .build();
+}
+
+int32_t half_taps(Taps taps) {
+    constexpr int32_t kHalf[] = {3, 5, 8, 12};
+    return kHalf[size_t(taps)];
+}
+
+GaussianSum kernel_of(const Params& params, const GaussianSum& skin) {
+    if (params.kernel == Kernel::profile) return skin;
+    return to_gaussian_sum(
+        {.near_mm = params.near_mm, .far_mm = params.far_mm, .far_share = params.far_share});
+}
+
+PassList build(const ParameterValues& values, const FrameContext& frame) {
+    const auto params = values.as<Params>();
+    const float reach = reach_mm(kernel_of(params, frame.skin_gaussians), params.width);
+    PassList list;
+    add_screen_light(list, frame);
+    for (const char* name : {"skin_light_x", "skin_light_xy"})
+        list.images.push_back({.name = name, .format = ImageFormat::rgba32f});
+    for (const bool along_v : {false, true})
+        list.passes.push_back(
+            {.name = along_v ? "blur along y" : "blur along x",
+             .kind = PassKind::fullscreen,
+             .shader = "screen_space_separable/blur.frag",
+             .reads = {{"light", along_v ? "skin_light_x" : "skin_light"}, "skin_z", "skin_kernel"},
+             .colors = {{.image = along_v ? "skin_light_xy" : "skin_light_x", .load = LoadOp::discard}},
+             .constants = {{"half_taps", half_taps(params.taps)},
+                           {"along_v", int32_t(along_v)},
+                           {"follow", int32_t(params.follow)}},
+             .values = {{"reach_mm", reach}}});
+    add_screen_skin(list, "skin_light_xy", params.specular, frame, kOwnView);
+    return list;
+}
+
+// The shader reads it at sqrt(distance / reach), both ends included.
+Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
+    const auto params = values.as<Params>();
+    const GaussianSum kernel = kernel_of(params, skin.gaussians);
+    const double reach = reach_mm(kernel, params.width);
+    std::vector<float> rgba;
+    for (int i = 0; i < kTexels; ++i) {
+        const double x = double(i) / (kTexels - 1);
+        for (int c = 0; c < 3; ++c)
+            rgba.push_back(float(share_within(kernel, params.width, c, reach * x * x)));
+        rgba.push_back(1);
+    }
+    TableImage image{.name = "skin_kernel", .format = ImageFormat::rgba32f, .width = kTexels, .height = 1};
+    image.bytes.resize(rgba.size() * sizeof(float));
+    std::memcpy(image.bytes.data(), rgba.data(), image.bytes.size());
+    return std::vector<TableImage>{std::move(image)};
+}
+
+// The fewest taps.
+ParameterValues coarse(ParameterValues values, float) {
+    auto params = values.as<Params>();
+    params.taps = Taps::taps_7;
+    values.put_all(params);
+    return values;
+}
+
+}  // namespace
+
+Technique make_screen_space_separable_technique() {
+    return {.id = "screen_space_separable",
+            .summary = "diffuse light blurred on the picture, along x and then along y",
+            .source = "Jimenez et al. 2015, Separable Subsurface Scattering",
+            .parameters = parameters(),
+            .views = {kOwnView},
+            .build = build,
+            .tables = tables,
+            .coarse = coarse};
+}
+
+}  // namespace dermis
