@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "dermis/optics/fresnel.h"
 #include "dermis/rays/ray_scene.h"
 #include "dermis/reference/environment_sampler.h"
 #include "dermis/reference/materials.h"
@@ -60,7 +61,9 @@ class Lighting {
           environment_(environment),
           settings_(settings),
           reflection_(reflection),
-          shadow_maps_(scene.shadow_maps()) {}
+          shadow_maps_(scene.shadow_maps()),
+          harmonic_entry_(settings.entry_eta > 1 ? float(1 - diffuse_external_reflectance(settings.entry_eta))
+                                                 : 1.0f) {}
 
     /// An unbiased estimate of the irradiance, linear; exact (no noise) without penumbra and traced
     /// environment.
@@ -91,6 +94,7 @@ class Lighting {
     LightingSettings settings_;
     const SplitSumReflection* reflection_;
     std::vector<int> shadow_maps_;
+    float harmonic_entry_;  // the part of even light that enters; an integral, so it is made once
 };
 
 /// What reaches `p_mm` of a light that nothing blocks.
