@@ -78,6 +78,8 @@ void add(Hasher& hasher, const Camera& camera) {
 // All but the objects and the panorama.
 void add_views(Hasher& hasher, const Scene& scene) {
     for (const Light& light : scene.lights) add(hasher, light);
+    if (scene.shadow_map_budget != Scene{}.shadow_map_budget)
+        hasher.add("shadow maps").add(scene.shadow_map_budget);
     add(hasher, scene.camera);
     const Environment& environment = scene.environment;
     hasher.add(environment.kind).add(environment.intensity).add(environment.yaw_rad).add(environment.visible);
