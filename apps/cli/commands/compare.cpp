@@ -67,18 +67,15 @@ Result<ComparisonSettings> settings_of(const Options& options) {
 
 // Tried before minutes of work rather than after, by a file that is removed again with every directory that
 // it needed: a comparison that cannot be made leaves nothing.
+constexpr const char* kFiles[] = {"report.html", "scores.csv", "regions.csv"};
+
 Result<void> try_directory(const fs::path& directory) {
     std::error_code ec;
     if (fs::exists(directory, ec) && !fs::is_directory(directory, ec))
         return Error{"-o " + directory.string() + ": is a file; name a directory for the report"};
-    std::vector<fs::path> missing;
-    for (fs::path at = fs::absolute(directory, ec); !at.empty() && !fs::exists(at, ec); at = at.parent_path())
-        missing.push_back(at);
-    const fs::path trial = directory / ".dermis_compare_trial";
-    const Result<void> written = write_text_file(trial, "");
-    fs::remove(trial, ec);
-    for (const fs::path& made : missing) fs::remove(made, ec);
-    if (!written) return Error{"-o " + directory.string() + ": " + written.error().message};
+    for (const char* name : kFiles)
+        if (const Result<void> tried = try_output(directory / name); !tried)
+            return Error{"-o " + directory.string() + ": " + tried.error().message};
     return {};
 }
 
@@ -181,12 +178,12 @@ Result<int> run(const Options& options) {
     const Result<std::string> page = report_html(*scene, *comparison, *settings);
     if (!page) return page.error();
     const fs::path directory(options.output);
-    const std::pair<const char*, std::string> files[] = {
-        {"report.html", *page},
-        {"scores.csv", scores_csv(score_rows(options.scene.name, *comparison))},
-        {"regions.csv", regions_csv(options.scene.name, *comparison)}};
-    for (const auto& [name, text] : files)
-        if (Result<void> written = write_text_file(directory / name, text); !written) return written.error();
+    const std::string scores = scores_csv(score_rows(options.scene.name, *comparison)),
+                      regions = regions_csv(options.scene.name, *comparison);
+    const FileContent files[] = {{directory / kFiles[0], as_bytes(*page)},
+                                 {directory / kFiles[1], as_bytes(scores)},
+                                 {directory / kFiles[2], as_bytes(regions)}};
+    if (Result<void> written = write_files(files); !written) return written.error();
     if (options.json) {
         std::printf("%s\n", to_json(options, *scene, *comparison).dump(2).c_str());
         return 0;
