@@ -7,11 +7,11 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/base/vec.h"
+#include "dermis/plot/svg/axes.h"
 
 namespace dermis {
 namespace {
@@ -20,7 +20,6 @@ namespace {
 // apart.
 constexpr std::array<std::string_view, 8> kPalette = {"#1864ab", "#e8590c", "#2b8a3e", "#9c36b5",
                                                       "#c92a2a", "#0b8fa3", "#7a5c00", "#495057"};
-constexpr double kMaxAutomaticDecades = 8;
 constexpr double kMarginLeft = 66, kMarginRight = 18, kMarginBottom = 46, kLegendLine = 18;
 
 struct Rect {
@@ -66,116 +65,6 @@ std::string line_element(double x1, double y1, double x2, double y2, std::string
            std::string(attributes) + "/>\n";
 }
 
-// ---- Axes ------------------------------------------------------------------------------------------------
-
-struct Tick {
-    double value;
-    std::string label;  // markup; empty: a thin grid line only
-};
-
-// A resolved axis: position() maps [min, max] to [0, 1].
-struct Scale {
-    PlotScale kind;
-    double min, max;
-
-    bool shows(double value) const {
-        return std::isfinite(value) && (kind == PlotScale::linear || value > 0);
-    }
-    double position(double value) const {
-        if (kind == PlotScale::linear) return (value - min) / (max - min);
-        return std::log(value / min) / std::log(max / min);
-    }
-};
-
-// The step of 1, 2 or 5 times a power of ten that gives about `count` ticks.
-double nice_step(double range, double count) {
-    const double rough = range / count;
-    const double power = std::pow(10.0, std::floor(std::log10(rough)));
-    const double lead = rough / power;
-    return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
-}
-
-std::string linear_label(double value, double step) {
-    // Rounded to the step's own digits: 0.30000000000000004 is 0.3.
-    const double digits = std::pow(10.0, std::max(0.0, 1 - std::floor(std::log10(step))));
-    const double rounded = digits < 1e12 ? std::round(value * digits) / digits : value;
-    return to_text(rounded == 0 ? 0.0 : rounded);
-}
-
-std::string power_label(int mantissa, int exponent) {
-    if (exponent >= -3 && exponent <= 4) return to_text(mantissa * std::pow(10.0, exponent));
-    const std::string lead = mantissa == 1 ? "" : std::to_string(mantissa) + "·";
-    return lead + "10<tspan dy=\"-4\" font-size=\"9\">" + std::to_string(exponent) + "</tspan>";
-}
-
-std::vector<Tick> logarithmic_ticks(const Scale& scale) {
-    std::vector<Tick> ticks;
-    const double decades = std::log10(scale.max / scale.min);
-    const int first = int(std::floor(std::log10(scale.min) - 1e-9));
-    const int last = int(std::ceil(std::log10(scale.max) + 1e-9));
-    const int stride = std::max(1, int(std::ceil(decades / 8)));
-    for (int exponent = first; exponent <= last; ++exponent)
-        for (int mantissa = 1; mantissa <= 9; ++mantissa) {
-            const double value = mantissa * std::pow(10.0, exponent);
-            if (value < scale.min * (1 - 1e-9) || value > scale.max * (1 + 1e-9)) continue;
-            const bool labelled = mantissa == 1 ? (exponent - first) % stride == 0
-                                                : decades < 2 && (mantissa == 2 || mantissa == 5);
-            if (labelled)
-                ticks.push_back({value, power_label(mantissa, exponent)});
-            else if (decades < 5)
-                ticks.push_back({value, ""});
-        }
-    return ticks;
-}
-
-std::vector<Tick> ticks_of(const Scale& scale, double length_px) {
-    if (scale.kind == PlotScale::logarithmic) return logarithmic_ticks(scale);
-    std::vector<Tick> ticks;
-    const double step = nice_step(scale.max - scale.min, std::max(2.0, length_px / 55));
-    const double first = std::ceil(scale.min / step - 1e-9), last = std::floor(scale.max / step + 1e-9);
-    for (double i = first; i <= last; ++i) ticks.push_back({i * step, linear_label(i * step, step)});
-    return ticks;
-}
-
-// Rounding outwards keeps curves off the frame; x keeps the exact range of the data.
-void round_outwards(Scale& scale, const PlotAxis& axis) {
-    if (scale.kind == PlotScale::logarithmic) {
-        if (!axis.max) scale.max = std::pow(10.0, std::ceil(std::log10(scale.max) - 1e-9));
-        if (!axis.min) scale.min = std::pow(10.0, std::floor(std::log10(scale.min) + 1e-9));
-        if (!axis.min) scale.min = std::max(scale.min, scale.max * std::pow(10.0, -kMaxAutomaticDecades));
-        return;
-    }
-    const double step = nice_step(scale.max - scale.min, 5);
-    if (!axis.max) scale.max = step * std::ceil(scale.max / step - 1e-9);
-    if (!axis.min) scale.min = step * std::floor(scale.min / step + 1e-9);
-}
-
-Scale resolve(const PlotPanel& panel, const PlotAxis& axis, std::vector<double> PlotSeries::*values,
-              bool rounded) {
-    Scale scale{axis.scale, std::numeric_limits<double>::infinity(),
-                -std::numeric_limits<double>::infinity()};
-    for (const PlotSeries& series : panel.series)
-        for (const double value : series.*values)
-            if (scale.shows(value)) {
-                scale.min = std::min(scale.min, value);
-                scale.max = std::max(scale.max, value);
-            }
-    const bool logarithmic = axis.scale == PlotScale::logarithmic;
-    if (!(scale.min <= scale.max)) scale.min = logarithmic ? 0.1 : 0, scale.max = 1;  // nothing to show
-    if (axis.min && scale.shows(*axis.min)) scale.min = *axis.min;
-    if (axis.max && scale.shows(*axis.max)) scale.max = *axis.max;
-    if (!(scale.min < scale.max)) {  // one value: give it room
-        if (logarithmic)
-            scale.max = scale.min * 10;
-        else
-            scale.max = scale.min + std::max(1e-6, std::abs(scale.min) * 0.1);
-    }
-    if (rounded) round_outwards(scale, axis);
-    return scale;
-}
-
-// ---- Drawing ---------------------------------------------------------------------------------------------
-
 std::string stroke_attributes(const PlotSeries& series, std::string_view color) {
     std::string text = "fill=\"none\" stroke=\"" + escaped(color) + "\" stroke-width=\"" +
                        px(series.width_px) + "\" stroke-linejoin=\"round\"";
@@ -213,8 +102,8 @@ std::string path_data(const std::vector<Vec2>& points) {
     return path;
 }
 
-std::string draw_series(const PlotSeries& series, std::string_view color, const Scale& x_scale,
-                        const Scale& y_scale, const Rect& area) {
+std::string draw_series(const PlotSeries& series, std::string_view color, const PlotAxisScale& x_scale,
+                        const PlotAxisScale& y_scale, const Rect& area) {
     assert(series.x.size() == series.y.size());
     std::string path, marks;
     std::vector<Vec2> unbroken;
@@ -236,18 +125,18 @@ std::string draw_series(const PlotSeries& series, std::string_view color, const 
     return out + marks;
 }
 
-std::string draw_grid(const Rect& area, const Scale& x_scale, const Scale& y_scale) {
+std::string draw_grid(const Rect& area, const PlotAxisScale& x_scale, const PlotAxisScale& y_scale) {
     std::string lines, words;
-    const auto shade = [](const Tick& tick) {
+    const auto shade = [](const PlotTick& tick) {
         return tick.label.empty() ? "stroke=\"#f1f3f5\"" : "stroke=\"#dee2e6\"";
     };
-    for (const Tick& tick : ticks_of(x_scale, area.width)) {
+    for (const PlotTick& tick : axis_ticks(x_scale, area.width)) {
         const double x = area.x + area.width * x_scale.position(tick.value);
         lines += line_element(x, area.y, x, area.y + area.height, shade(tick));
         if (!tick.label.empty())
             words += text_element(x, area.y + area.height + 16, "text-anchor=\"middle\"", tick.label);
     }
-    for (const Tick& tick : ticks_of(y_scale, area.height)) {
+    for (const PlotTick& tick : axis_ticks(y_scale, area.height)) {
         const double y = area.y + area.height * (1 - y_scale.position(tick.value));
         lines += line_element(area.x, y, area.x + area.width, y, shade(tick));
         if (!tick.label.empty()) words += text_element(area.x - 7, y + 4, "text-anchor=\"end\"", tick.label);
@@ -304,8 +193,8 @@ std::string draw_panel(const PlotPanel& panel, const Rect& cell, const std::stri
 
     const Rect area{cell.x + kMarginLeft, top, cell.width - kMarginLeft - kMarginRight,
                     std::max(40.0, cell.y + cell.height - kMarginBottom - top)};
-    const Scale x_scale = resolve(panel, panel.x, &PlotSeries::x, false);
-    const Scale y_scale = resolve(panel, panel.y, &PlotSeries::y, true);
+    const PlotAxisScale x_scale = resolve_axis(panel, panel.x, &PlotSeries::x, false);
+    const PlotAxisScale y_scale = resolve_axis(panel, panel.y, &PlotSeries::y, true);
     out += draw_grid(area, x_scale, y_scale);
 
     const std::string box = " x=\"" + px(area.x) + "\" y=\"" + px(area.y) + "\" width=\"" + px(area.width) +

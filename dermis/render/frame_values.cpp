@@ -2,28 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#define GLM_FORCE_DEPTH_ZERO_TO_ONE
-#include <glm/glm.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
+#include "dermis/scene/projection.h"
 #include "shaders/include/constants.h"
 
 namespace dermis {
 namespace {
 
-glm::vec3 to_glm(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-
-Mat4 from_glm(const glm::mat4& matrix) {
-    Mat4 result;
-    std::copy_n(&matrix[0][0], 16, result.m);
-    return result;
-}
-
 // Any direction that is not along `d`.
-glm::vec3 up_for(glm::vec3 d) {
-    return std::abs(d.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+Vec3 up_for(Vec3 d) {
+    return std::abs(d.y) < 0.99f ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
 }
 
 // The first light that is the key, or is not; -1: none.
@@ -40,21 +28,19 @@ Mat4 light_matrix_of(const Scene& scene, int light) {
 }  // namespace
 
 Mat4 light_matrix(const Light& light, Vec3 center_mm, float radius_mm) {
-    const glm::vec3 center = to_glm(center_mm);
     if (light.kind == LightKind::directional) {
-        const glm::vec3 direction = to_glm(light.to_light_world);
-        const glm::mat4 view = glm::lookAt(center + direction * (2 * radius_mm), center, up_for(direction));
-        const float r = radius_mm;
-        return from_glm(glm::ortho(-r, r, -r, r, radius_mm, 3 * radius_mm) * view);
+        const Vec3 direction = normalize(light.to_light_world);
+        const Mat4 view = look_along(center_mm + direction * (2 * radius_mm), -direction, up_for(direction));
+        return orthographic(radius_mm, radius_mm, 3 * radius_mm) * view;
     }
-    const glm::vec3 eye = to_glm(light.position_mm);
-    const float distance_mm = std::max(glm::length(eye - center), 1e-3f);
-    const glm::vec3 direction = (eye - center) / distance_mm;
-    const glm::mat4 view = glm::lookAt(eye, center, up_for(direction));
+    const Vec3 eye_mm = light.position_mm;
+    const float distance_mm = std::max(length(eye_mm - center_mm), 1e-3f);
+    const Vec3 direction = (eye_mm - center_mm) * (1 / distance_mm);
     // The cone that touches the sphere; a light inside it sees at most 150 degrees.
     const float sine = std::min(radius_mm / distance_mm, 0.966f);
     const float near_mm = std::max(distance_mm - radius_mm, 0.01f * distance_mm);
-    return from_glm(glm::perspective(2 * std::asin(sine), 1.0f, near_mm, distance_mm + radius_mm) * view);
+    return perspective(2 * std::asin(sine), 1.0f, near_mm, distance_mm + radius_mm) *
+           look_along(eye_mm, -direction, up_for(direction));
 }
 
 static_assert(int(LightKind::directional) == kLightDirectional && int(LightKind::point) == kLightPoint &&

@@ -1,31 +1,18 @@
-// Camera matrices for Vulkan's clip space: glm's right-handed, zero-to-one projection with y turned down.
+// Cameras: their matrices for Vulkan's clip space, in which y points down.
 
 #include <algorithm>
 #include <cmath>
-#define GLM_FORCE_DEPTH_ZERO_TO_ONE
-#include <glm/glm.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
 
+#include "dermis/scene/projection.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
 namespace {
 
-glm::vec3 to_glm(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-
-Mat4 from_glm(const glm::mat4& matrix) {
-    Mat4 result;
-    std::copy_n(glm::value_ptr(matrix), 16, result.m);
-    return result;
-}
-
 // Looking along `up` leaves the roll open: then the world axis that is farthest from the view stands in.
-glm::vec3 usable_up(Vec3 forward, Vec3 up) {
-    if (length(cross(forward, normalize(up))) > 1e-4f) return to_glm(up);
-    return std::abs(forward.z) < 0.7f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+Vec3 usable_up(Vec3 forward, Vec3 up) {
+    if (length(cross(forward, normalize(up))) > 1e-4f) return up;
+    return std::abs(forward.z) < 0.7f ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
 }
 
 }  // namespace
@@ -33,16 +20,13 @@ glm::vec3 usable_up(Vec3 forward, Vec3 up) {
 CameraMatrices camera_matrices(const Camera& camera, float aspect) {
     Vec3 forward = normalize(camera.target_mm - camera.eye_mm);
     if (length(forward) == 0) forward = {0, 0, -1};
-    const glm::vec3 eye = to_glm(camera.eye_mm);
-    const glm::mat4 view = glm::lookAtRH(eye, eye + to_glm(forward), usable_up(forward, camera.up_world));
-    glm::mat4 projection =
-        glm::perspectiveRH_ZO(camera.vertical_fov_rad, aspect, camera.near_mm, camera.far_mm);
-    projection[1][1] = -projection[1][1];
-    const glm::mat4 view_projection = projection * view;
-    return {.view = from_glm(view),
-            .projection = from_glm(projection),
-            .view_projection = from_glm(view_projection),
-            .inverse_view_projection = from_glm(glm::inverse(view_projection))};
+    const Mat4 view = look_along(camera.eye_mm, forward, usable_up(forward, camera.up_world));
+    Mat4 projection = perspective(camera.vertical_fov_rad, aspect, camera.near_mm, camera.far_mm);
+    projection.m[5] = -projection.m[5];
+    return {.view = view,
+            .projection = projection,
+            .view_projection = projection * view,
+            .inverse_view_projection = inverse_view(view) * inverse_perspective(projection)};
 }
 
 void fit_depth_range(Camera& camera, Vec3 center_mm, float radius_mm) {

@@ -32,19 +32,16 @@ Result<void> Presenter::make_swapchain() {
 Result<void> Presenter::resize(WindowSize size) {
     if (size == size_) return {};
     size_ = size;
-    return swapchain_ ? swapchain_->resize(size.width, size.height) : Result<void>();
-}
-
-void Presenter::set_vsync(bool on) {
-    if (on == vsync_) return;
-    vsync_ = on;
-    swapchain_.reset();
+    return swapchain_->resize(size.width, size.height);
 }
 
 Result<bool> Presenter::show(const InterfaceDraws& draws, const ShownPictures& pictures, const Model& model,
                              float scale) {
-    if (!swapchain_)  // its pacing was changed
+    if (model.vsync != vsync_) {
+        vsync_ = model.vsync;
+        swapchain_.reset();
         if (Result<void> made = make_swapchain(); !made) return made.error();
+    }
     const bool two = model.compares() && (pictures.b || pictures.truth);
     gpu::FrameInputs inputs = {.width = size_.width, .height = size_.height, .draws = draws.draws};
     Arrangement arrangement = Arrangement::none;

@@ -28,8 +28,6 @@ class Presenter {
     /// In pixels, as last presented or resized.
     [[nodiscard]] WindowSize size() const { return size_; }
     [[nodiscard]] Result<void> resize(WindowSize size);
-    /// Whether presenting waits for the display; from the next frame on.
-    void set_vsync(bool on);
 
     /// Shows a frame. False when the display wanted another size first: nothing was shown.
     [[nodiscard]] Result<bool> show(const InterfaceDraws& draws, const ShownPictures& pictures,

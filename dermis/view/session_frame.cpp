@@ -4,6 +4,8 @@
 #include <cmath>
 #include <thread>
 
+#include "dermis/view/perform.h"
+#include "dermis/view/script_commands.h"
 #include "dermis/view/session.h"
 
 namespace dermis::view {
@@ -18,166 +20,140 @@ float automatic_scale(float content_scale, int height) {
     return std::clamp(std::max(content_scale, by_height), 1.0f, 4.0f);
 }
 
-}  // namespace
-
-Region Session::picture_area() const {
-    const WindowSize size = presenter_->size();
-    return picture_region(model_, size.width, size.height, interface_->scale());
+std::string probe_line(Parts& p) {
+    const Region area = p.picture_area();
+    const Vec2 mouse_px = p.input.mouse_px();
+    const bool inside = mouse_px.x >= area.x && mouse_px.x < area.x + area.width && mouse_px.y >= area.y &&
+                        mouse_px.y < area.y + area.height;
+    if (!p.model.scene || !inside || p.input.drags()) return "";
+    Vec2 place = {(mouse_px.x - area.x) / area.width, (mouse_px.y - area.y) / area.height};
+    if (p.model.compare == Compare::side_by_side) place.x = std::fmod(place.x * 2, 1.0f);
+    return p.pictures.scene().probe(place, p.picture_size());
 }
 
-PictureSize Session::picture_size() const {
-    const Region area = picture_area();
-    const float share = model_.compare == Compare::side_by_side ? 0.5f : 1;
-    return {std::max(1, int(area.width * share)), std::max(1, int(area.height))};
-}
-
-PanelFacts Session::facts() {
-    PanelFacts facts = {.scale = interface_->scale(),
-                        .width = presenter_->size().width,
-                        .height = presenter_->size().height,
-                        .device = report_.device,
-                        .picture_state = report_.device,
-                        .loading = loader_.is_loading(),
-                        .probe = probe_line()};
-    if (shown_.is_there() && shown_.stage().picture(0).width > 0)
-        times_.describe(shown_.stage().picture(0), facts);
+PanelFacts panel_facts(Parts& p) {
+    PanelFacts facts = {.scale = p.interface->scale(),
+                        .width = p.presenter->size().width,
+                        .height = p.presenter->size().height,
+                        .device = p.device.info().name,
+                        .picture_state = p.device.info().name,
+                        .loading = p.opener.is_loading(),
+                        .probe = probe_line(p)};
+    p.pictures.describe(facts);
     return facts;
 }
 
-std::string Session::probe_line() {
-    const Region area = picture_area();
-    const Vec2 mouse_px = input_.mouse_px();
-    const bool inside = mouse_px.x >= area.x && mouse_px.x < area.x + area.width && mouse_px.y >= area.y &&
-                        mouse_px.y < area.y + area.height;
-    if (!model_.scene || !inside || input_.drags()) return "";
-    Vec2 place = {(mouse_px.x - area.x) / area.width, (mouse_px.y - area.y) / area.height};
-    if (model_.compare == Compare::side_by_side) place.x = std::fmod(place.x * 2, 1.0f);
-    return shown_.probe(place, picture_size());
-}
-
-std::vector<Event> Session::gather_events() {
-    const bool busy = input_.is_awake() || loader_.is_loading() || player_.has_script() || !is_drawn() ||
-                      options_->frames > 0 || input_.has_waiting();
+std::vector<Event> gather_events(Parts& p) {
+    const bool busy = p.input.is_awake() || p.opener.is_loading() || p.player.has_script() ||
+                      !p.has_final_pictures() || p.options.frames > 0 || p.input.has_waiting();
     // A ground truth in the making wants the processor for itself.
-    return input_.gather(window_, busy ? 0 : truth_.is_making() ? kShortSleepS : kSleepS);
+    return p.input.gather(p.window, busy ? 0 : p.truth.is_making() ? kShortSleepS : kSleepS);
 }
 
-void Session::take_input(const std::vector<Event>& events) {
+// Nothing has happened and nothing is on its way: the window shows what it would show again.
+bool is_idle(const Parts& p, const std::vector<Event>& events) {
+    return events.empty() && !p.input.is_awake() && p.window.framebuffer() == p.presenter->size() &&
+           !p.player.has_script() && p.options.frames == 0 && p.model.notices.all().empty() && p.is_settled();
+}
+
+void take_input(Parts& p, const std::vector<Event>& events) {
     for (const Event& event : events) {
         switch (event.kind) {
             case EventKind::key:
-                if (event.pressed && !interface_->wants_keyboard())
-                    act(action_of({event.key, event.modifiers}));
+                if (event.pressed && !p.interface->wants_keyboard())
+                    perform(p, action_of({event.key, event.modifiers}));
                 break;
             case EventKind::drop:
-                for (const std::filesystem::path& path : event.paths) open_file(path.string());
+                for (const std::filesystem::path& path : event.paths) p.opener.open(path.string());
                 break;
             case EventKind::text:
                 break;
             default:
-                input_.take_mouse(event, model_, picture_area(), interface_->scale(),
-                                  interface_->wants_mouse());
+                p.input.take_mouse(event, p.model, p.picture_area(), p.interface->scale(),
+                                   p.interface->wants_mouse());
         }
     }
 }
 
+}  // namespace
+
+Result<void> Session::frame() {
+    Parts& p = *parts_;
+    const std::vector<Event> events = gather_events(p);
+    if (Result<void> taken = take_scene(); !taken) return taken;
+    if (p.opener.follow_files()) p.input.wake();
+    if (p.truth.take(p.model, p.clock.now_s())) p.input.wake();
+    if (is_idle(p, events)) return {};
+    const WindowSize size = p.window.framebuffer();
+    if (size.width == 0 || size.height == 0) {  // minimised
+        p.input.put_back(events);               // a key let go meanwhile is not held
+        p.pictures.skip_refresh();
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        return step_script();
+    }
+    if (Result<void> resized = p.presenter->resize(size); !resized) return resized;
+    InterfaceDraws draws;
+    const Result<PanelRequests> requests = show_interface(events, draws);
+    if (!requests) return requests.error();
+    for (const Action action : requests->actions) perform(p, action);
+    if (requests->tone) p.pictures.scene().choose_tone(*requests->tone, p.model);
+    if (!requests->open.empty()) p.opener.open(requests->open);
+    if (Result<void> shown = show_pictures(draws); !shown) return shown;
+    return step_script();
+}
+
+Result<void> Session::take_scene() {
+    Parts& p = *parts_;
+    const Result<bool> taken = p.opener.take();
+    if (!taken) return taken.error();
+    if (!*taken) return {};
+    remember(state_, p.model.scene_path);
+    p.model.recent = state_.recent;
+    p.window.set_title(p.model.scene->name + " - Dermis");
+    return {};
+}
+
 Result<PanelRequests> Session::show_interface(const std::vector<Event>& events, InterfaceDraws& draws) {
-    const WindowSize size = presenter_->size();
-    const float scale = options_->interface_scale > 0 ? options_->interface_scale
-                                                      : automatic_scale(window_.content_scale(), size.height);
-    if (Result<void> scaled = interface_->set_scale(std::clamp(scale * model_.user_scale, 0.5f, 6.0f));
+    Parts& p = *parts_;
+    const WindowSize size = p.presenter->size();
+    const float scale = p.options.interface_scale > 0
+                            ? p.options.interface_scale
+                            : automatic_scale(p.window.content_scale(), size.height);
+    if (Result<void> scaled = p.interface->set_scale(std::clamp(scale * p.model.user_scale, 0.5f, 6.0f));
         !scaled)
         return scaled.error();
-    model_.notices.expire(now_s());
-    interface_->begin(events, size.width, size.height, std::max(now_s() - last_frame_s_, 1e-3));
-    last_frame_s_ = now_s();
-    take_input(events);
+    const double now_s = p.clock.now_s();
+    p.model.notices.expire(now_s);
+    p.interface->begin(events, size.width, size.height, std::max(now_s - last_frame_s_, 1e-3));
+    last_frame_s_ = now_s;
+    take_input(p, events);
     PanelRequests requests;
-    widgets_.clear();
-    show_panels(model_, facts(), requests, widgets_);
-    Result<InterfaceDraws> made = interface_->end();
+    p.widgets.clear();
+    show_panels(p.model, panel_facts(p), requests, p.widgets);
+    Result<InterfaceDraws> made = p.interface->end();
     if (!made) return made.error();
     draws = std::move(*made);
     return requests;
 }
 
-Result<void> Session::refresh_pictures() {
-    drew_ = false;
-    if (!shown_.is_there()) return {};
-    shown_.follow_skin();
-    if (Result<void> made = truth_.refresh(device_, model_); !made) return made;
-    const size_t sides = model_.compares() && !truth_.texture() ? 2 : 1;
-    for (size_t side = 0; side < sides; ++side) {
-        const Result<bool> drew = shown_.stage().refresh(model_, side, picture_size(), now_s());
-        const std::string topic = "picture " + std::to_string(side);
-        if (!drew) {
-            // Shaders that compile and do not fit together are taken back; anything else is told.
-            if (shaders_unproven_ && shaders_.take_back(drew.error().message))
-                shown_.stage().forget_shaders();
-            else
-                model_.notices.report_error(topic, drew.error().message);
-            continue;
-        }
-        if (!*drew) continue;
-        model_.notices.clear(topic);
-        if (shaders_unproven_) shaders_.confirm();
-        shaders_unproven_ = false;
-        drew_ = true;
-        if (side == 0) times_.add(shown_.stage().picture(0).timings);
-    }
-    return {};
-}
-
-Result<void> Session::show(const InterfaceDraws& draws) {
-    ShownPictures pictures = {.truth = truth_.texture()};
-    if (shown_.is_there()) {
-        pictures.a = shown_.stage().image(0);
-        if (model_.compares() && !pictures.truth) pictures.b = shown_.stage().image(1);
-    }
-    const Result<bool> shown = presenter_->show(draws, pictures, model_, interface_->scale());
+Result<void> Session::show_pictures(const InterfaceDraws& draws) {
+    Parts& p = *parts_;
+    if (Result<void> made = p.truth.refresh(p.device, p.model); !made) return made;
+    p.pictures.refresh(p.model, p.truth.texture(), p.picture_size(), p.clock.now_s());
+    const ShownPictures pictures = p.pictures.shown(p.model, p.truth.texture());
+    const Result<bool> shown = p.presenter->show(draws, pictures, p.model, p.interface->scale());
     if (!shown) return shown.error();
-    if (*shown && pictures.a && report_.first_picture_s == 0)
-        report_.first_picture_s =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+    if (*shown && pictures.a && report_.first_picture_s == 0) report_.first_picture_s = p.clock.elapsed_s();
     return {};
 }
 
-bool Session::is_drawn() const {
-    if (!shown_.is_there() || drew_) return false;
-    const Stage& stage = shown_.stage();
-    return stage.is_final(0) && (!model_.compares() || truth_.texture() || stage.is_final(1));
-}
-
-bool Session::is_settled() const {
-    return is_drawn() && !loader_.is_loading() && !truth_.is_making();
-}
-
-Result<void> Session::frame() {
-    const std::vector<Event> events = gather_events();
-    if (Result<void> taken = take_loaded(); !taken) return taken;
-    if (follow_files()) input_.wake();
-    if (truth_.take(model_, now_s())) input_.wake();
-    const WindowSize size = window_.framebuffer();
-    // Nothing has happened and nothing is on its way: the window shows what it would show again.
-    if (events.empty() && !input_.is_awake() && size == presenter_->size() && !player_.has_script() &&
-        options_->frames == 0 && model_.notices.all().empty() && is_settled())
-        return {};
-    if (size.width == 0 || size.height == 0) {  // minimised
-        input_.put_back(events);                // a key let go meanwhile is not held
-        drew_ = false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        return step_script();
-    }
-    if (Result<void> resized = presenter_->resize(size); !resized) return resized;
-    InterfaceDraws draws;
-    const Result<PanelRequests> requests = show_interface(events, draws);
-    if (!requests) return requests.error();
-    for (const Action action : requests->actions) act(action);
-    if (requests->tone) shown_.choose_tone(*requests->tone, model_);
-    if (!requests->open.empty()) open_file(requests->open);
-    if (Result<void> refreshed = refresh_pictures(); !refreshed) return refreshed;
-    if (Result<void> shown = show(draws); !shown) return shown;
-    return step_script();
+Result<void> Session::step_script() {
+    Parts& p = *parts_;
+    if (p.input.is_playing() || p.opener.is_loading() || !p.pictures.scene().is_there()) return {};
+    const ScriptCommand* command = p.player.next(p.is_settled());
+    if (!command) return {};
+    const Result<void> done = run_command(p, *command);
+    return done ? done : p.player.error_at(*command, done.error());
 }
 
 }  // namespace dermis::view

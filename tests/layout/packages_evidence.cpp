@@ -27,7 +27,6 @@ constexpr Evidence kPackageEvidence[] = {
     {"libfmt-dev", "fmt", "fmt/", ""},
     {"nlohmann-json3-dev", "nlohmann_json", "nlohmann/", ""},
     {"libtomlplusplus-dev", "", "toml++/", ""},
-    {"libglm-dev", "", "glm/", ""},
     {"libeigen3-dev", "Eigen3", "Eigen/", ""},
     {"libopenexr-dev", "OpenEXR", "Imf Iex.h half.h", ""},
     {"libpng-dev", "PNG", "png.h", ""},

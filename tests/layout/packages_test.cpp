@@ -58,12 +58,12 @@ PackageUse repository() {
 
 // A small repository in which everything agrees.
 PackageUse agreeing() {
-    return {.lists = "# a comment\nlibpng-dev # PNG\nlibglm-dev\n",
+    return {.lists = "# a comment\nlibpng-dev # PNG\nlibcli11-dev\n",
             .readme =
-                "## Dependencies\n\n| package | why |\n|---|---|\n| libpng-dev, libglm-dev | PNG; matrices "
-                "|\n\n## State\n",
+                "## Dependencies\n\n| package | why |\n|---|---|\n| libpng-dev, libcli11-dev | PNG; command "
+                "line |\n\n## State\n",
             .cmake = "find_package(PNG REQUIRED)\nfind_package(Threads)\n",
-            .sources = "#include <png.h>\n#include <glm/glm.hpp>\n#include <vector>\n#include <sys/stat.h>\n",
+            .sources = "#include <png.h>\n#include <CLI/CLI.hpp>\n#include <vector>\n#include <sys/stat.h>\n",
             .texts = ""};
 }
 
@@ -82,7 +82,7 @@ TEST(Packages, a_small_repository_that_agrees_is_passed) {
 
 TEST(Packages, a_package_taken_out_of_the_list_is_missed) {
     PackageUse use = agreeing();
-    use.lists = "libglm-dev\n";
+    use.lists = "libcli11-dev\n";
     EXPECT_THAT(disagreements(use),
                 ElementsAre("CMake looks for PNG, and libpng-dev is in no list of tools/",
                             "a source includes <png.h>, and libpng-dev is in no list of tools/",
@@ -92,21 +92,21 @@ TEST(Packages, a_package_taken_out_of_the_list_is_missed) {
 TEST(Packages, a_package_that_nothing_uses_is_found) {
     PackageUse use = agreeing();
     use.sources = "#include <png.h>\n";
-    EXPECT_THAT(disagreements(use), ElementsAre("libglm-dev is listed, and nothing uses it"));
+    EXPECT_THAT(disagreements(use), ElementsAre("libcli11-dev is listed, and nothing uses it"));
     use.lists += "libstb-dev\n";
-    use.readme = std::regex_replace(use.readme, std::regex("libglm-dev"), "libglm-dev, libstb-dev");
+    use.readme = std::regex_replace(use.readme, std::regex("libcli11-dev"), "libcli11-dev, libstb-dev");
     EXPECT_THAT(
         disagreements(use),
         ElementsAre(
-            "libglm-dev is listed, and nothing uses it",
+            "libcli11-dev is listed, and nothing uses it",
             "libstb-dev is listed, and kPackageEvidence of this test does not say what shows its use"));
 }
 
 TEST(Packages, a_package_that_readme_lacks_or_invents_is_found) {
     PackageUse use = agreeing();
-    use.readme = std::regex_replace(use.readme, std::regex("libglm-dev"), "libtinygltf-dev");
+    use.readme = std::regex_replace(use.readme, std::regex("libcli11-dev"), "libtinygltf-dev");
     EXPECT_THAT(disagreements(use),
-                ElementsAre("libglm-dev is listed, and README's table does not name it",
+                ElementsAre("libcli11-dev is listed, and README's table does not name it",
                             "README names libtinygltf-dev, which is in no list of tools/"));
 }
 

@@ -1,11 +1,12 @@
-// ./run, tools/setup and tools/fresh_machine, with programs in place of apt-get, cmake and the like that only
-// say how they were called.
+// ./run, tools/setup, tools/new_technique and tools/fresh_machine, with programs in place of apt-get, cmake
+// and the like that only say how they were called.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "cli/run_program.h"
 #include "support/temporary_directory.h"
@@ -24,7 +25,7 @@ class Setup : public testing::Test {
     void SetUp() override {
         fs::create_directories(path("bin"));
         fs::create_directories(path("root/tools"));
-        for (const char* file : {"run", "tools/setup"})
+        for (const char* file : {"run", "tools/setup", "tools/new_technique"})
             fs::copy_file(fs::path(DERMIS_SOURCE_DIR) / file, path("root") / file);
         write("root/tools/packages.txt", "libone-dev  # for one\nlibtwo-dev\n");
         program("id", "echo 0");
@@ -153,4 +154,45 @@ TEST_F(Setup, fresh_machine_removes_its_folder_when_it_fails_and_when_it_is_ende
               "kill -TERM $!; wait $!'");
     EXPECT_EQ(ended.exit_code, 143) << ended.err;
     EXPECT_EQ(folders_left(), 0u);
+}
+
+// The tests that it has record are those of the repository, and of both kinds.
+TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
+    write("root/tools/packages_checks.txt", "");
+    program("cmake", "exit 0");
+    const auto test_program = [&](const std::string& name, const std::string& text) {
+        write("root/build/tests/" + name, "#!/bin/bash\necho \"CALLED " + name + " $*\"\n" + text + "\n");
+        fs::permissions(path("root/build/tests/" + name), fs::perms::owner_all);
+    };
+    test_program("test_render",
+                 "[ \"$DERMIS_UPDATE_GOLDENS\" = missing ] || exit 0\ncd ../techniques\n"
+                 "for id in *; do for of in spheres bust; do\n"
+                 "echo x > ../tests/golden/${of}_$id.png; done; done");
+    test_program("test_judge",
+                 "[ \"$DERMIS_UPDATE_SCORES\" = missing ] || exit 0\n"
+                 "echo spheres,my_skin,,0 >> ../tests/judge/recorded_scores.csv");
+    fs::create_directories(path("root/tests/golden"));
+    write("root/tests/judge/recorded_scores.csv", "scene,technique,settings,captured\n");
+
+    const ProgramResult made = shell("tools/new_technique my_skin 'a test'");
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const auto has_test = [](const std::string& file, const std::string& wanted) {
+        return std::regex_search(slurp(DERMIS_SOURCE_DIR "/tests/" + file), std::regex(wanted));
+    };
+    EXPECT_THAT(made.out,
+                HasSubstr("test_render --gtest_brief=1 --gtest_filter=Goldens.*_with_every_technique\n"));
+    EXPECT_TRUE(
+        has_test("render/golden_test.cpp", R"(TEST_F\(Goldens, of_the_spheres_with_every_technique\))"));
+    EXPECT_TRUE(has_test("render/golden_test.cpp", R"(TEST_F\(Goldens, of_the_bust_with_every_technique\))"));
+    EXPECT_THAT(made.out, HasSubstr("test_judge --gtest_brief=1 --gtest_filter=Scoreboards.*\n"));
+    EXPECT_TRUE(has_test("judge/scoreboard_test.cpp", R"(TEST_F\(Scoreboards, \w+\))"));
+
+    test_program("test_judge", "");
+    const ProgramResult no_scores = shell("tools/new_technique second_skin x");
+    EXPECT_EQ(no_scores.exit_code, 1);
+    EXPECT_THAT(no_scores.err, HasSubstr("recorded_scores.csv has no row of second_skin"));
+    test_program("test_render", "");
+    const ProgramResult no_goldens = shell("tools/new_technique third_skin x");
+    EXPECT_EQ(no_goldens.exit_code, 1);
+    EXPECT_THAT(no_goldens.err, HasSubstr("spheres_third_skin.png was not recorded"));
 }

@@ -1,0 +1,163 @@
+#include "dermis/view/opener.h"
+
+#include <algorithm>
+
+#include "dermis/base/text.h"
+#include "dermis/image/io.h"
+#include "dermis/scene/scene_files.h"
+#include "dermis/view/scene_look.h"
+
+namespace dermis::view {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kLookEveryS = 0.3;
+
+// The baseline, or against the baseline the technique after it.
+const Technique& compared_with(const Technique& technique, std::span<const Technique> all) {
+    const auto baseline = std::ranges::find(all, "lambert", &Technique::id);
+    if (baseline != all.end() && technique.id != baseline->id) return *baseline;
+    return all[1 % all.size()];
+}
+
+}  // namespace
+
+Opener::Opener(const ViewerOptions& options, std::future<Result<Start>> first, const OpenTargets& targets)
+    : options_(options),
+      to_(targets),
+      loader_(std::move(first), options.scene_path, options.catalog.subjects) {}
+
+void Opener::open(const std::string& path) {
+    const std::string extension = to_lower(fs::path(path).extension().string());
+    if (extension == ".hdr") return open_panorama(path);
+    if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
+        return to_.truth.open(path, to_.model);
+    if (extension != ".exr") return load(path);
+    // Twice as wide as high is a panorama; anything else is a rendered picture.
+    const Result<LoadedImage> loaded = read_image(path, ImageUse::color);
+    if (!loaded) return to_.model.notices.report_error("open", loaded.error().message);
+    if (loaded->image.width == 2 * loaded->image.height) return open_panorama(path);
+    to_.truth.open(path, to_.model);
+}
+
+void Opener::open_panorama(const std::string& path) {
+    Model& model = to_.model;
+    if (!model.scene) return;
+    const Result<void> opened = to_.pictures.scene().open_panorama(path);
+    if (!opened) return model.notices.report_error("open", opened.error().message);
+    loader_.follow_too({path});
+    model.notices.inform("open", "environment: " + path, to_.clock.now_s());
+}
+
+void Opener::load(const std::string& path) {
+    Model& model = to_.model;
+    const bool same = path == model.scene_path;
+    if (!loader_.load(path, same ? model.loading_words : std::vector<SceneWord>()))
+        model.notices.inform("open", "still loading " + loader_.path(), to_.clock.now_s());
+}
+
+Result<bool> Opener::take() {
+    std::optional<Result<Start>> start = loader_.take();
+    if (!start) return false;
+    const bool first = !to_.pictures.scene().is_there();
+    const Result<void> shown = *start ? show(std::move(**start), first) : start->error();
+    if (shown) return true;
+    if (first) return shown.error();
+    if (loader_.is_reload()) loader_.follow_stated_files();  // what it waits for may be missing
+    to_.model.notices.report_error("open", shown.error().message + (loader_.is_reload() ? kLastGood : ""));
+    return false;
+}
+
+Result<void> Opener::show(Start start, bool first) {
+    Model& model = to_.model;
+    ShownScene& shown = to_.pictures.scene();
+    auto scene = std::make_unique<Scene>(std::move(start.scene));
+    Scene file = start.file_look.value_or(without_objects(*scene));
+    if (loader_.is_reload()) {
+        if (loader_.file_changed())
+            keep_look(shown.file_look(), *model.scene, *scene);
+        else
+            put_look(*model.scene, *scene);
+        loader_.follow_too(files_of(*scene));  // also when it cannot be drawn
+    }
+    Result<Stage> stage =
+        Stage::create(to_.device, to_.pictures.shaders(), std::move(scene), options_.samples);
+    if (!stage) return stage.error();
+    if (first) take_start(start);
+    if (!first) take_technique(file);
+    shown.put(std::move(*stage), std::move(file), model);
+    model.scene_path = loader_.path();
+    model.loading_words = std::move(start.loading_words);
+    const bool same_tone = model.scene->skin.profile == tone_profile(model.tone);
+    if (!same_tone || (!loader_.is_reload() && !start.handed)) model.tone = 0;
+    if (loader_.is_reload() && model.tone > 0) shown.choose_tone(model.tone, model);  // another mean
+    loader_.follow(*model.scene);
+    model.notices.clear("open");
+    for (const std::string& warning : model.scene->warnings)
+        model.notices.inform("warning", warning, to_.clock.now_s());
+    return {};
+}
+
+// What the window opens with, or what one whose device was lost has left.
+void Opener::take_start(const Start& start) {
+    Model& model = to_.model;
+    if (start.handed) {
+        model = start.handed->model;
+        model.notices = {};
+        to_.truth.take_over(start.handed->truth, start.handed->truth_view);
+        return;
+    }
+    if (start.technique) {
+        model.choices[0].choose(*start.technique);
+        if (start.values) model.choices[0].values() = *start.values;
+        model.choices[1].choose(compared_with(*start.technique, model.catalog.techniques));
+    }
+    model.view = start.view;
+    if (!options_.truth.empty()) to_.truth.open(options_.truth, model);
+}
+
+// What the scene's file asks for; of one that is only read again, what it asks for anew.
+void Opener::take_technique(const Scene& file) {
+    Model& model = to_.model;
+    const Scene& before = to_.pictures.scene().file_look();
+    const bool asks_anew =
+        !loader_.is_reload() || file.technique != before.technique || file.settings != before.settings;
+    if (file.technique.empty() || !asks_anew) return;
+    const Result<const Technique*> technique = find_technique(model.catalog.techniques, file.technique);
+    if (!technique) return model.notices.report_error("technique", technique.error().message);
+    model.choices[0].choose(**technique);
+    model.notices.clear("technique");
+    for (const auto& [name, text] : file.settings)
+        if (const Result<void> set = model.choices[0].values().set(name, text); !set)
+            model.notices.report_error("technique", set.error().message);
+}
+
+bool Opener::follow_files() {
+    bool changed = false;
+    if (to_.clock.now_s() - last_look_s_ >= kLookEveryS) {
+        last_look_s_ = to_.clock.now_s();
+        changed = to_.pictures.follow_shaders();
+        if (to_.pictures.scene().is_there() && !loader_.is_loading()) changed |= follow_scene_files();
+    }
+    to_.pictures.report_shaders(to_.model.notices);
+    return changed;
+}
+
+// A panorama is read again alone; anything else is the whole scene, beside the window's work.
+bool Opener::follow_scene_files() {
+    Model& model = to_.model;
+    const std::vector<fs::path> changed = loader_.changed_files();
+    if (changed.empty()) return false;
+    const Environment& around = model.scene->environment;
+    if (around.kind == EnvironmentKind::file && changed == std::vector{around.file}) {
+        const Result<void> read = to_.pictures.scene().stage().environment_changed();
+        model.notices.clear("environment");
+        if (!read) model.notices.report_error("environment", read.error().message + kLastGood);
+        return true;
+    }
+    load(model.scene_path);
+    loader_.expect_same_scene(std::ranges::any_of(changed, is_scene_file));
+    return true;
+}
+
+}  // namespace dermis::view

@@ -1,0 +1,55 @@
+#pragma once
+// Opens scenes, panoramas and pictures, and reads them again when their files change.
+
+#include <future>
+#include <string>
+
+#include "dermis/view/clock.h"
+#include "dermis/view/loader.h"
+#include "dermis/view/pictures.h"
+#include "dermis/view/truth.h"
+#include "dermis/view/viewer.h"
+
+namespace dermis::view {
+
+/// What an opened file changes.
+struct OpenTargets {
+    gpu::Device& device;
+    const Clock& clock;
+    Model& model;
+    Pictures& pictures;
+    Truth& truth;
+};
+
+class Opener {
+  public:
+    /// `first`: the scene that is being loaded already. Options and targets must outlive it.
+    Opener(const ViewerOptions& options, std::future<Result<Start>> first, const OpenTargets& targets);
+
+    /// A scene, mesh, panorama or picture, by its extension; errors are notices.
+    void open(const std::string& path);
+    /// A scene: a file, a name, builtin:NAME.
+    void load(const std::string& path);
+    [[nodiscard]] bool is_loading() const { return loader_.is_loading(); }
+    void wait() const { loader_.wait(); }
+
+    /// Shows the scene that has come: true. The first one's error ends the program, a later one's is a
+    /// notice.
+    [[nodiscard]] Result<bool> take();
+    /// Looks at the files of scene and shaders, a few times a second. True when something changed.
+    [[nodiscard]] bool follow_files();
+
+  private:
+    [[nodiscard]] Result<void> show(Start start, bool first);
+    void take_start(const Start& start);
+    void take_technique(const Scene& file);
+    void open_panorama(const std::string& path);
+    [[nodiscard]] bool follow_scene_files();
+
+    const ViewerOptions& options_;
+    OpenTargets to_;
+    Loader loader_;
+    double last_look_s_ = 0;
+};
+
+}  // namespace dermis::view

@@ -1,0 +1,63 @@
+#include "dermis/view/parts.h"
+
+#include <algorithm>
+
+namespace dermis::view {
+
+Parts::Parts(const ViewerOptions& o, const Clock& running, Window opened, gpu::Device created,
+             std::future<Result<Start>> first)
+    : options(o),
+      clock(running),
+      window(std::move(opened)),
+      device(std::move(created)),
+      model{.catalog = o.catalog,
+            .choices = {TechniqueChoice(o.catalog.techniques.front()),
+                        TechniqueChoice(o.catalog.techniques.front())}},
+      pictures(gpu::embedded_shaders(o.catalog.shaders),
+               o.shader_root.empty() ? std::string(DERMIS_SOURCE_DIR) : o.shader_root),
+      opener(o, std::move(first),
+             {.device = device, .clock = clock, .model = model, .pictures = pictures, .truth = truth}),
+      input(!o.script.empty()),
+      player(o.script, o.script_name) {}
+
+Result<std::unique_ptr<Parts>> Parts::open(const ViewerOptions& options) {
+    const Clock clock(!options.script.empty());
+    std::future<Result<Start>> loading = std::async(std::launch::async, options.load);
+    Result<Window> window = Window::open("Dermis", options.size);
+    if (!window) return window.error();
+    Result<gpu::Device> device = gpu::Device::create({.validation = options.validation,
+                                                      .name_contains = options.device,
+                                                      .instance_extensions = window->instance_extensions()});
+    if (!device) return device.error();
+    auto parts =
+        std::make_unique<Parts>(options, clock, std::move(*window), std::move(*device), std::move(loading));
+
+    Result<Presenter> presenter =
+        Presenter::create(parts->device, parts->window, gpu::embedded_shaders(options.catalog.shaders));
+    if (!presenter) return presenter.error();
+    parts->presenter.emplace(std::move(*presenter));
+    Window& shown = parts->window;
+    Result<Interface> interface = Interface::create(
+        parts->device, {.get = [&shown] { return shown.clipboard(); },
+                        .set = [&shown](const std::string& text) { shown.set_clipboard(text); }});
+    if (!interface) return interface.error();
+    parts->interface.emplace(std::move(*interface));
+    return parts;
+}
+
+Region Parts::picture_area() const {
+    const WindowSize size = presenter->size();
+    return picture_region(model, size.width, size.height, interface->scale());
+}
+
+PictureSize Parts::picture_size() const {
+    const Region area = picture_area();
+    const float share = model.compare == Compare::side_by_side ? 0.5f : 1;
+    return {std::max(1, int(area.width * share)), std::max(1, int(area.height))};
+}
+
+bool Parts::is_settled() const {
+    return has_final_pictures() && !opener.is_loading() && !truth.is_making();
+}
+
+}  // namespace dermis::view

@@ -1,0 +1,71 @@
+#include "dermis/view/pictures.h"
+
+namespace dermis::view {
+namespace {
+
+constexpr const char* kShaderTopic = "shader ";
+
+size_t drawn_sides(const Model& model, const gpu::Texture* truth) {
+    return model.compares() && !truth ? 2 : 1;
+}
+
+}  // namespace
+
+bool Pictures::follow_shaders() {
+    if (!shaders_.poll() || !scene_.is_there()) return false;
+    scene_.stage().forget_shaders();
+    shaders_unproven_ = true;
+    return true;
+}
+
+void Pictures::report_shaders(Notices& notices) const {
+    const std::vector<Notice> all = notices.all();
+    for (const Notice& notice : all)
+        if (notice.topic.starts_with(kShaderTopic)) notices.clear(notice.topic);
+    for (const auto& [name, message] : shaders_.errors())
+        notices.report_error(kShaderTopic + name, message + kLastGood);
+}
+
+void Pictures::refresh(Model& model, const gpu::Texture* truth, PictureSize size, double now_s) {
+    drew_ = false;
+    if (!scene_.is_there()) return;
+    scene_.follow_skin();
+    for (size_t side = 0; side < drawn_sides(model, truth); ++side) {
+        const Result<bool> drew = scene_.stage().refresh(model, side, size, now_s);
+        const std::string topic = "picture " + std::to_string(side);
+        if (!drew) {
+            // Shaders that compile and do not fit together are taken back; anything else is told.
+            if (shaders_unproven_ && shaders_.take_back(drew.error().message))
+                scene_.stage().forget_shaders();
+            else
+                model.notices.report_error(topic, drew.error().message);
+            continue;
+        }
+        if (!*drew) continue;
+        model.notices.clear(topic);
+        if (shaders_unproven_) shaders_.confirm();
+        shaders_unproven_ = false;
+        drew_ = true;
+        if (side == 0) times_.add(scene_.stage().picture(0).timings);
+    }
+}
+
+ShownPictures Pictures::shown(const Model& model, const gpu::Texture* truth) const {
+    ShownPictures pictures = {.truth = truth};
+    if (!scene_.is_there()) return pictures;
+    pictures.a = scene_.stage().image(0);
+    if (drawn_sides(model, truth) == 2) pictures.b = scene_.stage().image(1);
+    return pictures;
+}
+
+bool Pictures::are_final(const Model& model, const gpu::Texture* truth) const {
+    if (!scene_.is_there() || drew_) return false;
+    return scene_.stage().is_final(0) && (drawn_sides(model, truth) == 1 || scene_.stage().is_final(1));
+}
+
+void Pictures::describe(PanelFacts& facts) const {
+    if (scene_.is_there() && scene_.stage().picture(0).width > 0)
+        times_.describe(scene_.stage().picture(0), facts);
+}
+
+}  // namespace dermis::view

@@ -1,0 +1,54 @@
+#pragma once
+// The pictures of both sides: drawn when one is due, with shaders that follow their files.
+
+#include <string>
+
+#include "dermis/view/hot_shaders.h"
+#include "dermis/view/picture_times.h"
+#include "dermis/view/presenter.h"
+#include "dermis/view/shown_scene.h"
+
+namespace dermis::view {
+
+/// Ends the notice of a file that changed and cannot be used.
+inline constexpr const char* kLastGood = "  (the last version without an error stays in use)";
+
+class Pictures {
+  public:
+    /// As HotShaders.
+    Pictures(gpu::ShaderSource embedded, const std::string& shader_root)
+        : shaders_(std::move(embedded), shader_root) {}
+
+    [[nodiscard]] ShownScene& scene() { return scene_; }
+    [[nodiscard]] const ShownScene& scene() const { return scene_; }
+    /// For renderers; this must outlive them.
+    [[nodiscard]] gpu::ShaderSource shaders() { return shaders_.source(); }
+
+    /// Looks at the shaders' files. True when the pictures are to be drawn anew.
+    [[nodiscard]] bool follow_shaders();
+    /// What is wrong with shaders now.
+    void report_shaders(Notices& notices) const;
+
+    /// Draws what is due; what cannot be drawn is a notice. `truth`: the right side, when it is a picture.
+    void refresh(Model& model, const gpu::Texture* truth, PictureSize size, double now_s);
+    [[nodiscard]] ShownPictures shown(const Model& model, const gpu::Texture* truth) const;
+
+    /// They are as good as they get, and the last refresh drew none.
+    [[nodiscard]] bool are_final(const Model& model, const gpu::Texture* truth) const;
+    /// The next refresh is awaited before they count as final.
+    void await_refresh() { drew_ = true; }
+    /// No refresh comes, the window being minimised.
+    void skip_refresh() { drew_ = false; }
+
+    /// Size, samples and times of the left picture, for the panels.
+    void describe(PanelFacts& facts) const;
+
+  private:
+    HotShaders shaders_;  // outlives the scene's renderers
+    ShownScene scene_;
+    PictureTimes times_;
+    bool shaders_unproven_ = false;
+    bool drew_ = false;
+};
+
+}  // namespace dermis::view
