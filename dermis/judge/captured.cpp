@@ -79,7 +79,7 @@ double variance_of_sum(const Pictures& pictures, size_t channel, double q) {
     return sum;
 }
 
-// Negative where noise alone makes it so: then all is captured as far as can be seen.
+// Noise can make the ratio negative; the share is then 1.
 double share_of_ratio(double ratio) {
     return 1 - std::sqrt(std::max(ratio, 0.0));
 }

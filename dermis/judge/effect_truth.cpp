@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kEffectVersion = "effect 1";
 // Rounds over the grid in one batch at most: what a run that is stopped loses.
 constexpr int kMostRounds = 8;
-// The estimate of what is left is exceeded by this, so that it is not missed by a hair.
+// Factor on the estimated number of passes, so that the wanted noise is not missed by a small amount.
 constexpr double kMargin = 1.05;
 
 // What is stored: the header, then the floats of every image in the order of images().

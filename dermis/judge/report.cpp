@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The maps' last colour is this share of the largest value, so that one wild pixel does
-// not darken all others.
+// The maps' last colour is this share of the largest value, so that a single outlier does
+// not darken all other pixels.
 constexpr double kFullQuantile = 0.995;
 
 Result<std::string> data_uri(const Image& image) {
@@ -44,7 +44,7 @@ double quantile(const Image& values, const Image& mask, double share) {
     return *at;
 }
 
-// Two figures, so that people can read it, and never 0.
+// Two figures, for reading, and never 0.
 double rounded_up(double full) {
     full = std::max(full, 1e-6);
     const double unit = std::pow(10.0, std::floor(std::log10(full)) - 1);

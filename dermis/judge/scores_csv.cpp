@@ -97,7 +97,7 @@ std::string csv_field(std::string text) {
     return '"' + text + '"';
 }
 
-// Four figures are more than any of the numbers deserves; bytes are whole.
+// Four figures are more than the accuracy of any of the numbers; bytes are whole.
 std::string number(Value value) {
     if (!value) return "";
     char text[32];

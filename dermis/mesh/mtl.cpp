@@ -160,7 +160,7 @@ class MtlParser {
         if (keyword == "disp" || keyword == "map_disp") return &material.displacement_map;
         if (keyword == "map_d") return &material.opacity_map;
         if (keyword != "map_bump" && keyword != "bump") return nullptr;
-        // "bump" holds heights by the book and tangent-space normals in half of all files: the name decides.
+        // "bump" means heights in the specification, but often holds tangent-space normals: the name decides.
         const std::string lower = to_lower(map.file);
         const bool is_normal =
             lower.find("norm") != std::string::npos || lower.find("nrm") != std::string::npos;

@@ -1,5 +1,5 @@
-// Reads by extension, then does what every mesh needs: one unit, complete normals, and the warnings that
-// spare a person an hour (wrong unit, UDIM tiles, missing UVs).
+// Reads by extension, then does what every mesh needs: one unit, complete normals, and warnings of
+// frequent mistakes (wrong unit, UDIM tiles, missing UVs).
 
 #include "dermis/mesh/read_mesh.h"
 
