@@ -49,7 +49,7 @@ void show_light(Scene& scene, WidgetMap& widgets) {
         }
     }
     if (scene.environment.kind == EnvironmentKind::none) return;
-    rows.number({.name = "environment_intensity",
+    rows.number({.name = "environment",
                  .doc = "factor on the radiance of the environment",
                  .max = 4,
                  .default_value = 1},
@@ -62,7 +62,7 @@ void show_light(Scene& scene, WidgetMap& widgets) {
                      .max = 180},
                     yaw_deg))
         scene.environment.yaw_rad = yaw_deg / kDegreesPerRadian;
-    rows.toggle({.name = "environment_visible", .doc = "the environment is the background"},
+    rows.toggle({.name = "as_background", .doc = "the environment is the background"},
                 scene.environment.visible);
 }
 

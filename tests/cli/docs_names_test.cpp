@@ -136,6 +136,19 @@ TEST(Docs, every_file_and_heading_that_a_page_links_exists) {
     EXPECT_GT(anchors, 0u);
 }
 
+TEST(Docs, every_picture_of_the_documentation_is_shown_by_a_page) {
+    std::string all;
+    for (const fs::path& page : pages()) all += read(page);
+    size_t pictures = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
+        const std::string name = entry.path().filename().string();
+        if (!name.ends_with(".jpg") && !name.ends_with(".png") && !name.ends_with(".svg")) continue;
+        EXPECT_NE(all.find(name + ")"), std::string::npos) << entry.path() << " is in no page";
+        ++pictures;
+    }
+    EXPECT_GT(pictures, 10u);
+}
+
 TEST(Docs, every_source_file_that_a_page_names_exists) {
     static const std::regex named(
         "^((?:dermis|techniques|subjects|catalog|shaders|apps|tests|tools|bench|scenes|docs|cmake)/[^ "

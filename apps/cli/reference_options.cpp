@@ -1,0 +1,152 @@
+#include "reference_options.h"
+
+#include "dermis/base/text.h"
+#include "render_options.h"
+
+namespace dermis::cli {
+namespace {
+
+constexpr int kSamples = 64, kMostSamples = 65536;
+
+template <class Enum>
+struct Named {
+    std::string_view name;
+    Enum value;
+};
+
+template <class Enum, size_t N>
+Result<Enum> choose(std::string_view what, const std::string& text, const Named<Enum> (&all)[N]) {
+    std::vector<std::string> names;
+    for (const Named<Enum>& one : all) {
+        if (one.name == text) return one.value;
+        names.emplace_back(one.name);
+    }
+    return Error{unknown_name(what, text, names)};
+}
+
+constexpr Named<Integrator> kIntegrators[] = {
+    {"surface", Integrator::surface}, {"walk", Integrator::walk}, {"lambert", Integrator::lambert}};
+constexpr Named<PixelFilter> kFilters[] = {{"box", PixelFilter::box}, {"center", PixelFilter::center}};
+constexpr Named<ShadowCasters> kShadows[] = {{"key", ShadowCasters::key}, {"all", ShadowCasters::all}};
+constexpr Named<AmbientModel> kAmbient[] = {{"traced", AmbientModel::traced},
+                                            {"renderer", AmbientModel::renderer}};
+constexpr Named<SpecularReflection> kSpecular[] = {{"none", SpecularReflection::none},
+                                                   {"blinn_phong", SpecularReflection::blinn_phong},
+                                                   {"ggx", SpecularReflection::ggx}};
+constexpr Named<Normalisation> kNormalisations[] = {{"area", Normalisation::by_area},
+                                                    {"none", Normalisation::none}};
+constexpr Named<Cavities> kCavities[] = {{"flesh", Cavities::flesh}, {"open", Cavities::open}};
+
+template <class Enum, size_t N>
+Result<void> set(Enum& target, std::string_view what, const std::string& text, const Named<Enum> (&all)[N]) {
+    const Result<Enum> value = choose(what, text, all);
+    if (!value) return value.error();
+    target = *value;
+    return {};
+}
+
+// "sigma_s=1,2,3 sigma_a=.1,.2,.3 g=0 eta=1.4", 1/mm; one number is used for all three channels.
+Result<ScatteringMedium> parse_medium(const std::string& text) {
+    const auto wrong = [&](std::string_view part) {
+        return Error{"--medium: '" + std::string(part) +
+                     "' is not one of sigma_s=R,G,B sigma_a=R,G,B (1/mm) g=VALUE eta=VALUE"};
+    };
+    ScatteringMedium medium;
+    for (const std::string_view part : split(text, ' ')) {
+        if (part.empty()) continue;
+        const std::vector<std::string_view> pair = split(part, '=');
+        if (pair.size() != 2) return wrong(part);
+        std::vector<double> numbers;
+        for (const std::string_view word : split(pair[1], ',')) {
+            const std::optional<double> number = parse_number(trim(word));
+            if (!number) return wrong(part);
+            numbers.push_back(*number);
+        }
+        const bool is_sigma = pair[0] == "sigma_s" || pair[0] == "sigma_a";
+        if (numbers.size() != 1 && !(is_sigma && numbers.size() == 3)) return wrong(part);
+        numbers.resize(3, numbers[0]);
+        if (pair[0] == "sigma_s")
+            medium.sigma_s_per_mm = {numbers[0], numbers[1], numbers[2]};
+        else if (pair[0] == "sigma_a")
+            medium.sigma_a_per_mm = {numbers[0], numbers[1], numbers[2]};
+        else if (pair[0] == "g")
+            medium.g = numbers[0];
+        else if (pair[0] == "eta")
+            medium.eta = numbers[0];
+        else
+            return wrong(part);
+    }
+    return medium;
+}
+
+}  // namespace
+
+Result<ReferenceSettings> ReferenceOptions::settings() const {
+    const int passes = samples != 0 ? samples : noise != 0 ? kMostSamples : kSamples;
+    ReferenceSettings chosen{.samples = passes, .seed = seed, .probes = probes, .width_scale = width_scale};
+    chosen.lighting.penumbra_mm = penumbra_mm;
+    if (noise != 0) chosen.noise = noise;
+    const Result<Size> pixels = parse_size(size);
+    if (!pixels) return pixels.error();
+    chosen.width = pixels->width;
+    chosen.height = pixels->height;
+    for (const Result<void>& step :
+         {set(chosen.integrator, "integrator", integrator, kIntegrators),
+          set(chosen.filter, "pixel filter", filter, kFilters),
+          set(chosen.normalisation, "normalisation", normalisation, kNormalisations),
+          set(chosen.cavities, "cavities", cavities, kCavities),
+          set(chosen.lighting.shadows, "choice of shadows", shadows, kShadows),
+          set(chosen.lighting.ambient, "ambient model", ambient, kAmbient),
+          set(chosen.lighting.specular, "specular model", specular, kSpecular)})
+        if (!step) return step.error();
+    if (!medium.empty()) {
+        Result<ScatteringMedium> parsed = parse_medium(medium);
+        if (!parsed) return parsed.error();
+        chosen.medium = *parsed;
+    }
+    return chosen;
+}
+
+void ReferenceOptions::add_to(Command& command) {
+    scene.add_to(command)->required();
+    command.add_option("-o,--output", output, "FILE.exr")->required();
+    command.add_option("--preview", preview, "FILE.png: the picture with the scene's tone map");
+    command.add_option("--size", size, "WIDTHxHEIGHT")->capture_default_str();
+    command.add_option("--integrator", integrator, "integrator: surface, walk or lambert")
+        ->capture_default_str();
+    command.add_option("--samples,--spp", samples,
+                       "maximum samples a pixel (default: 64; with --noise as many as it needs)");
+    command.add_option("--noise", noise, "stop at this relative error, such as 0.01");
+    command.add_option("--seed", seed, "seed of the random numbers; the same seed gives the same picture")
+        ->capture_default_str();
+    command.add_option("--probes", probes, "probes or walks for each sample, an even number")
+        ->capture_default_str();
+    command.add_option("--profile", profile, "diffusion profile instead of the scene's");
+    command.add_option(
+        "--medium", medium,
+        "walk: \"sigma_s=1,1,1 sigma_a=.1,.1,.1 g=0 eta=1.4\" in 1/mm instead of the profile's");
+    command
+        .add_option("--width-scale", width_scale, "factor on the lengths of profile or medium; 0 is Lambert")
+        ->capture_default_str();
+    command
+        .add_option("--normalisation", normalisation, "normalisation of the surface integral: area or none")
+        ->capture_default_str();
+    command
+        .add_option("--cavities", cavities,
+                    "cavities not visible from outside: flesh, or open as in the mesh")
+        ->capture_default_str();
+    command
+        .add_option("--filter", filter, "pixel filter: box, or center (one point, as without multisampling)")
+        ->capture_default_str();
+    command.add_option("--shadows", shadows, "lights that cast shadows: key or all")->capture_default_str();
+    command
+        .add_option("--ambient", ambient, "environment: traced, or renderer (the renderer's approximation)")
+        ->capture_default_str();
+    command.add_option("--specular", specular, "specular model: ggx, blinn_phong or none")
+        ->capture_default_str();
+    command.add_option("--penumbra-mm", penumbra_mm, "width of the key light's shadow edge")
+        ->capture_default_str();
+    command.add_flag("--json", json, "print one JSON object");
+}
+
+}  // namespace dermis::cli
