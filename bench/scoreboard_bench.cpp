@@ -6,6 +6,7 @@
 // cached under the content of this program, the scene and the settings: a run that was stopped goes on with
 // the scene it was at, whose ground truth goes on too.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -27,7 +28,9 @@ namespace {
 
 using namespace dermis;
 
-constexpr const char* kScenes[] = {"spheres", "bust", "head_scan", "face", "backlit"};
+constexpr const char* kScenes[] = {"spheres", "unit", "bust", "head_scan", "face", "backlit"};
+// Of each unit scene, whose subject fills the picture.
+constexpr int kCaseSize = 96;
 
 constexpr const char* kText =
     "# Scoreboard\n\n"
@@ -41,7 +44,8 @@ constexpr const char* kText =
     "(linear radiance over the\n"
     "skin), FLIP and ΔE 2000 (tone-mapped picture) also hold what the two renderers do differently for other "
     "reasons.\n"
-    "Cost is the frame over lambert's in the same rounds of one run, %s, %d x %d; memory is what\n"
+    "Cost is the frame over lambert's in the same rounds of one run, %s, %d x %d (unit scenes 96 x 96);\n"
+    "memory is what "
     "only this technique needs: tables and images of its own passes.\n\n"
     "`tools/scoreboard` makes this page, [scoreboard.csv](scoreboard.csv) and the plot again.\n\n"
     "![Captured share over cost](scoreboard.svg)\n\n";
@@ -89,6 +93,38 @@ Result<std::string> rows_hash(const Scene& scene, const ComparisonSettings& sett
         .add(settings.samples)
         .add(settings.probes)
         .hex();
+}
+
+// What is left to do: a scene by its name, or one of a set of test scenes that is made already.
+struct Job {
+    std::string name;
+    std::optional<SubjectCase> made;
+};
+
+Result<std::vector<Job>> jobs_of(const std::vector<std::string>& names) {
+    const std::span<const Subject> subjects = built_in_catalog().subjects;
+    std::vector<Job> jobs;
+    for (const std::string& name : names) {
+        const auto set = std::ranges::find(subjects, name, &Subject::name);
+        if (set == subjects.end() || set->cases.empty()) {
+            jobs.push_back({.name = name});
+            continue;
+        }
+        Result<std::vector<SubjectCase>> cases = make_cases(*set);
+        if (!cases) return cases.error();
+        for (SubjectCase& one : *cases) jobs.push_back({.name = one.name, .made = std::move(one)});
+    }
+    return jobs;
+}
+
+Result<SubjectCase> scene_of(Job& job) {
+    if (!job.made) {
+        Result<Scene> scene = load_scene(job.name, {.subjects = built_in_catalog().subjects});
+        if (!scene) return scene.error();
+        job.made = {.name = job.name, .scene = std::move(*scene)};
+    }
+    if (Result<void> complete = complete_scene(job.made->scene); !complete) return complete.error();
+    return std::move(*job.made);
 }
 
 // From the cache, or made and kept there.
@@ -141,24 +177,29 @@ int main(int argc, char** argv) {
     ComparisonSettings settings = comparison_settings(size, size);
     settings.frames = 2;
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    Result<std::vector<Job>> jobs = jobs_of(names);
+    if (!jobs) return fail(jobs.error().message);
     const auto start = std::chrono::steady_clock::now();
-    for (size_t i = 0; i < names.size(); ++i) {
-        Result<Scene> scene = load_scene(names[i], {.subjects = built_in_catalog().subjects});
-        Result<void> complete = scene ? complete_scene(*scene) : Result<void>(scene.error());
-        if (!complete) {
-            std::printf("%s is passed over, its rows stay: %s\n", names[i].c_str(),
-                        complete.error().message.c_str());
+    for (size_t i = 0; i < jobs->size(); ++i) {
+        Job& job = (*jobs)[i];
+        ComparisonSettings own = settings;
+        if (job.made) own.width = own.height = std::min(size, kCaseSize);
+        const Result<SubjectCase> one = scene_of(job);
+        if (!one) {
+            std::printf("%s is passed over, its rows stay: %s\n", job.name.c_str(),
+                        one.error().message.c_str());
             continue;
         }
-        const Result<std::vector<ScoreRow>> made = rows_of(*device, names[i], *scene, settings);
-        if (!made) return fail(names[i] + ": " + made.error().message);
+        own.exact = one->exact;
+        const Result<std::vector<ScoreRow>> made = rows_of(*device, one->name, one->scene, own);
+        if (!made) return fail(one->name + ": " + made.error().message);
         rows = merged(std::move(*rows), *made);
         if (auto written = write(directory, *rows, device->info().name, size); !written)
             return fail(written.error().message);
         const double done_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        const size_t left = names.size() - i - 1;
+        const size_t left = jobs->size() - i - 1;
         if (left > 0)
             std::printf("%zu of %zu scenes are left, about %.0f min if they take as long\n", left,
-                        names.size(), done_s / double(i + 1) * double(left) / 60);
+                        jobs->size(), done_s / double(i + 1) * double(left) / 60);
     }
 }

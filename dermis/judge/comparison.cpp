@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dermis/image/metrics.h"
+#include "dermis/judge/exact_effect.h"
 #include "dermis/judge/technique_pictures.h"
 #include "dermis/render/renderer.h"
 
@@ -69,6 +70,37 @@ double noise_rmse(const EffectTruth& truth, const Image& mask) {
     return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
+// How the work on the techniques divides, in pictures of one of them: pictures, timed frames, judging.
+struct TechniqueWork {
+    double pictures, frames, judging;
+
+    explicit TechniqueWork(size_t contestants, const ComparisonSettings& settings)
+        : pictures(double(contestants)),
+          frames(settings.frames > 0 ? pictures * (settings.frames + 1) / (settings.grid * settings.grid)
+                                     : 0),
+          judging(0.25 * pictures) {}
+    [[nodiscard]] double all() const { return pictures + frames + judging; }
+};
+
+// A row as a technique has it, whose effect is the formula's.
+Result<void> add_exact(PictureMaker& maker, const Technique& lambert, const Scene& scene,
+                       const ComparisonSettings& settings, Comparison& comparison) {
+    static const Technique kExact = {.id = std::string(kExactId), .summary = "the exact answer"};
+    Result<Image> effect = exact_effect(scene, settings.exact, settings.width, settings.height, settings.grid,
+                                        settings.reference.lighting.penumbra_mm);
+    if (!effect) return effect.error();
+    Result<TechniquePictures> base = maker.make({&lambert, ParameterValues(lambert.parameters)});
+    if (!base) return base.error();
+    Image radiance = std::move(base->radiance);
+    for (size_t i = 0; i < effect->pixel_count(); ++i)
+        for (size_t c = 0; c < 3; ++c)
+            radiance.floats()[size_t(radiance.channels) * i + c] += effect->floats()[3 * i + c];
+    comparison.rows.push_back({.contestant = {&kExact, ParameterValues(kExact.parameters)},
+                               .radiance = std::move(radiance),
+                               .effect = std::move(*effect)});
+    return {};
+}
+
 // Drawing and timing in one renderer: pictures first, then the costs in rounds.
 Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const Scene& scene,
                              const std::vector<Contestant>& contestants, const ComparisonSettings& settings,
@@ -81,9 +113,10 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
                         .grid = settings.grid,
                         .shadow_map_size = settings.shadow_map_size,
                         .penumbra_mm = settings.reference.lighting.penumbra_mm});
-    const double steps = double(contestants.size()) + (settings.frames > 0 ? 1 : 0);
+    const TechniqueWork work(contestants.size(), settings);
     for (const Contestant& contestant : contestants) {
-        if (hooks.techniques) hooks.techniques(double(comparison.rows.size()) / steps, contestant.name());
+        if (hooks.techniques)
+            hooks.techniques(double(comparison.rows.size()) / work.all(), contestant.name());
         if (hooks.stop && hooks.stop->load()) return Error{"stopped"};
         Result<TechniquePictures> pictures = maker.make(contestant);
         if (!pictures) return pictures.error();
@@ -91,12 +124,18 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
                                    .radiance = std::move(pictures->radiance),
                                    .effect = std::move(pictures->effect)});
     }
-    if (hooks.techniques) hooks.techniques(double(contestants.size()) / steps, "frame times");
+    if (settings.exact)
+        if (Result<void> added = add_exact(maker, **lambert, scene, settings, comparison); !added)
+            return added;
     Result<SkinMasks> masks = maker.masks(comparison.truth.skin);
     if (!masks) return masks.error();
     comparison.masks = std::move(*masks);
-    const Result<std::vector<TechniqueCost>> costs =
-        measure_costs(renderer, scene, contestants, settings.width, settings.height, settings.frames);
+    const Result<std::vector<TechniqueCost>> costs = measure_costs(
+        renderer, scene, contestants, settings.width, settings.height, settings.frames,
+        [&](double done, const std::string& name) {
+            if (hooks.techniques)
+                hooks.techniques((work.pictures + done * work.frames) / work.all(), "frame times, " + name);
+        });
     if (!costs) return costs.error();
     for (size_t i = 0; i < costs->size(); ++i) comparison.rows[i].cost = (*costs)[i];
     return {};
@@ -136,8 +175,13 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
     if (!regions) return regions.error();
     comparison.regions = std::move(*regions);
     comparison.reference_rmse = noise_rmse(comparison.truth, comparison.masks.skin);
-    for (Compared& row : comparison.rows)
-        if (Result<void> judged = judge(comparison, scene, row); !judged) return judged.error();
+    const TechniqueWork work(contestants.size(), settings);
+    for (size_t i = 0; i < comparison.rows.size(); ++i) {
+        const double judged = double(i) / double(comparison.rows.size());
+        if (hooks.techniques)
+            hooks.techniques((work.pictures + work.frames + judged * work.judging) / work.all(), "scores");
+        if (Result<void> done = judge(comparison, scene, comparison.rows[i]); !done) return done.error();
+    }
     return comparison;
 }
 

@@ -20,6 +20,7 @@
 #include "dermis/judge/technique_cost.h"
 #include "dermis/judge/technique_list.h"
 #include "dermis/render/catalog.h"
+#include "dermis/scene/subject.h"
 
 namespace dermis {
 
@@ -38,7 +39,12 @@ struct ComparisonSettings {
     /// Integrator, lighting and seed of the truth. Its size is the comparison's. The defaults are
     /// for a truth that is compared with one frame without multisampling.
     ReferenceSettings reference;
+    /// Given: the exact answer is a row too, after the techniques, so that the truth is held against it.
+    ExactExitance exact;
 };
+
+/// The row's id.
+inline constexpr std::string_view kExactId = "exact";
 
 /// Reference settings that show what the renderer shows, at the comparison's size.
 [[nodiscard]] ComparisonSettings comparison_settings(int width, int height);
@@ -67,7 +73,8 @@ struct Comparison {
 
 struct ComparisonHooks {
     ReferenceDone reference;
-    std::function<void(double done, const std::string& name)> techniques;  ///< before each is drawn or timed
+    /// Before each picture, timed frame and judgement, with the share of the work that is done.
+    std::function<void(double done, const std::string& name)> techniques;
     const std::atomic<bool>* stop = nullptr;
 };
 

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "dermis/base/parallel.h"
+#include "dermis/rays/camera_ray.h"
 #include "dermis/rays/flesh.h"
 #include "dermis/rays/ray_scene.h"
 #include "dermis/reference/lighting.h"
@@ -14,11 +15,6 @@ namespace {
 
 // Of interpolated and face normals at the terminator, so that a point's own facet is no cast shadow.
 constexpr float kFacesLight = 0.1f;
-
-Vec3 unprojected(const Mat4& m, float x, float y, float z) {
-    const auto row = [&](int r) { return m.m[r] * x + m.m[4 + r] * y + m.m[8 + r] * z + m.m[12 + r]; };
-    return Vec3{row(0), row(1), row(2)} * (1 / row(3));
-}
 
 float curvature_at(const Mesh& mesh, const RayHit& hit) {
     const std::vector<float>& values = mesh.curvatures_per_mm;
@@ -35,14 +31,6 @@ struct Finder {
     Mat4 inverse_view_projection;
     int width, height;
 
-    [[nodiscard]] Ray camera_ray(float x, float y) const {
-        const float clip_x = 2 * x / float(width) - 1, clip_y = 2 * y / float(height) - 1;
-        const Vec3 from_mm = unprojected(inverse_view_projection, clip_x, clip_y, 0),
-                   to_mm = unprojected(inverse_view_projection, clip_x, clip_y, 1);
-        return {
-            .origin_mm = from_mm, .direction = normalize(to_mm - from_mm), .max_mm = length(to_mm - from_mm)};
-    }
-
     [[nodiscard]] float thickness_mm(const SurfaceAttributes& surface) const {
         const auto behind = rays.closest_hit(RaySet::skin, {.origin_mm = surface.p_world_mm,
                                                             .direction = -surface.n_geometry_world,
@@ -51,7 +39,8 @@ struct Finder {
     }
 
     [[nodiscard]] RegionPoint point(int x, int y) const {
-        const auto hit = rays.closest_hit(RaySet::opaque, camera_ray(float(x) + 0.5f, float(y) + 0.5f));
+        const auto hit = rays.closest_hit(RaySet::opaque, camera_ray(inverse_view_projection, float(x) + 0.5f,
+                                                                     float(y) + 0.5f, width, height));
         if (!hit) return {};
         const SurfaceAttributes surface = rays.surface_at(*hit);
         const ShadingPoint shading = materials.shade(surface, *hit);

@@ -49,6 +49,17 @@ std::vector<ScoreRow> rows_of(const std::vector<ScoreRow>& rows, const std::stri
     return own;
 }
 
+// "unit" of "unit/sphere" when it is one of a set of test scenes, which have exact answers among them.
+std::string set_of(const std::vector<ScoreRow>& rows, const std::string& scene) {
+    const size_t slash = scene.find('/');
+    if (slash == std::string::npos) return "";
+    const std::string set = scene.substr(0, slash);
+    const bool exact = std::ranges::any_of(rows, [&](const ScoreRow& row) {
+        return row.technique == kExactId && row.scene.starts_with(set + "/");
+    });
+    return exact ? set : "";
+}
+
 std::string memory_text(size_t bytes) {
     if (bytes == 0) return "0";
     return bytes >= 1u << 20 ? figures(double(bytes) / (1 << 20), "%.1f MiB")
@@ -59,18 +70,52 @@ std::string share_text(const CapturedShare& share) {
     return share.known() ? figures(share.share, "%.2f") : "noise";
 }
 
+std::string share_and_error_text(const CapturedShare& share) {
+    return share_text(share) + (share.known() ? " ± " + figures(share.error, "%.2f") : "");
+}
+
 std::string markdown_row(const ScoreRow& row) {
     const Scores& s = row.scores;
     const Captured& captured = row.captured;
     std::string settings = row.settings.empty() ? "" : " " + row.settings;
     for (size_t at = 0; (at = settings.find(',', at)) != std::string::npos; at += 2)
         settings.insert(at + 1, " ");
-    std::string text = "| `" + row.technique + "`" + settings + " | " + share_text(captured.all) +
-                       (captured.all.known() ? " ± " + figures(captured.all.error, "%.2f") : "");
+    std::string text = "| `" + row.technique + "`" + settings + " | " + share_and_error_text(captured.all);
     for (const CapturedShare& channel : captured.channels) text += " | " + share_text(channel);
     return text + " | " + figures(row.time_ratio, "%.2f") + " | " + memory_text(row.bytes) + " | " +
            figures(s.rmse, "%.4f") + " | " + figures(s.flip, "%.4f") + " | " +
            figures(s.delta_e_2000, "%.2f") + " |\n";
+}
+
+// A row a scene and a column a technique with its defaults, the exact answer first.
+std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& set) {
+    std::vector<std::string> techniques = {std::string(kExactId)}, scenes;
+    for (const ScoreRow& row : rows) {
+        if (!row.scene.starts_with(set + "/") || !row.settings.empty()) continue;
+        if (std::ranges::find(techniques, row.technique) == techniques.end())
+            techniques.push_back(row.technique);
+        if (std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
+    }
+    std::string text = "## " + set + "\n\nCaptured share. `" + std::string(kExactId) +
+                       "` is what the exact answer has of the ground truth's effect.\n\n| scene | effect ",
+                rule = "|---|---";
+    for (const std::string& technique : techniques) {
+        text += "| `" + technique + "` ";
+        rule += "|---";
+    }
+    text += "|\n" + rule + "|\n";
+    for (const std::string& scene : scenes) {
+        const std::vector<ScoreRow> own = rows_of(rows, scene);
+        text += "| " + scene.substr(set.size() + 1) + " | " +
+                figures(own.front().captured.all.effect_rms, "%.2g");
+        for (const std::string& technique : techniques) {
+            const auto row = std::ranges::find_if(
+                own, [&](const ScoreRow& r) { return r.technique == technique && r.settings.empty(); });
+            text += " | " + (row == own.end() ? "" : share_and_error_text(row->captured.all));
+        }
+        text += " |\n";
+    }
+    return text + "\n";
 }
 
 PlotPanel plot_panel(const std::string& scene, const std::vector<ScoreRow>& own) {
@@ -111,7 +156,13 @@ std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<Score
 
 std::string scoreboard_markdown(const std::vector<ScoreRow>& rows) {
     std::string text;
+    std::vector<std::string> sets;
     for (const std::string& scene : scenes_of(rows)) {
+        if (const std::string set = set_of(rows, scene); !set.empty()) {
+            if (std::ranges::find(sets, set) == sets.end()) text += set_markdown(rows, set);
+            sets.push_back(set);
+            continue;
+        }
         const std::vector<ScoreRow> own = rows_of(rows, scene);
         const CapturedShare& effect = own.front().captured.all;
         text += "## " + scene + "\n\nScattering changes the picture by " +
@@ -130,7 +181,7 @@ Plot scoreboard_plot(const std::vector<ScoreRow>& rows) {
         .title = "Captured share over cost",
         .caption = "1: all that scattering does to the picture, 0: none of it; below -0.5 drawn at -0.5"};
     for (const std::string& scene : scenes_of(rows))
-        plot.panels.push_back(plot_panel(scene, rows_of(rows, scene)));
+        if (set_of(rows, scene).empty()) plot.panels.push_back(plot_panel(scene, rows_of(rows, scene)));
     return plot;
 }
 

@@ -15,10 +15,12 @@ namespace dermis {
 /// Rows of scenes that `made` holds are replaced, all others stay.
 [[nodiscard]] std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<ScoreRow>& made);
 
-/// A table a scene, sorted by captured share; rows whose share is not known come last, by error.
+/// A table a scene, sorted by captured share; rows whose share is not known come last, by error. A set of
+/// test scenes ("unit/sphere", "unit/strip" ...) is one table.
 [[nodiscard]] std::string scoreboard_markdown(const std::vector<ScoreRow>& rows);
 
-/// Captured share over cost, a panel a scene; shares below kLowestPlotted are drawn there.
+/// Captured share over cost, a panel a scene that is not of a set; shares below kLowestPlotted are drawn
+/// there.
 inline constexpr double kLowestPlotted = -0.5;
 [[nodiscard]] Plot scoreboard_plot(const std::vector<ScoreRow>& rows);
 

@@ -50,9 +50,9 @@ Result<void> measure_bytes(const Scene& scene, const Contestant& contestant, int
 
 }  // namespace
 
-Result<std::vector<TechniqueCost>> measure_costs(Renderer& renderer, const Scene& scene,
-                                                 const std::vector<Contestant>& contestants, int width,
-                                                 int height, int frames) {
+Result<std::vector<TechniqueCost>> measure_costs(
+    Renderer& renderer, const Scene& scene, const std::vector<Contestant>& contestants, int width, int height,
+    int frames, const std::function<void(double done, const std::string& name)>& progress) {
     std::vector<TechniqueCost> costs(contestants.size());
     for (size_t i = 0; i < costs.size(); ++i)
         if (Result<void> done = measure_bytes(scene, contestants[i], width, height, costs[i]); !done)
@@ -62,6 +62,9 @@ Result<std::vector<TechniqueCost>> measure_costs(Renderer& renderer, const Scene
     for (int frame = 0; frame <= frames; ++frame)
         for (size_t i = 0; i < costs.size(); ++i) {
             const Contestant& contestant = contestants[i];
+            const double all = double(frames + 1) * double(costs.size());
+            if (progress)
+                progress((double(frame) * double(costs.size()) + double(i)) / all, contestant.name());
             const auto drawn =
                 renderer.draw(*contestant.technique, contestant.values, {.width = width, .height = height});
             if (!drawn) return Error{contestant.name() + ": " + drawn.error().message};

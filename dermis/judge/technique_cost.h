@@ -1,6 +1,8 @@
 #pragma once
 // What a technique costs: bytes of its tables and images, frame times.
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "dermis/base/result.h"
@@ -19,9 +21,9 @@ struct TechniqueCost {
 
 /// One entry a contestant, at this size. `frames` timed ones after one that compiles; 0: none are. Rounds go
 /// over all contestants, so that a machine that is busy for a while is so for all of them. Errors name the
-/// contestant.
-[[nodiscard]] Result<std::vector<TechniqueCost>> measure_costs(Renderer& renderer, const Scene& scene,
-                                                               const std::vector<Contestant>& contestants,
-                                                               int width, int height, int frames);
+/// contestant. `progress`: called before each frame with the share of them that is done.
+[[nodiscard]] Result<std::vector<TechniqueCost>> measure_costs(
+    Renderer& renderer, const Scene& scene, const std::vector<Contestant>& contestants, int width, int height,
+    int frames, const std::function<void(double done, const std::string& name)>& progress = {});
 
 }  // namespace dermis

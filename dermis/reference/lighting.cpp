@@ -104,10 +104,8 @@ Vec3 Lighting::light_visibility(const Light& light, const Receiver& receiver, Ve
 Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingRandom& random) const {
     if (environment_.dark()) return {};
     const double eta = settings_.entry_eta;
-    if (settings_.ambient == AmbientModel::renderer) {
-        const float entry = eta > 1 ? float(1 - diffuse_external_reflectance(eta)) : 1.0f;
-        return environment_.harmonic_irradiance(receiver.n) * (receiver.occlusion * entry);
-    }
+    if (settings_.ambient == AmbientModel::renderer)
+        return environment_.harmonic_irradiance(receiver.n) * (receiver.occlusion * harmonic_entry_);
     // One direction from an even mixture of the cosine lobe and the bright parts: the balance heuristic of
     // Veach 1997 for one sample.
     const Vec3 direction = random.environment_choice < 0.5f

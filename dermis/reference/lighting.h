@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "dermis/optics/fresnel.h"
 #include "dermis/rays/ray_scene.h"
 #include "dermis/reference/environment_sampler.h"
 #include "dermis/reference/materials.h"
@@ -59,7 +60,9 @@ class Lighting {
           materials_(materials),
           environment_(environment),
           settings_(settings),
-          reflection_(reflection) {}
+          reflection_(reflection),
+          harmonic_entry_(settings.entry_eta > 1 ? float(1 - diffuse_external_reflectance(settings.entry_eta))
+                                                 : 1.0f) {}
 
     /// An unbiased estimate of the irradiance, linear; exact (no noise) without penumbra and traced
     /// environment.
@@ -89,6 +92,7 @@ class Lighting {
     const EnvironmentSampler& environment_;
     LightingSettings settings_;
     const SplitSumReflection* reflection_;
+    float harmonic_entry_;  // the part of even light that enters; an integral, so it is made once
 };
 
 /// What reaches `p_mm` of a light that nothing blocks.

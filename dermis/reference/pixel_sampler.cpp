@@ -5,6 +5,7 @@
 
 #include "dermis/base/angle.h"
 #include "dermis/optics/presets.h"
+#include "dermis/rays/camera_ray.h"
 #include "dermis/rays/flesh.h"
 #include "dermis/rays/random.h"
 #include "dermis/reference/random_walk.h"
@@ -14,11 +15,6 @@ namespace {
 
 constexpr int kMostLayers = 16;
 constexpr int kAlbedoWalks = 200'000;
-
-Vec3 project(const Mat4& m, Vec3 p) {
-    const auto row = [&](int r) { return m.m[r] * p.x + m.m[4 + r] * p.y + m.m[8 + r] * p.z + m.m[12 + r]; };
-    return Vec3{row(0), row(1), row(2)} * (1 / row(3));
-}
 
 // Surfaces other than skin are seen from both sides, as the renderer draws them.
 void face_the_eye(ShadingPoint& point, Vec3 to_eye) {
@@ -110,12 +106,8 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
 }
 
 Ray PixelSampler::camera_ray(int x, int y, Vec2 within) const {
-    const float clip_x = 2 * (float(x) + within.x) / float(settings_.width) - 1;
-    const float clip_y = 2 * (float(y) + within.y) / float(settings_.height) - 1;
-    const Vec3 near_mm = project(inverse_view_projection_, {clip_x, clip_y, 0});
-    const Vec3 far_mm = project(inverse_view_projection_, {clip_x, clip_y, 1});
-    return {
-        .origin_mm = near_mm, .direction = normalize(far_mm - near_mm), .max_mm = length(far_mm - near_mm)};
+    return dermis::camera_ray(inverse_view_projection_, float(x) + within.x, float(y) + within.y,
+                              settings_.width, settings_.height);
 }
 
 // Igehy 1999, "Tracing Ray Differentials": where the rays of the neighbouring pixels, or cells, meet the
@@ -144,7 +136,20 @@ Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footpr
         sample.lost_walks += walked.lost;
         return walked.exitance;
     }
-    return lighting_.irradiance({point.p_smooth_mm, point.n_geometry, point.n, point.occlusion}, random);
+    const Receiver receiver{point.p_smooth_mm, point.n_geometry, point.n, point.occlusion};
+    if (!skin) return lighting_.irradiance(receiver, random);
+    // Width 0. Beside an integral over many probes a single ray into a penumbra would be most of the noise.
+    constexpr int kProbesARay = 4;
+    const bool exact =
+        lighting_.settings().penumbra_mm == 0 && lighting_.settings().ambient == AmbientModel::renderer;
+    const int count = exact ? 1 : std::max(1, settings_.probes / kProbesARay);
+    Vec3 sum;
+    for (int i = 0; i < count; ++i) {
+        OwenSequence uniform(hash_u32(seed, 1), uint32_t(i));
+        const Vec2 penumbra = uniform.next_2d(), environment = uniform.next_2d();
+        sum += lighting_.irradiance(receiver, {penumbra, environment, uniform.next_1d()});
+    }
+    return sum * (1 / float(count));
 }
 
 MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t seed,

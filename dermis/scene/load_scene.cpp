@@ -17,11 +17,7 @@ namespace {
 Result<Scene> load_subject(std::string_view name, std::span<const Subject> subjects) {
     Result<SubjectScene> made = make_subject(subjects, name);
     if (!made) return made.error();
-    Scene scene{.name = std::string(name), .objects = std::move(made->objects)};
-    place_in_studio(scene);
-    if (!made->lights.empty()) scene.exposure_ev = 0;
-    apply_statements(*made, scene);
-    return scene;
+    return scene_of(std::string(name), std::move(*made));
 }
 
 Result<SceneDescription> read_description(const fs::path& path, const SceneOptions& options) {

@@ -1,6 +1,7 @@
 #include "dermis/scene/subject.h"
 
 #include "dermis/base/text.h"
+#include "dermis/scene/placement.h"
 
 namespace dermis {
 
@@ -28,6 +29,28 @@ Result<SubjectScene> make_subject(std::span<const Subject> subjects, std::string
         if (const Result<void> set = values.set(parameter, text); !set)
             return Error{(*subject)->name + ": " + set.error().message};
     return (*subject)->make(values);
+}
+
+Scene scene_of(std::string name, SubjectScene made) {
+    Scene scene{.name = std::move(name), .objects = std::move(made.objects)};
+    place_in_studio(scene);
+    if (!made.lights.empty()) scene.exposure_ev = 0;
+    apply_statements(made, scene);
+    return scene;
+}
+
+Result<std::vector<SubjectCase>> make_cases(const Subject& subject) {
+    std::vector<SubjectCase> cases;
+    const Parameter* choice = subject.parameters.find(subject.cases);
+    if (!choice) return Error{subject.name + ": is one scene, not a set of test scenes"};
+    for (const std::string& value : choice->choices) {
+        Result<SubjectScene> made = make_subject({&subject, 1}, subject.name, {{subject.cases, value}});
+        if (!made) return made.error();
+        ExactExitance exact = made->exact;
+        const std::string name = subject.name + "/" + value;
+        cases.push_back({.name = name, .scene = scene_of(name, std::move(*made)), .exact = std::move(exact)});
+    }
+    return cases;
 }
 
 void apply_statements(const SubjectScene& made, Scene& scene) {

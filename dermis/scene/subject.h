@@ -13,9 +13,21 @@
 #include <vector>
 
 #include "dermis/base/parameter.h"
+#include "dermis/optics/profile.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis {
+
+/// A point of skin under the key light alone, whose irradiance on a surface that faces it is 1.
+struct ExactPoint {
+    float irradiance = 0;  ///< shadow included
+    Vec3 exitance;         ///< radiant exitance over albedo, red, green, blue
+};
+
+/// What the diffuse transport (the surface integral of the profile) makes of a point of the surface, exactly.
+/// `penumbra_mm` is the width of a shadow's edge.
+using ExactExitance =
+    std::function<ExactPoint(const GaussianSum& profile, float penumbra_mm, Vec3 p_world_mm)>;
 
 /// What a subject makes. Most make objects alone and are shown as a mesh file is: framed from the front, in
 /// the studio. A subject that is a test scene states its camera, lights and environment too, so that a
@@ -27,6 +39,8 @@ struct SubjectScene {
     /// stated too, kind none for no light but these.
     std::vector<Light> lights;
     std::optional<Environment> environment;
+    /// Of a test scene whose answer is known, under its own lights; empty: none is.
+    ExactExitance exact;
 
     [[nodiscard]] bool states_anything() const { return camera || !lights.empty() || environment; }
 };
@@ -37,6 +51,8 @@ struct Subject {
     ParameterTable parameters;
     /// The same values give the same bytes. Errors: what the table's ranges do not exclude.
     std::function<Result<SubjectScene>(const ParameterValues&)> make;
+    /// Of a set of test scenes: the name of the choice each of whose values is one. Else empty.
+    std::string cases;
 };
 
 /// NAME of "builtin:NAME"; nothing for a path.
@@ -49,6 +65,18 @@ struct Subject {
 /// its range, what the subject says.
 [[nodiscard]] Result<SubjectScene> make_subject(std::span<const Subject> subjects, std::string_view name,
                                                 const std::map<std::string, std::string>& parameters = {});
+
+/// What was made as a scene of its own: framed from the front, in the studio, where it states nothing else.
+[[nodiscard]] Scene scene_of(std::string name, SubjectScene made);
+
+/// One scene of a set of test scenes.
+struct SubjectCase {
+    std::string name;  ///< "unit/sphere"
+    Scene scene;
+    ExactExitance exact;
+};
+/// All of a subject whose `cases` is not empty, in the order of its choices.
+[[nodiscard]] Result<std::vector<SubjectCase>> make_cases(const Subject& subject);
 
 /// Camera, lights and environment of `made` where it states them; the rest of the scene stays. The camera's
 /// depth range is fitted to the scene's bounds.

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <map>
 
 #include "dermis/scene/placement.h"
 #include "subjects/spheres/spheres.h"
@@ -51,6 +53,19 @@ TEST(Spheres, do_not_shadow_one_another_under_the_default_key_light) {
             const float apart_mm = length(cross(all[i].center_mm - all[j].center_mm, to_light));
             EXPECT_GT(apart_mm, all[i].radius_mm + all[j].radius_mm) << i << " and " << j;
         }
+}
+
+TEST(Spheres, are_as_far_apart_as_the_parameter_says) {
+    for (const char* gap_mm : {"", "0", "20"}) {
+        std::map<std::string, std::string> words;
+        if (*gap_mm) words["gap_mm"] = gap_mm;
+        const auto made = make_subject(built_in_catalog().subjects, "spheres", words);
+        ASSERT_TRUE(made) << made.error().message;
+        const std::vector<Ball> all = balls({.objects = made->objects});
+        for (size_t i = 1; i < 4; ++i)
+            EXPECT_NEAR(all[i].center_mm.x - all[i - 1].center_mm.x,
+                        all[i].radius_mm + all[i - 1].radius_mm + (*gap_mm ? std::atof(gap_mm) : 8), 1e-3);
+    }
 }
 
 TEST(Spheres, wind_counter_clockwise_and_have_tangents_along_u) {

@@ -13,9 +13,12 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// Centres are this many times the sum of two radii apart, so that no sphere shadows its neighbour while the
-// key light's direction is at most 50 degrees off the plane between them (a test holds the default to it).
-constexpr float kSphereSpacing = 1.3f;
+struct SpheresParams {
+    /// Wide enough that each is a sphere alone, whose exact answer is known: the widest Gaussian of skin (2.7
+    /// mm) does not reach from one to the next, and none shadows another while the key light is at most 50
+    /// degrees off the plane between them.
+    float gap_mm = 8;
+};
 
 Mesh make_latitude_sphere(float radius_mm, Vec3 center_mm) {
     constexpr int kRows = 48, kColumns = 96;
@@ -54,10 +57,10 @@ SceneObject make_sphere_object(float radius_mm, Vec3 center_mm) {
 }
 
 // Resting on y = 0, the row centred on x = 0.
-Result<SubjectScene> make(const ParameterValues&) {
+Result<SubjectScene> make(const ParameterValues& values) {
+    const float gap_mm = values.as<SpheresParams>().gap_mm;
     float x_mm[4] = {};
-    for (int i = 1; i < 4; ++i)
-        x_mm[i] = x_mm[i - 1] + kSphereSpacing * (kSphereRadiiMm[i - 1] + kSphereRadiiMm[i]);
+    for (int i = 1; i < 4; ++i) x_mm[i] = x_mm[i - 1] + kSphereRadiiMm[i - 1] + gap_mm + kSphereRadiiMm[i];
     const float middle_mm = (x_mm[0] - kSphereRadiiMm[0] + x_mm[3] + kSphereRadiiMm[3]) / 2;
     SubjectScene scene;
     for (int i = 0; i < 4; ++i) {
@@ -74,7 +77,12 @@ Result<SubjectScene> make(const ParameterValues&) {
 }  // namespace
 
 Subject make_spheres_subject() {
-    return {.name = "spheres", .summary = "four spheres of radius 2, 4, 8 and 16 mm", .make = make};
+    return {.name = "spheres",
+            .summary = "four spheres of radius 2, 4, 8 and 16 mm",
+            .parameters = ParameterTableBuilder<SpheresParams>()
+                              .number(&SpheresParams::gap_mm, "gap_mm", "mm", 0, 100, "between neighbours")
+                              .build(),
+            .make = make};
 }
 
 }  // namespace dermis

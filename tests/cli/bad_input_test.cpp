@@ -97,6 +97,8 @@ TEST_F(BadInput, comparisons_that_cannot_be_made_leave_nothing) {
     expect_error("compare builtin:spheres --size 16x16 --samples 1" + to, "--samples 1: at least twice");
     expect_error("compare builtin:spheres --samples-per-pixel 15" + to, "a square number");
     expect_error("compare no/such.toml" + to, "no/such.toml");
+    expect_error("compare unit --scene mesh.shape=cilinder" + to, "did you mean 'cylinder'?");
+    expect_error("compare unit --scene mesh.scale=2" + to, "--scene mesh.scale: of the set of test scenes");
     EXPECT_FALSE(fs::exists(path("report")));
     expect_error("compare builtin:spheres -o " + file("plain", "x"), "is a file; name a directory");
 }

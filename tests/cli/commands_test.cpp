@@ -87,6 +87,17 @@ TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_truth_once) {
                 HasSubstr("\nbuiltin:spheres,preintegrated,diffuse=closed_form,"));
 }
 
+TEST_F(Commands, compare_of_the_unit_scenes_has_the_exact_answer_beside_the_techniques) {
+    const ProgramResult result = dermis(
+        "compare unit --scene mesh.shape=relief_5mm -t lambert --size 16x16 --samples-per-pixel 4 "
+        "--samples 16 --frames 1 -o " +
+        path("unit"));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("\nunit/relief_5mm "));
+    EXPECT_THAT(slurp(path("unit/scores.csv")), HasSubstr("\nunit/relief_5mm,exact,,"));
+    EXPECT_THAT(slurp(path("unit/relief_5mm/report.html")), HasSubstr("the exact answer"));
+}
+
 TEST_F(Commands, a_signal_leaves_the_picture_so_far_and_says_how_noisy_it_is) {
     for (const auto& [signal, exit_code] : {std::pair{"INT", 130}, {"TERM", 143}}) {
         const std::string file = path(std::string(signal) + ".exr");

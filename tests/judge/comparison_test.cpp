@@ -87,6 +87,28 @@ TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
     EXPECT_THAT(*page, Not(HasSubstr("https://")));
 }
 
+TEST_F(Comparisons, progress_rises_from_0_through_pictures_frames_and_scores) {
+    std::vector<double> seen;
+    std::vector<std::string> names;
+    ComparisonSettings settings = quick();
+    settings.frames = 2;
+    const auto comparison =
+        compare_techniques(device(), built_in_catalog(), load("builtin:spheres"), contestants("lambert,wrap"),
+                           settings, {.techniques = [&](double done, const std::string& name) {
+                               seen.push_back(done);
+                               names.push_back(name);
+                           }});
+    ASSERT_TRUE(comparison) << comparison.error().message;
+    ASSERT_EQ(seen.size(), 2u + 3 * 2 + 2);  // pictures, frames of three rounds, scores
+    EXPECT_EQ(seen.front(), 0);
+    for (size_t i = 1; i < seen.size(); ++i) EXPECT_GT(seen[i], seen[i - 1]) << i;
+    EXPECT_GT(seen.back(), 0.8);
+    EXPECT_LT(seen.back(), 1);
+    EXPECT_EQ(names[1], "wrap");
+    EXPECT_EQ(names[3], "frame times, wrap");
+    EXPECT_EQ(names.back(), "scores");
+}
+
 TEST_F(Comparisons, a_finer_truth_of_another_run_is_taken_as_it_is) {
     const Scene scene = load("builtin:spheres");
     ComparisonSettings fine = quick(), coarse = quick();

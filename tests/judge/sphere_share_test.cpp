@@ -1,15 +1,12 @@
 // One sphere under one light: the table of `preintegrated` is the exact answer, so that all of the effect
 // must be captured.
 
-#include <cmath>
-
 #include "dermis/judge/comparison.h"
-#include "dermis/optics/gaussian_fit.h"
-#include "dermis/optics/preintegration.h"
-#include "dermis/optics/presets.h"
-#include "dermis/render/complete_scene.h"
+#include "dermis/judge/effect_truth.h"
+#include "dermis/judge/exact_effect.h"
 #include "render/render_test.h"
 #include "subjects/spheres/spheres.h"
+#include "subjects/unit/exact.h"
 
 using namespace dermis;
 
@@ -33,42 +30,12 @@ class SphereShares : public RenderTest {
         return scene;
     }
 
-    // The exact answer at the same points of the pixels: Lambert's cosine against the integral over the
-    // sphere.
-    static Image exact_effect(const Scene& scene, float radius_mm, const ComparisonSettings& settings) {
-        const auto profile = find_profile(scene.skin.profile);
-        const GaussianSum sum = to_gaussian_sum(*profile).sum;
-        const Mat4 m = camera_matrices(scene.camera, 1).inverse_view_projection;
-        const auto point = [&](float x, float y, float z) {
-            const auto row = [&](int r) {
-                return m.m[r] * x + m.m[4 + r] * y + m.m[8 + r] * z + m.m[12 + r];
-            };
-            return Vec3{row(0), row(1), row(2)} * (1 / row(3));
-        };
-        const Light& key = scene.key_light();
-        const Vec3 albedo =
-            scene.objects[0].mesh.materials[0].base_color_linear * scene.skin.albedo_tint_linear;
-        const Vec3 scale = albedo * key.color_linear * (key.intensity / 3.14159265f);
-        Image image(settings.width, settings.height, 3);
-        const int fine = settings.width * settings.grid;
-        for (int y = 0; y < fine; ++y)
-            for (int x = 0; x < fine; ++x) {
-                const float cx = 2 * (float(x) + 0.5f) / float(fine) - 1,
-                            cy = 2 * (float(y) + 0.5f) / float(fine) - 1;
-                const Vec3 o = point(cx, cy, 0), d = normalize(point(cx, cy, 1) - o),
-                           to = o - scene.camera.target_mm;
-                const float b = dot(to, d), q = b * b - dot(to, to) + radius_mm * radius_mm;
-                if (q < 0) continue;
-                const Vec3 n = normalize(to + d * (-b - std::sqrt(q)));
-                const double t = dot(n, key.to_light_world);
-                const Rgb value = preintegrated_diffuse(sum, t, radius_mm);
-                float* out = &image.floats()[3 * (size_t(y / settings.grid) * size_t(settings.width) +
-                                                  size_t(x / settings.grid))];
-                const float part = 1 / float(settings.grid * settings.grid), flat = float(std::max(t, 0.0));
-                const float s[3] = {scale.x, scale.y, scale.z};
-                for (int c = 0; c < 3; ++c) out[c] += part * s[c] * (float(value[c]) - flat);
-            }
-        return image;
+    static Image exact_effect_of(const Scene& scene, float radius_mm, const ComparisonSettings& settings) {
+        const auto exact =
+            unit::exact_sphere(scene.camera.target_mm, radius_mm, scene.key_light().to_light_world);
+        const auto effect = exact_effect(scene, exact, settings.width, settings.height, settings.grid, 0);
+        EXPECT_TRUE(effect) << effect.error().message;
+        return *effect;
     }
 };
 
@@ -88,7 +55,7 @@ TEST_F(SphereShares, preintegrated_captures_all_of_the_effect_on_a_sphere) {
     const auto comparison = compare_techniques(device(), built_in_catalog(), scene, *list, settings);
     ASSERT_TRUE(comparison) << comparison.error().message;
     const Image& skin = comparison->masks.skin;
-    const Image exact = exact_effect(scene, kSphereRadiiMm[kSphere], settings);
+    const Image exact = exact_effect_of(scene, kSphereRadiiMm[kSphere], settings);
     const auto formula = captured(exact, comparison->truth.effect, skin);
     ASSERT_TRUE(formula);
     EXPECT_GT(formula->all.share, 0.97) << "the formula against the truth";
@@ -98,4 +65,55 @@ TEST_F(SphereShares, preintegrated_captures_all_of_the_effect_on_a_sphere) {
     const auto table = captured(comparison->rows[1].effect, {exact, exact}, skin);
     ASSERT_TRUE(table);
     EXPECT_GT(table->all.share, 0.98) << "the technique against the formula";
+}
+
+// The scale of the measure on real truths: another seed has all of the effect, nine tenths of the exact
+// answer have nine tenths, no effect has none.
+TEST_F(SphereShares, another_seed_of_the_truth_has_all_and_nine_tenths_of_the_effect_have_nine_tenths) {
+    const Scene scene = one_sphere(1);
+    ComparisonSettings settings = comparison_settings(48, 48);
+    settings.grid = 3;
+    EffectTruthSettings truth{.reference = settings.reference, .noise = 0.1, .samples = 180};
+    truth.reference.grid = settings.grid;
+    truth.reference.probes = settings.probes;
+    const auto first = make_effect_truth(scene, truth);
+    truth.reference.seed = 2;
+    const auto second = make_effect_truth(scene, truth);
+    ASSERT_TRUE(first && second);
+    ASSERT_TRUE(first->reached && second->reached);
+    Image skin = first->skin;
+    for (float& v : skin.floats()) v = v >= 1 ? 1 : 0;
+    const auto itself = captured(second->effect, first->effect, skin);
+    ASSERT_TRUE(itself);
+    EXPECT_GT(itself->all.share, 0.96);
+    EXPECT_GT(itself->all.share + itself->all.error, 0.99) << itself->all.share;
+    EXPECT_LT(itself->all.error, 0.05);
+    Image part = exact_effect_of(scene, kSphereRadiiMm[1], settings);
+    for (float& v : part.floats()) v *= 0.9f;
+    const auto nine_tenths = captured(part, first->effect, skin);
+    ASSERT_TRUE(nine_tenths);
+    EXPECT_NEAR(nine_tenths->all.share, 0.9, 0.02);
+    const auto none = captured(Image(48, 48, 3), first->effect, skin);
+    ASSERT_TRUE(none);
+    EXPECT_EQ(none->all.share, 0);
+}
+
+// The scene of the scoreboard: its spheres are so far apart that each is alone. 1.8 mm apart they were not:
+// .90, as the integral reached from one to the next and their shadows' edges touched.
+TEST_F(SphereShares, preintegrated_captures_all_of_the_effect_on_the_four_spheres) {
+    Scene scene = load("spheres");
+    // The row fills the picture, whose pixels are then nearly all skin.
+    scene.camera.eye_mm = scene.camera.target_mm + (scene.camera.eye_mm - scene.camera.target_mm) * 0.42f;
+    fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
+    ComparisonSettings settings = comparison_settings(128, 48);
+    settings.noise = 0.12;
+    settings.frames = 0;
+    const auto list = parse_technique_list(built_in_catalog().techniques, "preintegrated");
+    ASSERT_TRUE(list);
+    const auto comparison = compare_techniques(device(), built_in_catalog(), scene, *list, settings);
+    ASSERT_TRUE(comparison) << comparison.error().message;
+    EXPECT_TRUE(comparison->truth.reached);
+    const CapturedShare& share = comparison->rows[0].captured.all;
+    EXPECT_GT(share.share, 0.97) << "+- " << share.error << ", " << comparison->truth.samples << " samples";
+    EXPECT_LT(share.error, 0.03);
 }

@@ -9,12 +9,13 @@
 
 #include "catalog/catalog.h"
 #include "command.h"
+#include "compare_scenes.h"
+#include "compare_text.h"
 #include "dermis/base/file.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/report.h"
-#include "dermis/render/complete_scene.h"
 #include "render_options.h"
 
 namespace dermis::cli {
@@ -23,10 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostGrid = 16;
+constexpr const char *kSize = "512x512", *kCaseSize = "96x96";
 
 struct Options {
     SceneChoice scene;
-    std::string techniques, output, size = "512x512", device;
+    std::string techniques, output, size, device;  // empty: kSize, or kCaseSize of each of a set
     std::string integrator = "surface", ambient = "renderer";
     ComparisonSettings defaults;
     double noise = defaults.noise;
@@ -35,8 +37,8 @@ struct Options {
     bool json = false;
 };
 
-Result<ComparisonSettings> settings_of(const Options& options) {
-    const Result<Size> size = parse_size(options.size);
+Result<ComparisonSettings> settings_of(const Options& options, const char* default_size) {
+    const Result<Size> size = parse_size(options.size.empty() ? default_size : options.size);
     if (!size) return size.error();
     ComparisonSettings settings = comparison_settings(size->width, size->height);
     settings.frames = options.frames;
@@ -67,64 +69,28 @@ Result<ComparisonSettings> settings_of(const Options& options) {
 
 // Tried before minutes of work rather than after, by a file that is removed again with every directory that
 // it needed: a comparison that cannot be made leaves nothing.
-constexpr const char* kFiles[] = {"report.html", "scores.csv", "regions.csv"};
-
 Result<void> try_directory(const fs::path& directory) {
     std::error_code ec;
     if (fs::exists(directory, ec) && !fs::is_directory(directory, ec))
         return Error{"-o " + directory.string() + ": is a file; name a directory for the report"};
-    for (const char* name : kFiles)
+    for (const char* name : {"report.html", "scores.csv", "regions.csv"})
         if (const Result<void> tried = try_output(directory / name); !tried)
             return Error{"-o " + directory.string() + ": " + tried.error().message};
     return {};
 }
 
-Result<Scene> scene_of(const Options& options) {
-    Result<Scene> scene = options.scene.load();
-    if (!scene) return scene;
-    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
-    return scene;
-}
-
-Result<Comparison> compare(const Options& options, const Scene& scene,
+// One line for the truth, one for the techniques; of a set with the scene's name.
+Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const std::string& prefix,
                            const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
-    Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
-    if (!device) return device.error();
-    Progress line("ground truth", 0);
+    Progress line(prefix + "ground truth", 0);
     std::optional<Progress> techniques;
-    return compare_techniques(*device, built_in_catalog(), scene, contestants, settings,
+    return compare_techniques(device, built_in_catalog(), one.scene, contestants, settings,
                               {.reference = [&](double done) { line.set(done); },
                                .techniques =
                                    [&](double done, const std::string& name) {
                                        if (!techniques) techniques.emplace("techniques", 0);
-                                       techniques->set(done, name);
+                                       techniques->set(done, prefix + name);
                                    }});
-}
-
-std::string share_text(const CapturedShare& share) {
-    char text[16] = "noise";
-    if (share.known()) std::snprintf(text, sizeof text, "%.3f", share.share);
-    return text;
-}
-
-void print_table(const Comparison& comparison) {
-    std::printf("%-48s %8s %6s %7s %7s %7s %9s %7s %7s %9s\n", "technique", "captured", "+-", "R", "G", "B",
-                "rmse", "flip", "dE2000", "ms");
-    for (const Compared& row : comparison.rows) {
-        const Captured& c = row.captured;
-        std::printf("%-48s %8s %6.3f %7s %7s %7s %9.5f %7.4f %7.3f %9.2f\n", row.contestant.name().c_str(),
-                    share_text(c.all).c_str(), c.all.error, share_text(c.channels[0]).c_str(),
-                    share_text(c.channels[1]).c_str(), share_text(c.channels[2]).c_str(), row.scores.rmse,
-                    row.scores.flip, row.scores.delta_e_2000, row.cost.time_ms);
-    }
-    const CapturedShare& all = comparison.rows.front().captured.all;
-    std::printf("effect of scattering: rms %.5f (R %.5f, G %.5f, B %.5f)\n", all.effect_rms,
-                comparison.rows.front().captured.channels[0].effect_rms,
-                comparison.rows.front().captured.channels[1].effect_rms,
-                comparison.rows.front().captured.channels[2].effect_rms);
-    std::printf("the ground truth's noise: %.5f of the effect, %.5f of the picture; %d samples a pixel, %s\n",
-                all.truth_noise, comparison.reference_rmse, comparison.truth.samples,
-                comparison.truth.from_cache ? "from the cache" : "made now");
 }
 
 // What limits the numbers.
@@ -139,29 +105,77 @@ std::vector<std::string> warnings_of(const Comparison& comparison, const Compari
     return warnings;
 }
 
-nlohmann::ordered_json to_json(const Options& options, const Scene& scene, const Comparison& comparison) {
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const ScoreRow& row : score_rows(options.scene.name, comparison)) {
-        nlohmann::ordered_json entry = {{"technique", row.technique}, {"settings", row.settings}};
-        for (const ScoreColumn& column : score_columns()) {
-            const std::optional<double> value = column.get(row);
-            entry[std::string(column.name)] =
-                value && std::isfinite(*value) ? nlohmann::ordered_json(*value) : nullptr;
-        }
-        rows.push_back(std::move(entry));
+// Beneath the directory: report.html, and of a set one a scene in a folder of its own.
+fs::path report_path(const Options& options, const ComparedScenes& scenes, const SubjectCase& one) {
+    const fs::path directory(options.output);
+    return scenes.is_set ? directory / fs::path(one.name).filename() / "report.html"
+                         : directory / "report.html";
+}
+
+Result<std::vector<Comparison>> compare_all(const Options& options, const ComparedScenes& scenes,
+                                            const std::vector<Contestant>& contestants,
+                                            ComparisonSettings settings) {
+    Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
+    if (!device) return device.error();
+    std::vector<Comparison> comparisons;
+    for (const SubjectCase& one : scenes.all) {
+        const std::string prefix = scenes.is_set ? one.name + ": " : "";
+        for (const std::string& warning : one.scene.warnings) print_warning(prefix + warning);
+        settings.exact = one.exact;
+        Result<Comparison> comparison = compare(*device, one, prefix, contestants, settings);
+        if (!comparison) return Error{prefix + comparison.error().message};
+        for (const std::string& warning : warnings_of(*comparison, settings)) print_warning(prefix + warning);
+        const Result<std::string> page = report_html(one.scene, *comparison, settings);
+        if (!page) return page.error();
+        if (Result<void> written = write_text_file(report_path(options, scenes, one), *page); !written)
+            return written.error();
+        comparisons.push_back(std::move(*comparison));
     }
-    return {{"scene", scene.name},
-            {"output", options.output},
-            {"truth_samples", comparison.truth.samples},
-            {"truth_reached", comparison.truth.reached},
-            {"reference_from_cache", comparison.truth.from_cache},
-            {"reference_time_ms", comparison.truth.time_ms},
-            {"rows", rows},
-            {"credit", scene.credit}};
+    return comparisons;
+}
+
+Result<void> write_tables(const Options& options, const ComparedScenes& scenes,
+                          const std::vector<Comparison>& comparisons) {
+    std::vector<ScoreRow> rows;
+    std::string regions;
+    for (size_t i = 0; i < comparisons.size(); ++i) {
+        std::ranges::move(score_rows(scenes.all[i].name, comparisons[i]), std::back_inserter(rows));
+        const std::string text = regions_csv(scenes.all[i].name, comparisons[i]);
+        regions += i == 0 ? text : text.substr(text.find('\n') + 1);  // one heading
+    }
+    const fs::path directory(options.output);
+    const std::string scores = scores_csv(rows);
+    const FileContent files[] = {{directory / "scores.csv", as_bytes(scores)},
+                                 {directory / "regions.csv", as_bytes(regions)}};
+    return write_files(files);
+}
+
+void print_results(const Options& options, const ComparedScenes& scenes,
+                   const std::vector<Comparison>& comparisons) {
+    if (options.json) {
+        nlohmann::ordered_json all = nlohmann::ordered_json::array();
+        for (size_t i = 0; i < comparisons.size(); ++i)
+            all.push_back(to_json(options.output, scenes.all[i], comparisons[i]));
+        std::printf("%s\n",
+                    (scenes.is_set ? nlohmann::ordered_json{{"scenes", all}} : all[0]).dump(2).c_str());
+        return;
+    }
+    const fs::path directory(options.output);
+    if (scenes.is_set) {
+        print_set_table(scenes.all, comparisons);
+        std::printf("%s, regions.csv, a folder with report.html a scene\n",
+                    (directory / "scores.csv").c_str());
+        return;
+    }
+    print_table(comparisons[0]);
+    std::printf("%s, scores.csv, regions.csv\n", (directory / "report.html").c_str());
+    if (const std::string& credit = scenes.all[0].scene.credit; !credit.empty())
+        std::printf("%s\n", credit.c_str());
 }
 
 Result<int> run(const Options& options) {
-    const Result<ComparisonSettings> settings = settings_of(options);
+    const bool is_set = set_of_scenes(options.scene.name) != nullptr;
+    const Result<ComparisonSettings> settings = settings_of(options, is_set ? kCaseSize : kSize);
     if (!settings) return settings.error();
     const std::span<const Technique> techniques = built_in_catalog().techniques;
     const Result<std::vector<Contestant>> contestants =
@@ -169,28 +183,13 @@ Result<int> run(const Options& options) {
                                    : parse_technique_list(techniques, options.techniques);
     if (!contestants) return contestants.error();
     if (Result<void> good = try_directory(options.output); !good) return good.error();
-    const Result<Scene> scene = scene_of(options);
-    if (!scene) return scene.error();
-    for (const std::string& warning : scene->warnings) print_warning(warning);
-    const Result<Comparison> comparison = compare(options, *scene, *contestants, *settings);
-    if (!comparison) return comparison.error();
-    for (const std::string& warning : warnings_of(*comparison, *settings)) print_warning(warning);
-    const Result<std::string> page = report_html(*scene, *comparison, *settings);
-    if (!page) return page.error();
-    const fs::path directory(options.output);
-    const std::string scores = scores_csv(score_rows(options.scene.name, *comparison)),
-                      regions = regions_csv(options.scene.name, *comparison);
-    const FileContent files[] = {{directory / kFiles[0], as_bytes(*page)},
-                                 {directory / kFiles[1], as_bytes(scores)},
-                                 {directory / kFiles[2], as_bytes(regions)}};
-    if (Result<void> written = write_files(files); !written) return written.error();
-    if (options.json) {
-        std::printf("%s\n", to_json(options, *scene, *comparison).dump(2).c_str());
-        return 0;
-    }
-    print_table(*comparison);
-    std::printf("%s, scores.csv, regions.csv\n", (directory / "report.html").c_str());
-    if (!scene->credit.empty()) std::printf("%s\n", scene->credit.c_str());
+    const Result<ComparedScenes> scenes = compared_scenes(options.scene);
+    if (!scenes) return scenes.error();
+    const Result<std::vector<Comparison>> comparisons =
+        compare_all(options, *scenes, *contestants, *settings);
+    if (!comparisons) return comparisons.error();
+    if (Result<void> written = write_tables(options, *scenes, *comparisons); !written) return written.error();
+    print_results(options, *scenes, *comparisons);
     return 0;
 }
 
@@ -203,14 +202,16 @@ void add_compare_command(CommandLine& line) {
                  "Compares techniques with the ground truth: captured shares, errors, a report with pictures",
                  "dermis compare head_scan --techniques "
                  "\"lambert,wrap,preintegrated[diffuse=curve_2015,shadow=plain]\" "
-                 "-o out/compare");
+                 "-o out/compare\n"
+                 "  dermis compare unit -o out/unit   (small scenes with exact answers)");
     options->scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
     command
         ->add_option("-o,--output", options->output, "directory for report.html, scores.csv and regions.csv")
         ->required();
-    command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    command->add_option("--size", options->size,
+                        "WIDTHxHEIGHT in pixels (512x512; of the unit scenes 96x96)");
     command
         ->add_option("--integrator", options->integrator, "integrator of the ground truth: surface or walk")
         ->capture_default_str();

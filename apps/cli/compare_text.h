@@ -1,0 +1,19 @@
+#pragma once
+// The results of `dermis compare` on the terminal: tables and JSON.
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "dermis/judge/comparison.h"
+
+namespace dermis::cli {
+
+void print_table(const Comparison& comparison);
+
+/// A row a scene, a column a technique; the exact answer beside them shows how far the truth can be trusted.
+void print_set_table(const std::vector<SubjectCase>& cases, const std::vector<Comparison>& comparisons);
+
+[[nodiscard]] nlohmann::ordered_json to_json(const std::string& output, const SubjectCase& one,
+                                             const Comparison& comparison);
+
+}  // namespace dermis::cli
