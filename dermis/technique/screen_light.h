@@ -10,7 +10,8 @@
 namespace dermis {
 
 /// Declares and fills, one sample a pixel: "skin_light", exitance over albedo with alpha 1 on skin, else 0;
-/// and "skin_z", the distance in mm along the camera's axis, 0 where there is no skin.
+/// "skin_z", the distance in mm along the camera's axis, 0 where there is no skin; and "skin_key_visibility",
+/// how much of the key light arrives.
 void add_screen_light(PassList& list);
 
 /// Draws the skin with the diffuse light of `blurred`, an image as "skin_light" is, but without meaning in

@@ -18,7 +18,7 @@ using namespace screen_space_burley;
 constexpr const char* kOwnView = "gathered_light";
 
 struct Params {
-    int32_t samples = 32;
+    int32_t samples = 16;
     float width = 1;
     bool rotate = true;
     SpecularModel specular = SpecularModel::ggx;

@@ -28,7 +28,7 @@ struct Params {
     float near_mm = TwoGaussians().near_mm;
     float far_mm = TwoGaussians().far_mm;
     Vec3 far_share = TwoGaussians().far_share;
-    Taps taps = Taps::taps_25;
+    Taps taps = Taps::taps_17;
     Follow follow = Follow::surface;
     SpecularModel specular = SpecularModel::ggx;
 };
