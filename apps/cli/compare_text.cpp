@@ -15,7 +15,7 @@ std::string share_text(const CapturedShare& share) {
 
 // Right-aligned under its heading.
 std::string cell(const std::string& text, const std::string& heading) {
-    constexpr size_t kWidth = 14;
+    constexpr size_t kWidth = 15;
     const size_t width = std::max(kWidth, heading.size() + 1);
     return std::string(width - std::min(text.size(), width), ' ') + text;
 }

@@ -69,12 +69,20 @@ Image encoded_image(const Table& table, TableStorage storage) {
     return image;
 }
 
-Result<void> write_content(const fs::path& path, const Table& table, TableStorage storage,
-                           const std::string& json) {
+std::vector<std::byte> to_bytes(std::string_view text) {
+    const auto bytes = as_bytes(text);
+    return {bytes.begin(), bytes.end()};
+}
+
+Result<std::vector<std::byte>> file_content(const fs::path& path, const Table& table, TableStorage storage,
+                                            const std::string& json) {
     const std::string extension = to_lower(path.extension().string());
-    if (extension == ".csv") return write_text_file(path, table_csv(table));
-    if (extension == ".h") return write_text_file(path, table_c_header(table, path.stem().string()));
-    return write_image(path, encoded_image(table, storage), {{kTextKey, json}});
+    if (extension == ".csv") return to_bytes(table_csv(table));
+    if (extension == ".h") return to_bytes(table_c_header(table, path.stem().string()));
+    Result<std::vector<std::byte>> image =
+        encode_image(extension, encoded_image(table, storage), {{kTextKey, json}});
+    if (!image) return Error{path.string() + ": " + image.error().message};
+    return image;
 }
 
 // The embedded text where there is one, else the sidecar; both must agree.
@@ -168,9 +176,11 @@ TableEncoding encoding_for(TableKind kind, TableStorage storage) {
 Result<void> write_table(const fs::path& path, const Table& table, TableStorage storage) {
     const Result<TableStorage> chosen = storage_for(path, storage);
     if (!chosen) return chosen.error();
-    const std::string json = convention_json(table.convention, table.width, table.height);
-    if (Result<void> written = write_content(path, table, *chosen, json); !written) return written;
-    return write_text_file(sidecar_path(path), json + "\n");
+    const std::string json = convention_json(table.convention, table.width, table.height) + "\n";
+    const auto content = file_content(path, table, *chosen, json.substr(0, json.size() - 1));
+    if (!content) return content.error();
+    const FileContent files[] = {{path, *content}, {sidecar_path(path), as_bytes(json)}};
+    return write_files(files);
 }
 
 Result<Table> read_table(const fs::path& path, const TableUse& use) {

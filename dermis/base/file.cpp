@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <deque>
 #include <utility>
 
 namespace dermis {
@@ -155,6 +156,39 @@ Result<void> write_beside(const fs::path& path, const std::function<Result<void>
 
 Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
     return write_beside(path, [&](const fs::path& temporary) { return write_all(temporary, bytes); });
+}
+
+Result<void> write_files(std::span<const FileContent> files) {
+    std::error_code ec;
+    std::deque<TemporaryFile> temporaries;
+    std::vector<const FileContent*> renamed;
+    for (const FileContent& file : files) {
+        if (fs::is_directory(file.path, ec))
+            return Error{file.path.string() + ": is a directory; give a file name"};
+        // Of its own kind: see write_beside().
+        const bool direct = fs::exists(file.path, ec) && !fs::is_regular_file(file.path, ec);
+        if (direct) {
+            if (Result<void> written = write_file(file.path, file.bytes); !written) return written;
+            continue;
+        }
+        if (Result<void> made = make_parent(file.path); !made) return made;
+        renamed.push_back(&file);
+        const Result<void> written = write_all(temporaries.emplace_back(file.path).path(), file.bytes);
+        if (!written) return Error{file.path.string() + ": cannot write: " + written.error().message};
+    }
+    std::vector<fs::path> made;  // that were not there before
+    for (size_t i = 0; i < renamed.size(); ++i) {
+        const fs::path& path = renamed[i]->path;
+        const bool is_new = !fs::exists(path, ec);
+        fs::rename(temporaries[i].path(), path, ec);
+        if (ec) {
+            const std::string reason = ec.message();
+            for (const fs::path& file : made) fs::remove(file, ec);
+            return Error{path.string() + ": cannot write: " + reason};
+        }
+        if (is_new) made.push_back(path);
+    }
+    return {};
 }
 
 Result<void> try_output(const fs::path& path) {

@@ -27,6 +27,14 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
+/// Files that are one result: all are written beside their targets before the first is renamed over its own,
+/// so a full disk leaves none of them new.
+struct FileContent {
+    std::filesystem::path path;
+    std::span<const std::byte> bytes;
+};
+[[nodiscard]] Result<void> write_files(std::span<const FileContent> files);
+
 /// The same for libraries that can only write to a path: `write` gets the temporary path (same
 /// extension as the target) and the rename follows only if it returns success.
 [[nodiscard]] Result<void> write_beside(

@@ -62,8 +62,10 @@ std::string obj_text(const Mesh& mesh, const std::string& library) {
 Result<void> write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     std::filesystem::path library = path;
     library.replace_extension(".mtl");
-    if (Result<void> written = write_text_file(library, mtl_text(mesh.materials)); !written) return written;
-    return write_text_file(path, obj_text(mesh, library.filename().string()));
+    const std::string materials = mtl_text(mesh.materials),
+                      polygons = obj_text(mesh, library.filename().string());
+    const FileContent files[] = {{library, as_bytes(materials)}, {path, as_bytes(polygons)}};
+    return write_files(files);
 }
 
 }  // namespace dermis

@@ -1,5 +1,6 @@
 #include "dermis/render/material_maps.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "dermis/image/dilate.h"

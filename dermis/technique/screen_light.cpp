@@ -2,17 +2,19 @@
 
 namespace dermis {
 
-void add_screen_light(PassList& list) {
+void add_screen_light(PassList& list, const FrameContext& frame) {
     list.images.push_back({.name = "skin_light", .format = ImageFormat::rgba32f});
     list.images.push_back({.name = "skin_z", .format = ImageFormat::r32f});
+    list.images.push_back({.name = "skin_key_visibility", .format = ImageFormat::r16f});
     list.images.push_back({.name = "skin_depth", .format = ImageFormat::depth32f});
-    list.passes.push_back({.name = "skin light",
-                           .kind = PassKind::geometry_screen,
-                           .shader = "screen/light.frag",
-                           .reads = {"shadow_map"},
-                           .colors = {{.image = "skin_light"}, {.image = "skin_z"}},
-                           .depth = DepthTarget{.image = "skin_depth"},
-                           .geometry = GeometryFilter::skin});
+    Pass light = {.name = "skin light",
+                  .kind = PassKind::geometry_screen,
+                  .shader = "screen/light.frag",
+                  .colors = {{.image = "skin_light"}, {.image = "skin_z"}, {.image = "skin_key_visibility"}},
+                  .depth = DepthTarget{.image = "skin_depth"},
+                  .geometry = GeometryFilter::skin};
+    read_shadows(light, frame.shadow_map_count, frame.has_translucent);
+    list.passes.push_back(std::move(light));
 }
 
 void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular,
@@ -20,6 +22,7 @@ void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel s
     Pass skin = forward_skin_pass("screen/final.frag", specular, frame, own_view);
     skin.reads.push_back({"blurred_light", blurred});
     skin.reads.push_back("skin_z");
+    skin.reads.push_back("skin_key_visibility");
     list.passes.push_back(std::move(skin));
 }
 

@@ -8,6 +8,7 @@
 
 uniform texture2D blurred_light;
 uniform texture2D skin_z;
+uniform texture2D skin_key_visibility;  // so that the shadow's filter runs once a pixel
 
 layout(location = 0) out vec4 radiance_out;
 
@@ -21,7 +22,7 @@ float gap_mm(ivec2 pixel, float z_mm) {
     return stored > 0.0 ? abs(stored - z_mm) : 1e9;
 }
 
-bool read_blurred(vec3 p_world_mm, out vec3 exitance) {
+bool read_blurred(vec3 p_world_mm, out vec3 exitance, out float key_visibility) {
     float z_mm = dot(p_world_mm - eye_world_mm, normalize(toward(vec2(0.0))));
     ivec2 pixel = ivec2(gl_FragCoord.xy), nearest = pixel;
     float least = gap_mm(pixel, z_mm);
@@ -32,20 +33,27 @@ bool read_blurred(vec3 p_world_mm, out vec3 exitance) {
     }
     ivec2 inside = clamp(nearest, ivec2(0), textureSize(sampler2D(skin_z, nearest_clamp), 0) - 1);
     exitance = texelFetch(sampler2D(blurred_light, nearest_clamp), inside, 0).rgb;
+    key_visibility = texelFetch(sampler2D(skin_key_visibility, nearest_clamp), inside, 0).r;
     return least <= kSameSurfaceMm;
 }
 
 void main() {
     Surface s = load_surface();
     vec3 exitance;
-    if (!read_blurred(s.p_world_mm, exitance)) exitance = unblurred_exitance(s);
+    float key_visibility;
+    if (!read_blurred(s.p_world_mm, exitance, key_visibility)) exitance = unblurred_exitance(s, key_visibility);
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
-        float visibility = 1.0;
-        if (i == key_light)
-            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
-        specular_radiance += light.irradiance_linear * visibility *
+        // The key light's filter ran in the first pass; the colour of its shadow did not stay.
+        if (i == key_light && tinted_shadows == 0) {
+            light.irradiance_linear *= key_visibility;
+        } else {
+            LightThrough through =
+                light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+            light.irradiance_linear *= through.visibility * through.tint;
+        }
+        specular_radiance += light.irradiance_linear *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
     radiance_out = vec4(shown_radiance(s.albedo_linear * exitance / kPi, specular_radiance, exitance / kPi), 1.0);

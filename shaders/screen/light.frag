@@ -7,10 +7,11 @@
 
 layout(location = 0) out vec4 light_out;  // exitance over albedo
 layout(location = 1) out float z_out_mm;  // along the camera's axis
+layout(location = 2) out float key_visibility_out;
 
 void main() {
     Surface s = load_surface();
     vec3 forward = normalize(toward(vec2(0.0)));
-    light_out = vec4(unblurred_exitance(s), 1.0);
+    light_out = vec4(unblurred_exitance(s, key_visibility_out), 1.0);
     z_out_mm = dot(s.p_world_mm - eye_world_mm, forward);
 }

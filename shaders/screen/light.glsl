@@ -7,17 +7,18 @@
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/surface.glsl"
 
-// Exitance over albedo.
-vec3 unblurred_exitance(Surface s) {
+// Exitance over albedo; and how much of the key light arrives, 0 where the skin faces away from it.
+vec3 unblurred_exitance(Surface s, out float key_visibility) {
     vec3 exitance = environment_irradiance(s.n_world) * s.occlusion;
+    key_visibility = 0.0;
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         float n_dot_l = dot(s.n_world, light.to_light_world);
         if (n_dot_l <= 0.0) continue;
-        float visibility = 1.0;
-        if (i == key_light)
-            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
-        exitance += light.irradiance_linear * n_dot_l * visibility;
+        LightThrough through =
+            light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+        if (i == key_light) key_visibility = through.visibility;
+        exitance += light.irradiance_linear * n_dot_l * through.visibility * through.tint;
     }
     return exitance;
 }

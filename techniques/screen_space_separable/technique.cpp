@@ -28,7 +28,7 @@ struct Params {
     float near_mm = TwoGaussians().near_mm;
     float far_mm = TwoGaussians().far_mm;
     Vec3 far_share = TwoGaussians().far_share;
-    Taps taps = Taps::taps_25;
+    Taps taps = Taps::taps_17;
     Follow follow = Follow::surface;
     SpecularModel specular = SpecularModel::ggx;
 };
@@ -63,7 +63,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const auto params = values.as<Params>();
     const float reach = reach_mm(kernel_of(params, frame.skin_gaussians), params.width);
     PassList list;
-    add_screen_light(list);
+    add_screen_light(list, frame);
     for (const char* name : {"skin_light_x", "skin_light_xy"})
         list.images.push_back({.name = name, .format = ImageFormat::rgba32f});
     for (const bool along_v : {false, true})

@@ -40,7 +40,7 @@ void main() {
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
-        vec3 dimmed = i == key_light ? specular_dimming(s, light, exitance) : vec3(1.0);
+        vec3 dimmed = i == key_light ? specular_dimming(s, light, exitance) : shadow_factor(s, i, light.to_light_world);
         specular_radiance += light.irradiance_linear * dimmed *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }

@@ -21,7 +21,7 @@ const float kReachScale = 1.3;
 
 vec3 reach(Surface s) {
     if (width == kWidthSource) return vec3(wrap);
-    float k2 = s.curvature_per_mm * s.curvature_per_mm;
+    float k = mean_curvature_per_mm(s), k2 = k * k;
     return min(kReachScale * second_moment_mm2 * k2 / (1.0 + bend_mm2 * k2), vec3(1.0));
 }
 
@@ -44,5 +44,6 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
 // pi (2 - w) / 3 and pi (1 - w)^2 / 4; at w = 0 they are Lambert's.
 vec3 ambient_response(Surface s) {
     vec3 w = reach(s);
-    return environment_convolved(s.n_world, vec3(kPi), kPi * (2.0 - w) / 3.0, kPi * (1.0 - w) * (1.0 - w) / 4.0);
+    return environment_convolved(s.n_world, vec3(kPi), kPi * (2.0 - w) / 3.0, kPi * (1.0 - w) * (1.0 - w) / 4.0) *
+           s.occlusion;
 }

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 struct Case {
     const char* name;
     const char* arguments;
-    const char* output = nullptr;  ///< the file that it makes
+    const char* output = nullptr;   ///< the file that it makes
+    const char* sidecar = nullptr;  ///< and one beside it
     int last_thread = 200;
 };
 
@@ -36,12 +37,13 @@ constexpr int kRays = 1;
 
 // Of the commands that need no GPU: a driver does not survive a failing allocation.
 constexpr Case kCases[] = {
-    {"bake_lut", "bake lut --size 32x32 -o out/a.exr", "out/a.exr"},
-    {"bake_png", "bake lut --size 32x32 --storage 8 -o out/a.png", "out/a.png"},
+    {"bake_lut", "bake lut --size 32x32 -o out/a.exr", "out/a.exr", "out/a.exr.json"},
+    {"bake_png", "bake lut --size 32x32 --storage 8 -o out/a.png", "out/a.png", "out/a.png.json"},
     {"plot", "bake lut --size 16x16 -o out/a.exr --plot out/a.svg", "out/a.svg"},
     {"profile", "profile show gpu_gems_3"},
-    {"info", "info cube.obj --json", nullptr, kRays},
-    {"reference", "reference scene.toml --size 8x8 --samples 2 --probes 2 -o out/a.exr", "out/a.exr", kRays},
+    {"info", "info cube.obj --json", nullptr, nullptr, kRays},
+    {"reference", "reference scene.toml --size 8x8 --samples 2 --probes 2 -o out/a.exr", "out/a.exr", nullptr,
+     kRays},
 };
 
 constexpr const char* kCube =
@@ -95,6 +97,10 @@ class Faults : public testing::TestWithParam<Case> {
         if (outcome.result.exit_code != 0) {
             EXPECT_EQ(error_lines(outcome.result.err), 1);
             const std::string made = output();
+            if (GetParam().sidecar) {
+                EXPECT_EQ(made.empty(), !fs::exists(directory_.path / "work" / GetParam().sidecar))
+                    << "half of a result";
+            }
             EXPECT_TRUE(made.empty() || made == whole_) << "half of " << GetParam().output;
         } else {
             EXPECT_TRUE(output() == whole_) << "exit 0, but " << GetParam().output << " is another";

@@ -1,6 +1,7 @@
 #include "packages_evidence.h"
 
 #include <algorithm>
+#include <iterator>
 #include <regex>
 #include <sstream>
 

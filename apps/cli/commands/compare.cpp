@@ -73,14 +73,9 @@ Result<void> try_directory(const fs::path& directory) {
     std::error_code ec;
     if (fs::exists(directory, ec) && !fs::is_directory(directory, ec))
         return Error{"-o " + directory.string() + ": is a file; name a directory for the report"};
-    std::vector<fs::path> missing;
-    for (fs::path at = fs::absolute(directory, ec); !at.empty() && !fs::exists(at, ec); at = at.parent_path())
-        missing.push_back(at);
-    const fs::path trial = directory / ".dermis_compare_trial";
-    const Result<void> written = write_text_file(trial, "");
-    fs::remove(trial, ec);
-    for (const fs::path& made : missing) fs::remove(made, ec);
-    if (!written) return Error{"-o " + directory.string() + ": " + written.error().message};
+    for (const char* name : {"report.html", "scores.csv", "regions.csv"})
+        if (const Result<void> tried = try_output(directory / name); !tried)
+            return Error{"-o " + directory.string() + ": " + tried.error().message};
     return {};
 }
 
@@ -149,9 +144,10 @@ Result<void> write_tables(const Options& options, const ComparedScenes& scenes,
         regions += i == 0 ? text : text.substr(text.find('\n') + 1);  // one heading
     }
     const fs::path directory(options.output);
-    if (Result<void> written = write_text_file(directory / "scores.csv", scores_csv(rows)); !written)
-        return written;
-    return write_text_file(directory / "regions.csv", regions);
+    const std::string scores = scores_csv(rows);
+    const FileContent files[] = {{directory / "scores.csv", as_bytes(scores)},
+                                 {directory / "regions.csv", as_bytes(regions)}};
+    return write_files(files);
 }
 
 void print_results(const Options& options, const ComparedScenes& scenes,
