@@ -184,8 +184,9 @@ vec3 scattered_occlusion(Surface s) {
                        weight_1 * s.occlusion_blurred.y + weight_2 * s.occlusion_blurred.z;
     float levels = smooth_levels + magnification_levels(occlusion_map, s.uv);
     float sharp = texture(sampler2D(occlusion_map, trilinear_repeat), s.uv).r;
-    if (normals == kNormalsSharp) return of_vertices * sharp;
-    return of_vertices * mix(vec3(sharp), texture(sampler2D(occlusion_map, trilinear_repeat), s.uv, levels).rrr, smooth_weight);
+    if (normals == kNormalsSharp) return min(of_vertices, vec3(sharp));
+    vec3 of_map = mix(vec3(sharp), texture(sampler2D(occlusion_map, trilinear_repeat), s.uv, levels).rrr, smooth_weight);
+    return min(of_vertices, of_map);
 }
 
 vec3 ambient_response(Surface s) {
