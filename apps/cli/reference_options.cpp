@@ -27,7 +27,7 @@ Result<Enum> choose(std::string_view what, const std::string& text, const Named<
 constexpr Named<Integrator> kIntegrators[] = {
     {"surface", Integrator::surface}, {"walk", Integrator::walk}, {"lambert", Integrator::lambert}};
 constexpr Named<PixelFilter> kFilters[] = {{"box", PixelFilter::box}, {"center", PixelFilter::center}};
-constexpr Named<ShadowCasters> kShadows[] = {{"key", ShadowCasters::key}, {"all", ShadowCasters::all}};
+constexpr Named<ShadowCasters> kShadows[] = {{"scene", ShadowCasters::scene}, {"all", ShadowCasters::all}};
 constexpr Named<AmbientModel> kAmbient[] = {{"traced", AmbientModel::traced},
                                             {"renderer", AmbientModel::renderer}};
 constexpr Named<SpecularReflection> kSpecular[] = {{"none", SpecularReflection::none},

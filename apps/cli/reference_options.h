@@ -12,7 +12,8 @@ namespace dermis::cli {
 struct ReferenceOptions {
     SceneChoice scene;
     std::string output, preview, size = "512x512", profile;
-    std::string integrator = "surface", filter = "box", shadows = "key", ambient = "traced", specular = "ggx";
+    std::string integrator = "surface", filter = "box", shadows = "scene", ambient = "traced",
+                specular = "ggx";
     std::string normalisation = "area", cavities = "flesh", medium;
     int samples = 0, probes = 16;  // samples: 0 is 64, or as many as the noise takes
     uint32_t seed = 1;

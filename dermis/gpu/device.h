@@ -80,7 +80,7 @@ class Texture {
 };
 
 /// Vertex streams by the name of the vertex shader's input: position_mm (3 floats), normal (3), tangent (4),
-/// uv (2), curvature_per_mm (1).
+/// uv (2), occlusion (1).
 struct VertexStream {
     std::string name;
     int components = 3;

@@ -1,11 +1,12 @@
 // Around every position: gather a neighbourhood, write its points as heights over the tangent plane, fit
-// z = a + b x + c y + d x^2/2 + e x y + f y^2/2 + (d + f) z^2/4, and take H from the derivatives at the foot.
-// The last term, of third order at most, makes spheres exact, which a parabola is not over more than a few
-// degrees.
+// z = a + b x + c y + d x^2/2 + e x y + f y^2/2 + (d + f) z^2/4, and take the tensor from the derivatives at
+// the foot. The last term, of third order at most, makes spheres exact, which a parabola is not over more
+// than a few degrees.
 
 #include "dermis/mesh/curvature.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -151,21 +152,36 @@ std::optional<Terms> solve(const Eigen::Matrix<double, kTerms, kTerms>& lower, c
     return factor.solve(rhs);
 }
 
-// H of the graph of z(x, y), positive where it bends away from the normal.
-double mean_curvature(double zx, double zy, double zxx, double zxy, double zyy) {
-    const double w = 1 + zx * zx + zy * zy;
-    return -((1 + zy * zy) * zxx - 2 * zx * zy * zxy + (1 + zx * zx) * zyy) / (2 * w * std::sqrt(w));
+struct Derivatives {
+    double zx, zy, zxx, zxy, zyy;
+};
+
+// Of the graph of z(x, y), in its own axes: S = J I^-1 II I^-1 J^T with both fundamental forms (do Carmo
+// 1976, section 3-3) and J = (1, 0, zx; 0, 1, zy)^T; positive where it bends away from the normal.
+Eigen::Matrix3d tensor_of_graph(const Derivatives& d) {
+    Eigen::Matrix<double, 3, 2> j;
+    j << 1, 0, 0, 1, d.zx, d.zy;
+    Eigen::Matrix2d second;
+    second << d.zxx, d.zxy, d.zxy, d.zyy;
+    second /= -std::sqrt(1 + d.zx * d.zx + d.zy * d.zy);
+    const Eigen::Matrix<double, 3, 2> dual = j * (j.transpose() * j).inverse();
+    return dual * second * dual.transpose();
 }
 
-float fit_at(const Surface& surface, uint32_t centre, std::span<const Neighbour> neighbours,
-             double sigma_mm) {
+CurvatureTensor to_tensor(const Eigen::Matrix3d& s) {
+    return {{float(s(0, 0)), float(s(1, 1)), float(s(2, 2))},
+            {float(s(1, 2)), float(s(0, 2)), float(s(0, 1))}};
+}
+
+CurvatureTensor fit_at(const Surface& surface, uint32_t centre, std::span<const Neighbour> neighbours,
+                       double sigma_mm) {
     const Vec3 origin = surface.positions[centre], n = surface.normals[centre];
     const Vec3 x_axis = normalize(cross(std::abs(n.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n));
     const Vec3 y_axis = cross(n, x_axis);
     double scale = 0;  // lengths over the farthest neighbour: the terms then have like sizes
     for (const Neighbour& other : neighbours)
         scale = std::max(scale, double(length(surface.positions[other.position] - origin)));
-    if (scale == 0) return 0;
+    if (scale == 0) return {};
     Eigen::Matrix<double, kTerms, kTerms> normal_matrix;
     normal_matrix.setZero();
     Terms rhs = Terms::Zero();
@@ -181,23 +197,29 @@ float fit_at(const Surface& surface, uint32_t centre, std::span<const Neighbour>
         rhs += weight * z * terms;
     }
     const std::optional<Terms> solved = solve(normal_matrix, rhs);
-    if (!solved) return 0;
+    if (!solved) return {};
     // Implicit derivatives at the foot, where z = c[0].
     const Terms& c = *solved;
     const double s = (c[3] + c[5]) / 2, m = 1 - s * c[0];
     const double zx = c[1] / m, zy = c[2] / m;
-    const double curvature =
-        mean_curvature(zx, zy, (c[3] + s * zx * zx) / m, (c[4] + s * zx * zy) / m, (c[5] + s * zy * zy) / m) /
-        scale;
-    return std::isfinite(curvature) ? float(curvature) : 0.0f;
+    const Eigen::Matrix3d tensor = tensor_of_graph({zx, zy, (c[3] + s * zx * zx) / m,
+                                                    (c[4] + s * zx * zy) / m, (c[5] + s * zy * zy) / m}) /
+                                   scale;
+    if (!tensor.allFinite()) return {};
+    Eigen::Matrix3d axes;
+    for (int row = 0; row < 3; ++row) {
+        const auto of = [row](Vec3 v) { return double(row == 0 ? v.x : row == 1 ? v.y : v.z); };
+        axes.row(row) << of(x_axis), of(y_axis), of(n);
+    }
+    return to_tensor(axes * tensor * axes.transpose());
 }
 
 }  // namespace
 
-std::vector<float> compute_curvature(const Mesh& mesh, double smoothing_mm) {
+std::vector<CurvatureTensor> compute_curvature_tensors(const Mesh& mesh, double smoothing_mm) {
     const Weld weld = weld_positions(mesh.positions_mm);
     const Surface surface = weld_surface(mesh, weld);
-    std::vector<float> welded(weld.count());
+    std::vector<CurvatureTensor> welded(weld.count());
     // Large blocks: every one makes a walker, whose marks are as long as the mesh.
     parallel_for(weld.count(), 4096, [&](size_t begin, size_t end) {
         Walker walker(surface);
@@ -210,9 +232,17 @@ std::vector<float> compute_curvature(const Mesh& mesh, double smoothing_mm) {
             welded[i] = fit_at(surface, centre, around, sigma_mm);
         }
     });
+    std::vector<CurvatureTensor> tensors;
+    tensors.reserve(mesh.positions_mm.size());
+    for (const uint32_t id : weld.ids) tensors.push_back(welded[id]);
+    return tensors;
+}
+
+std::vector<float> compute_curvature(const Mesh& mesh, double smoothing_mm) {
     std::vector<float> curvatures;
     curvatures.reserve(mesh.positions_mm.size());
-    for (const uint32_t id : weld.ids) curvatures.push_back(welded[id]);
+    for (const CurvatureTensor& tensor : compute_curvature_tensors(mesh, smoothing_mm))
+        curvatures.push_back(mean_curvature(tensor));
     return curvatures;
 }
 

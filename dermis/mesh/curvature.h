@@ -1,5 +1,5 @@
 #pragma once
-// Signed mean curvature of a mesh.
+// How a mesh bends: the curvature tensor, and the signed mean curvature.
 
 #include <vector>
 
@@ -29,5 +29,9 @@ namespace dermis {
 ///
 /// Cost: 20 ms for 9,000 vertices unsmoothed on one core; all cores are used.
 [[nodiscard]] std::vector<float> compute_curvature(const Mesh& mesh, double smoothing_mm = 0);
+
+/// The whole tensor by the same fit; compute_curvature() is half its trace.
+[[nodiscard]] std::vector<CurvatureTensor> compute_curvature_tensors(const Mesh& mesh,
+                                                                     double smoothing_mm = 0);
 
 }  // namespace dermis

@@ -18,6 +18,30 @@ struct Submesh {
     uint32_t material = 0;  ///< into Mesh::materials
 };
 
+/// How a surface bends at a point, as a symmetric matrix in space (1/mm): S d is how fast the unit normal
+/// turns on the way along the unit tangent d, d.S d the curvature of the surface in that direction, positive
+/// where convex, and S n = 0. On a sphere of radius R it is (1 - n n^T) / R, on a cylinder 1/R across its
+/// axis and 0 along it.
+struct CurvatureTensor {
+    Vec3 diagonal;  ///< xx, yy, zz
+    Vec3 mixed;     ///< yz, xz, xy
+    friend bool operator==(const CurvatureTensor&, const CurvatureTensor&) = default;
+};
+constexpr Vec3 operator*(const CurvatureTensor& s, Vec3 d) {
+    return {s.diagonal.x * d.x + s.mixed.z * d.y + s.mixed.y * d.z,
+            s.mixed.z * d.x + s.diagonal.y * d.y + s.mixed.x * d.z,
+            s.mixed.y * d.x + s.mixed.x * d.y + s.diagonal.z * d.z};
+}
+/// Half its trace.
+constexpr float mean_curvature(const CurvatureTensor& s) {
+    return 0.5f * (s.diagonal.x + s.diagonal.y + s.diagonal.z);
+}
+/// Of a surface that bends alike in all directions.
+constexpr CurvatureTensor isotropic_curvature(float curvature_per_mm, Vec3 n) {
+    return {curvature_per_mm * (Vec3{1, 1, 1} - n * n),
+            -curvature_per_mm * Vec3{n.y * n.z, n.x * n.z, n.x * n.y}};
+}
+
 /// Structure of arrays; every attribute is empty or has one entry a position. Right-handed, Y up,
 /// counter-clockwise fronts, UV origin top-left (v down, as glTF and Vulkan have it; OBJ's bottom-left is
 /// flipped on load).
@@ -27,12 +51,13 @@ struct Mesh {
     std::vector<Vec4> tangents;  ///< unit xyz along +u; w = +1 or -1, bitangent = w * cross(normal, tangent)
                                  ///< points up in the texture image (towards smaller v), as glTF has it
     std::vector<Vec2> uvs;
-    std::vector<Vec4> colors_linear;       ///< multiply base colour and opacity
-    std::vector<float> curvatures_per_mm;  ///< signed mean curvature, positive where convex
-    std::vector<float> occlusions;         ///< ambient visibility, 0 closed in, 1 open
-    std::vector<uint32_t> indices;         ///< three a triangle
-    std::vector<Submesh> submeshes;        ///< cover all indices, in order
-    std::vector<Material> materials;       ///< at least one
+    std::vector<Vec4> colors_linear;                        ///< multiply base colour and opacity
+    std::vector<float> curvatures_per_mm;                   ///< signed mean curvature, positive where convex
+    std::vector<CurvatureTensor> curvature_tensors_per_mm;  ///< absent: alike in all directions
+    std::vector<float> occlusions;                          ///< ambient visibility, 0 closed in, 1 open
+    std::vector<uint32_t> indices;                          ///< three a triangle
+    std::vector<Submesh> submeshes;                         ///< cover all indices, in order
+    std::vector<Material> materials;                        ///< at least one
 
     [[nodiscard]] size_t triangle_count() const { return indices.size() / 3; }
 };

@@ -91,9 +91,9 @@ Vec3 Lighting::transmittance(const Ray& ray) const {
     return through;
 }
 
-Vec3 Lighting::light_visibility(const Light& light, const Receiver& receiver, Vec3 to_light,
-                                float distance_mm, Vec2 u) const {
-    if (settings_.shadows == ShadowCasters::key && !light.is_key) return {1, 1, 1};
+Vec3 Lighting::light_visibility(size_t light, const Receiver& receiver, Vec3 to_light, float distance_mm,
+                                Vec2 u) const {
+    if (settings_.shadows == ShadowCasters::scene && shadow_maps_[light] < 0) return {1, 1, 1};
     const float offset_mm = 10 * rays_.epsilon_mm(), radius_mm = 0.5f * settings_.penumbra_mm;
     Vec3 origin_mm = receiver.p_smooth_mm + receiver.n_geometry * offset_mm;
     if (radius_mm > 0) origin_mm += tangent_disk(receiver.n_geometry, to_light, sample_disk(u), radius_mm);
@@ -123,8 +123,8 @@ Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingRa
 
 Vec3 Lighting::irradiance(const Receiver& receiver, const LightingRandom& random) const {
     Vec3 sum;
-    for (const Light& light : scene_.lights) {
-        const LightArrival arrival = light_at(light, receiver.p_smooth_mm);
+    for (size_t light = 0; light < scene_.lights.size(); ++light) {
+        const LightArrival arrival = light_at(scene_.lights[light], receiver.p_smooth_mm);
         const float cosine = dot(receiver.n, arrival.to_light);
         if (cosine <= 0 || is_black(arrival.irradiance_linear)) continue;
         const Vec3 visible =
@@ -162,8 +162,8 @@ Vec3 Lighting::specular_radiance(const ShadingPoint& given, Vec3 to_eye, const L
     point.f0 = given.f0 + (1 - given.f0) * given.metallic;
     const Receiver receiver{point.p_smooth_mm, point.n_geometry, point.n, point.occlusion};
     Vec3 sum;
-    for (const Light& light : scene_.lights) {
-        const LightArrival arrival = light_at(light, point.p_smooth_mm);
+    for (size_t light = 0; light < scene_.lights.size(); ++light) {
+        const LightArrival arrival = light_at(scene_.lights[light], point.p_smooth_mm);
         const float response = specular_response(settings_.specular, point.n, to_eye, arrival.to_light,
                                                  point.roughness, point.f0);
         if (response <= 0 || is_black(arrival.irradiance_linear)) continue;

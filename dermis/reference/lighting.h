@@ -13,8 +13,8 @@
 
 namespace dermis {
 
-/// Which lights cast shadows: the key light alone, as the renderer has it, or every one.
-enum class ShadowCasters { key, all };
+/// Which lights cast shadows: those with a shadow map in the renderer (Scene::shadow_maps), or every one.
+enum class ShadowCasters { scene, all };
 
 /// Environment light: traced through the scene, or as the renderer approximates it (order-2 harmonics times
 /// the vertices' ambient visibility, and the split sum for its reflections when a Lighting is given one).
@@ -23,7 +23,7 @@ enum class AmbientModel { traced, renderer };
 enum class SpecularReflection { none, blinn_phong, ggx };
 
 struct LightingSettings {
-    ShadowCasters shadows = ShadowCasters::key;
+    ShadowCasters shadows = ShadowCasters::scene;
     AmbientModel ambient = AmbientModel::traced;
     SpecularReflection specular = SpecularReflection::ggx;
     /// Full width of the edge of every shadow, as the renderer's filter makes it: the shadow ray starts
@@ -61,6 +61,7 @@ class Lighting {
           environment_(environment),
           settings_(settings),
           reflection_(reflection),
+          shadow_maps_(scene.shadow_maps()),
           harmonic_entry_(settings.entry_eta > 1 ? float(1 - diffuse_external_reflectance(settings.entry_eta))
                                                  : 1.0f) {}
 
@@ -81,7 +82,7 @@ class Lighting {
     [[nodiscard]] const LightingSettings& settings() const { return settings_; }
 
   private:
-    [[nodiscard]] Vec3 light_visibility(const Light& light, const Receiver& receiver, Vec3 to_light,
+    [[nodiscard]] Vec3 light_visibility(size_t light, const Receiver& receiver, Vec3 to_light,
                                         float distance_mm, Vec2 u) const;
     [[nodiscard]] Vec3 environment_irradiance(const Receiver& receiver, const LightingRandom& random) const;
     [[nodiscard]] Vec3 environment_reflection(const ShadingPoint& point, Vec3 to_eye, Vec2 u) const;
@@ -92,6 +93,7 @@ class Lighting {
     const EnvironmentSampler& environment_;
     LightingSettings settings_;
     const SplitSumReflection* reflection_;
+    std::vector<int> shadow_maps_;
     float harmonic_entry_;  // the part of even light that enters; an integral, so it is made once
 };
 

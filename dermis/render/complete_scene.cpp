@@ -13,25 +13,26 @@ namespace {
 
 std::string curvature_hash(const Mesh& mesh) {
     Hasher hasher;
-    hasher.add("curvature 1").add(kCurvatureSmoothingMm);
+    hasher.add("curvature 2").add(kCurvatureSmoothingMm);
     hasher.add(std::as_bytes(std::span(mesh.positions_mm)));
     hasher.add(std::as_bytes(std::span(mesh.normals)));
     hasher.add(std::as_bytes(std::span(mesh.indices)));
     return hasher.hex();
 }
 
-Result<std::vector<float>> cached_curvature(const Mesh& mesh) {
+Result<std::vector<CurvatureTensor>> cached_curvature(const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
-    const Result<std::vector<std::byte>> bytes = cached(
-        "curvature", curvature_hash(mesh), count * sizeof(float), [&]() -> Result<std::vector<std::byte>> {
-            const std::vector<float> curvatures = compute_curvature(mesh, kCurvatureSmoothingMm);
-            const auto view = std::as_bytes(std::span(curvatures));
-            return std::vector<std::byte>(view.begin(), view.end());
-        });
+    const Result<std::vector<std::byte>> bytes =
+        cached("curvature", curvature_hash(mesh), count * sizeof(CurvatureTensor),
+               [&]() -> Result<std::vector<std::byte>> {
+                   const auto tensors = compute_curvature_tensors(mesh, kCurvatureSmoothingMm);
+                   const auto view = std::as_bytes(std::span(tensors));
+                   return std::vector<std::byte>(view.begin(), view.end());
+               });
     if (!bytes) return bytes.error();
-    std::vector<float> curvatures(count);
-    std::memcpy(curvatures.data(), bytes->data(), bytes->size());
-    return curvatures;
+    std::vector<CurvatureTensor> tensors(count);
+    std::memcpy(tensors.data(), bytes->data(), bytes->size());
+    return tensors;
 }
 
 bool has_occlusion(const SceneObject& object) {
@@ -43,9 +44,12 @@ bool has_occlusion(const SceneObject& object) {
 Result<void> complete_scene(Scene& scene) {
     for (SceneObject& object : scene.objects) {
         if (object.mesh.curvatures_per_mm.size() == object.mesh.positions_mm.size()) continue;
-        Result<std::vector<float>> curvatures = cached_curvature(object.mesh);
-        if (!curvatures) return curvatures.error();
-        object.mesh.curvatures_per_mm = std::move(*curvatures);
+        Result<std::vector<CurvatureTensor>> tensors = cached_curvature(object.mesh);
+        if (!tensors) return tensors.error();
+        object.mesh.curvatures_per_mm.clear();
+        for (const CurvatureTensor& tensor : *tensors)
+            object.mesh.curvatures_per_mm.push_back(mean_curvature(tensor));
+        object.mesh.curvature_tensors_per_mm = std::move(*tensors);
     }
     if (std::ranges::all_of(scene.objects, has_occlusion)) return {};
     Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(scene.objects);

@@ -48,13 +48,17 @@ static_assert(int(LightKind::directional) == kLightDirectional && int(LightKind:
 
 std::vector<gpu::Values> light_values(const Scene& scene) {
     std::vector<gpu::Values> lights;
-    for (const Light& light : scene.lights) {
+    const std::vector<int> maps = scene.shadow_maps();
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
         lights.push_back({{"kind", int32_t(light.kind)},
                           {"intensity_linear", light.color_linear * light.intensity},
                           {"to_light_world", light.to_light_world},
                           {"position_mm", light.position_mm},
                           {"cos_inner", std::cos(light.inner_angle_rad)},
-                          {"cos_outer", std::cos(light.outer_angle_rad)}});
+                          {"cos_outer", std::cos(light.outer_angle_rad)},
+                          {"shadow_map_index", int32_t(maps[i])},
+                          {"light_view_projection", light_matrix_of(scene, int(i))}});
     }
     if (lights.empty()) {
         lights.push_back({{"kind", int32_t(kLightDirectional)},
@@ -62,7 +66,9 @@ std::vector<gpu::Values> light_values(const Scene& scene) {
                           {"to_light_world", Vec3{0, 0, 1}},
                           {"position_mm", Vec3{}},
                           {"cos_inner", 1.0f},
-                          {"cos_outer", 0.0f}});
+                          {"cos_outer", 0.0f},
+                          {"shadow_map_index", int32_t(-1)},
+                          {"light_view_projection", Mat4{}}});
     }
     return lights;
 }

@@ -10,6 +10,7 @@
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
 #include "dermis/render/material_maps.h"
+#include "shaders/include/constants.h"
 
 namespace dermis {
 namespace {
@@ -53,6 +54,17 @@ std::string light_key(const Technique& technique, const ParameterValues& values,
             std::visit([&](const auto& v) { hasher.add(std::as_bytes(std::span(&v, 1))); }, value);
     hasher.add(scene.environment.intensity).add(scene.environment.yaw_rad).add(scene.skin.profile);
     return hasher.hex();
+}
+
+// The lights with a map beside the first one.
+std::vector<int> lights_by_shadow_map(const Scene& scene) {
+    const std::vector<int> maps = scene.shadow_maps();
+    std::vector<int> lights;
+    for (int map = 1; map < kMaxShadowMaps; ++map) {
+        const auto found = std::ranges::find(maps, map);
+        if (found != maps.end()) lights.push_back(int(found - maps.begin()));
+    }
+    return lights;
 }
 
 }  // namespace
@@ -200,17 +212,20 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
     const Result<const SkinContext*> skin = skin_context();
     if (!skin) return skin.error();
     const std::string key = light_key(technique, values, settings, *scene_);
+    const std::vector<int> shadow_lights = lights_by_shadow_map(*scene_);
     const FrameContext frame = {
         .view = settings.view,
         .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
         .previous_camera_distance_mm = key == history_key_ ? history_distance_mm_ : 0,
         .shadow_map_size = settings.shadow_map_size,
+        .shadow_map_count = 1 + int(shadow_lights.size()),
         .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
         .has_second_light = scene_->lights.size() > 1,
         .densest_uv_per_mm = uploaded_->densest_uv_per_mm(),
         .skin_gaussians = (*skin)->gaussians};
     const SharedPassSettings shared = {.samples = settings.samples,
                                        .shadow_map_size = settings.shadow_map_size,
+                                       .shadow_lights = shadow_lights,
                                        .deep = settings.deep,
                                        .tone_map = scene_->tone_map,
                                        .view = settings.view,

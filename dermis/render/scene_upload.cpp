@@ -5,6 +5,7 @@
 
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
+#include "dermis/mesh/blur_vertices.h"
 #include "dermis/mesh/stretch.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"
@@ -34,13 +35,46 @@ std::vector<T> filled(const std::vector<T>& attribute, size_t count, T neutral) 
     return attribute.size() == count ? attribute : std::vector<T>(count, neutral);
 }
 
+// Where a mesh has no tensors it bends alike in all directions.
+std::vector<CurvatureTensor> curvature_tensors(const Mesh& mesh, const std::vector<Vec3>& normals) {
+    if (mesh.curvature_tensors_per_mm.size() == normals.size()) return mesh.curvature_tensors_per_mm;
+    const auto curvatures = filled(mesh.curvatures_per_mm, normals.size(), 0.0f);
+    std::vector<CurvatureTensor> tensors;
+    for (size_t i = 0; i < normals.size(); ++i)
+        tensors.push_back(isotropic_curvature(curvatures[i], normals[i]));
+    return tensors;
+}
+
+// Three blurs of a vertex's occlusion; itself three times where nothing occludes.
+Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh, const std::vector<float>& occlusions) {
+    std::vector<Vec3> blurred;
+    for (const float occlusion : occlusions) blurred.push_back(Vec3{1, 1, 1} * occlusion);
+    if (std::ranges::all_of(occlusions, [&](float occlusion) { return occlusion == occlusions.front(); }))
+        return blurred;
+    const std::pair<float Vec3::*, float> blurs[] = {{&Vec3::x, kOcclusionVariance0Mm2},
+                                                     {&Vec3::y, kOcclusionVariance1Mm2},
+                                                     {&Vec3::z, kOcclusionVariance2Mm2}};
+    for (const auto& [member, variance_mm2] : blurs) {
+        const Result<std::vector<float>> values = blur_over_surface(mesh, occlusions, variance_mm2);
+        if (!values) return values.error();
+        for (size_t i = 0; i < blurred.size(); ++i) blurred[i].*member = (*values)[i];
+    }
+    return blurred;
+}
+
 Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
     const auto normals = filled(mesh.normals, count, Vec3{0, 0, 1});
     const auto tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
     const auto uvs = filled(mesh.uvs, count, Vec2{});
-    const auto curvatures = filled(mesh.curvatures_per_mm, count, 0.0f);
+    std::vector<Vec3> diagonals, mixed;
+    for (const CurvatureTensor& tensor : curvature_tensors(mesh, normals)) {
+        diagonals.push_back(tensor.diagonal);
+        mixed.push_back(tensor.mixed);
+    }
     const auto occlusions = filled(mesh.occlusions, count, 1.0f);
+    const Result<std::vector<Vec3>> occlusions_blurred = blurred_occlusions(mesh, occlusions);
+    if (!occlusions_blurred) return Error{std::string(name) + ": " + occlusions_blurred.error().message};
     const UvDerivatives derivatives =
         mesh.uvs.size() == count ? vertex_uv_derivatives(mesh) : UvDerivatives{};
     const auto du_mm = filled(derivatives.du_mm, count, Vec3{}),
@@ -49,8 +83,10 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
                                          {"normal", 3, floats_of(normals)},
                                          {"tangent", 4, floats_of(tangents)},
                                          {"uv", 2, floats_of(uvs)},
-                                         {"curvature_per_mm", 1, curvatures},
+                                         {"curvature_diagonal_per_mm", 3, floats_of(diagonals)},
+                                         {"curvature_mixed_per_mm", 3, floats_of(mixed)},
                                          {"occlusion", 1, occlusions},
+                                         {"occlusion_blurred", 3, floats_of(*occlusions_blurred)},
                                          {"du_mm", 3, floats_of(du_mm)},
                                          {"dv_mm", 3, floats_of(dv_mm)}};
     return gpu::Geometry::upload(device, name, streams, mesh.indices);

@@ -2,16 +2,47 @@
 
 #include <algorithm>
 
+#include "dermis/technique/forward.h"
 #include "shaders/renderer/constants.h"
 
 namespace dermis {
 namespace {
 
-Pass shadow_pass() {
-    return {.name = "shadow",
+// `light`: index into Scene::lights, -1 for the key light.
+Pass shadow_pass(int index, int light) {
+    return {.name = "shadow" + (index > 0 ? " " + std::to_string(index) : ""),
             .kind = PassKind::geometry_light,
-            .depth = DepthTarget{.image = "shadow_map"},
-            .geometry = GeometryFilter::opaque};
+            .depth = DepthTarget{.image = shadow_image("shadow_map", index)},
+            .geometry = GeometryFilter::opaque,
+            .constants = {{"from_light", int32_t(light)}}};
+}
+
+// What is translucent before the first opaque surface.
+Pass shadow_tint_pass(int index, int light) {
+    return {.name = "translucent shadow" + (index > 0 ? " " + std::to_string(index) : ""),
+            .kind = PassKind::geometry_light,
+            .shader = "renderer/shadow_tint.frag",
+            .colors = {{.image = shadow_image("shadow_tint", index), .blend = Blend::additive}},
+            .depth =
+                DepthTarget{.image = shadow_image("shadow_map", index), .load = LoadOp::load, .write = false},
+            .geometry = GeometryFilter::translucent,
+            .constants = {{"from_light", int32_t(light)}}};
+}
+
+void add_shadows(PassList& list, const SharedPassSettings& settings) {
+    const ImageSize size = {settings.shadow_map_size, settings.shadow_map_size};
+    std::vector<int> lights = {-1};
+    lights.insert(lights.end(), settings.shadow_lights.begin(), settings.shadow_lights.end());
+    for (int i = 0; i < int(lights.size()); ++i) {
+        const int light = lights[size_t(i)];
+        list.images.push_back(
+            {.name = shadow_image("shadow_map", i), .format = ImageFormat::depth32f, .size = size});
+        list.passes.push_back(shadow_pass(i, light));
+        if (!settings.has_translucent) continue;
+        list.images.push_back(
+            {.name = shadow_image("shadow_tint", i), .format = ImageFormat::rgba16f, .size = size});
+        list.passes.push_back(shadow_tint_pass(i, light));
+    }
 }
 
 // Clears depth on its way, so that every later pass loads both.
@@ -23,24 +54,26 @@ Pass background_pass() {
             .depth = DepthTarget{.image = "depth", .write = false, .compare = Compare::always}};
 }
 
-Pass other_pass() {
-    return {.name = "other",
-            .kind = PassKind::geometry_screen,
-            .shader = "renderer/standard.frag",
-            .reads = {"shadow_map"},
-            .colors = {{.image = "radiance", .load = LoadOp::load}},
-            .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
-            .geometry = GeometryFilter::other};
+Pass other_pass(const SharedPassSettings& settings) {
+    Pass pass = {.name = "other",
+                 .kind = PassKind::geometry_screen,
+                 .shader = "renderer/standard.frag",
+                 .colors = {{.image = "radiance", .load = LoadOp::load}},
+                 .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
+                 .geometry = GeometryFilter::other};
+    read_shadows(pass, 1 + int(settings.shadow_lights.size()), settings.has_translucent);
+    return pass;
 }
 
 // Glass: what lies behind is multiplied, then what the glass reflects is added. Neither minds the order.
-std::vector<Pass> translucent_passes() {
+std::vector<Pass> translucent_passes(const SharedPassSettings& settings) {
     constexpr uint32_t kColor = 7;
     const DepthTarget tested = {.image = "depth", .load = LoadOp::load, .write = false};
-    Pass tint = other_pass(), gloss = other_pass();
+    Pass tint = other_pass(settings), gloss = other_pass(settings);
     tint.name = "translucent tint", gloss.name = "translucent";
     tint.shader = "renderer/translucent_tint.frag";
     tint.reads.clear();
+    tint.constants.clear();
     tint.geometry = gloss.geometry = GeometryFilter::translucent;
     tint.depth = gloss.depth = tested;
     tint.colors[0].blend = Blend::multiply, gloss.colors[0].blend = Blend::additive;
@@ -126,16 +159,13 @@ std::vector<std::string> shared_inputs() {
 PassList frame_passes(const PassList& technique, const SharedPassSettings& settings) {
     const auto view = std::ranges::find(gbuffer_views(), settings.view);
     const bool shows_gbuffer = view != gbuffer_views().end();
-    const int shadow_size = settings.shadow_map_size;
     const ImageFormat radiance_format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba16f;
 
     PassList list{.seams = technique.seams, .needed_maps = technique.needed_maps};
-    list.images = {
-        {.name = "shadow_map", .format = ImageFormat::depth32f, .size = {shadow_size, shadow_size}},
-        {.name = "radiance", .format = radiance_format, .samples = settings.samples},
-        {.name = "depth", .format = ImageFormat::depth32f, .samples = settings.samples},
-        {.name = "display", .format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba8}};
-    list.passes = {shadow_pass()};
+    list.images = {{.name = "radiance", .format = radiance_format, .samples = settings.samples},
+                   {.name = "depth", .format = ImageFormat::depth32f, .samples = settings.samples},
+                   {.name = "display", .format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba8}};
+    add_shadows(list, settings);
     if (settings.gbuffer || shows_gbuffer) {
         for (const std::string& image : gbuffer_images())
             list.images.push_back({.name = image, .format = ImageFormat::rgba32f});
@@ -150,9 +180,9 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     list.passes.push_back(background_pass());
     list.images.insert(list.images.end(), technique.images.begin(), technique.images.end());
     list.passes.insert(list.passes.end(), technique.passes.begin(), technique.passes.end());
-    if (settings.has_other) list.passes.push_back(other_pass());
+    if (settings.has_other) list.passes.push_back(other_pass(settings));
     if (settings.has_translucent)
-        for (Pass& pass : translucent_passes()) list.passes.push_back(std::move(pass));
+        for (Pass& pass : translucent_passes(settings)) list.passes.push_back(std::move(pass));
     if (settings.samples > 1) {
         list.images.push_back({.name = "radiance_resolved", .format = radiance_format});
         list.passes.push_back({.name = "resolve",

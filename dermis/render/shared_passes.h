@@ -9,7 +9,8 @@ namespace dermis {
 struct SharedPassSettings {
     int samples = 1;
     int shadow_map_size = 2048;
-    bool deep = false;  ///< radiance and display in 32-bit float
+    std::vector<int> shadow_lights;  ///< beside the key light, by their maps: index into Scene::lights
+    bool deep = false;               ///< radiance and display in 32-bit float
     ToneMap tone_map = ToneMap::hable;
     std::string view =
         "final";  ///< final, diffuse, specular, one of the technique's, or one of gbuffer_views()

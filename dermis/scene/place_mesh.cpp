@@ -17,6 +17,16 @@ struct Rotation {
         y = {cz * sy * sx - sz * cx, sz * sy * sx + cz * cx, cy * sx};
         z = {cz * sy * cx + sz * sx, sz * sy * cx - cz * sx, cy * cx};
     }
+    // R S R^T: R over the columns of S, then over the rows of that.
+    [[nodiscard]] CurvatureTensor tensor(const CurvatureTensor& s) const {
+        const Vec3 sx = s * row(0), sy = s * row(1), sz = s * row(2);
+        const Vec3 cx = (*this)(sx), cy = (*this)(sy), cz = (*this)(sz);
+        return {{cx.x, cy.y, cz.z}, {cz.y, cz.x, cy.x}};
+    }
+    [[nodiscard]] Vec3 row(int r) const {
+        if (r == 0) return {x.x, y.x, z.x};
+        return r == 1 ? Vec3{x.y, y.y, z.y} : Vec3{x.z, y.z, z.z};
+    }
     Vec3 operator()(Vec3 v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
@@ -31,6 +41,11 @@ void place_mesh(Mesh& mesh, const Placement& placement) {
         t = {turned.x, turned.y, turned.z, t.w};
     }
     for (float& curvature : mesh.curvatures_per_mm) curvature /= placement.scale;
+    for (CurvatureTensor& tensor : mesh.curvature_tensors_per_mm) {
+        tensor = rotate.tensor(tensor);
+        tensor.diagonal *= 1 / placement.scale;
+        tensor.mixed *= 1 / placement.scale;
+    }
 }
 
 void hide_materials(Mesh& mesh, const std::vector<bool>& hidden) {

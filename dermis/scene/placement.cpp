@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dermis/base/angle.h"
+#include "shaders/include/constants.h"
 
 namespace dermis {
 void apply_skin(const Skin& skin, Material& material) {
@@ -47,6 +48,18 @@ void place_in_studio(Scene& scene) {
 const Light& Scene::key_light() const {
     const auto found = std::ranges::find_if(lights, &Light::is_key);
     return found == lights.end() ? lights.front() : *found;
+}
+
+std::vector<int> Scene::shadow_maps() const {
+    std::vector<int> maps(lights.size(), -1);
+    // Map 0 is the key light's, whether it casts a shadow or not.
+    int used = 0, next = 1;
+    for (size_t i = 0; i < lights.size(); ++i)
+        if (lights[i].is_key && lights[i].casts_shadow && used < shadow_map_budget) maps[i] = 0, ++used;
+    for (size_t i = 0; i < lights.size(); ++i)
+        if (!lights[i].is_key && lights[i].casts_shadow && used < shadow_map_budget && next < kMaxShadowMaps)
+            maps[i] = next++, ++used;
+    return maps;
 }
 
 }  // namespace dermis

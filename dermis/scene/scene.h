@@ -28,7 +28,8 @@ struct Light {
     Vec3 to_light_world = {0, 0, 1};  ///< unit; directional: towards the light. Spot: against its axis
     Vec3 position_mm = {0, 0, 1000};  ///< point and spot
     float inner_angle_rad = 0.35f, outer_angle_rad = 0.5f;  ///< spot: full and no light, from its axis
-    bool is_key = false;                                    ///< the one that casts the shadow
+    bool is_key = false;                                    ///< the first to get a shadow map
+    bool casts_shadow = true;
 };
 
 /// Vertical field of view; right-handed, looking from eye to target.
@@ -89,6 +90,7 @@ struct Scene {
     std::string name;
     std::vector<SceneObject> objects;
     std::vector<Light> lights;  ///< at least one; exactly one is_key
+    int shadow_map_budget = 3;  ///< lights that cast shadows, at most (kMaxShadowMaps)
     Camera camera;
     Environment environment;
     Skin skin;
@@ -104,6 +106,9 @@ struct Scene {
     float bounds_radius_mm = 1;
 
     [[nodiscard]] const Light& key_light() const;
+    /// Of each light the number of its shadow map, -1 for none: the key light first, then the others in their
+    /// order, as far as the budget goes. Renderer and ground truth have the same shadows by it.
+    [[nodiscard]] std::vector<int> shadow_maps() const;
 };
 
 /// The scene without its objects, which are large: what can be changed of it after loading.

@@ -61,6 +61,7 @@ struct LightDescription {
     std::optional<Vec3> position_mm, target_mm;
     float inner_angle_deg = 20, outer_angle_deg = 28;
     std::optional<bool> key;
+    bool shadow = true;
 };
 
 /// Either an eye, or a yaw, pitch and distance around a target; what is missing frames the scene.
@@ -86,6 +87,7 @@ struct HeadDescription {
     Vec3 background_linear = {0.02f, 0.02f, 0.022f};
     ToneMap tone_map = ToneMap::hable;
     float exposure_ev = 0;
+    int shadow_maps = 3;
 };
 
 struct SceneDescription {

@@ -64,6 +64,8 @@ void add(Hasher& hasher, const Light& light) {
     add(hasher, light.position_mm);
     hasher.add(light.kind).add(light.intensity).add(light.inner_angle_rad).add(light.outer_angle_rad);
     hasher.add(light.is_key);
+    // Only what differs from a scene with one light, so that its cached ground truth is found.
+    if (light.casts_shadow != light.is_key) hasher.add("shadow").add(light.casts_shadow);
 }
 
 void add(Hasher& hasher, const Camera& camera) {
@@ -76,6 +78,8 @@ void add(Hasher& hasher, const Camera& camera) {
 // All but the objects and the panorama.
 void add_views(Hasher& hasher, const Scene& scene) {
     for (const Light& light : scene.lights) add(hasher, light);
+    if (scene.shadow_map_budget != Scene{}.shadow_map_budget)
+        hasher.add("shadow maps").add(scene.shadow_map_budget);
     add(hasher, scene.camera);
     const Environment& environment = scene.environment;
     hasher.add(environment.kind).add(environment.intensity).add(environment.yaw_rad).add(environment.visible);

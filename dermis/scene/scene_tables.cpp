@@ -4,6 +4,7 @@
 
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_keys.h"
+#include "shaders/include/constants.h"
 
 namespace dermis {
 namespace {
@@ -77,6 +78,12 @@ const KeyTable<HeadDescription>& head_keys() {
                                       .min = -20,
                                       .max = 20,
                                       .changeable = true})
+            .integer(
+                &D::shadow_maps,
+                {.name = "shadow_maps",
+                 .doc = "lights that cast shadows, at most: the key light, then the others in their order",
+                 .max = kMaxShadowMaps,
+                 .changeable = true})
             .text(&D::technique,
                   {.name = "technique",
                    .doc = "id of the technique to draw the skin with; see `dermis techniques`"});
@@ -275,8 +282,9 @@ const KeyTable<LightDescription>& light_keys() {
                                           .min = 0.1,
                                           .max = 89.5})
             .toggle(&D::key, {.name = "key",
-                              .doc = "the light that casts the shadow; exactly one. A single light is the "
-                                     "key light without it"});
+                              .doc = "the main light, the first to get a shadow map; exactly one. A single "
+                                     "light is the key light without it"})
+            .toggle(&D::shadow, {.name = "shadow", .doc = "casts a shadow, if shadow_maps allows it"});
     return table;
 }
 

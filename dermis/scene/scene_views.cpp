@@ -3,6 +3,7 @@
 #include "dermis/base/angle.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_files.h"
+#include "shaders/include/constants.h"
 
 namespace dermis {
 namespace {
@@ -56,7 +57,8 @@ Light place_light(const LightDescription& given, Vec3 center_mm) {
                 .position_mm = target_mm + direction * given.distance_mm.value_or(0),
                 .inner_angle_rad = given.inner_angle_deg * kRadiansPerDegree,
                 .outer_angle_rad = given.outer_angle_deg * kRadiansPerDegree,
-                .is_key = given.key.value_or(false)};
+                .is_key = given.key.value_or(false),
+                .casts_shadow = given.shadow};
     if (given.position_mm) {
         light.position_mm = *given.position_mm;
         const Vec3 axis = normalize(*given.position_mm - target_mm);
@@ -93,6 +95,13 @@ Result<void> place_views(const SceneDescription& description, Scene& scene) {
     scene.background_linear = head.background_linear;
     scene.tone_map = head.tone_map;
     scene.exposure_ev = head.exposure_ev;
+    scene.shadow_map_budget = head.shadow_maps;
+    const std::vector<int> maps = scene.shadow_maps();
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+        if (scene.lights[i].casts_shadow && maps[i] < 0)
+            scene.warnings.push_back("light " + std::to_string(i + 1) + " casts no shadow: shadow_maps = " +
+                                     std::to_string(scene.shadow_map_budget) + "; raise it (at most " +
+                                     std::to_string(kMaxShadowMaps) + ") or give the light shadow = false");
     return {};
 }
 
@@ -107,7 +116,8 @@ LightDescription describe(const Light& light, Vec3 center_mm) {
                            .pitch_deg = orbit.pitch_deg,
                            .inner_angle_deg = light.inner_angle_rad / kRadiansPerDegree,
                            .outer_angle_deg = light.outer_angle_rad / kRadiansPerDegree,
-                           .key = light.is_key};
+                           .key = light.is_key,
+                           .shadow = light.casts_shadow};
     if (!directional) given.distance_mm = orbit.distance_mm;
     return given;
 }
@@ -124,7 +134,8 @@ CameraDescription describe(const Camera& camera) {
 SceneDescription describe(const Scene& scene) {
     SceneDescription description{.head = {.background_linear = scene.background_linear,
                                           .tone_map = scene.tone_map,
-                                          .exposure_ev = scene.exposure_ev},
+                                          .exposure_ev = scene.exposure_ev,
+                                          .shadow_maps = scene.shadow_map_budget},
                                  .skin = scene.skin,
                                  .environment = describe(scene.environment),
                                  .camera = describe(scene.camera)};
@@ -136,6 +147,7 @@ SceneDescription describe(const Scene& scene) {
 Scene without_objects(const Scene& scene) {
     return {.name = scene.name,
             .lights = scene.lights,
+            .shadow_map_budget = scene.shadow_map_budget,
             .camera = scene.camera,
             .environment = scene.environment,
             .skin = scene.skin,

@@ -141,6 +141,7 @@ void take_changes(const Scene& before, const Scene& after, Scene& scene) {
         light.color_linear = fresh.color_linear;
         light.intensity = fresh.intensity;
         light.is_key = fresh.is_key;
+        light.casts_shadow = fresh.casts_shadow;
         take_change(old.to_light_world, fresh.to_light_world, light.to_light_world);
         take_change(old.position_mm, fresh.position_mm, light.position_mm);
         take_change(old.inner_angle_rad, fresh.inner_angle_rad, light.inner_angle_rad);
@@ -150,6 +151,7 @@ void take_changes(const Scene& before, const Scene& after, Scene& scene) {
     scene.background_linear = after.background_linear;
     scene.tone_map = after.tone_map;
     scene.exposure_ev = after.exposure_ev;
+    scene.shadow_map_budget = after.shadow_map_budget;
 }
 
 }  // namespace

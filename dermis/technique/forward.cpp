@@ -16,17 +16,33 @@ const std::vector<std::string>& specular_model_names() {
     return kNames;
 }
 
+std::string shadow_image(std::string_view name, int index) {
+    return std::string(name) + (index > 0 ? "_" + std::to_string(index) : "");
+}
+
+// Something must be bound where the shader, by the light's index, never looks.
+void read_shadows(Pass& pass, int shadow_map_count, bool has_translucent) {
+    for (int i = 0; i < kMaxShadowMaps; ++i) {
+        const bool exists = i < shadow_map_count;
+        pass.reads.emplace_back(shadow_image("shadow_map", i), shadow_image("shadow_map", exists ? i : 0));
+        pass.reads.emplace_back(shadow_image("shadow_tint", i),
+                                exists && has_translucent ? shadow_image("shadow_tint", i) : "no_image");
+    }
+    pass.constants.emplace_back("tinted_shadows", int32_t(has_translucent));
+}
+
 Pass forward_skin_pass(std::string shader, SpecularModel specular, const FrameContext& frame,
                        std::string_view own_view) {
-    return {
+    Pass pass = {
         .name = "skin",
         .kind = PassKind::geometry_screen,
         .shader = std::move(shader),
-        .reads = {"shadow_map"},
         .colors = {{.image = "radiance", .load = LoadOp::load}},
         .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
         .geometry = GeometryFilter::skin,
         .constants = {{"specular_model", int32_t(specular)}, {"view", view_constant(frame.view, own_view)}}};
+    read_shadows(pass, frame.shadow_map_count, frame.has_translucent);
+    return pass;
 }
 
 }  // namespace dermis

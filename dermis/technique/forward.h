@@ -18,6 +18,12 @@ enum class SpecularModel : int32_t {
 
 [[nodiscard]] const std::vector<std::string>& specular_model_names();
 
+/// For a pass whose shader calls light_through() of shaders/include/shadow.glsl: its reads and constants.
+void read_shadows(Pass& pass, int shadow_map_count, bool has_translucent);
+
+/// "shadow_map" and "shadow_tint", or with _1, _2 ... behind.
+[[nodiscard]] std::string shadow_image(std::string_view name, int index);
+
 /// The skin drawn through the camera into radiance and depth. `own_view` is the technique's own debug view,
 /// if it has one (shaders/include/view.glsl); views of the G-buffer shade as final.
 [[nodiscard]] Pass forward_skin_pass(std::string shader, SpecularModel specular, const FrameContext& frame,

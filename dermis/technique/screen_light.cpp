@@ -2,19 +2,19 @@
 
 namespace dermis {
 
-void add_screen_light(PassList& list) {
+void add_screen_light(PassList& list, const FrameContext& frame) {
     list.images.push_back({.name = "skin_light", .format = ImageFormat::rgba32f});
     list.images.push_back({.name = "skin_z", .format = ImageFormat::r32f});
     list.images.push_back({.name = "skin_key_visibility", .format = ImageFormat::r16f});
     list.images.push_back({.name = "skin_depth", .format = ImageFormat::depth32f});
-    list.passes.push_back(
-        {.name = "skin light",
-         .kind = PassKind::geometry_screen,
-         .shader = "screen/light.frag",
-         .reads = {"shadow_map"},
-         .colors = {{.image = "skin_light"}, {.image = "skin_z"}, {.image = "skin_key_visibility"}},
-         .depth = DepthTarget{.image = "skin_depth"},
-         .geometry = GeometryFilter::skin});
+    Pass light = {.name = "skin light",
+                  .kind = PassKind::geometry_screen,
+                  .shader = "screen/light.frag",
+                  .colors = {{.image = "skin_light"}, {.image = "skin_z"}, {.image = "skin_key_visibility"}},
+                  .depth = DepthTarget{.image = "skin_depth"},
+                  .geometry = GeometryFilter::skin};
+    read_shadows(light, frame.shadow_map_count, frame.has_translucent);
+    list.passes.push_back(std::move(light));
 }
 
 void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular,

@@ -1,5 +1,7 @@
 #include "dermis/technique/shadow_channels.h"
 
+#include "dermis/technique/forward.h"
+
 namespace dermis {
 namespace {
 
@@ -30,7 +32,7 @@ Pass depth_pass(const LightChannels& light, LoadOp load, bool draws_depth) {
 Pass tint_pass(const LightChannels& light, bool single_channel) {
     return {.name = "shadow tint" + light.suffix,
             .kind = PassKind::geometry_light,
-            .shader = "atlas/shadow_channels_tint.frag",
+            .shader = "renderer/shadow_tint.frag",
             .vertex_shader = light.vertex_shader,
             .colors = {{.image = kMap,
                         .load = LoadOp::load,
@@ -71,7 +73,7 @@ void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, 
 
 void read_shadow_channels(Pass& pass, const ShadowChannelSettings& settings, const FrameContext& frame) {
     const ShadowChannels channels = shadow_channels_of(settings, frame);
-    pass.reads.emplace_back("shadow_map");
+    read_shadows(pass, frame.shadow_map_count, frame.has_translucent);
     // Something must be bound even where the shader, by its constants, never looks.
     pass.reads.emplace_back("shadow_channels",
                             channels == ShadowChannels::none ? "no_image" : "shadow_channels");

@@ -31,6 +31,7 @@ void keep_look(const Scene& file_before, const Scene& seen, Scene& fresh) {
     if (same("skin.")) put_skin(seen.skin, fresh.skin);
     if (same("tone_map")) fresh.tone_map = seen.tone_map;
     if (same("exposure_ev")) fresh.exposure_ev = seen.exposure_ev;
+    if (same("shadow_maps")) fresh.shadow_map_budget = seen.shadow_map_budget;
     if (same("background")) fresh.background_linear = seen.background_linear;
 }
 
@@ -41,6 +42,7 @@ void put_look(const Scene& seen, Scene& fresh) {
     put_skin(seen.skin, fresh.skin);
     fresh.tone_map = seen.tone_map;
     fresh.exposure_ev = seen.exposure_ev;
+    fresh.shadow_map_budget = seen.shadow_map_budget;
     fresh.background_linear = seen.background_linear;
 }
 

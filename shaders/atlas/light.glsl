@@ -22,6 +22,10 @@ vec3 shadow_factor(Surface s, int light, vec3 to_light_world) {
     else if (channels == kChannelsTwoLights && light == second_light)
         through =
             second_light_through(s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm, trans_shadow_alpha);
+    else {
+        LightThrough other = light_through(light, s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm);
+        through = other.visibility * other.tint;
+    }
     return mix(vec3(occluded), vec3(1.0), through);
 }
 

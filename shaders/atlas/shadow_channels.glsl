@@ -12,7 +12,6 @@ uniform texture2D shadow_channels;
 layout(constant_id = 10) const int channels = kChannelsNone;
 layout(constant_id = 11) const int shadow_lookup = kLookupDisk;
 
-const int kTintTaps = 12;
 // Of the source, in the light's depth range.
 const float kSourceDepthBias = 0.01;
 // Half floats near 1 are this far apart.

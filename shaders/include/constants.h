@@ -12,6 +12,10 @@ const int kLightDirectional = 0, kLightPoint = 1, kLightSpot = 2;
 // Material::normal_space; absent: no normal map.
 const int kNormalSpaceTangent = 0, kNormalSpaceObject = 1, kNormalSpaceAbsent = 2;
 
+// Lights with a shadow map, at most; the first is the key light's. A fourth would need more textures than the
+// 32 that some drivers have for a shader.
+const int kMaxShadowMaps = 3;
+
 // Specialisation constant specular_model.
 const int kSpecularNone = 0, kSpecularBlinnPhong = 1, kSpecularGgx = 2, kSpecularTwoLobe = 3,
           kSpecularKsk = 4;
@@ -23,6 +27,10 @@ const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
 const float kShadowConcavity = 0.1;  // curvature times the disk's radius, up to which the disk is lifted
 const float kShadowFacetLift = 0.3;  // in radii: the tangent plane of a smooth normal cuts through the facets
 const float kShadowMaxSlope = 4.0;   // of the plane against the light: 76 degrees
+
+// Of the occlusion that is blurred at the vertices, an axis: less than 0.5 is sharp for them, and no Gaussian
+// of skin is wider than 8.
+const float kOcclusionVariance0Mm2 = 0.5, kOcclusionVariance1Mm2 = 2.0, kOcclusionVariance2Mm2 = 8.0;
 
 #ifdef __cplusplus
 }  // namespace dermis

@@ -3,7 +3,7 @@
 #ifndef DERMIS_FORWARD_GLSL
 #define DERMIS_FORWARD_GLSL
 
-// DERMIS_SHADOW_WIDTH_MM: the width of the key light's filtered shadow, when it is not the scene's penumbra.
+// DERMIS_SHADOW_WIDTH_MM: the width of a filtered shadow, when it is not the scene's penumbra.
 #ifndef DERMIS_SHADOW_WIDTH_MM
 #define DERMIS_SHADOW_WIDTH_MM penumbra_mm
 #endif
@@ -37,7 +37,7 @@ vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility);
 // the visibility of the light, which a technique may want to scatter too.
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility);
 
-// Diffuse light of the skin from the environment.
+// Irradiance from the environment behind what occludes it, as the skin answers to it.
 vec3 ambient_response(Surface s);
 
 void main() {
@@ -49,15 +49,15 @@ void main() {
 #ifdef DERMIS_OWN_VIEW
     own_radiance = own_view(s);
 #endif
-    vec3 exitance = ambient_response(s) * s.occlusion;
+    vec3 exitance = ambient_response(s);
     vec3 specular_radiance =
         reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
-        float visibility = 1.0;
-        if (i == key_light)
-            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world,
-                                           DERMIS_SHADOW_WIDTH_MM);
+        LightThrough through =
+            light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, DERMIS_SHADOW_WIDTH_MM);
+        float visibility = through.visibility;
+        light.irradiance_linear *= through.tint;
 #ifdef DERMIS_TRANSMISSION
         if (i == key_light) exitance += light.irradiance_linear * transmitted_response(s, light.to_light_world, visibility);
 #endif

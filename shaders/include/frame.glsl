@@ -38,6 +38,8 @@ struct LightSource {
     vec3 position_mm;
     float cos_inner;
     float cos_outer;
+    int shadow_map_index;  // -1: casts no shadow
+    mat4 light_view_projection;
 };
 layout(scalar) readonly buffer Lights { LightSource lights[]; };
 

@@ -6,21 +6,27 @@ layout(location = 0) in vec3 position_mm;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
-layout(location = 4) in float curvature_per_mm;
-layout(location = 5) in float occlusion;
+layout(location = 4) in float occlusion;
+layout(location = 5) in vec3 curvature_diagonal_per_mm;
+layout(location = 6) in vec3 curvature_mixed_per_mm;
+layout(location = 7) in vec3 occlusion_blurred;
 
 layout(location = 0) out vec3 p_world_mm_out;
 layout(location = 1) out vec3 n_world_out;
 layout(location = 2) out vec4 t_world_out;
 layout(location = 3) out vec2 uv_out;
-layout(location = 4) out float curvature_per_mm_out;
-layout(location = 5) out float occlusion_out;
+layout(location = 4) out float occlusion_out;
+layout(location = 5) out vec3 curvature_diagonal_per_mm_out;
+layout(location = 6) out vec3 curvature_mixed_per_mm_out;
+layout(location = 7) out vec3 occlusion_blurred_out;
 
 void write_varyings() {
     p_world_mm_out = position_mm;
     n_world_out = normal;
     t_world_out = tangent;
     uv_out = uv;
-    curvature_per_mm_out = curvature_per_mm;
     occlusion_out = occlusion;
+    curvature_diagonal_per_mm_out = curvature_diagonal_per_mm;
+    curvature_mixed_per_mm_out = curvature_mixed_per_mm;
+    occlusion_blurred_out = occlusion_blurred;
 }

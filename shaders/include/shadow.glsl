@@ -1,12 +1,19 @@
-// Visibility of the key light: percentage-closer filtering over a disk whose width is given in mm.
+// What reaches a point of a light: percentage-closer filtering over a disk whose width is given in mm, and the colour of
+// translucent surfaces on the way.
 #ifndef DERMIS_SHADOW_GLSL
 #define DERMIS_SHADOW_GLSL
 
 #include "shaders/include/frame.glsl"
 
-uniform texture2D shadow_map;
+// Of the key light, then of the others that cast shadows: depth of opaque surfaces, and optical depth (minus the logarithm
+// of the transmittance) of the translucent ones before them.
+uniform texture2D shadow_map, shadow_map_1, shadow_map_2;
+uniform texture2D shadow_tint, shadow_tint_1, shadow_tint_2;
+
+layout(constant_id = 30) const int tinted_shadows = 0;
 
 const int kShadowTaps = 24;
+const int kTintTaps = 12;
 const float kGoldenAngle = 2.39996323;
 
 // Point `index` of a Vogel spiral: even cover of the unit disk by any number of points (Vogel 1979).
@@ -16,8 +23,8 @@ vec2 vogel_disk(int index, int count) {
     return radius * vec2(cos(angle), sin(angle));
 }
 
-float shadow_depth_tap(vec3 p_light) {
-    return texture(sampler2DShadow(shadow_map, shadow_compare), vec3(p_light.xy, min(p_light.z, 1.0)));
+float shadow_depth_tap(texture2D map, vec3 p_light) {
+    return texture(sampler2DShadow(map, shadow_compare), vec3(p_light.xy, min(p_light.z, 1.0)));
 }
 
 vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
@@ -70,15 +77,48 @@ vec3 shadow_tap_position(ShadowDisk disk, vec2 v) {
 
 float filter_radius_mm(float width_mm) { return max(0.5 * width_mm, shadow_texel_mm); }
 
-// 0 in shadow, 1 lit. Outside the map everything is lit.
+float disk_visibility(texture2D map, ShadowDisk disk) {
+    float lit = 0.0;
+    for (int i = 0; i < kShadowTaps; ++i)
+        lit += shadow_depth_tap(map, shadow_tap_position(disk, vogel_disk(i, kShadowTaps)));
+    return lit / float(kShadowTaps);
+}
+
+vec3 disk_tint(texture2D map, ShadowDisk disk) {
+    vec3 tint = vec3(0.0);
+    for (int i = 0; i < kTintTaps; ++i)
+        tint += exp(-textureLod(sampler2D(map, linear_clamp), shadow_tap_position(disk, vogel_disk(i, kTintTaps)).xy, 0.0).rgb);
+    return tint / float(kTintTaps);
+}
+
+// Of the key light: 0 in shadow, 1 lit. Outside the map everything is lit.
 float shadow_visibility(vec3 p_world_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm) {
     ShadowDisk disk =
         shadow_disk(light_view_projection, p_world_mm, n_geometry_world, to_light_world, filter_radius_mm(width_mm));
-    if (outside_shadow_map(disk.center)) return 1.0;
-    float lit = 0.0;
-    for (int i = 0; i < kShadowTaps; ++i)
-        lit += shadow_depth_tap(shadow_tap_position(disk, vogel_disk(i, kShadowTaps)));
-    return lit / float(kShadowTaps);
+    return outside_shadow_map(disk.center) ? 1.0 : disk_visibility(shadow_map, disk);
+}
+
+struct LightThrough {
+    float visibility;  // past opaque surfaces
+    vec3 tint;         // of the translucent ones
+};
+
+LightThrough disk_through(texture2D map, texture2D tint_map, ShadowDisk disk) {
+    float visibility = disk_visibility(map, disk);
+    if (tinted_shadows == 0 || visibility == 0.0) return LightThrough(visibility, vec3(1.0));
+    return LightThrough(visibility, disk_tint(tint_map, disk));
+}
+
+// The one rule for skin, eyes, frames and glass; dermis/reference/lighting.cpp has the same by rays.
+LightThrough light_through(int light, vec3 p_world_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm) {
+    int index = lights[light].shadow_map_index;
+    if (index < 0) return LightThrough(1.0, vec3(1.0));
+    ShadowDisk disk = shadow_disk(lights[light].light_view_projection, p_world_mm, n_geometry_world, to_light_world,
+                                  filter_radius_mm(width_mm));
+    if (outside_shadow_map(disk.center)) return LightThrough(1.0, vec3(1.0));
+    if (index == 0) return disk_through(shadow_map, shadow_tint, disk);
+    if (index == 1) return disk_through(shadow_map_1, shadow_tint_1, disk);
+    return disk_through(shadow_map_2, shadow_tint_2, disk);
 }
 
 #endif

@@ -8,8 +8,10 @@ layout(location = 0) in vec3 p_world_mm_in;
 layout(location = 1) in vec3 n_world_in;
 layout(location = 2) in vec4 t_world_in;
 layout(location = 3) in vec2 uv_in;
-layout(location = 4) in float curvature_per_mm_in;
-layout(location = 5) in float occlusion_in;
+layout(location = 4) in float occlusion_in;
+layout(location = 5) in vec3 curvature_diagonal_per_mm_in;
+layout(location = 6) in vec3 curvature_mixed_per_mm_in;
+layout(location = 7) in vec3 occlusion_blurred_in;
 
 layout(scalar) uniform Material {
     vec3 albedo_linear;
@@ -41,25 +43,32 @@ struct Surface {
     vec3 albedo_linear;
     float roughness;        // perceptual; alpha = roughness^2
     float f0;
-    float occlusion;
-    float curvature_per_mm;
+    float occlusion;              // of the vertices times the map
+    float occlusion_vertex;
+    vec3 occlusion_blurred;       // of the vertices, over the surface, by variances of kOcclusionVariance0Mm2, 1, 2
+    mat3 curvature_tensor_per_mm;  // dermis/mesh/mesh.h
 };
 
-// Levels that the normal map is magnified by, 0 when it is not. A bias adds to the level before it is clamped to 0, so
-// under magnification a smoother read has to add these too.
-float magnification_levels(vec2 uv) {
-    return max(-textureQueryLod(sampler2D(normal_map, trilinear_repeat), uv).y, 0.0);
+float mean_curvature_per_mm(Surface s) {
+    return 0.5 * (s.curvature_tensor_per_mm[0][0] + s.curvature_tensor_per_mm[1][1] + s.curvature_tensor_per_mm[2][2]);
 }
 
-// The normal map at a level of detail; a positive bias reads a smoother one (Penner 2011).
-vec3 mapped_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
+// Levels that a map is magnified by, 0 when it is not. A bias adds to the level before it is clamped to 0, so
+// under magnification a smoother read has to add these too.
+float magnification_levels(texture2D map, vec2 uv) {
+    return max(-textureQueryLod(sampler2D(map, trilinear_repeat), uv).y, 0.0);
+}
+
+// The mean of the normals that a read of the map covers, a positive bias covering more (Penner 2011): shorter than 1 where
+// they differ, as is the mean of N.L.
+vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
     if (normal_space == kNormalSpaceAbsent) return n_geometry_world;
     vec3 n = texture(sampler2D(normal_map, trilinear_repeat), uv, lod_bias).xyz * 2.0 - 1.0;
-    if (normal_space == kNormalSpaceObject) return normalize(mix(n_geometry_world, n, normal_scale));
+    if (normal_space == kNormalSpaceObject) return mix(n_geometry_world, n, normal_scale);
     n.xy *= normal_scale;
     vec3 t = normalize(t_world_in.xyz - n_geometry_world * dot(n_geometry_world, t_world_in.xyz));
     vec3 b = t_world_in.w * cross(n_geometry_world, t);
-    return normalize(n.x * t + n.y * b + n.z * n_geometry_world);
+    return n.x * t + n.y * b + n.z * n_geometry_world;
 }
 
 Surface load_surface() {
@@ -68,12 +77,15 @@ Surface load_surface() {
     s.n_geometry_world = normalize(n_world_in);
     s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
     s.uv = uv_in;
-    s.n_world = mapped_normal_world(s.n_geometry_world, uv_in, 0.0);
+    s.n_world = normalize(mean_normal_world(s.n_geometry_world, uv_in, 0.0));
     s.albedo_linear = albedo_linear * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
     s.roughness = clamp(roughness * texture(sampler2D(roughness_map, trilinear_repeat), uv_in).r, 0.03, 1.0);
     s.f0 = f0 * specular * texture(sampler2D(specular_map, trilinear_repeat), uv_in).r;
     s.occlusion = occlusion_in * texture(sampler2D(occlusion_map, trilinear_repeat), uv_in).r;
-    s.curvature_per_mm = curvature_per_mm_in;
+    s.occlusion_vertex = occlusion_in;
+    s.occlusion_blurred = occlusion_blurred_in;
+    vec3 d = curvature_diagonal_per_mm_in, m = curvature_mixed_per_mm_in;
+    s.curvature_tensor_per_mm = mat3(d.x, m.z, m.y, m.z, d.y, m.x, m.y, m.x, d.z);
     return s;
 }
 

@@ -14,7 +14,7 @@ layout(location = 4) out vec4 light_out;      // uv; n_dot_l of the key light; i
 void main() {
     Surface s = load_surface();
     position_out = vec4(s.p_world_mm, distance(s.p_world_mm, eye_world_mm));
-    normal_out = vec4(s.n_world, s.curvature_per_mm);
+    normal_out = vec4(s.n_world, mean_curvature_per_mm(s));
     geometry_out = vec4(s.n_geometry_world, s.occlusion);
     albedo_out = vec4(s.albedo_linear, s.roughness);
     float n_dot_l = 0.0, visibility = 1.0;

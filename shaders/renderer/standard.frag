@@ -26,10 +26,9 @@ void main() {
         environment_specular(s.n_world, s.to_eye_world, s.roughness, f0_one, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
-        float visibility = 1.0;
-        if (i == key_light)
-            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
-        vec3 irradiance = light.irradiance_linear * visibility;
+        LightThrough through =
+            light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+        vec3 irradiance = light.irradiance_linear * through.visibility * through.tint;
         exitance += irradiance * max(dot(s.n_world, light.to_light_world), 0.0);
         specular_radiance += irradiance * specular_reflection(s.n_world, s.to_eye_world, light.to_light_world,
                                                               s.roughness, f0_one);

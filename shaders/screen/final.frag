@@ -45,8 +45,15 @@ void main() {
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
-        float visibility = i == key_light ? key_visibility : 1.0;
-        specular_radiance += light.irradiance_linear * visibility *
+        // The key light's filter ran in the first pass; the colour of its shadow did not stay.
+        if (i == key_light && tinted_shadows == 0) {
+            light.irradiance_linear *= key_visibility;
+        } else {
+            LightThrough through =
+                light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+            light.irradiance_linear *= through.visibility * through.tint;
+        }
+        specular_radiance += light.irradiance_linear *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
     radiance_out = vec4(shown_radiance(s.albedo_linear * exitance / kPi, specular_radiance, exitance / kPi), 1.0);

@@ -15,11 +15,10 @@ vec3 unblurred_exitance(Surface s, out float key_visibility) {
         LightSample light = sample_light(i, s.p_world_mm);
         float n_dot_l = dot(s.n_world, light.to_light_world);
         if (n_dot_l <= 0.0) continue;
-        float visibility = 1.0;
-        if (i == key_light)
-            visibility = key_visibility =
-                shadow_visibility(s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
-        exitance += light.irradiance_linear * n_dot_l * visibility;
+        LightThrough through =
+            light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+        if (i == key_light) key_visibility = through.visibility;
+        exitance += light.irradiance_linear * n_dot_l * through.visibility * through.tint;
     }
     return exitance;
 }

@@ -7,4 +7,4 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
     return vec3(max(dot(s.n_world, to_light_world), 0.0) * visibility);
 }
 
-vec3 ambient_response(Surface s) { return environment_irradiance(s.n_world); }
+vec3 ambient_response(Surface s) { return environment_irradiance(s.n_world) * s.occlusion; }

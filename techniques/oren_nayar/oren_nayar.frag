@@ -37,5 +37,6 @@ float even_light_response(float n_dot_v) {
 }
 
 vec3 ambient_response(Surface s) {
-    return environment_irradiance(s.n_world) * even_light_response(clamp(dot(s.n_world, s.to_eye_world), 1e-3, 1.0));
+    float n_dot_v = clamp(dot(s.n_world, s.to_eye_world), 1e-3, 1.0);
+    return environment_irradiance(s.n_world) * s.occlusion * even_light_response(n_dot_v);
 }

@@ -10,7 +10,7 @@ namespace dermis {
 const int kDiffuseLut = 0, kDiffuseCurve2015 = 1, kDiffuseClosedForm = 2;
 const int kShadowPlain = 0, kShadowScattered = 1;
 const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
-const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2;
+const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2, kNormalsLerp = 3;
 const int kAmbientExact = 0, kAmbientLut = 1, kAmbientCurve2015 = 2;
 const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
 

@@ -6,9 +6,11 @@
 namespace dermis {
 namespace {
 
-// Of two Gaussians along a line, but for the constant that all share.
+constexpr double kWidestShare = 0.5;
+
+// Of two Gaussians along a line under a spectrum 1 / k^2, without the constant that all share.
 double inner_product(double variance_sum_mm2) {
-    return 1 / std::sqrt(variance_sum_mm2);
+    return -std::sqrt(variance_sum_mm2);
 }
 
 // Along one axis; a sum of Gaussians has the weighted mean of theirs.
@@ -39,7 +41,7 @@ double weight_of(const GaussianSum& profile, size_t channel, double s0, double s
 }  // namespace
 
 NormalBlend normal_blend(const GaussianSum& profile, double sharp_mm, double max_lod_bias) {
-    const double widest_mm = std::sqrt(12 * largest_variance_mm2(profile));
+    const double widest_mm = kWidestShare * std::sqrt(12 * largest_variance_mm2(profile));
     NormalBlend blend;
     blend.lod_bias = std::clamp(std::log2(widest_mm / sharp_mm), 0.0, max_lod_bias);
     if (blend.lod_bias < 1e-3) return blend;

@@ -6,12 +6,17 @@
 // A read at a mip level averages a box of b mm, of variance b^2 / 12 along one axis. Light scattered by a sum
 // of Gaussians sees the bumps through the kernel T = sum w_i G(v_i); the blend sees them through (1 - x)
 // G(s0) + x G(s1), s0 and s1 the variances of the two reads. x makes the two nearest in the mean square for
-// creases and wrinkles, features along a line whose spectrum is white:
+// relief along a line whose power falls as the square of the frequency, as that of wrinkles and folds does:
 //
-//     x = <G(s0) - T(s0), G(s0) - G(s1)> / |G(s0) - G(s1)|^2,   <G(a), G(b)> = (2 pi (a + b))^(-1/2)
+//     x = <G(s0) - T(s0), G(s0) - G(s1)> / |G(s0) - G(s1)|^2,   <G(a), G(b)> = -(a + b)^(1/2)
 //
-// The smoother read is never wider than the widest channel scatters: beyond that it would average what the
-// table of curvature holds already, and the map's seams.
+// The inner product leaves out a constant that cancels in differences. For a white spectrum it would be
+// (2 pi (a + b))^(-1/2): then the narrow channels lose relief that they keep (weights of green and blue twice
+// as large).
+//
+// The smoother read is at most half as wide as a box with the widest channel's variance: a wider one averages
+// what the table of curvature holds already, and over the map's seams. Captured share of the head scan at 160
+// pixels: .176 at the whole width, .267 at a half, .222 at a third; bust at 128: .138, .137, .143.
 
 #include "dermis/optics/preintegration.h"
 

@@ -13,6 +13,9 @@ layout(scalar) uniform Params {
     float oiliness;
     float roughness_scale;
 };
+layout(push_constant, scalar) uniform PassValues {
+    vec3 occlusion_weight_0, occlusion_weight_1, occlusion_weight_2;  // of Surface::occlusion_blurred
+};
 layout(constant_id = 3) const int shadow = kShadowScattered;
 // A plain shadow keeps the scene's penumbra, so that both variants filter what they should.
 #define DERMIS_SHADOW_WIDTH_MM (shadow == kShadowScattered ? shadow_width_mm : penumbra_mm)
@@ -23,6 +26,7 @@ layout(constant_id = 3) const int shadow = kShadowScattered;
 #include "shaders/include/forward.glsl"
 #include "shaders/include/texel_centres.glsl"
 #include "techniques/preintegrated/closed_form.glsl"
+#include "techniques/preintegrated/curvature.glsl"
 #include "techniques/preintegrated/curve_2015.glsl"
 #include "techniques/preintegrated/transmission.glsl"
 #include "techniques/preintegrated/zonal.glsl"
@@ -44,10 +48,11 @@ uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
 uniform texture2D skin_transmission;  // distance
 
 // What prepare_surface() found; the same for every light.
-float skin_curvature_per_mm;
+mat3 skin_tensor_per_mm;
+float curvature_around_per_mm;
 vec3 n_smooth_world;
-vec3 smooth_weight;
-ClosedForm closed_form_row;
+vec3 smooth_weight;    // of the answer to it; 1 where only it counts
+float smooth_levels;   // how many it lies above the sharp one
 
 float beckmann(float n_dot_h, float alpha) {
     float root = textureLod(sampler2D(skin_beckmann, linear_clamp), vec2(sqrt(1.0 - n_dot_h), sqrt(alpha)), 0.0).r;
@@ -61,13 +66,13 @@ float derivative_curvature(Surface s) {
     return clamp(length(fwidth(s.n_geometry_world)), 0.0, 1.0) / (length(fwidth(s.p_world_mm)) * tune_curvature);
 }
 
-// Concave skin scatters as convex skin of the same curvature does.
-float chosen_curvature_per_mm(Surface s) {
-    float k = s.curvature_per_mm;
-    if (curvature == kCurvatureDerivative) k = derivative_curvature(s);
-    if (curvature == kCurvatureImage)
-        k = curvature_scale_per_mm * (texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r - curvature_mid);
-    return clamp(abs(k) * curvature_gain, 0.0, kMaxCurvaturePerMm);
+mat3 chosen_tensor_per_mm(Surface s) {
+    if (curvature == kCurvatureVertex) return curvature_gain * s.curvature_tensor_per_mm;
+    float k = curvature == kCurvatureDerivative
+                  ? derivative_curvature(s)
+                  : curvature_scale_per_mm *
+                        (texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r - curvature_mid);
+    return isotropic_curvature(curvature_gain * k, s.n_geometry_world);
 }
 
 // What a texel of the normal map covers on the skin, along the atlas axis that is stretched more: how the position moves
@@ -89,38 +94,54 @@ void blend_normals(Surface s) {
     float u = texel_centres((log_mm - kMinLogMm) / (kMaxLogMm - kMinLogMm), size);
     vec4 blend = textureLod(sampler2D(skin_normal_blend, linear_clamp), vec2(u, 0.5), 0.0);
     smooth_weight = blend.rgb;
-    n_smooth_world = mapped_normal_world(s.n_geometry_world, s.uv, blend.a + magnification_levels(s.uv));
+    smooth_levels = blend.a;
 }
 
 void prepare_surface(inout Surface s) {
     s.f0 *= oiliness;
     s.roughness = clamp(s.roughness * roughness_scale, 0.03, 1.0);
-    skin_curvature_per_mm = chosen_curvature_per_mm(s);
-    if (normals == kNormalsSmooth)
-        n_smooth_world =
-            mapped_normal_world(s.n_geometry_world, s.uv, normal_lod_bias + magnification_levels(s.uv));
-    if (normals == kNormalsBlended) blend_normals(s);
-    if (diffuse == kDiffuseClosedForm) {
-        float size = float(textureSize(sampler2D(skin_closed_form, linear_clamp), 0).x);
-        closed_form_row = read_closed_form(skin_closed_form, linear_clamp,
-                                           texel_centres(skin_curvature_per_mm / kMaxCurvaturePerMm, size));
-    }
+    skin_tensor_per_mm = chosen_tensor_per_mm(s);
+    curvature_around_per_mm = curvature_around(skin_tensor_per_mm);
+    if (normals == kNormalsSharp) return;
+    smooth_weight = vec3(1.0);
+    smooth_levels = normal_lod_bias;
+    if (normals == kNormalsBlended || normals == kNormalsLerp) blend_normals(s);
+    n_smooth_world =
+        normalize(mean_normal_world(s.n_geometry_world, s.uv, smooth_levels + magnification_levels(normal_map, s.uv)));
 }
 
-vec3 falloff(float n_dot_l) {
-    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(vec3(n_dot_l), skin_curvature_per_mm);
-    if (diffuse == kDiffuseClosedForm) return closed_form(closed_form_row, vec3(n_dot_l));
-    vec2 uv = vec2(n_dot_l * 0.5 + 0.5, skin_curvature_per_mm / kMaxCurvaturePerMm);
+vec3 falloff(float n_dot_l, float k) {
+    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(vec3(n_dot_l), k);
+    if (diffuse == kDiffuseClosedForm) {
+        float size = float(textureSize(sampler2D(skin_closed_form, linear_clamp), 0).x);
+        return closed_form(
+            read_closed_form(skin_closed_form, linear_clamp, texel_centres(k / kMaxCurvaturePerMm, size)),
+            vec3(n_dot_l));
+    }
+    vec2 uv = vec2(n_dot_l * 0.5 + 0.5, k / kMaxCurvaturePerMm);
     return textureLod(sampler2D(skin_lut, linear_clamp), uv, 0.0).rgb;
 }
+
+// One N.L a channel.
+vec3 falloff_of_channels(vec3 n_dot_l, float k) {
+    return vec3(falloff(n_dot_l.r, k).r, falloff(n_dot_l.g, k).g, falloff(n_dot_l.b, k).b);
+}
+
+// The normal of a channel as Penner 2011 has it: mixed itself.
+vec3 lerped_normal(Surface s, float weight) { return normalize(mix(s.n_world, n_smooth_world, weight)); }
 
 // Light is what scatters, so the answers to both normals are mixed, not the normals: a bump's lit side still counts where
 // the mean normal has turned away, and the table is read twice instead of once a channel.
 vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
-    if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world));
-    vec3 sharp = falloff(dot(s.n_world, to_light_world));
+    float k = curvature_towards(skin_tensor_per_mm, s.n_geometry_world, to_light_world);
+    if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world), k);
+    if (normals == kNormalsLerp)
+        return falloff_of_channels(vec3(dot(lerped_normal(s, smooth_weight.r), to_light_world),
+                                        dot(lerped_normal(s, smooth_weight.g), to_light_world),
+                                        dot(lerped_normal(s, smooth_weight.b), to_light_world)), k);
+    vec3 sharp = falloff(dot(s.n_world, to_light_world), k);
     if (normals == kNormalsSharp) return sharp;
-    return mix(sharp, falloff(dot(n_smooth_world, to_light_world)), smooth_weight);
+    return mix(sharp, falloff(dot(n_smooth_world, to_light_world), k), smooth_weight);
 }
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
@@ -140,21 +161,45 @@ vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility) {
 }
 
 // sqrt(4 pi / (2 l + 1)) zh_l in place of the cosine lobe's bands (Ramamoorthi, Hanrahan 2001).
-vec3 ambient_response(Surface s) {
+void ambient_bands(out vec3 band[3]) {
     vec3 zh[3];
     if (ambient == kAmbientCurve2015) {
-        curve_2015_zonal(skin_curvature_per_mm, zh);
+        curve_2015_zonal(curvature_around_per_mm, zh);
     } else if (ambient == kAmbientExact) {
-        exact_zonal(skin_gaussians, nearest_clamp, skin_curvature_per_mm, zh);
+        exact_zonal(skin_gaussians, nearest_clamp, curvature_around_per_mm, zh);
     } else {
         float width = float(textureSize(sampler2D(skin_zonal, linear_clamp), 0).x);
-        float u = texel_centres(skin_curvature_per_mm / kMaxCurvaturePerMm, width);
+        float u = texel_centres(curvature_around_per_mm / kMaxCurvaturePerMm, width);
         for (int l = 0; l < 3; ++l)
             zh[l] = textureLod(sampler2D(skin_zonal, linear_clamp), vec2(u, (float(l) + 0.5) / 3.0), 0.0).rgb;
     }
-    return environment_convolved(s.n_world, sqrt(4.0 * kPi) * zh[0], sqrt(4.0 * kPi / 3.0) * zh[1],
-                                 sqrt(4.0 * kPi / 5.0) * zh[2]);
+    for (int l = 0; l < 3; ++l) band[l] = sqrt(4.0 * kPi / float(2 * l + 1)) * zh[l];
+}
+
+// Occluded light scatters too: a crease is lit through its sides, in red farther than in blue. The vertices' occlusion
+// by the weights of occlusion_blend.h, the material's map as the normal map.
+vec3 scattered_occlusion(Surface s) {
+    vec3 weight_0 = occlusion_weight_0, weight_1 = occlusion_weight_1, weight_2 = occlusion_weight_2;
+    vec3 of_vertices = (1.0 - weight_0 - weight_1 - weight_2) * s.occlusion_vertex + weight_0 * s.occlusion_blurred.x +
+                       weight_1 * s.occlusion_blurred.y + weight_2 * s.occlusion_blurred.z;
+    float levels = smooth_levels + magnification_levels(occlusion_map, s.uv);
+    float sharp = texture(sampler2D(occlusion_map, trilinear_repeat), s.uv).r;
+    if (normals == kNormalsSharp) return of_vertices * sharp;
+    return of_vertices * mix(vec3(sharp), texture(sampler2D(occlusion_map, trilinear_repeat), s.uv, levels).rrr, smooth_weight);
+}
+
+vec3 ambient_response(Surface s) {
+    vec3 band[3];
+    ambient_bands(band);
+    vec3 arriving = environment_convolved(s.n_world, band[0], band[1], band[2]);
+    if (normals == kNormalsLerp) {
+        for (int c = 0; c < 3; ++c)
+            arriving[c] = environment_convolved(lerped_normal(s, smooth_weight[c]), band[0], band[1], band[2])[c];
+    } else if (normals != kNormalsSharp) {
+        arriving = mix(arriving, environment_convolved(n_smooth_world, band[0], band[1], band[2]), smooth_weight);
+    }
+    return arriving * scattered_occlusion(s);
 }
 
 // The curvature that shades, whatever it comes from: radiance 1 is 1/4 mm.
-vec3 own_view(Surface s) { return vec3(4.0 * skin_curvature_per_mm); }
+vec3 own_view(Surface s) { return vec3(4.0 * curvature_around_per_mm); }

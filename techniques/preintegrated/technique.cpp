@@ -5,6 +5,7 @@
 
 #include "dermis/technique/forward.h"
 #include "techniques/preintegrated/figures.h"
+#include "techniques/preintegrated/occlusion_blend.h"
 #include "techniques/preintegrated/tables.h"
 
 namespace dermis {
@@ -21,7 +22,12 @@ enum class Curvature : int32_t {
     derivative = kCurvatureDerivative,
     image = kCurvatureImage
 };
-enum class Normals : int32_t { sharp = kNormalsSharp, smooth = kNormalsSmooth, blended = kNormalsBlended };
+enum class Normals : int32_t {
+    sharp = kNormalsSharp,
+    smooth = kNormalsSmooth,
+    blended = kNormalsBlended,
+    lerp = kNormalsLerp
+};
 enum class Shadow : int32_t { plain = kShadowPlain, scattered = kShadowScattered };
 enum class Transmission : int32_t { none = kTransmissionNone, shadow_map = kTransmissionShadowMap };
 enum class Ambient : int32_t { exact = kAmbientExact, lut = kAmbientLut, curve_2015 = kAmbientCurve2015 };
@@ -57,9 +63,9 @@ ParameterTable parameters() {
                 "factor on the curvature; 1 is physically right")
         .number(&Params::tune_curvature, "tune_curvature", "", 0.01, 100,
                 "divides the curvature from derivatives; 1 is right for positions in mm")
-        .choice(&Params::normals, "normals", {"sharp", "smooth", "blended"},
-                "diffuse normal: as mapped, from a smaller mip level, or blended in each channel by the "
-                "profile's width")
+        .choice(&Params::normals, "normals", {"sharp", "smooth", "blended", "lerp"},
+                "diffuse normal: as mapped, from a smaller mip level, or both by the profile's width in "
+                "each channel: their light blended, or as published the normals mixed")
         .number(&Params::normal_lod_bias, "normal_lod_bias", "mip levels", 0, 8,
                 "maximum difference of the smaller mip level")
         .choice(&Params::shadow, "shadow", {"plain", "scattered"},
@@ -91,6 +97,10 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_closed_form", "skin_gaussians",
                               "skin_normal_blend", "skin_beckmann", "skin_transmission"})
         pass.reads.push_back(table);
+    const std::array<Rgb, 3> weights = occlusion_blend(frame.skin_gaussians);
+    for (size_t i = 0; i < weights.size(); ++i)
+        pass.values.push_back({"occlusion_weight_" + std::to_string(i),
+                               Vec3{float(weights[i][0]), float(weights[i][1]), float(weights[i][2])}});
     PassList list = {.passes = {pass}};
     if (params.curvature == Curvature::image) list.needed_maps = {"curvature_map"};
     return list;

@@ -10,6 +10,7 @@
 #include "techniques/preintegrated/constants.h"
 
 const float kWidestRingMm = 6.0;
+const float kFadeStartMm = 0.7 * kMaxDistanceMm;
 const int kTransmissionTaps = 20;
 
 // In units of the light's irradiance at normal incidence; `table` holds R per mm^2 over the distance. Taps are in rings at
@@ -20,7 +21,9 @@ vec3 transmitted_light(texture2D table, vec3 p_mm, vec3 to_light_world) {
     if (outside_shadow_map(here)) return vec3(0.0);
     float mm_per_z = 1.0 / (here.z - shadow_map_position(light_view_projection, p_mm + to_light_world).z);
     float lit_z = textureLod(sampler2D(shadow_map, nearest_clamp), here.xy, 0.0).r;
-    if ((here.z - lit_z) * mm_per_z >= kMaxDistanceMm) return vec3(0.0);
+    // Profiles that reach farther than the table would end at an edge.
+    float fade = 1.0 - smoothstep(kFadeStartMm, kMaxDistanceMm, (here.z - lit_z) * mm_per_z);
+    if (fade == 0.0) return vec3(0.0);
     // Axes of a millimetre across the light.
     ShadowDisk disk = shadow_disk(light_view_projection, p_mm, to_light_world, to_light_world, 1.0);
     float size = float(textureSize(sampler2D(table, linear_clamp), 0).x);
@@ -36,7 +39,7 @@ vec3 transmitted_light(texture2D table, vec3 p_mm, vec3 to_light_world) {
         float u = texel_centres(distance_mm / kMaxDistanceMm, size);
         light += radius_mm * textureLod(sampler2D(table, linear_clamp), vec2(u, 0.5), 0.0).rgb;
     }
-    return light * 2.0 * kPi * step_mm;
+    return light * fade * 2.0 * kPi * step_mm;
 }
 
 #endif

@@ -67,3 +67,18 @@ TEST_F(PreintegratedTransmission, through_a_sphere_is_the_sphere_s_integral_for_
 TEST_F(PreintegratedTransmission, is_none_unless_asked_for) {
     EXPECT_EQ(dark_pole(2, "none"), (Rgb{0, 0, 0}));
 }
+
+// scenes/ear.toml, which README draws: the ear must be seen to glow, at a small size too.
+TEST_F(PreintegratedTransmission, makes_the_ear_of_the_scene_ear_glow) {
+    Result<Scene> scene = load_built_in_scene("ear");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(complete_scene(*scene));
+    Renderer renderer = make_renderer(*scene);
+    const DrawSettings settings = {.width = 128, .height = 128, .view = "diffuse"};
+    const Image without = radiance(renderer, technique(), values_of({{"transmission", "none"}}), settings),
+                with = radiance(renderer, technique(), values_of({{"transmission", "shadow_map"}}), settings);
+    int glowing = 0;
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 128; ++x) glowing += with.at(x, y, 0) > 2 * without.at(x, y, 0) + 0.02f;
+    EXPECT_GT(glowing, 128 * 128 / 100);
+}

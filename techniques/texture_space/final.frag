@@ -25,6 +25,10 @@ void main() {
             // The source multiplies by the luminance itself, for lights of about 1; here it is divided by the light's irradiance.
             float share = luminance(exitance) / max(luminance(light.irradiance_linear), 1e-4);
             dimmed = clamp(share * specular_shadow_scale + specular_shadow_bias, 0.0, 1.0);
+        } else if (i != key_light) {
+            LightThrough through =
+                light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+            light.irradiance_linear *= through.visibility * through.tint;
         }
         specular_radiance += light.irradiance_linear * dimmed *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);

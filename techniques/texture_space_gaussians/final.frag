@@ -14,9 +14,14 @@ void main() {
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         vec3 arriving = light.irradiance_linear;
-        if (i == key_light)
+        if (i == key_light) {
             arriving *= key_light_through(s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm,
                                           trans_shadow_alpha);
+        } else {
+            LightThrough through =
+                light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+            arriving *= through.visibility * through.tint;
+        }
         specular_radiance +=
             arriving * specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }

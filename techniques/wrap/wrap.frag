@@ -29,5 +29,5 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
 vec3 ambient_response(Surface s) {
     float band_1 = kPi * (2.0 - wrap) / 3.0;
     float band_2 = kPi * (1.0 - wrap) * (1.0 - wrap) / 4.0;
-    return environment_convolved(s.n_world, vec3(kPi), vec3(band_1), vec3(band_2));
+    return environment_convolved(s.n_world, vec3(kPi), vec3(band_1), vec3(band_2)) * s.occlusion;
 }

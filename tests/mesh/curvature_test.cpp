@@ -66,6 +66,40 @@ TEST(Curvature, of_a_torus_and_a_cylinder_follows_the_formula) {
     EXPECT_LT(worst_relative_error(cylinder, compute_curvature(cylinder), 0.1f), 0.01);
 }
 
+TEST(Curvature, tensor_of_a_torus_has_both_principal_curvatures) {
+    const Mesh mesh = make_torus(30, 10, 192);
+    const std::vector<CurvatureTensor> tensors = compute_curvature_tensors(mesh);
+    for (size_t i = 0; i < tensors.size(); ++i) {
+        const Vec3 p = mesh.positions_mm[i], n = mesh.normals[i];
+        const float to_axis_mm = std::hypot(p.x, p.z);
+        const Vec3 along = {-p.z / to_axis_mm, 0, p.x / to_axis_mm}, around = cross(n, along);
+        // 1/r around the tube; along it cos / (R + r cos), negative on the inside.
+        const float cosine = (to_axis_mm - 30) / 10;
+        EXPECT_NEAR(dot(around, tensors[i] * around), 0.1, 0.002);
+        EXPECT_NEAR(dot(along, tensors[i] * along), cosine / to_axis_mm, 0.002);
+        EXPECT_NEAR(dot(along, tensors[i] * around), 0, 0.001);
+        EXPECT_LT(length(tensors[i] * n), 0.003);
+    }
+}
+
+TEST(Curvature, tensor_of_a_catenoid_is_a_saddles) {
+    Mesh catenoid = make_cylinder(1, 2, 96);
+    for (Vec3& p : catenoid.positions_mm) {
+        const float r = std::cosh(p.y);
+        p.x *= r, p.z *= r;
+    }
+    compute_normals(catenoid);
+    const std::vector<CurvatureTensor> tensors = compute_curvature_tensors(catenoid);
+    for (size_t i = 0; i < tensors.size(); ++i) {
+        const Vec3 p = catenoid.positions_mm[i];
+        if (std::abs(p.y) > 0.8f) continue;
+        const float r = std::cosh(p.y);
+        const Vec3 around = {-p.z / r, 0, p.x / r}, along = cross(catenoid.normals[i], around);
+        EXPECT_NEAR(dot(around, tensors[i] * around), 1 / (r * r), 0.02);
+        EXPECT_NEAR(dot(along, tensors[i] * along), -1 / (r * r), 0.02);
+    }
+}
+
 TEST(Curvature, converges_with_the_square_of_the_edge_length) {
     const Mesh coarse = make_torus(30, 10, 80), fine = make_torus(30, 10, 160);
     const double ratio = worst_relative_error(coarse, compute_curvature(coarse)) /

@@ -66,13 +66,20 @@ const std::string kMesh = "[[mesh]]\nfile = \"two.obj\"\nunit_mm = 100\n";
 TEST(PlaceMesh, scales_then_turns_about_x_y_z_then_moves) {
     Mesh mesh{.positions_mm = {{1, 0, 0}, {0, 0, 1}},
               .normals = {{1, 0, 0}, {0, 0, 1}},
-              .curvatures_per_mm = {0.5f, 0.5f}};
+              .curvatures_per_mm = {0.5f, 0.5f},
+              // The second point bends along X alone.
+              .curvature_tensors_per_mm = {isotropic_curvature(0.5f, {1, 0, 0}), {{1, 0, 0}, {}}}};
     place_mesh(mesh, {.scale = 2, .rotation_rad = {kPi / 2, 0, kPi / 2}, .translation_mm = {10, 0, 0}});
     // +X stays under X, then turns to +Y about Z; +Z turns to -Y about X, then to +X about Z.
     EXPECT_LT(length(mesh.positions_mm[0] - Vec3{10, 2, 0}), 1e-5f);
     EXPECT_LT(length(mesh.positions_mm[1] - Vec3{12, 0, 0}), 1e-5f);
     EXPECT_LT(length(mesh.normals[1] - Vec3{1, 0, 0}), 1e-6f);
     EXPECT_FLOAT_EQ(mesh.curvatures_per_mm[0], 0.25f);
+    const CurvatureTensor& turned = mesh.curvature_tensors_per_mm[0];
+    EXPECT_LT(length(turned * Vec3{0, 1, 0}), 1e-6f);
+    EXPECT_LT(length(turned * Vec3{1, 2, 3} - Vec3{0.25f, 0, 0.75f}), 1e-6f);
+    // X turns to +Y.
+    EXPECT_LT(length(mesh.curvature_tensors_per_mm[1] * Vec3{1, 1, 1} - Vec3{0, 0.5f, 0}), 1e-6f);
 }
 
 TEST(PlaceMesh, half_a_turn_about_y_takes_a_head_from_minus_z_to_plus_z) {

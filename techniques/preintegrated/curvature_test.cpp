@@ -1,0 +1,69 @@
+// Surfaces whose curvature is not the same in all directions.
+
+#include <gtest/gtest.h>
+
+#include "dermis/mesh/mesh.h"
+#include "dermis/optics/preintegration.h"
+#include "render/grid_scene.h"
+
+using namespace dermis;
+
+namespace {
+
+// The grid as if every tile lay on a surface that bends by `across` times the tile's curvature in the plane
+// of the light and by `along` times it at right angles.
+Scene bent_grid(float across, float along) {
+    Scene scene = make_grid_scene();
+    Mesh& mesh = scene.objects[0].mesh;
+    for (size_t i = 0; i < mesh.normals.size(); ++i) {
+        const Vec3 n = mesh.normals[i];
+        const float k = mesh.curvatures_per_mm[i];
+        // In the plane of the light the direction is (-n.y, n.x, 0), at right angles to it z.
+        mesh.curvature_tensors_per_mm.push_back(
+            {k * Vec3{across * n.y * n.y, across * n.x * n.x, along}, {0, 0, -k * across * n.x * n.y}});
+    }
+    return scene;
+}
+
+class PreintegratedCurvature : public PreintegratedTest {
+  protected:
+    // Largest red difference over the tiles with radii from 2 mm.
+    static double largest_difference(const Scene& scene, const Preintegration& how) {
+        const Image image = draw_grid(scene, {{"shadow", "plain"}});
+        double largest = 0;
+        for (int y = 0; y < kGrid && grid_curvature_per_mm(y) <= 0.5; ++y)
+            for (int x = 0; x < kGrid; ++x) {
+                const double t = grid_cosine(x);
+                const Rgb d = preintegrated_diffuse(gpu_gems_3_skin(), t, 1 / grid_curvature_per_mm(y), how);
+                largest = std::max(largest, std::abs(d[0] - double(image.at(x, y, 0))));
+            }
+        return largest;
+    }
+};
+
+}  // namespace
+
+// A Gaussian on a cylinder is a Gaussian along it times one around it, so that light from the side is exactly
+// the full ring's with Gaussians as lines.
+TEST_F(PreintegratedCurvature, of_a_cylinder_lit_from_its_side_is_near_the_ring) {
+    const double difference = largest_difference(bent_grid(1, 0), {.construction = Construction::ring});
+    RecordProperty("difference", std::to_string(difference));
+    EXPECT_LT(difference, 0.04);
+}
+
+// Across its axis the light does not change, and nothing blurs.
+TEST_F(PreintegratedCurvature, of_a_cylinder_lit_along_its_axis_is_lamberts_at_the_terminator) {
+    const Image image = draw_grid(bent_grid(0, 1), {{"shadow", "plain"}});
+    for (int y = 0; y < kGrid; ++y)
+        for (int x = kGrid / 2 - 2; x < kGrid / 2 + 2; ++x)
+            EXPECT_NEAR(image.at(x, y, 0), std::max(grid_cosine(x), 0.0), 0.012) << x << " " << y;
+}
+
+// Mean curvature 0: folds of ears, between nose and cheek, and the neck have lines of such points.
+TEST_F(PreintegratedCurvature, of_a_saddle_is_that_of_a_sphere_as_tight) {
+    EXPECT_LT(largest_difference(bent_grid(1, -1), {}), 1e-3);
+}
+
+TEST_F(PreintegratedCurvature, of_a_concave_surface_is_that_of_its_convex_mould) {
+    EXPECT_LT(largest_difference(bent_grid(-1, -1), {}), 1e-3);
+}
