@@ -18,9 +18,10 @@ constexpr std::string_view kSettings =
     "preintegrated[construction=ring,shadow=plain],"
     "preintegrated[normals=sharp,shadow=plain],"
     "texture_space[light_map_size=2048],"
-    "texture_space[space=mm],"
-    "texture_space[filter=gaussian],"
-    "texture_space[specular_shadow=off]";
+    "texture_space[detail=map],"
+    "texture_space[blur=source],"
+    "wrap[width=source],"
+    "screen_space_separable[follow=none]";
 
 std::string figures(double value, const char* format = "%.4g") {
     char text[32];

@@ -51,7 +51,8 @@ inline Scene make_grid_scene() {
     mesh.materials = {{.name = "white", .base_color_linear = {1, 1, 1}}};
     mesh.submeshes = {{.name = "grid", .index_count = uint32_t(mesh.indices.size())}};
     scene.objects.push_back(std::move(object));
-    scene.lights = {{.name = "side", .intensity = 3.14159265f, .to_light_world = {1, 0, 0}}};
+    scene.lights = {
+        {.name = "side", .intensity = 3.14159265f, .to_light_world = {1, 0, 0}, .casts_shadow = false}};
     scene.environment.kind = EnvironmentKind::none;
     scene.background_linear = {};
     scene.camera = {.eye_mm = {0, 0, 1000}, .vertical_fov_rad = 2 * std::atan(kGrid / 2 / 1000.0f)};

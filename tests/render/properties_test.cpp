@@ -83,7 +83,7 @@ TEST_F(Properties, baselines_do_not_depend_on_the_scale) {
     Renderer renderer = make_renderer(scene), large_renderer = make_renderer(large);
     DrawSettings large_settings = kSmall;
     large_settings.penumbra_mm = kSmall.penumbra_mm * 10;
-    for (const char* id : {"lambert", "oren_nayar", "wrap"}) {
+    for (const char* id : {"lambert", "oren_nayar"}) {
         const Technique& technique = built_in_technique(id);
         const Image a = radiance(renderer, technique, kSmall),
                     b = radiance(large_renderer, technique, large_settings);
