@@ -70,7 +70,10 @@ void copy_view(Parts& p) {
         view_line(p.model, shown.file_look(),
                   {.width = size.width, .height = size.height, .samples = shown.stage().samples()});
     p.window.set_clipboard(line);
-    (void)apply_view_line(p.model, line);  // rounded as the line is, so that both draw the same
+    // Rounded as the line is, so that both draw the same; what the line leaves out of the camera is as the
+    // files say.
+    p.model.scene->camera = shown.file_look().camera;
+    (void)apply_view_line(p.model, line);
     p.model.notices.inform("view", "copied: a command line that draws this picture", p.clock.now_s());
 }
 
