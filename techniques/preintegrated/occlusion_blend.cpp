@@ -7,8 +7,8 @@
 namespace dermis {
 
 std::array<Rgb, 3> occlusion_blend(const GaussianSum& profile) {
-    constexpr std::array<double, 4> kVariances_mm2 = {0, kOcclusionVariance0Mm2, kOcclusionVariance1Mm2,
-                                                      kOcclusionVariance2Mm2};
+    const std::array<double, 4> kVariances_mm2 = {0, kOcclusionVariance0Mm2, kOcclusionVariance1Mm2,
+                                                  kOcclusionVariance2Mm2};
     std::array<Rgb, 4> shares = {};
     Rgb total = {};
     for (const GaussianTerm& term : profile.terms) {
