@@ -26,7 +26,7 @@ constexpr const char* kOwnView = "light_map";
 // How far the passes after the light map carry it: the widest tap of every blur and its bilinear neighbour,
 // and the bilinear lookup of the final mesh. In mm a tap goes along two steps at once. `kernel_texels` is the
 // longest radius of a pass whose own is 1.
-int reach_texels(const Params& params, const BlurPlan& plan, float kernel_texels) {
+int reach_texels(const BlurPlan& plan, float kernel_texels) {
     float reach = 1;
     for (size_t i = 0; i < plan.passes.size(); ++i) {
         const float radius = plan.filter == Filter::kawase ? 1 : plan.passes[i].radius * kernel_texels;
@@ -49,7 +49,7 @@ AtlasLightSettings atlas_settings(const Params& params, const BlurPlan& plan, co
     settings.cull.exempt[0] = {params.exempt_1_u, params.exempt_1_v, params.exempt_1_radius};
     settings.cull.exempt[1] = {params.exempt_2_u, params.exempt_2_v, params.exempt_2_radius};
     settings.longest_texels = longest_step_texels(kernel, settings.size, frame);
-    settings.cull.reach_texels = reach_texels(params, plan, plan.in_mm ? settings.longest_texels : kernel);
+    settings.cull.reach_texels = reach_texels(plan, plan.in_mm ? settings.longest_texels : kernel);
     settings.cull.across_seams = settings.in_mm && carry;
     settings.carry_seams = carry;
     settings.kernel_scale_mm = plan.kernel_scale;
