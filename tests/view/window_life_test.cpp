@@ -46,8 +46,10 @@ TEST_F(ViewWindow, five_hundred_frames_of_switching_leave_no_memory_behind) {
 }
 
 TEST_F(ViewWindow, on_a_slow_device_the_first_picture_is_coarse_and_the_last_has_every_pass_and_sample) {
-    const ProgramResult result =
-        view(square() + " --size 640x480 -t texture_space --set light_map_size=512 --set blur_passes=8", R"(
+    const ProgramResult result = view(
+        square() +
+            " --size 640x480 -t texture_space --set light_map_size=512 --set blur=set --set blur_passes=8",
+        R"(
         print
         settle
         print
