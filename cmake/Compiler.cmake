@@ -5,7 +5,7 @@ include_guard()
 option(DERMIS_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(DERMIS_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 
-# GCC 12 reports std::string concatenation wrongly with both (GCC bug 105651); clang's build looks for the real ones.
+# Two warnings of GCC 12 are wrong for std::string concatenation (GCC bug 105651); clang's build finds the real ones.
 set(DERMIS_WARNINGS -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     list(APPEND DERMIS_WARNINGS -Wno-restrict -Wno-array-bounds)
