@@ -48,6 +48,10 @@ const ParameterTable& atlas_parameters() {
             .number(&P::cull_bias, "cull_bias", "", 0, 2, "added to the cosine between view and normal")
             .number(&P::kernel_growth, "kernel_growth", "", 0, 10,
                     "the profile's lengths grow by this share where the kernel-size map is 1")
+            .choice(&P::detail, "detail", {"map", "pixel"},
+                    "what is too small for the light map's texels is lost, as in the sources, or lit at the "
+                    "pixel")
+            .choice(&P::transmission, "transmission", transmission_names(), kTransmissionHelp)
             .build();
     return kTable;
 }

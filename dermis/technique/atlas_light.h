@@ -5,8 +5,12 @@
 
 #include "dermis/technique/atlas_cull.h"
 #include "dermis/technique/shadow_channels.h"
+#include "dermis/technique/transmission.h"
 
 namespace dermis {
+
+/// What is too small for the light map's texels: lost, or lit at the pixel.
+enum class AtlasDetail : int32_t { map = kDetailMap, pixel = kDetailPixel };
 
 /// The parameters of every technique that lights the skin in its atlas: a part of the technique's own, with
 /// the rows of atlas_parameters(). Shaders have them in the block AtlasParams (shaders/atlas/light.glsl).
@@ -18,6 +22,8 @@ struct AtlasParams {
     bool cull_frustum = true, cull_back_face = true;
     float cull_bias = 0.3f;
     float kernel_growth = 0.5f;
+    AtlasDetail detail = AtlasDetail::pixel;
+    Transmission transmission = Transmission::shadow_map;
 };
 [[nodiscard]] const ParameterTable& atlas_parameters();
 

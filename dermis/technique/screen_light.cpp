@@ -18,11 +18,12 @@ void add_screen_light(PassList& list, const FrameContext& frame) {
 }
 
 void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular,
-                     const FrameContext& frame, std::string_view own_view) {
+                     Transmission transmission, const FrameContext& frame, std::string_view own_view) {
     Pass skin = forward_skin_pass("screen/final.frag", specular, frame, own_view);
     skin.reads.push_back({"blurred_light", blurred});
     skin.reads.push_back("skin_z");
     skin.reads.push_back("skin_key_visibility");
+    read_transmission(skin, transmission);
     list.passes.push_back(std::move(skin));
 }
 

@@ -6,6 +6,7 @@
 
 #include "dermis/technique/forward.h"
 #include "dermis/technique/technique.h"
+#include "dermis/technique/transmission.h"
 
 namespace dermis {
 
@@ -17,6 +18,6 @@ void add_screen_light(PassList& list, const FrameContext& frame);
 /// Draws the skin with the diffuse light of `blurred`, an image as "skin_light" is, but without meaning in
 /// its alpha. `own_view` shows that light alone.
 void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular,
-                     const FrameContext& frame, std::string_view own_view);
+                     Transmission transmission, const FrameContext& frame, std::string_view own_view);
 
 }  // namespace dermis

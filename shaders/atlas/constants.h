@@ -19,6 +19,9 @@ const int kChannelsNone = 0, kChannelsColor = 1, kChannelsTwoLights = 2;
 // Specialisation constant shadow_lookup.
 const int kLookupDisk = 0, kLookupSingle = 1;
 
+// Specialisation constant detail.
+const int kDetailMap = 0, kDetailPixel = 1;
+
 // Texels a side of the tiles that are kept or dropped whole.
 const int kCullTile = 8;
 

@@ -14,27 +14,24 @@ layout(scalar) uniform AtlasParams {
     float cull_bias;
 };
 
-vec3 shadow_factor(Surface s, int light, vec3 to_light_world) {
-    vec3 through = vec3(1.0);
+// What passes opaque and translucent surfaces.
+vec3 passing(Surface s, int light, vec3 to_light_world) {
     if (light == key_light)
-        through =
-            key_light_through(s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm, trans_shadow_alpha);
-    else if (channels == kChannelsTwoLights && light == second_light)
-        through =
-            second_light_through(s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm, trans_shadow_alpha);
-    else {
-        LightThrough other = light_through(light, s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm);
-        through = other.visibility * other.tint;
-    }
-    return mix(vec3(occluded), vec3(1.0), through);
+        return key_light_through(s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm, trans_shadow_alpha);
+    if (channels == kChannelsTwoLights && light == second_light)
+        return second_light_through(s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm, trans_shadow_alpha);
+    LightThrough other = light_through(light, s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm);
+    return other.visibility * other.tint;
 }
+
+vec3 shadow_factor(vec3 passing) { return mix(vec3(occluded), vec3(1.0), passing); }
 
 // Exitance over albedo, of one light.
 vec3 light_exitance(Surface s, int i) {
     LightSample light = sample_light(i, s.p_world_mm);
     float n_dot_l = dot(s.n_world, light.to_light_world);
     if (n_dot_l <= 0.0) return vec3(0.0);
-    return light.irradiance_linear * n_dot_l * shadow_factor(s, i, light.to_light_world);
+    return light.irradiance_linear * n_dot_l * shadow_factor(passing(s, i, light.to_light_world));
 }
 
 vec3 unblurred_exitance(Surface s) {

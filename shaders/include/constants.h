@@ -20,6 +20,9 @@ const int kMaxShadowMaps = 3;
 const int kSpecularNone = 0, kSpecularBlinnPhong = 1, kSpecularGgx = 2, kSpecularTwoLobe = 3,
           kSpecularKsk = 4;
 
+// Specialisation constant transmission.
+const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
+
 // Specialisation constant view. Own: the technique's own debug view.
 const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
 

@@ -3,6 +3,7 @@
 #ifndef DERMIS_FORWARD_GLSL
 #define DERMIS_FORWARD_GLSL
 
+// With DERMIS_TRANSMISSION defined: light that comes through thin parts is added (shaders/include/transmission.glsl).
 // DERMIS_SHADOW_WIDTH_MM: the width of a filtered shadow, when it is not the scene's penumbra.
 #ifndef DERMIS_SHADOW_WIDTH_MM
 #define DERMIS_SHADOW_WIDTH_MM penumbra_mm
@@ -13,6 +14,9 @@
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/specular.glsl"
 #include "shaders/include/surface.glsl"
+#ifdef DERMIS_TRANSMISSION
+#include "shaders/include/transmission.glsl"
+#endif
 #include "shaders/include/view.glsl"
 
 layout(location = 0) out vec4 radiance_out;
@@ -28,9 +32,11 @@ void prepare_surface(inout Surface s);
 vec3 own_view(Surface s);
 #endif
 
-// With DERMIS_TRANSMISSION defined: as direct_response(), for light of the key that comes through the skin.
 #ifdef DERMIS_TRANSMISSION
-vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility);
+// All light that comes through the skin is gathered, and counts where it is more than the technique's own. Left out is
+// what faces as the point itself does, which at grazing light the shadow map's texels are too coarse for.
+const float kOwnSide = 0.15;
+float part_not_counted(Surface s, LitPoint lit) { return smoothstep(0.0, kOwnSide, turned_away(s, lit)); }
 #endif
 
 // Radiant exitance over irradiance at normal incidence for light from one direction: n_dot_l for Lambert. Includes
@@ -58,10 +64,13 @@ void main() {
             light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, DERMIS_SHADOW_WIDTH_MM);
         float visibility = through.visibility;
         light.irradiance_linear *= through.tint;
+        vec3 direct = light.irradiance_linear * direct_response(s, light.to_light_world, visibility);
 #ifdef DERMIS_TRANSMISSION
-        if (i == key_light) exitance += light.irradiance_linear * transmitted_response(s, light.to_light_world, visibility);
+        // Both are estimates of the same integral; each misses light where the other is right.
+        float n_dot_l = max(dot(s.n_geometry_world, light.to_light_world), 0.0);
+        direct = max(direct, transmitted_exitance(s, i, light, n_dot_l * visibility));
 #endif
-        exitance += light.irradiance_linear * direct_response(s, light.to_light_world, visibility);
+        exitance += direct;
         specular_radiance += light.irradiance_linear * visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // The mesh through the camera: diffuse light from the blurred picture, specular as every technique has it.
 #include "shaders/include/specular.glsl"
+#include "shaders/include/transmission.glsl"
 #include "shaders/include/view.glsl"
 #include "shaders/screen/light.glsl"
 #include "shaders/screen/rays.glsl"
@@ -15,6 +16,7 @@ layout(location = 0) out vec4 radiance_out;
 // The blurred picture has one value per pixel, at its middle. A sample at an edge may be of another surface than the
 // middle: then the neighbour nearest in depth is taken, and where none is near, the light is not blurred at all.
 const float kSameSurfaceMm = 3.0;
+const float kSeenMm = 0.5;
 
 float gap_mm(ivec2 pixel, float z_mm) {
     ivec2 inside = clamp(pixel, ivec2(0), textureSize(sampler2D(skin_z, nearest_clamp), 0) - 1);
@@ -37,23 +39,47 @@ bool read_blurred(vec3 p_world_mm, out vec3 exitance, out float key_visibility) 
     return least <= kSameSurfaceMm;
 }
 
+// The blur has the points that the camera sees: not those that face away, nor those behind the skin that is drawn there.
+// Within a pixel the depth changes by about the pixel's own size.
+float pixel_mm;
+const float kFacesAway = 0.3;  // cosine
+
+float part_not_counted(Surface s, LitPoint lit) {
+    vec4 p_clip = view_projection * vec4(lit.p_world_mm, 1.0);
+    ivec2 size = textureSize(sampler2D(skin_z, nearest_clamp), 0);
+    ivec2 pixel = ivec2(floor((p_clip.xy / p_clip.w * 0.5 + 0.5) * vec2(size)));
+    bool outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size));
+    float z_mm = outside ? 0.0 : texelFetch(sampler2D(skin_z, nearest_clamp), pixel, 0).r;
+    float margin_mm = kSeenMm + 0.5 * pixel_mm;
+    // Past the border of the picture the blur takes the light to go on as it is inside.
+    float hidden = z_mm == 0.0 ? float(!outside) : smoothstep(margin_mm, 2.0 * margin_mm, p_clip.w - z_mm);
+    if (hidden == 1.0) return 1.0;
+    float away = dot(lit_normal_world(lit), normalize(lit.p_world_mm - eye_world_mm));
+    return max(hidden, smoothstep(0.0, kFacesAway, away));
+}
+
 void main() {
     Surface s = load_surface();
+    pixel_mm = length(fwidth(s.p_world_mm));
     vec3 exitance;
     float key_visibility;
     if (!read_blurred(s.p_world_mm, exitance, key_visibility)) exitance = unblurred_exitance(s, key_visibility);
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
+        vec3 arriving = light.irradiance_linear;
+        float visibility = key_visibility;
         // The first pass stored the key light's visibility, but not the tint of its shadow.
         if (i == key_light && tinted_shadows == 0) {
-            light.irradiance_linear *= key_visibility;
+            arriving *= key_visibility;
         } else {
             LightThrough through =
                 light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
-            light.irradiance_linear *= through.visibility * through.tint;
+            arriving *= through.visibility * through.tint;
+            visibility = through.visibility;
         }
-        specular_radiance += light.irradiance_linear *
+        exitance += transmitted_exitance(s, i, light, visibility * max(dot(s.n_world, light.to_light_world), 0.0));
+        specular_radiance += arriving *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
     radiance_out = vec4(shown_radiance(s.albedo_linear * exitance / kPi, specular_radiance, exitance / kPi), 1.0);

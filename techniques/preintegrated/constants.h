@@ -12,16 +12,12 @@ const int kShadowPlain = 0, kShadowScattered = 1;
 const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
 const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2, kNormalsLerp = 3;
 const int kAmbientExact = 0, kAmbientLut = 1, kAmbientCurve2015 = 2;
-const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
 
 // The tables hold curvatures from 0 to this.
 const float kMaxCurvaturePerMm = 1.0;
 
 // skin_normal_blend: log2 of a texel of the normal map in mm, 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
-
-// skin_transmission holds distances from 0 to this.
-const float kMaxDistanceMm = 12.0;
 
 #ifdef __cplusplus
 }  // namespace dermis

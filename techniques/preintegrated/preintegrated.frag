@@ -18,7 +18,16 @@ layout(push_constant, scalar) uniform PassValues {
 };
 layout(constant_id = 3) const int shadow = kShadowScattered;
 // shadow=plain filters the scene's penumbra; shadow=scattered the width that the shadow table was made for.
-#define DERMIS_SHADOW_WIDTH_MM (shadow == kShadowScattered ? shadow_width_mm : penumbra_mm)
+#define DERMIS_SHADOW_WIDTH_MM shadow_filter_mm(s.n_geometry_world, light.to_light_world)
+
+// At grazing light a wider filter than the penumbra would light skin that is in shadow.
+const float kGrazing = 0.3, kSteep = 0.7;
+float scattered_shadow_part(vec3 n_world, vec3 to_light_world) {
+    return shadow == kShadowScattered ? smoothstep(kGrazing, kSteep, dot(n_world, to_light_world)) : 0.0;
+}
+float shadow_filter_mm(vec3 n_world, vec3 to_light_world) {
+    return mix(penumbra_mm, shadow_width_mm, scattered_shadow_part(n_world, to_light_world));
+}
 #define DERMIS_PREPARE_SURFACE
 #define DERMIS_BECKMANN_TABLE
 #define DERMIS_OWN_VIEW
@@ -28,14 +37,12 @@ layout(constant_id = 3) const int shadow = kShadowScattered;
 #include "techniques/preintegrated/closed_form.glsl"
 #include "techniques/preintegrated/curvature.glsl"
 #include "techniques/preintegrated/curve_2015.glsl"
-#include "techniques/preintegrated/transmission.glsl"
 #include "techniques/preintegrated/zonal.glsl"
 
 layout(constant_id = 2) const int diffuse = kDiffuseLut;
 layout(constant_id = 4) const int curvature = kCurvatureVertex;
 layout(constant_id = 5) const int normals = kNormalsBlended;
 layout(constant_id = 6) const int ambient = kAmbientLut;
-layout(constant_id = 7) const int transmission = kTransmissionNone;
 
 uniform texture2D curvature_map;
 uniform texture2D skin_lut;           // N.L * .5 + .5, curvature
@@ -45,7 +52,6 @@ uniform texture2D skin_closed_form;   // curvature, rows of coefficients
 uniform texture2D skin_gaussians;     // a texel a term: weights, variance in mm^2
 uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
 uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
-uniform texture2D skin_transmission;  // distance
 
 // Set by prepare_surface(); the same for every light.
 mat3 skin_tensor_per_mm;
@@ -150,14 +156,7 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
     float size = float(textureSize(sampler2D(skin_shadow, linear_clamp), 0).x);
     vec3 penumbra =
         textureLod(sampler2D(skin_shadow, linear_clamp), vec2(texel_centres(visibility, size), 0.5), 0.0).rgb;
-    return scattered * penumbra;
-}
-
-// The shadow table has the light that scatters into the penumbra; deeper in the shadow, light is gathered from the shadow map.
-vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility) {
-    if (transmission == kTransmissionNone || visibility > 0.3) return vec3(0.0);
-    return (1.0 - smoothstep(0.0, 0.3, visibility)) *
-           transmitted_light(skin_transmission, s.p_world_mm, to_light_world);
+    return scattered * mix(vec3(visibility), penumbra, scattered_shadow_part(s.n_geometry_world, to_light_world));
 }
 
 // sqrt(4 pi / (2 l + 1)) zh_l in place of the cosine lobe's bands (Ramamoorthi, Hanrahan 2001).

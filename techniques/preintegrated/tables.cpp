@@ -136,28 +136,12 @@ Result<TableImage> beckmann_table(const TableSettings& settings, const SkinConte
     return table_image("skin_beckmann", kBeckmannHeight, roots, ImageFormat::r32f);
 }
 
-// R per mm^2 divided by its integral, at even steps of distance, both ends included. The albedo is left out
-// because the albedo map holds it.
-Result<TableImage> transmission_table(const TableSettings&, const SkinContext& skin) {
-    const Profile profile = {.name = "", .source = "", .model = skin.gaussians};
-    std::vector<float> rgba;
-    for (int i = 0; i < kRows; ++i) {
-        const double distance_mm = std::max(double(kMaxDistanceMm) * i / (kRows - 1), kMinDistanceMm);
-        for (int c = 0; c < 3; ++c) {
-            const double albedo = diffuse_albedo(profile, c);
-            rgba.push_back(albedo > 0 ? float(reflectance_per_mm2(profile, c, distance_mm) / albedo) : 0.0f);
-        }
-        rgba.push_back(1);
-    }
-    return table_image("skin_transmission", 1, rgba);
-}
-
 }  // namespace
 
 Result<std::vector<TableImage>> bake_tables(const TableSettings& settings, const SkinContext& skin) {
     std::vector<TableImage> images;
     for (const auto make : {diffuse_table, zonal_table, closed_form_table, shadow_table, gaussian_table,
-                            normal_blend_table, beckmann_table, transmission_table}) {
+                            normal_blend_table, beckmann_table}) {
         Result<TableImage> image = make(settings, skin);
         if (!image) return image.error();
         images.push_back(std::move(*image));

@@ -8,9 +8,6 @@
 
 namespace dermis::preintegrated {
 
-/// Points nearer than this count as this far in the transmission table: taps are half a millimetre apart.
-inline constexpr double kMinDistanceMm = 0.4;
-
 struct TableSettings {
     Construction construction = Construction::sphere;  ///< of every table; the published ring is half_ring
     double normal_lod_bias = 3;
@@ -18,8 +15,8 @@ struct TableSettings {
     bool needs_beckmann = false;  ///< otherwise the table is one texel
 };
 
-/// skin_lut, skin_zonal, skin_shadow, skin_closed_form, skin_gaussians, skin_normal_blend, skin_beckmann,
-/// skin_transmission; all 32-bit float with four channels but skin_beckmann, which has one.
+/// skin_lut, skin_zonal, skin_shadow, skin_closed_form, skin_gaussians, skin_normal_blend, skin_beckmann;
+/// all 32-bit float with four channels but skin_beckmann, which has one.
 [[nodiscard]] Result<std::vector<TableImage>> bake_tables(const TableSettings& settings,
                                                           const SkinContext& skin);
 

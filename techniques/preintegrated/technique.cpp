@@ -4,6 +4,7 @@
 // published ring), the closed form from dermis/optics, the hand-made curves from Yeung 2015.
 
 #include "dermis/technique/forward.h"
+#include "dermis/technique/transmission.h"
 #include "techniques/preintegrated/figures.h"
 #include "techniques/preintegrated/occlusion_blend.h"
 #include "techniques/preintegrated/tables.h"
@@ -29,7 +30,6 @@ enum class Normals : int32_t {
     lerp = kNormalsLerp
 };
 enum class Shadow : int32_t { plain = kShadowPlain, scattered = kShadowScattered };
-enum class Transmission : int32_t { none = kTransmissionNone, shadow_map = kTransmissionShadowMap };
 enum class Ambient : int32_t { exact = kAmbientExact, lut = kAmbientLut, curve_2015 = kAmbientCurve2015 };
 
 constexpr const char* kOwnView = "skin_curvature";
@@ -44,7 +44,7 @@ struct Params {
     float normal_lod_bias = 3;
     Shadow shadow = Shadow::scattered;
     float shadow_width_mm = 3;
-    Transmission transmission = Transmission::none;
+    Transmission transmission = Transmission::shadow_map;
     Ambient ambient = Ambient::lut;
     SpecularModel specular = SpecularModel::ggx;
     float oiliness = 1;
@@ -71,8 +71,7 @@ ParameterTable parameters() {
         .choice(&Params::shadow, "shadow", {"plain", "scattered"},
                 "penumbra as filtered, or with scattered light")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
-        .choice(&Params::transmission, "transmission", {"none", "shadow_map"},
-                "transmission through ears and other thin parts, gathered from the shadow map")
+        .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::ambient, "ambient", {"exact", "lut", "curve_2015"},
                 "zonal harmonics for light from the environment: closed form of the sphere, table, curves of "
                 "2015")
@@ -92,11 +91,11 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                                  {"shadow", int32_t(params.shadow)},
                                                  {"curvature", int32_t(params.curvature)},
                                                  {"normals", int32_t(params.normals)},
-                                                 {"ambient", int32_t(params.ambient)},
-                                                 {"transmission", int32_t(params.transmission)}});
+                                                 {"ambient", int32_t(params.ambient)}});
     for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_closed_form", "skin_gaussians",
-                              "skin_normal_blend", "skin_beckmann", "skin_transmission"})
+                              "skin_normal_blend", "skin_beckmann"})
         pass.reads.push_back(table);
+    read_transmission(pass, params.transmission);
     const std::array<Rgb, 3> weights = occlusion_blend(frame.skin_gaussians);
     for (size_t i = 0; i < weights.size(); ++i)
         pass.values.push_back({"occlusion_weight_" + std::to_string(i),
@@ -109,11 +108,16 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
     const Params params = values.as<Params>();
     const bool ring = params.construction == TableConstruction::ring;
-    return preintegrated::bake_tables({.construction = ring ? Construction::half_ring : Construction::sphere,
-                                       .normal_lod_bias = params.normal_lod_bias,
-                                       .shadow_width_mm = params.shadow_width_mm,
-                                       .needs_beckmann = params.specular == SpecularModel::ksk},
-                                      skin);
+    Result<std::vector<TableImage>> images =
+        preintegrated::bake_tables({.construction = ring ? Construction::half_ring : Construction::sphere,
+                                    .normal_lod_bias = params.normal_lod_bias,
+                                    .shadow_width_mm = params.shadow_width_mm,
+                                    .needs_beckmann = params.specular == SpecularModel::ksk},
+                                   skin);
+    if (!images) return images;
+    for (TableImage& image : transmission_tables(params.transmission, skin))
+        images->push_back(std::move(image));
+    return images;
 }
 
 std::vector<Figure> figures() {

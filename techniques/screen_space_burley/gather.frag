@@ -4,6 +4,7 @@
 // channels' radial densities, and weighted by each channel's own at the true distance between the points on the skin
 // (bilateral filtering). The part of the profile within the pixel itself is computed, not sampled, and is
 // the centre's weight, so that a profile far narrower than a pixel changes nothing.
+#include "shaders/include/pixel_turn.glsl"
 #include "shaders/include/texel_centres.glsl"
 #include "shaders/screen/rays.glsl"
 
@@ -30,10 +31,6 @@ float radius_mm(float part) {
     return textureLod(sampler2D(skin_radius, linear_clamp), vec2(u, 0.5), 0.0).r;
 }
 
-// A different rotation of the disk for each pixel, evenly distributed in any 3 x 3 block (Jimenez 2014, interleaved
-// gradient noise).
-float rotation(vec2 pixel) { return 2.0 * kPi * fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
-
 void main() {
     vec4 middle = textureLod(sampler2D(light, nearest_clamp), uv, 0.0);
     if (middle.a == 0.0) {
@@ -48,7 +45,7 @@ void main() {
     vec2 pixel_mm = size_mm / vec2(textureSize(sampler2D(light, nearest_clamp), 0));
     float inner_mm = min(sqrt(pixel_mm.x * pixel_mm.y / kPi), reach_mm);  // the disk of a pixel's area
     vec4 inside = density_row(inner_mm, reach_mm, 1.0);
-    float start = rotate == 1 ? rotation(gl_FragCoord.xy) : 0.0;
+    float start = rotate == 1 ? pixel_turn(gl_FragCoord.xy) : 0.0;
 
     vec3 sum = vec3(0.0), weights = vec3(0.0);
     for (int i = 0; i < sample_count; ++i) {

@@ -19,6 +19,7 @@ struct Params {
     int32_t samples = 16;
     float width = 1;
     bool rotate = true;
+    Transmission transmission = Transmission::shadow_map;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -27,6 +28,7 @@ ParameterTable parameters() {
         .integer(&Params::samples, "samples", "", 4, 2048, "samples of the disk")
         .number(&Params::width, "width", "", 0.01, 10, "scales the profile's lengths")
         .toggle(&Params::rotate, "rotate", "turns the disk from pixel to pixel: noise instead of bands")
+        .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
 }
@@ -43,19 +45,22 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
          .reads = {{"light", "skin_light"}, "skin_z", "skin_density", "skin_radius"},
          .colors = {{.image = "skin_light_gathered", .load = LoadOp::discard}},
          .constants = {{"sample_count", params.samples}, {"rotate", int32_t(params.rotate)}}});
-    add_screen_skin(list, "skin_light_gathered", params.specular, frame, kOwnView);
+    add_screen_skin(list, "skin_light_gathered", params.specular, params.transmission, frame, kOwnView);
     return list;
 }
 
 Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
-    const Profile profile = scaled(skin.profile, double(values.as<Params>().width));
+    const auto params = values.as<Params>();
+    const Profile profile = scaled(skin.profile, double(params.width));
     const double reach = reach_mm(profile);
     std::vector<Texel> density = radial_density(profile, reach, kTexels);
     const std::vector<Texel> part = part_within(profile, reach, kTexels);
     density.insert(density.end(), part.begin(), part.end());
-    return std::vector<TableImage>{
-        table_image("skin_density", 2, density),
-        table_image("skin_radius", 1, radius_of_part(profile, reach, kTexels), ImageFormat::r32f)};
+    std::vector<TableImage> images = transmission_tables(params.transmission, skin);
+    images.push_back(table_image("skin_density", 2, density));
+    images.push_back(
+        table_image("skin_radius", 1, radius_of_part(profile, reach, kTexels), ImageFormat::r32f));
+    return images;
 }
 
 // The minimum at which single samples are not visible.

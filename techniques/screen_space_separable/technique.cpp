@@ -28,6 +28,7 @@ struct Params {
     Vec3 far_share = TwoGaussians().far_share;
     Taps taps = Taps::taps_17;
     Follow follow = Follow::surface;
+    Transmission transmission = Transmission::shadow_map;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -42,6 +43,7 @@ ParameterTable parameters() {
         .choice(&Params::taps, "taps", {"7", "11", "17", "25"}, "taps along each direction")
         .choice(&Params::follow, "follow", {"none", "surface"},
                 "distance to a tap: on the picture's plane, or between the points on the skin")
+        .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
 }
@@ -75,7 +77,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                            {"along_v", int32_t(along_v)},
                            {"follow", int32_t(params.follow)}},
              .values = {{"reach_mm", reach}}});
-    add_screen_skin(list, "skin_light_xy", params.specular, frame, kOwnView);
+    add_screen_skin(list, "skin_light_xy", params.specular, params.transmission, frame, kOwnView);
     return list;
 }
 
@@ -91,7 +93,9 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
             rgba.push_back(float(share_within(kernel, params.width, c, reach * x * x)));
         rgba.push_back(1);
     }
-    return std::vector<TableImage>{table_image("skin_kernel", 1, rgba)};
+    std::vector<TableImage> images = transmission_tables(params.transmission, skin);
+    images.push_back(table_image("skin_kernel", 1, rgba));
+    return images;
 }
 
 ParameterValues coarse(ParameterValues values, float) {

@@ -72,7 +72,7 @@ BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
         .size = params.blur == Blur::source ? kSourceSize : params.atlas.light_map_size,
         .filter = params.blur == Blur::source ? Filter::poisson : params.filter,
         .in_mm = params.space == Space::mm && params.blur != Blur::source && params.filter != Filter::kawase};
-    plan.keeps_lit = params.detail == Detail::pixel && params.blur != Blur::source;
+    plan.keeps_lit = params.atlas.detail == AtlasDetail::pixel && params.blur != Blur::source;
     switch (params.blur) {
         case Blur::profile:
             plan.kernel_scale = params.atlas.kernel_growth;

@@ -15,9 +15,6 @@ const int kDilateOff = 0, kDilateSource = 1, kDilateWrittenOnly = 2;
 // Specialisation constant specular_shadow.
 const int kSpecularShadowOff = 0, kSpecularShadowSource = 1, kSpecularShadowMap = 2;
 
-// Specialisation constant detail.
-const int kDetailMap = 0, kDetailPixel = 1;
-
 #ifdef __cplusplus
 }  // namespace dermis
 #endif

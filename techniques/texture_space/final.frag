@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Step 4 of the source: the mesh through the camera, diffuse from the blurred light map. Detail that is
-// smaller than a texel of the map is kept: the light at the pixel, plus the difference that the blur makes to the map.
+// Step 4 of the source: the mesh through the camera, diffuse from the blurred light map.
 #include "shaders/atlas/final.glsl"
 #include "techniques/texture_space/constants.h"
 
@@ -13,22 +12,13 @@ uniform texture2D light_map_lit;  // before the blur
 
 layout(constant_id = 2) const int specular_shadow = kSpecularShadowMap;
 layout(constant_id = 3) const int light_map_texels = kTexelsPremultiplied;
-layout(constant_id = 4) const int detail = kDetailPixel;
 
 float luminance(vec3 c_linear) { return dot(c_linear, vec3(0.2125, 0.7154, 0.0721)); }
 
-vec3 scattered_exitance(Surface s) {
-    vec3 blurred, lit;
-    if (!read_light_map(light_map, s, light_map_texels, blurred)) return unblurred_exitance(s);
-    if (detail == kDetailMap) return blurred;
-    read_light_map(light_map_lit, s, light_map_texels, lit);
-    return max(unblurred_exitance(s) + blurred - lit, vec3(0.0));
-}
-
 // Of the key light's specular.
-vec3 specular_dimming(Surface s, LightSample key, vec3 exitance) {
+vec3 specular_dimming(LightSample key, vec3 passing, vec3 exitance) {
     if (specular_shadow == kSpecularShadowOff) return vec3(1.0);
-    if (specular_shadow == kSpecularShadowMap) return shadow_factor(s, key_light, key.to_light_world);
+    if (specular_shadow == kSpecularShadowMap) return shadow_factor(passing);
     // The source multiplies by the luminance as it is, its light being about 1; here by its share of the key light.
     float share = luminance(exitance) / max(luminance(key.irradiance_linear), 1e-4);
     return vec3(clamp(share * specular_shadow_scale + specular_shadow_bias, 0.0, 1.0));
@@ -36,14 +26,17 @@ vec3 specular_dimming(Surface s, LightSample key, vec3 exitance) {
 
 void main() {
     Surface s = load_surface();
-    vec3 exitance = scattered_exitance(s);
+    vec3 exitance = scattered_exitance(light_map, light_map_lit, s, light_map_texels, 0.0), transmitted = vec3(0.0);
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
-        vec3 dimmed = i == key_light ? specular_dimming(s, light, exitance) : shadow_factor(s, i, light.to_light_world);
+        vec3 through = passing(s, i, light.to_light_world);
+        transmitted += transmitted_past(s, i, light, through);
+        vec3 dimmed = i == key_light ? specular_dimming(light, through, exitance) : shadow_factor(through);
         specular_radiance += light.irradiance_linear * dimmed *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
+    exitance += transmitted;
     vec3 diffuse_radiance = s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);
 }

@@ -37,8 +37,6 @@ ParameterTable parameter_table() {
         .number(&Params::exempt_2_radius, "exempt_2_radius", "uv", 0, 1, "its radius; 0: none")
         .toggle(&Params::cull_distance, "cull_distance", "keep the last light map while the camera is far")
         .number(&Params::cull_beyond_mm, "cull_beyond_mm", "mm", 0, 1e6, "how far that is")
-        .choice(&Params::detail, "detail", {"map", "pixel"},
-                "what is too small for the light map's texels is lost, as in the source, or lit at the pixel")
         .choice(&Params::specular_shadow, "specular_shadow", {"off", "source", "shadow_map"},
                 "the key light's specular: not shadowed, dimmed by the blurred light's luminance as in the "
                 "source, or shadowed as the diffuse light is")

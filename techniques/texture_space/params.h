@@ -21,7 +21,6 @@ enum class Filter : int32_t {
 enum class Dilate : int32_t { off = kDilateOff, source = kDilateSource, written_only = kDilateWrittenOnly };
 enum class Space : int32_t { texels = kSpaceTexels, mm = kSpaceMm };
 enum class Seams : int32_t { drop, carry };
-enum class Detail : int32_t { map = kDetailMap, pixel = kDetailPixel };
 enum class SpecularShadow : int32_t {
     off = kSpecularShadowOff,
     source = kSpecularShadowSource,
@@ -40,7 +39,6 @@ struct Params {
     Dilate dilate = Dilate::written_only;
     Space space = Space::mm;
     Seams seams = Seams::carry;
-    Detail detail = Detail::pixel;
     bool single_channel_opacity = false;
     bool second_light_shadow = false;
     ShadowLookup shadow_lookup = ShadowLookup::disk;

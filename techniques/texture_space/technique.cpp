@@ -148,6 +148,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                                  {"light_map_texels", texels_of(params, plan)},
                                                  {"detail", keeps_lit ? kDetailPixel : kDetailMap}});
     read_shadow_channels(skin, atlas.shadow, frame);
+    read_transmission(skin, params.atlas.transmission);
     list.passes.push_back(std::move(skin));
     return list;
 }
@@ -155,6 +156,10 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 ParameterValues coarse(ParameterValues values, float scale) {
     values.put_all(coarse_params(values.as<Params>(), scale));
     return values;
+}
+
+Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
+    return transmission_tables(values.as<Params>().atlas.transmission, skin);
 }
 
 }  // namespace
@@ -166,6 +171,7 @@ Technique make_texture_space_technique() {
             .parameters = texture_space::parameter_table(),
             .views = {kOwnView},
             .build = build,
+            .tables = tables,
             .coarse = coarse,
             .figures = texture_space_figures};
 }

@@ -3,8 +3,8 @@
 // passes along the surface, and the results are summed by the profile's weights. Changed: the steps of the
 // blur follow shear as well as stretch and agree across seams (shaders/atlas/blur_mm.glsl); gutter texels
 // hold the light from across the UV seam; the sum is accumulated by blending, so that any number of Gaussians
-// needs three images. Not here: transmission through thin parts by the modified translucent shadow map, and
-// the energy that the specular takes.
+// needs four images; what is too small for the texels is lit at the pixel (detail=pixel); transmission is
+// summed from the shadow map itself. Not here: the energy that the specular takes.
 
 #include <algorithm>
 #include <cmath>
@@ -89,16 +89,18 @@ void add_gaussian(PassList& list, const Params& params, const AtlasLightSettings
                   size_t index, size_t count) {
     const std::string name = "gaussian " + std::to_string(index + 1);
     const float part = 1 / float(count);
+    // The light before the blur stays in light_map_a, for the final mesh.
+    const std::string from = index == 0 ? "light_map_a" : "light_map_c";
     for (const bool second : {false, true}) {
         Pass pass = {.name = name + (second ? " second" : " first"),
                      .kind = PassKind::fullscreen,
                      .shader = std::string("texture_space_gaussians/gaussian_") +
                                (second ? "second" : "first") + ".frag",
-                     .colors = {{.image = second ? "light_map_a" : "light_map_b", .load = LoadOp::discard}},
+                     .colors = {{.image = second ? "light_map_c" : "light_map_b", .load = LoadOp::discard}},
                      .constants = {{"along_second", int32_t(second)}, {"half_taps", params.half_taps}},
                      .values = {{"sigma_mm", float(step.sigma_mm)},
                                 {"share", Vec4{step.share.x, step.share.y, step.share.z, part}}}};
-        read_atlas_metric(pass, second ? "light_map_b" : "light_map_a", atlas);
+        read_atlas_metric(pass, second ? "light_map_b" : from, atlas);
         keep_unculled(pass, atlas.cull);
         if (second)
             pass.colors.push_back({.image = "light_sum",
@@ -118,14 +120,18 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     for (const char* name : {"light_map_a", "light_map_b"})
         list.images.push_back({.name = name, .format = ImageFormat::rgba32f, .size = size});
     if (!steps.empty())
-        list.images.push_back({.name = "light_sum", .format = ImageFormat::rgba32f, .size = size});
+        for (const char* name : {"light_map_c", "light_sum"})
+            list.images.push_back({.name = name, .format = ImageFormat::rgba32f, .size = size});
     add_shadow_channels(list, atlas.shadow, frame);
     add_atlas_light(list, atlas, frame);
     for (size_t i = 0; i < steps.size(); ++i) add_gaussian(list, params, atlas, steps[i], i, steps.size());
 
     Pass skin = forward_skin_pass("texture_space_gaussians/final.frag", params.specular, frame, kOwnView);
-    skin.reads = {{"light_map", steps.empty() ? "light_map_a" : "light_sum"}};
+    skin.reads = {{"light_map", steps.empty() ? "light_map_a" : "light_sum"},
+                  {"light_map_lit", "light_map_a"}};
+    skin.constants.emplace_back("detail", int32_t(params.atlas.detail));
     read_shadow_channels(skin, atlas.shadow, frame);
+    read_transmission(skin, params.atlas.transmission);
     list.passes.push_back(std::move(skin));
     return list;
 }
@@ -140,6 +146,10 @@ ParameterValues coarse(ParameterValues values, float scale) {
     return values;
 }
 
+Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
+    return transmission_tables(values.as<Params>().atlas.transmission, skin);
+}
+
 }  // namespace
 
 Technique make_texture_space_gaussians_technique() {
@@ -149,6 +159,7 @@ Technique make_texture_space_gaussians_technique() {
             .parameters = parameters(),
             .views = {kOwnView},
             .build = build,
+            .tables = tables,
             .coarse = coarse};
 }
 

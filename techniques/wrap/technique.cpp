@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dermis/technique/forward.h"
+#include "dermis/technique/transmission.h"
 #include "techniques/wrap/constants.h"
 
 namespace dermis {
@@ -18,6 +19,7 @@ struct Params {
     float wrap = 0.25f;
     float scatter_width = 0.15f;
     Vec3 scatter_color_linear = {0.07f, 0.012f, 0.006f};
+    Transmission transmission = Transmission::shadow_map;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -33,6 +35,7 @@ ParameterTable parameters() {
                 "width=source: half width of the coloured band, in wrapped n_dot_l")
         .color(&Params::scatter_color_linear, "scatter_color_linear", 0, 1,
                "width=source: added irradiance in the middle of the band")
+        .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
 }
@@ -68,7 +71,12 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     skin.values = {{"second_moment_mm2",
                     Vec3{float(r.second_moment_mm2), float(g.second_moment_mm2), float(b.second_moment_mm2)}},
                    {"bend_mm2", Vec3{float(r.bend_mm2), float(g.bend_mm2), float(b.bend_mm2)}}};
+    read_transmission(skin, params.transmission);
     return {.passes = {std::move(skin)}};
+}
+
+Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
+    return transmission_tables(values.as<Params>().transmission, skin);
 }
 
 }  // namespace
@@ -78,7 +86,8 @@ Technique make_wrap_technique() {
             .summary = "wrapped diffuse, as far past the terminator as the profile scatters",
             .source = "Green 2004, GPU Gems, chapter 16; McAuley 2010, Energy-Conserving Wrapped Diffuse",
             .parameters = parameters(),
-            .build = build};
+            .build = build,
+            .tables = tables};
 }
 
 }  // namespace dermis

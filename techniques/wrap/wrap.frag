@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Wrapped diffuse: light reaches past the terminator (Green 2004, GPU Gems, chapter 16).
+#define DERMIS_TRANSMISSION
 #include "shaders/include/forward.glsl"
 #include "techniques/wrap/constants.h"
 

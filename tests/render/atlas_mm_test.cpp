@@ -20,15 +20,16 @@ struct Blur {
 };
 
 const std::vector<Blur>& blurs_in_mm() {
-    static const std::vector<Blur> kBlurs = {{"texture_space",
-                                              {{"blur", "set"},
-                                               {"filter", "poisson"},
-                                               {"detail", "map"},
-                                               {"blur_passes", "2"},
-                                               {"blur_scale", "0"},
-                                               {"blur_bias", "1.5"},
-                                               {"light_map_size", "512"}}},
-                                             {"texture_space_gaussians", {{"light_map_size", "512"}}}};
+    static const std::vector<Blur> kBlurs = {
+        {"texture_space",
+         {{"blur", "set"},
+          {"filter", "poisson"},
+          {"detail", "map"},
+          {"blur_passes", "2"},
+          {"blur_scale", "0"},
+          {"blur_bias", "1.5"},
+          {"light_map_size", "512"}}},
+        {"texture_space_gaussians", {{"detail", "map"}, {"light_map_size", "512"}}}};
     return kBlurs;
 }
 

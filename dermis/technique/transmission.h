@@ -1,0 +1,33 @@
+#pragma once
+// Transmission through thin parts, for every technique whose shader includes
+// shaders/include/transmission.glsl.
+
+#include <string>
+#include <vector>
+
+#include "dermis/technique/technique.h"
+#include "shaders/include/constants.h"
+
+namespace dermis {
+
+enum class Transmission : int32_t { none = kTransmissionNone, shadow_map = kTransmissionShadowMap };
+
+[[nodiscard]] const std::vector<std::string>& transmission_names();
+inline constexpr const char* kTransmissionHelp =
+    "transmission through ears and other thin parts, gathered from the shadow maps";
+
+/// The pass's reads and constants.
+void read_transmission(Pass& pass, Transmission transmission);
+
+/// "skin_transmission", which shadow_map reads: the profile's R per mm^2 over its integral, as the albedo map
+/// holds the albedo, at even steps of distance from 0 to reach_mm(), both ends included, and the reach in
+/// alpha.
+[[nodiscard]] TableImage transmission_table(const SkinContext& skin);
+
+/// The table as a technique's tables; none where nothing is transmitted.
+[[nodiscard]] std::vector<TableImage> transmission_tables(Transmission transmission, const SkinContext& skin);
+
+/// Beyond it leaves a ten thousandth of the light, in the widest channel.
+[[nodiscard]] double transmission_reach_mm(const Profile& profile);
+
+}  // namespace dermis
