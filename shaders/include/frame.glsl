@@ -6,8 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/include/constants.h"
-
-const float kPi = 3.14159265359;
+#include "shaders/include/skin/pi.glsl"
 
 layout(scalar) uniform Frame {
     mat4 view_projection;

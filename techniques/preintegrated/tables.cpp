@@ -8,6 +8,7 @@
 #include "dermis/bake/lut.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
+#include "dermis/optics/gaussian_channels.h"
 #include "techniques/preintegrated/normal_blend.h"
 #include "techniques/preintegrated/shadow_ramp.h"
 
@@ -114,13 +115,14 @@ Result<TableImage> shadow_table(const TableSettings& settings, const SkinContext
     return to_image("skin_shadow", kRows, 1, rgba);
 }
 
-// The profile itself: weights in red, green, blue, variance in alpha; one texel a term.
+// The profile itself: a row of weights and one of variances in mm^2, red, green, blue; one column a term.
 Result<TableImage> gaussian_table(const TableSettings&, const SkinContext& skin) {
     std::vector<float> rgba;
-    for (const GaussianTerm& term : skin.gaussians.terms)
-        rgba.insert(rgba.end(), {float(term.weight[0]), float(term.weight[1]), float(term.weight[2]),
-                                 float(term.variance_mm2)});
-    return to_image("skin_gaussians", int(skin.gaussians.terms.size()), 1, rgba);
+    const std::vector<ChannelGaussians> terms = by_channel(skin.gaussians);
+    for (const Rgb ChannelGaussians::*row : {&ChannelGaussians::weight, &ChannelGaussians::variance_mm2})
+        for (const ChannelGaussians& term : terms)
+            rgba.insert(rgba.end(), {float((term.*row)[0]), float((term.*row)[1]), float((term.*row)[2]), 1});
+    return to_image("skin_gaussians", int(terms.size()), 2, rgba);
 }
 
 // Weights of the smoother normal, and in alpha the levels it lies above, over the logarithm of the texel in
