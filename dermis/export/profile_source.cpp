@@ -38,7 +38,8 @@ std::string percent(double part) {
 
 std::string heading(const Profile& profile, const GaussianFit& fit) {
     const double error = std::ranges::max(fit.max_error);
-    std::string text = "// Skin: " + printable_line(profile.name) + ".\n// Source: " + printable_line(profile.source) +
+    std::string text = "// Skin: " + printable_line(profile.name) +
+                       ".\n// Source: " + printable_line(profile.source) +
                        ".\n// Coefficients are for linear Rec. 709 red, green, blue.\n";
     if (error > 0)
         text += "// The profile is replaced by Gaussians: up to " + percent(error) +

@@ -72,8 +72,9 @@ std::string call_of(const Sampled& function, size_t target, const std::string& v
 }
 
 std::string glsl_shader(const std::string& text, Language language, std::span<const Sampled> group) {
-    std::string source =
-        language == Language::essl ? "#version 320 es\nprecision highp texture2D;\nprecision highp sampler;\n" : "#version 460\n";
+    std::string source = language == Language::essl
+                             ? "#version 320 es\nprecision highp texture2D;\nprecision highp sampler;\n"
+                             : "#version 460\n";
     source += text + "uniform sampler nearest_clamp;\n";
     std::string body;
     for (size_t t = 0; t < group.size(); ++t) {
