@@ -12,8 +12,8 @@ struct WrapReach {
 };
 
 /// On a sphere of curvature k the profile damps the cosine's part of the light (its zonal harmonic of order
-/// 1) by d(k) = sum w exp(-v k^2), and 1 - d is second_moment k^2 for small k. The bend makes it right at 1/2
-/// per mm too.
+/// 1) by d(k) = sum w exp(-v k^2), and 1 - d is second_moment k^2 for small k. The bend is set so that 1 - d
+/// is also right at 1/2 per mm.
 [[nodiscard]] WrapReach wrap_reach(const GaussianSum& profile);
 
 }  // namespace dermis

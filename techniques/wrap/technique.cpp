@@ -1,6 +1,6 @@
 // Wrapped diffuse: the cheapest imitation of scattering (Green 2004), with the energy-conserving scale of
 // McAuley 2010. How far light reaches past the terminator follows from the skin's profile and the curvature,
-// a colour each, or is set by eye as Green has it, with a colour shift at the terminator.
+// for each colour, or is set by eye as Green has it, with a colour shift at the terminator.
 
 #include "dermis/optics/wrap_reach.h"
 #include "dermis/technique/forward.h"
@@ -23,8 +23,8 @@ ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
         .choice(
             &Params::width, "width", {"profile", "source"},
-            "how far light reaches past the terminator: by the skin's profile and the curvature, a colour "
-            "each; or wrap, scatter_width and scatter_color_linear, set by eye as in the source")
+            "how far light reaches past the terminator: by the skin's profile and the curvature, for each "
+            "colour; or wrap, scatter_width and scatter_color_linear, set by eye as in the source")
         .number(&Params::wrap, "wrap", "", 0, 1,
                 "width=source: how far past the terminator light reaches, in n_dot_l")
         .number(&Params::scatter_width, "scatter_width", "", 0.001, 0.5,
