@@ -1,7 +1,8 @@
 // The curvature that scattering sees, in 1/mm. S is the curvature tensor of the surface: symmetric, passed as its
 // diagonal (xx, yy, zz) and its mixed elements (yz, xz, xy). To second order, light spread over a neighbourhood of
 // variance v a direction sees N.L change by -S L across it, and its mean fall by v / 2 N.L |S|^2 (squares of all
-// elements). A sphere of curvature k changes by k sin and falls by v k^2 cos, so the sphere for which both are the same has
+// elements). A sphere of curvature k changes by k sin and falls by v k^2 cos, so the sphere for which both are the same
+// has
 //
 //     k^2 = |S L|^2 + (N.L)^2 |S|^2 / 2
 //
