@@ -36,10 +36,6 @@ constexpr std::array<Function, 26> kFunctions = {{
 
 }  // namespace
 
-std::span<const Function> built_in_functions() {
-    return kFunctions;
-}
-
 const Function* find_function(std::string_view name) {
     for (const Function& function : kFunctions)
         if (function.name == name) return &function;

@@ -2,7 +2,6 @@
 // The built-in functions of the subset: what GLSL has and every other language too, if under another name.
 
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "dermis/shading/syntax.h"
@@ -24,7 +23,6 @@ struct Function {
     std::string_view hlsl = {}, msl = {}, wgsl = {};  ///< empty: the same name
 };
 
-[[nodiscard]] std::span<const Function> built_in_functions();
 /// Null when there is none.
 [[nodiscard]] const Function* find_function(std::string_view name);
 
