@@ -15,7 +15,7 @@
 #include "shaders/include/pixel_turn.glsl"
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/surface.glsl"
-#include "shaders/include/texel_centres.glsl"
+#include "shaders/include/skin/table.glsl"
 
 layout(constant_id = 31) const int transmission = kTransmissionNone;
 

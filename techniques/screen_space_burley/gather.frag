@@ -5,7 +5,7 @@
 // (bilateral filtering). The part of the profile within the pixel itself is computed, not sampled, and is
 // the centre's weight, so that a profile far narrower than a pixel changes nothing.
 #include "shaders/include/pixel_turn.glsl"
-#include "shaders/include/texel_centres.glsl"
+#include "shaders/include/skin/table.glsl"
 #include "shaders/screen/rays.glsl"
 
 uniform texture2D light;
