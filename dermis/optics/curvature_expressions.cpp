@@ -163,13 +163,14 @@ VectorXd fit_even_part(const LitSamples& samples, size_t channel, CurvatureExpre
 
 }  // namespace
 
-Result<CurvatureExpressions> fit_curvature_expressions(const GaussianSum& profile, const Preintegration& how) {
+Result<CurvatureExpressions> fit_curvature_expressions(const GaussianSum& profile,
+                                                       const Preintegration& how) {
     if (const Result<void> good = check_preintegrable(profile); !good) return good.error();
     const LitSamples samples = sample_light(profile, how);
     CurvatureExpressions form;
     for (size_t c = 0; c < 3; ++c) {
-        const VectorXd odd = fit_polynomial(samples, c, form.a,
-                                            [&](size_t i) { return samples.mean_cosine[i][c] - 1; });
+        const VectorXd odd =
+            fit_polynomial(samples, c, form.a, [&](size_t i) { return samples.mean_cosine[i][c] - 1; });
         const VectorXd even = fit_even_part(samples, c, form);
         for (size_t i = 0; i < kCurvatures; ++i)
             for (size_t j = 0; j < kCosines; ++j)  // D has half of both
@@ -189,9 +190,9 @@ Rgb evaluate(const CurvatureExpressions& form, double n_dot_l, double curvature_
     Rgb d;
     for (size_t c = 0; c < 3; ++c) {
         const double q = k * (form.q[0][c] + form.q[1][c] * u);
-        d[c] = 0.5 * ((1 + sum_at(form.a, c, u)) * n_dot_l +
-                      (1 + sum_at(form.s, c, u)) * std::sqrt(q * q + t2) + sum_at(form.k0, c, u) +
-                      sum_at(form.k1, c, u) * t2);
+        d[c] =
+            0.5 * ((1 + sum_at(form.a, c, u)) * n_dot_l + (1 + sum_at(form.s, c, u)) * std::sqrt(q * q + t2) +
+                   sum_at(form.k0, c, u) + sum_at(form.k1, c, u) * t2);
     }
     return d;
 }

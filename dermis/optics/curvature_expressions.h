@@ -29,7 +29,7 @@ struct CurvatureExpressions {
     CurvaturePolynomial a = {}, s = {}, k0 = {}, k1 = {};
     std::array<Rgb, 2> q = {};
     std::array<CurvaturePolynomial, 3> zonal = {};
-    double max_error = 0;        ///< of the light, against the integral at the fitted curvatures, over all N.L
+    double max_error = 0;  ///< of the light, against the integral at the fitted curvatures, over all N.L
     double max_zonal_error = 0;  ///< of a harmonic
 };
 

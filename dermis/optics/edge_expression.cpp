@@ -25,8 +25,7 @@ EdgeFit fit_widths(std::span<const Rgb> light, size_t channel, double w0, double
     Eigen::Matrix<double, Eigen::Dynamic, 5> basis(Eigen::Index(light.size()), 5);
     Eigen::VectorXd target(static_cast<Eigen::Index>(light.size()));
     for (size_t i = 0; i < light.size(); ++i) {
-        basis.row(Eigen::Index(i)) =
-            edge_functions(2 * double(i) / double(light.size() - 1) - 1, w0, w1);
+        basis.row(Eigen::Index(i)) = edge_functions(2 * double(i) / double(light.size() - 1) - 1, w0, w1);
         target[Eigen::Index(i)] = 2 * light[i][channel] - 1;
     }
     EdgeFit fit;

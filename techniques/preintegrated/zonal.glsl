@@ -4,6 +4,8 @@
 #ifndef DERMIS_ZONAL_GLSL
 #define DERMIS_ZONAL_GLSL
 
+#include "techniques/preintegrated/skin.glsl"
+
 // rho_1 and rho_2; both differences of near numbers at small kappa, where their series take over (error 1e-5).
 vec2 lobe_bands(float kappa) {
     float k2 = kappa * kappa;
@@ -15,13 +17,11 @@ vec2 lobe_bands(float kappa) {
     return vec2(rho_1, 1.0 - 3.0 * rho_1 / kappa);
 }
 
-// `gaussians` holds a term a texel: weights, and the variance in mm^2 in alpha.
-void exact_zonal(texture2D gaussians, sampler nearest_sampler, float curvature_per_mm, out vec3 zh[3]) {
+void exact_zonal(float curvature_per_mm, out vec3 zh[3]) {
     float r_mm = 1.0 / max(curvature_per_mm, 1e-4);
     vec3 total = vec3(0.0), sum_1 = vec3(0.0), sum_2 = vec3(0.0);
-    int count = textureSize(sampler2D(gaussians, nearest_sampler), 0).x;
-    for (int i = 0; i < count; ++i) {
-        vec4 term = texelFetch(sampler2D(gaussians, nearest_sampler), ivec2(i, 0), 0);
+    for (int i = 0; i < gaussian_count; ++i) {
+        vec4 term = gaussians[i];
         float kappa = r_mm * r_mm / term.a;
         vec3 weight = term.rgb * (1.0 - exp(-2.0 * kappa));
         vec2 rho = lobe_bands(kappa);

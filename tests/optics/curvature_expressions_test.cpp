@@ -20,7 +20,8 @@ GaussianSum gaussians_of(const std::string& profile) {
 }
 
 // Over all N.L and radii from 1 mm, at other curvatures than the fitted ones.
-double largest_error(const CurvatureExpressions& form, const GaussianSum& profile, const Preintegration& how) {
+double largest_error(const CurvatureExpressions& form, const GaussianSum& profile,
+                     const Preintegration& how) {
     std::vector<double> cosines;
     for (double t = -1; t <= 1; t += 1.0 / 64) cosines.push_back(t);
     const DiffuseRows rows(cosines, how);
@@ -92,7 +93,8 @@ TEST(CurvatureExpressions, refuse_a_profile_without_light) {
     EXPECT_FALSE(fit_curvature_expressions({"none", {}}));
 }
 
-// A blurred step, and the same step as the share of a disk that it uncovers, which starts with a vertical tangent.
+// A blurred step, and the same step as the share of a disk that it uncovers, which starts with a vertical
+// tangent.
 TEST(EdgeExpression, follows_an_edge_and_states_its_error) {
     std::vector<Rgb> ramp;
     for (int i = 0; i <= 128; ++i) {
@@ -108,6 +110,5 @@ TEST(EdgeExpression, follows_an_edge_and_states_its_error) {
     EXPECT_NEAR(edge.max_error, largest, 1e-9);
     EXPECT_LT(largest, 0.5 * kCode);
     EXPECT_EQ(evaluate(edge, -1)[0], evaluate(edge, 0)[0]);
-    for (const double v : {0.1, 0.35})
-        EXPECT_NEAR(evaluate(edge, v)[0] + evaluate(edge, 1 - v)[0], 1, 1e-12);
+    for (const double v : {0.1, 0.35}) EXPECT_NEAR(evaluate(edge, v)[0] + evaluate(edge, 1 - v)[0], 1, 1e-12);
 }
