@@ -136,7 +136,7 @@ namespace {
 
 class TextureSpaceSpecular : public TextureSpace {
   protected:
-    static constexpr DrawSettings kSpecular = {
+    static inline const DrawSettings kSpecular = {
         .width = 128, .height = 128, .view = "specular", .deep = true, .shadow_map_size = 512};
 
     static Image specular(const Scene& scene, const char* how) {
