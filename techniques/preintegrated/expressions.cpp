@@ -62,10 +62,12 @@ void add_gaussians(std::vector<NamedValue>& values, const GaussianSum& sum) {
 
 }  // namespace
 
-Result<std::vector<NamedValue>> skin_values(const TableSettings& settings, const SkinContext& skin, bool fit) {
+Result<std::vector<NamedValue>> skin_values(const TableSettings& settings, const SkinContext& skin,
+                                            bool fit) {
     if (skin.gaussians.terms.size() > size_t(kMaxGaussians))
-        return Error{"profile '" + skin.profile.name + "' has " + std::to_string(skin.gaussians.terms.size()) +
-                     " Gaussians; preintegrated takes " + std::to_string(kMaxGaussians) + " at most"};
+        return Error{"profile '" + skin.profile.name + "' has " +
+                     std::to_string(skin.gaussians.terms.size()) + " Gaussians; preintegrated takes " +
+                     std::to_string(kMaxGaussians) + " at most"};
     CurvatureExpressions form;
     EdgeExpression edge;
     if (fit) {

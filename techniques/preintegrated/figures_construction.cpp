@@ -52,10 +52,8 @@ Line curve(const Rgb& color, double radius_mm) {
 FigureCell plot_cell(std::string label, std::function<std::vector<Line>(const SkinContext&)> lines) {
     return {.label = std::move(label),
             .kind = CellKind::computed,
-            .compute = [lines = std::move(lines)](const SkinContext& skin, int width,
-                                                  int height) -> Result<FigurePicture> {
-                return plotted(width, height, lines(skin));
-            }};
+            .compute = [lines = std::move(lines)](const SkinContext& skin, int width, int height)
+                -> Result<FigurePicture> { return plotted(width, height, lines(skin)); }};
 }
 
 }  // namespace
@@ -65,14 +63,13 @@ Figure construction_figure() {
         return std::vector<Line>{exact(skin, 2), exact(skin, 16), curve(kDarkBlue, 2), curve(kLightBlue, 16)};
     };
     const auto pieces = [](const SkinContext&) {
-        return std::vector<Line>{
-            {kOrange, [](double t) { return curve_2015_tight_pieces(0, t).dark; }},
-            {kGreen, [](double t) { return curve_2015_tight_pieces(0, t).light; }},
-            curve(kDarkBlue, 2)};
+        return std::vector<Line>{{kOrange, [](double t) { return curve_2015_tight_pieces(0, t).dark; }},
+                                 {kGreen, [](double t) { return curve_2015_tight_pieces(0, t).light; }},
+                                 curve(kDarkBlue, 2)};
     };
     const auto between = [](const SkinContext& skin) {
-        return std::vector<Line>{exact(skin, 4),      exact(skin, 8),      curve(kDarkBlue, 2),
-                                 curve(kOrange, 4),   curve(kGreen, 8),    curve(kLightBlue, 16)};
+        return std::vector<Line>{exact(skin, 4),    exact(skin, 8),   curve(kDarkBlue, 2),
+                                 curve(kOrange, 4), curve(kGreen, 8), curve(kLightBlue, 16)};
     };
     return {.id = "construction",
             .title = "How the red curve is put together: N·L from -1 to 1 to the right, light upwards",

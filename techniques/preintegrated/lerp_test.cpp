@@ -23,8 +23,8 @@ class Lerp : public PreintegratedTest {};
 
 }  // namespace
 
-// Where the mean normal turns away from the light and half of the bumps do not: a mean of clamped cosines is more than the
-// clamped cosine of a mean.
+// Where the mean normal turns away from the light and half of the bumps do not: a mean of clamped cosines is
+// more than the clamped cosine of a mean.
 TEST_F(Lerp, of_normals_loses_light_of_bumps_that_the_blend_keeps) {
     const Scene scene = striped_scene();
     const auto drawn = [&](const char* normals) {

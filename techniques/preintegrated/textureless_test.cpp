@@ -57,9 +57,13 @@ class Textureless : public PreintegratedTest {
 TEST_F(Textureless, settings_bind_no_table) {
     EXPECT_GT(tables({}), 4) << "the default reads tables";
     for (const char* diffuse : {"closed_form", "curve_2015"})
-        for (const Settings& more :
-             {Settings{}, {{"ambient", "exact"}}, {{"ambient", "curve_2015"}}, {{"specular", "ksk"}},
-              {{"normals", "lerp"}}, {{"shadow", "plain"}}, {{"construction", "ring"}}}) {
+        for (const Settings& more : {Settings{},
+                                     {{"ambient", "exact"}},
+                                     {{"ambient", "curve_2015"}},
+                                     {{"specular", "ksk"}},
+                                     {{"normals", "lerp"}},
+                                     {{"shadow", "plain"}},
+                                     {{"construction", "ring"}}}) {
             Settings settings = more;
             settings.emplace_back("diffuse", diffuse);
             EXPECT_EQ(tables(settings), 0) << diffuse;
