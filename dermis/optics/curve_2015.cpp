@@ -16,16 +16,19 @@ double radius_share(double curvature_per_mm) {
 }
 
 // r = 2 mm: a parabola (a cubic in blue) on the dark side that blends into a line on the lit side.
-double tight_curve(size_t channel, double x) {
+TightPieces tight_pieces(size_t c, double x) {
     constexpr double kLow[3] = {0, 0.3, 0.3}, kHigh[3] = {1, 0.7, 0.7}, kOffset[3] = {0, 0.06, 0.06};
     constexpr double kDark[3] = {0.65, 0.5, 0.9}, kLift[3] = {0.045, 0, 0}, kSlope[3] = {1.75, 2, 1.97};
-    constexpr double kMixLow[3] = {0, 0.35, 0.35}, kMixHigh[3] = {1, 0.7, 0.6};
-    const size_t c = channel;
     const double t = saturate((x - kLow[c] - kOffset[c]) / (kHigh[c] - kLow[c]));
-    const double dark = t * t * kDark[c] * (c == 2 ? t : 1) + kLift[c];
-    const double light = saturate((x - 1) * kSlope[c] + 0.99);
-    const double m = saturate((x - kMixLow[c]) / (kMixHigh[c] - kMixLow[c]));
-    return std::lerp(dark, light, m * m);
+    return {.dark = t * t * kDark[c] * (c == 2 ? t : 1) + kLift[c],
+            .light = saturate((x - 1) * kSlope[c] + 0.99)};
+}
+
+double tight_curve(size_t channel, double x) {
+    constexpr double kMixLow[3] = {0, 0.35, 0.35}, kMixHigh[3] = {1, 0.7, 0.6};
+    const TightPieces pieces = tight_pieces(channel, x);
+    const double m = saturate((x - kMixLow[channel]) / (kMixHigh[channel] - kMixLow[channel]));
+    return std::lerp(pieces.dark, pieces.light, m * m);
 }
 
 double flat_curve(size_t channel, double x) {
@@ -34,6 +37,10 @@ double flat_curve(size_t channel, double x) {
 }
 
 }  // namespace
+
+TightPieces curve_2015_tight_pieces(size_t channel, double n_dot_l) {
+    return tight_pieces(channel, n_dot_l * 0.5 + 0.5);
+}
 
 Rgb curve_2015_direct(double n_dot_l, double curvature_per_mm) {
     const double x = n_dot_l * 0.5 + 0.5, away = 1 - radius_share(curvature_per_mm);

@@ -13,6 +13,12 @@ namespace dermis {
 /// integral, largest channel: 0.20 at 2 mm, 0.071 at 4, 0.019 at 8, 0.017 at 16 (`dermis bake closed_form`).
 [[nodiscard]] Rgb curve_2015_direct(double n_dot_l, double curvature_per_mm);
 
+/// What the curve for 2 mm is mixed of: a parabola (a cubic in blue) for the dark, a line for the light.
+struct TightPieces {
+    double dark = 0, light = 0;
+};
+[[nodiscard]] TightPieces curve_2015_tight_pieces(size_t channel, double n_dot_l);
+
 /// Zonal harmonics of order 0, 1, 2; order 2 is Lambert's, as published.
 [[nodiscard]] std::array<Rgb, 3> curve_2015_zonal(double curvature_per_mm);
 

@@ -96,7 +96,7 @@ Result<void> Renderer::environment_changed() {
 }
 
 Result<void> Renderer::prepare_tables(const Technique& technique, const ParameterValues& values) {
-    if (!technique.tables) {
+    if (!technique.tables && !technique.skin_values) {
         tables_.clear();
         tables_key_.clear();
         return {};
@@ -105,8 +105,13 @@ Result<void> Renderer::prepare_tables(const Technique& technique, const Paramete
     if (!skin) return skin.error();
     const std::string key = settings_key(technique, values, **skin);
     if (key == tables_key_) return {};
-    const Result<std::vector<TableImage>> tables = technique.tables(values, **skin);
+    Result<std::vector<TableImage>> tables = std::vector<TableImage>{};
+    if (technique.tables) tables = technique.tables(values, **skin);
     if (!tables) return tables.error();
+    Result<std::vector<NamedValue>> skin_values = std::vector<NamedValue>{};
+    if (technique.skin_values) skin_values = technique.skin_values(values, **skin);
+    if (!skin_values) return skin_values.error();
+    skin_values_ = gpu::Values(skin_values->begin(), skin_values->end());
     tables_.clear();
     for (const TableImage& table : *tables) {
         Result<gpu::Texture> texture = gpu::Texture::upload(*device_, {.name = table.name,
@@ -195,6 +200,7 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
                                .penumbra_mm = settings.penumbra_mm,
                                .environment_mip_count = uploaded_->environment_mip_count()});
     inputs.blocks["Params"] = inputs.blocks["AtlasParams"] = parameter_block(values);
+    inputs.blocks["Skin"] = skin_values_;
     inputs.arrays["Lights"] = light_values(*scene_);
     inputs.arrays["EnvironmentSh"] = uploaded_->environment_sh();
     inputs.draws = uploaded_->draws();

@@ -74,6 +74,7 @@ class Renderer {
     std::string tables_key_, history_key_;
     float history_distance_mm_ = 0;
     std::map<std::string, gpu::Texture> tables_;
+    gpu::Values skin_values_;
     std::string legend_view_;  ///< that legend_ is of
     std::unique_ptr<gpu::Texture> legend_;
     std::vector<std::string> warnings_;

@@ -70,6 +70,9 @@ struct Technique {
     std::function<PassList(const ParameterValues&, const FrameContext&)> build;
     /// Tables for these settings, baked on the CPU (cached by the bakers); absent when it needs none.
     std::function<Result<std::vector<TableImage>>(const ParameterValues&, const SkinContext&)> tables;
+    /// The members of the uniform block "Skin" for these settings, computed when tables are; absent when no
+    /// shader has it.
+    std::function<Result<std::vector<NamedValue>>(const ParameterValues&, const SkinContext&)> skin_values;
     /// What replaces these settings while something moves on a slow device and the picture is drawn
     /// with `scale` (under 1) of its sides: the same look with fewer texels, taps or passes, none of which is
     /// more than the settings have. Absent when only pixels cost.

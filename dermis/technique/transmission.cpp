@@ -9,8 +9,6 @@ namespace {
 constexpr const char* kTable = "skin_transmission";
 constexpr int kTexels = 257;
 constexpr double kPartReached = 0.9999;
-// Points nearer than this part of the reach count as so far: the shader's taps are not closer.
-constexpr double kNearest = 0.03;
 
 }  // namespace
 
@@ -36,7 +34,7 @@ TableImage transmission_table(const SkinContext& skin) {
     const double reach = transmission_reach_mm(skin.profile);
     std::vector<float> rgba;
     for (int i = 0; i < kTexels; ++i) {
-        const double distance_mm = reach * std::max(double(i) / (kTexels - 1), kNearest);
+        const double distance_mm = reach * std::max(double(i) / (kTexels - 1), kTransmissionNearest);
         for (int c = 0; c < 3; ++c) {
             const double albedo = diffuse_albedo(skin.profile, c);
             rgba.push_back(albedo > 0 ? float(reflectance_per_mm2(skin.profile, c, distance_mm) / albedo)

@@ -27,6 +27,9 @@ void read_transmission(Pass& pass, Transmission transmission);
 /// The table as a technique's tables; none where nothing is transmitted.
 [[nodiscard]] std::vector<TableImage> transmission_tables(Transmission transmission, const SkinContext& skin);
 
+/// Points nearer than this part of the reach count as so far: the shader's taps are not closer.
+inline constexpr double kTransmissionNearest = 0.03;
+
 /// Beyond it leaves a ten thousandth of the light, in the widest channel.
 [[nodiscard]] double transmission_reach_mm(const Profile& profile);
 

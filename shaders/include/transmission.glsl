@@ -19,8 +19,8 @@
 
 layout(constant_id = 31) const int transmission = kTransmissionNone;
 
-// R per mm^2 over its integral, over distances from 0 to the reach, which is in alpha.
-uniform texture2D skin_transmission;
+// R per mm^2 over its integral, and in alpha the reach in mm. With DERMIS_TRANSMISSION_EXPRESSION the includer defines it.
+vec4 transmission_row(float distance_over_reach);
 
 const int kTransmissionTaps = 20;
 const float kWidestRing = 0.7;  // of the reach
@@ -94,10 +94,14 @@ vec3 lit_normal_world(LitPoint lit) {
 // 0 where the lit point faces as the point that it shines on does, 1 where it faces the other way, as an opposite wall.
 float turned_away(Surface s, LitPoint lit) { return 0.5 - 0.5 * dot(s.n_geometry_world, lit_normal_world(lit)); }
 
+#ifndef DERMIS_TRANSMISSION_EXPRESSION
+uniform texture2D skin_transmission;  // distance from 0 to the reach
+
 vec4 transmission_row(float distance_over_reach) {
     float size = float(textureSize(sampler2D(skin_transmission, linear_clamp), 0).x);
     return textureLod(sampler2D(skin_transmission, linear_clamp), vec2(texel_centres(distance_over_reach, size), 0.5), 0.0);
 }
+#endif
 
 // Taps are in rings at even steps of radius, which is closer than even cover where R is large; each counts for its ring's
 // area, and they are turned from pixel to pixel: noise instead of bands. What of it lies off the tangent plane adds to the integral of R.

@@ -16,6 +16,10 @@ const int kAmbientExact = 0, kAmbientLut = 1, kAmbientCurve2015 = 2;
 // The tables hold curvatures from 0 to this.
 const float kMaxCurvaturePerMm = 1.0;
 
+// Of a polynomial of curvature (dermis/optics/curvature_expressions.h), and of the profile that the block
+// Skin can have.
+const int kPolynomialTerms = 6, kMaxGaussians = 24;
+
 // skin_normal_blend: log2 of a texel of the normal map in mm, 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
 

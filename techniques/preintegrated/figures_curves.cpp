@@ -175,6 +175,7 @@ Figure baselines_figure() {
 
 std::vector<Figure> curve_figures() {
     return {curves_figure(),
+            construction_figure(),
             spheres_figure("spheres_direct", "Spheres under one light", "none"),
             spheres_figure("spheres_with_sh", "Spheres under one light and an environment", "studio"),
             heads_figure("head_direct", "Under one light", {.view = "diffuse", .environment = "none"}),

@@ -40,10 +40,13 @@ double weight_of(const GaussianSum& profile, size_t channel, double s0, double s
 
 }  // namespace
 
+double widest_blend_mm(const GaussianSum& profile) {
+    return kWidestShare * std::sqrt(12 * largest_variance_mm2(profile));
+}
+
 NormalBlend normal_blend(const GaussianSum& profile, double sharp_mm, double max_lod_bias) {
-    const double widest_mm = kWidestShare * std::sqrt(12 * largest_variance_mm2(profile));
     NormalBlend blend;
-    blend.lod_bias = std::clamp(std::log2(widest_mm / sharp_mm), 0.0, max_lod_bias);
+    blend.lod_bias = std::clamp(std::log2(widest_blend_mm(profile) / sharp_mm), 0.0, max_lod_bias);
     if (blend.lod_bias < 1e-3) return blend;
     const double smooth_mm = sharp_mm * std::exp2(blend.lod_bias);
     for (size_t c = 0; c < 3; ++c)

@@ -28,6 +28,9 @@ struct NormalBlend {
     double lod_bias = 0;
 };
 
+/// The widest smoother read.
+[[nodiscard]] double widest_blend_mm(const GaussianSum& profile);
+
 /// `sharp_mm` is what one texel of the sharp read covers on the skin, above 0; `max_lod_bias` at least 0.
 [[nodiscard]] NormalBlend normal_blend(const GaussianSum& profile, double sharp_mm, double max_lod_bias);
 

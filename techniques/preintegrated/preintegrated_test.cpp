@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dermis/optics/closed_form.h"
+#include "dermis/optics/curvature_expressions.h"
 #include "dermis/optics/curve_2015.h"
 #include "render/grid_scene.h"
 
@@ -43,20 +43,20 @@ TEST_F(PreintegratedDiffuse, of_the_table_is_the_librarys) {
 }
 
 TEST_F(PreintegratedDiffuse, of_the_closed_form_is_the_librarys_and_near_the_exact) {
-    const ClosedForm form = *fit_closed_form(gpu_gems_3_skin(), kGridMaxCurvaturePerMm, 257);
+    const CurvatureExpressions form = *fit_curvature_expressions(gpu_gems_3_skin());
     EXPECT_LT(
         largest_difference("closed_form", "sphere", [&](double t, double k) { return evaluate(form, t, k); }),
-        2e-4);
+        1e-5);
     EXPECT_LT(largest_difference("closed_form", "sphere",
                                  [](double t, double k) { return exact(t, k, Construction::sphere); }),
-              0.5 / 255);
+              1.0 / 255);
 }
 
 // The published table integrates from -90 to 90 degrees; all that `ring` selects is that integral.
 TEST_F(PreintegratedDiffuse, of_the_ring_is_the_half_ring_by_table_and_by_closed_form) {
     const auto half_ring = [](double t, double k) { return exact(t, k, Construction::half_ring); };
     EXPECT_LT(largest_difference("lut", "ring", half_ring), 1e-3);
-    EXPECT_LT(largest_difference("closed_form", "ring", half_ring), 1.5 / 255);
+    EXPECT_LT(largest_difference("closed_form", "ring", half_ring), 1.0 / 255);
 }
 
 TEST_F(PreintegratedDiffuse, of_the_2015_curves_is_as_published) {

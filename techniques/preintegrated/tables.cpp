@@ -73,24 +73,6 @@ Result<TableImage> zonal_table(const TableSettings& settings, const SkinContext&
     return table_image("skin_zonal", 3, rgba);
 }
 
-// Half of a, s, k0 and k1, as the shader needs them; q in the fourth channels of the first three rows.
-Result<TableImage> closed_form_table(const TableSettings& settings, const SkinContext& skin) {
-    const Result<ClosedForm> form =
-        fit_closed_form(skin.gaussians, kMaxCurvaturePerMm, kRows, {.construction = settings.construction});
-    if (!form) return form.error();
-    std::vector<float> rgba(size_t(kRows) * 4 * 4);
-    for (size_t i = 0; i < form->rows.size(); ++i) {
-        const ClosedFormCoefficients& row = form->rows[i];
-        const Rgb* colors[4] = {&row.a, &row.s, &row.k0, &row.k1};
-        for (size_t k = 0; k < 4; ++k) {
-            float* texel = &rgba[(k * kRows + i) * 4];
-            for (size_t c = 0; c < 3; ++c) texel[c] = float((*colors[k])[c] / 2);
-            if (k < 3) texel[3] = float(row.q[k]);
-        }
-    }
-    return table_image("skin_closed_form", 4, rgba);
-}
-
 // Rows at even steps of visibility, both ends included.
 Result<TableImage> shadow_table(const TableSettings& settings, const SkinContext& skin) {
     const auto ramp = shadow_ramp(skin.profile, settings.shadow_width_mm, kRows);
@@ -99,16 +81,6 @@ Result<TableImage> shadow_table(const TableSettings& settings, const SkinContext
     for (const Rgb& light : *ramp)
         rgba.insert(rgba.end(), {float(light[0]), float(light[1]), float(light[2]), 1.0f});
     return table_image("skin_shadow", 1, rgba);
-}
-
-// The profile itself: a row of weights and one of variances in mm^2, red, green, blue; one column a term.
-Result<TableImage> gaussian_table(const TableSettings&, const SkinContext& skin) {
-    std::vector<float> rgba;
-    const std::vector<ChannelGaussians> terms = by_channel(skin.gaussians);
-    for (const Rgb ChannelGaussians::*row : {&ChannelGaussians::weight, &ChannelGaussians::variance_mm2})
-        for (const ChannelGaussians& term : terms)
-            rgba.insert(rgba.end(), {float((term.*row)[0]), float((term.*row)[1]), float((term.*row)[2]), 1});
-    return table_image("skin_gaussians", 2, rgba);
 }
 
 // Weights of the smoother normal, and in alpha its mip level above the sharp one's, over the logarithm of a
@@ -142,8 +114,7 @@ Result<TableImage> beckmann_table(const TableSettings& settings, const SkinConte
 
 Result<std::vector<TableImage>> bake_tables(const TableSettings& settings, const SkinContext& skin) {
     std::vector<TableImage> images;
-    for (const auto make : {diffuse_table, zonal_table, closed_form_table, shadow_table, gaussian_table,
-                            normal_blend_table, beckmann_table}) {
+    for (const auto make : {diffuse_table, zonal_table, shadow_table, normal_blend_table, beckmann_table}) {
         Result<TableImage> image = make(settings, skin);
         if (!image) return image.error();
         images.push_back(std::move(*image));

@@ -1,7 +1,6 @@
 #pragma once
 // The tables that preintegrated.frag reads, baked for a profile.
 
-#include "dermis/optics/closed_form.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/technique/technique.h"
 #include "techniques/preintegrated/constants.h"
@@ -15,8 +14,8 @@ struct TableSettings {
     bool needs_beckmann = false;  ///< otherwise the table is one texel
 };
 
-/// skin_lut, skin_zonal, skin_shadow, skin_closed_form, skin_gaussians, skin_normal_blend, skin_beckmann;
-/// all 32-bit float with four channels but skin_beckmann, which has one.
+/// skin_lut, skin_zonal, skin_shadow, skin_normal_blend, skin_beckmann; all 32-bit float with four channels but
+/// skin_beckmann, which has one.
 [[nodiscard]] Result<std::vector<TableImage>> bake_tables(const TableSettings& settings,
                                                           const SkinContext& skin);
 

@@ -5,6 +5,7 @@
 
 #include "dermis/technique/forward.h"
 #include "dermis/technique/transmission.h"
+#include "techniques/preintegrated/expressions.h"
 #include "techniques/preintegrated/figures.h"
 #include "techniques/preintegrated/occlusion_blend.h"
 #include "techniques/preintegrated/tables.h"
@@ -53,8 +54,10 @@ struct Params {
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
-        .choice(&Params::diffuse, "diffuse", {"lut", "curve_2015", "closed_form"},
-                "diffuse light over N.L and curvature: exact table, curves of 2015, closed form")
+        .choice(
+            &Params::diffuse, "diffuse", {"lut", "curve_2015", "closed_form"},
+            "diffuse light over N.L and curvature: exact table; curves of 2015 or closed form, with which no "
+            "table is bound")
         .choice(&Params::construction, "construction", {"sphere", "ring"},
                 "shape that is integrated; the ring is as published and does not conserve energy")
         .choice(&Params::curvature, "curvature", {"vertex", "derivative", "image"},
@@ -73,8 +76,8 @@ ParameterTable parameters() {
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::ambient, "ambient", {"exact", "lut", "curve_2015"},
-                "zonal harmonics for light from the environment: closed form of the sphere, table, curves of "
-                "2015")
+                "zonal harmonics for light from the environment: closed form of the sphere; those of the "
+                "construction, from a table if diffuse is; curves of 2015")
         .choice(&Params::specular, "specular", specular_model_names(),
                 "specular model; ksk reads its Beckmann distribution from a table")
         .number(&Params::oiliness, "oiliness", "", 0, 4,
@@ -84,18 +87,26 @@ ParameterTable parameters() {
         .build();
 }
 
+bool reads_tables(const Params& params) { return params.diffuse == Diffuse::lut; }
+
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
-    Pass pass = forward_skin_pass("preintegrated/preintegrated.frag", params.specular, frame, kOwnView);
+    const bool tables = reads_tables(params);
+    Pass pass =
+        forward_skin_pass(tables ? "preintegrated/preintegrated.frag" : "preintegrated/textureless.frag",
+                          params.specular, frame, kOwnView);
     pass.constants.insert(pass.constants.end(), {{"diffuse", int32_t(params.diffuse)},
                                                  {"shadow", int32_t(params.shadow)},
                                                  {"curvature", int32_t(params.curvature)},
                                                  {"normals", int32_t(params.normals)},
                                                  {"ambient", int32_t(params.ambient)}});
-    for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_closed_form", "skin_gaussians",
-                              "skin_normal_blend", "skin_beckmann"})
-        pass.reads.push_back(table);
-    read_transmission(pass, params.transmission);
+    if (tables) {
+        for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_normal_blend", "skin_beckmann"})
+            pass.reads.push_back(table);
+        read_transmission(pass, params.transmission);
+    } else {
+        pass.constants.emplace_back("transmission", int32_t(params.transmission));
+    }
     const std::array<Rgb, 3> weights = occlusion_blend(frame.skin_gaussians);
     for (size_t i = 0; i < weights.size(); ++i)
         pass.values.push_back({"occlusion_weight_" + std::to_string(i),
@@ -105,19 +116,27 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     return list;
 }
 
+preintegrated::TableSettings table_settings(const Params& params) {
+    const bool ring = params.construction == TableConstruction::ring;
+    return {.construction = ring ? Construction::half_ring : Construction::sphere,
+            .normal_lod_bias = params.normal_lod_bias,
+            .shadow_width_mm = params.shadow_width_mm,
+            .needs_beckmann = params.specular == SpecularModel::ksk};
+}
+
 Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
     const Params params = values.as<Params>();
-    const bool ring = params.construction == TableConstruction::ring;
-    Result<std::vector<TableImage>> images =
-        preintegrated::bake_tables({.construction = ring ? Construction::half_ring : Construction::sphere,
-                                    .normal_lod_bias = params.normal_lod_bias,
-                                    .shadow_width_mm = params.shadow_width_mm,
-                                    .needs_beckmann = params.specular == SpecularModel::ksk},
-                                   skin);
+    if (!reads_tables(params)) return std::vector<TableImage>{};
+    Result<std::vector<TableImage>> images = preintegrated::bake_tables(table_settings(params), skin);
     if (!images) return images;
     for (TableImage& image : transmission_tables(params.transmission, skin))
         images->push_back(std::move(image));
     return images;
+}
+
+Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
+    const Params params = values.as<Params>();
+    return preintegrated::skin_values(table_settings(params), skin, !reads_tables(params));
 }
 
 std::vector<Figure> figures() {
@@ -137,6 +156,7 @@ Technique make_preintegrated_technique() {
         .views = {kOwnView},
         .build = build,
         .tables = tables,
+        .skin_values = skin_values,
         .figures = figures};
 }
 

@@ -4,16 +4,13 @@
 #define DERMIS_ZONAL_GLSL
 
 #include "shaders/include/skin/zonal.glsl"
+#include "techniques/preintegrated/skin.glsl"
 
-// `gaussians` holds a term a column: weights, below them variances in mm^2.
-void exact_zonal(texture2D gaussians, sampler nearest_sampler, float curvature_per_mm, out vec3 zh[3]) {
+void exact_zonal(float curvature_per_mm, out vec3 zh[3]) {
     vec3 total = vec3(0.0), sum_1 = vec3(0.0), sum_2 = vec3(0.0);
-    int count = textureSize(sampler2D(gaussians, nearest_sampler), 0).x;
-    for (int i = 0; i < count; ++i) {
-        vec3 weight = texelFetch(sampler2D(gaussians, nearest_sampler), ivec2(i, 0), 0).rgb;
-        vec3 variance_mm2 = texelFetch(sampler2D(gaussians, nearest_sampler), ivec2(i, 1), 0).rgb;
-        vec3 kappa = lobe_kappa(curvature_per_mm, variance_mm2);
-        weight *= lobe_part(kappa);
+    for (int i = 0; i < gaussian_count; ++i) {
+        vec3 kappa = lobe_kappa(curvature_per_mm, gaussians[i].aaa);
+        vec3 weight = gaussians[i].rgb * lobe_part(kappa);
         total += weight;
         sum_1 += weight * lobe_band_1(kappa);
         sum_2 += weight * lobe_band_2(kappa);

@@ -64,3 +64,14 @@ TEST(FitErrors, become_a_table_and_a_plot) {
     EXPECT_NE(fit_error_table(errors).find("| 2 | 0.00200 | 0.2000 | 0.0000 |"), std::string::npos);
     EXPECT_EQ(fit_error_plot(errors, "p").panels[0].series.size(), 10u);
 }
+
+TEST(Curve2015, of_2_mm_goes_from_its_dark_piece_to_its_light_piece) {
+    for (size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(curve_2015_direct(-1, 0.5)[c], curve_2015_tight_pieces(c, -1).dark, 1e-12);
+        EXPECT_NEAR(curve_2015_direct(1, 0.5)[c], curve_2015_tight_pieces(c, 1).light, 1e-12);
+        const TightPieces middle = curve_2015_tight_pieces(c, 0.1);
+        const double mixed = curve_2015_direct(0.1, 0.5)[c];
+        EXPECT_GE(mixed, std::min(middle.dark, middle.light));
+        EXPECT_LE(mixed, std::max(middle.dark, middle.light));
+    }
+}

@@ -1,0 +1,37 @@
+// The functions of the profile as expressions: no table is read.
+#ifndef DERMIS_PREINTEGRATED_EXPRESSIONS_GLSL
+#define DERMIS_PREINTEGRATED_EXPRESSIONS_GLSL
+
+#include "techniques/preintegrated/closed_form.glsl"
+
+vec3 profile_falloff(float n_dot_l, float k) { return closed_form(vec3(n_dot_l), k); }
+void profile_zonal(float k, out vec3 zh[3]) { closed_form_zonal(k, zh); }
+vec3 profile_edge(float visibility) { return scattered_edge(visibility); }
+
+// The formula of techniques/preintegrated/normal_blend.h itself, once for each pixel. No return before the loop: the code that
+// lavapipe (Mesa 22.3) makes of one writes past its stack.
+vec4 normal_blend(float sharp_mm) {
+    float levels = clamp(log2(widest_blend_mm / sharp_mm), 0.0, normal_lod_bias);
+    float s0 = sharp_mm * sharp_mm / 12.0, s1 = s0 * exp2(2.0 * levels);
+    vec3 kept = vec3(0.0);
+    for (int i = 0; i < gaussian_count; ++i) {
+        float v = gaussians[i].a;
+        kept += gaussians[i].rgb * (sqrt(s0 + s1 + v) - sqrt(2.0 * s0 + v));
+    }
+    float sharp = sqrt(2.0 * s0), both = sqrt(s0 + s1), smooth_only = sqrt(2.0 * s1);
+    vec3 weight = clamp((both - sharp - kept) / max(2.0 * both - sharp - smooth_only, 1e-9), 0.0, 1.0);
+    return levels < 1e-3 ? vec4(0.0) : vec4(weight, levels);
+}
+
+// dermis/technique/transmission.h: R per mm^2 over its integral, and the reach; of the Gaussians, not of the profile itself.
+vec4 transmission_row(float distance_over_reach) {
+    float d = transmission_reach_mm * max(distance_over_reach, transmission_nearest);
+    vec3 r = vec3(0.0);
+    for (int i = 0; i < gaussian_count; ++i) {
+        float v = gaussians[i].a;
+        r += gaussians[i].rgb * exp(-0.5 * d * d / v) / (2.0 * kPi * v);
+    }
+    return vec4(r, transmission_reach_mm);
+}
+
+#endif

@@ -1,0 +1,180 @@
+// Pre-integrated skin: scattering as a function of N.L and curvature, of small bumps by one normal per channel, and of
+// shadow edges as a function of the position in the penumbra (Penner 2011). With DERMIS_TABLES these functions are read from
+// tables, without from expressions that are fitted to the same profile.
+#ifndef DERMIS_PREINTEGRATED_SHADING_GLSL
+#define DERMIS_PREINTEGRATED_SHADING_GLSL
+
+#include "shaders/include/frame.glsl"
+#include "techniques/preintegrated/constants.h"
+
+layout(scalar) uniform Params {
+    float curvature_gain;
+    float tune_curvature;
+    float normal_lod_bias;
+    float shadow_width_mm;
+    float oiliness;
+    float roughness_scale;
+};
+layout(push_constant, scalar) uniform PassValues {
+    vec3 occlusion_weight_0, occlusion_weight_1, occlusion_weight_2;  // of Surface::occlusion_blurred
+};
+layout(constant_id = 3) const int shadow = kShadowScattered;
+// shadow=plain filters the scene's penumbra; shadow=scattered the width that the shadow table was made for.
+#define DERMIS_SHADOW_WIDTH_MM shadow_filter_mm(s.n_geometry_world, light.to_light_world)
+
+// At grazing light a wider filter than the penumbra would light skin that is in shadow.
+const float kGrazing = 0.3, kSteep = 0.7;
+float scattered_shadow_part(vec3 n_world, vec3 to_light_world) {
+    return shadow == kShadowScattered ? smoothstep(kGrazing, kSteep, dot(n_world, to_light_world)) : 0.0;
+}
+float shadow_filter_mm(vec3 n_world, vec3 to_light_world) {
+    return mix(penumbra_mm, shadow_width_mm, scattered_shadow_part(n_world, to_light_world));
+}
+#define DERMIS_PREPARE_SURFACE
+#define DERMIS_OWN_VIEW
+#define DERMIS_TRANSMISSION
+#ifdef DERMIS_TABLES
+#define DERMIS_BECKMANN_TABLE
+#else
+#define DERMIS_TRANSMISSION_EXPRESSION
+#endif
+#include "shaders/include/forward.glsl"
+#include "shaders/include/skin/curvature.glsl"
+#include "shaders/include/skin/curve_2015.glsl"
+#include "shaders/include/skin/normals.glsl"
+#include "techniques/preintegrated/closed_form.glsl"
+#include "techniques/preintegrated/zonal.glsl"
+
+layout(constant_id = 2) const int diffuse = kDiffuseLut;
+layout(constant_id = 4) const int curvature = kCurvatureVertex;
+layout(constant_id = 5) const int normals = kNormalsBlended;
+layout(constant_id = 6) const int ambient = kAmbientLut;
+
+uniform texture2D curvature_map;
+// Set by prepare_surface(); the same for every light.
+vec3 skin_diagonal_per_mm, skin_mixed_per_mm;  // the curvature tensor
+float curvature_around_per_mm;
+vec3 n_smooth_world;
+vec3 smooth_weight;    // of the light that n_smooth_world gets; the sharp normal's has the rest
+float smooth_levels;   // mip levels from the sharp normal to the smooth one
+
+#ifdef DERMIS_TABLES
+#include "techniques/preintegrated/tables.glsl"
+#else
+#include "techniques/preintegrated/expressions.glsl"
+#endif
+
+void choose_curvature(Surface s) {
+    skin_diagonal_per_mm = curvature_gain * s.curvature_diagonal_per_mm;
+    skin_mixed_per_mm = curvature_gain * s.curvature_mixed_per_mm;
+    if (curvature == kCurvatureVertex) return;
+    float k = curvature == kCurvatureDerivative
+                  ? curvature_from_derivatives(fwidth(s.n_geometry_world), fwidth(s.p_world_mm)) / tune_curvature
+                  : curvature_scale_per_mm *
+                        (texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r - curvature_mid);
+    skin_diagonal_per_mm = sphere_diagonal(curvature_gain * k, s.n_geometry_world);
+    skin_mixed_per_mm = sphere_mixed(curvature_gain * k, s.n_geometry_world);
+}
+
+float normal_texel_mm(Surface s) {
+    vec2 map_size = vec2(textureSize(sampler2D(normal_map, trilinear_repeat), 0));
+    return texel_mm(dFdx(s.p_world_mm), dFdy(s.p_world_mm), dFdx(s.uv) * map_size, dFdy(s.uv) * map_size);
+}
+
+void blend_normals(Surface s) {
+    float lod = max(textureQueryLod(sampler2D(normal_map, trilinear_repeat), s.uv).x, 0.0);
+    vec4 blend = normal_blend(max(normal_texel_mm(s), 1e-8) * exp2(lod));
+    smooth_weight = blend.rgb;
+    smooth_levels = blend.a;
+}
+
+void prepare_surface(inout Surface s) {
+    s.f0 *= oiliness;
+    s.roughness = clamp(s.roughness * roughness_scale, 0.03, 1.0);
+    choose_curvature(s);
+    curvature_around_per_mm = min(curvature_around(skin_diagonal_per_mm, skin_mixed_per_mm), kMaxCurvaturePerMm);
+    if (normals == kNormalsSharp) return;
+    smooth_weight = vec3(1.0);
+    smooth_levels = normal_lod_bias;
+    if (normals == kNormalsBlended || normals == kNormalsLerp) blend_normals(s);
+    n_smooth_world =
+        normalize(mean_normal_world(s.n_geometry_world, s.uv, smooth_levels + magnification_levels(normal_map, s.uv)));
+}
+
+vec3 falloff(float n_dot_l, float k) {
+    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(n_dot_l, k);
+    if (diffuse == kDiffuseClosedForm) return closed_form(vec3(n_dot_l), k);
+    return profile_falloff(n_dot_l, k);
+}
+
+// One N.L per channel.
+vec3 falloff_of_channels(vec3 n_dot_l, float k) {
+    return vec3(falloff(n_dot_l.r, k).r, falloff(n_dot_l.g, k).g, falloff(n_dot_l.b, k).b);
+}
+
+// Blended, the falloff is computed twice instead of three times.
+vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
+    float k = min(curvature_towards(skin_diagonal_per_mm, skin_mixed_per_mm, s.n_geometry_world, to_light_world),
+                  kMaxCurvaturePerMm);
+    if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world), k);
+    if (normals == kNormalsLerp)
+        return falloff_of_channels(vec3(dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.r), to_light_world),
+                                        dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.g), to_light_world),
+                                        dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.b), to_light_world)), k);
+    vec3 sharp = falloff(dot(s.n_world, to_light_world), k);
+    if (normals == kNormalsSharp) return sharp;
+    return blended_light(sharp, falloff(dot(n_smooth_world, to_light_world), k), smooth_weight);
+}
+
+vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
+    vec3 scattered = diffuse_falloff(s, to_light_world);
+    if (shadow == kShadowPlain) return scattered * visibility;
+    return scattered *
+           mix(vec3(visibility), profile_edge(visibility), scattered_shadow_part(s.n_geometry_world, to_light_world));
+}
+
+// sqrt(4 pi / (2 l + 1)) zh_l in place of the cosine lobe's bands (Ramamoorthi, Hanrahan 2001).
+void ambient_bands(out vec3 band[3]) {
+    vec3 zh[3];
+    if (ambient == kAmbientCurve2015) {
+        zh[0] = curve_2015_zonal_0(curvature_around_per_mm);
+        zh[1] = curve_2015_zonal_1(curvature_around_per_mm);
+        zh[2] = vec3(0.495416);
+    } else if (ambient == kAmbientExact) {
+        exact_zonal(curvature_around_per_mm, zh);
+    } else {
+        profile_zonal(curvature_around_per_mm, zh);
+    }
+    for (int l = 0; l < 3; ++l) band[l] = sqrt(4.0 * kPi / float(2 * l + 1)) * zh[l];
+}
+
+// Occluded light scatters too: a crease is lit through its sides, in red farther than in blue. The occlusion of the
+// vertices is mixed by the weights of occlusion_blend.h, that of the material's map like the normals.
+vec3 scattered_occlusion(Surface s) {
+    vec3 weight_0 = occlusion_weight_0, weight_1 = occlusion_weight_1, weight_2 = occlusion_weight_2;
+    vec3 of_vertices = (1.0 - weight_0 - weight_1 - weight_2) * s.occlusion_vertex + weight_0 * s.occlusion_blurred.x +
+                       weight_1 * s.occlusion_blurred.y + weight_2 * s.occlusion_blurred.z;
+    float levels = smooth_levels + magnification_levels(occlusion_map, s.uv);
+    float sharp = texture(sampler2D(occlusion_map, trilinear_repeat), s.uv).r;
+    if (normals == kNormalsSharp) return min(of_vertices, vec3(sharp));
+    vec3 of_map = mix(vec3(sharp), texture(sampler2D(occlusion_map, trilinear_repeat), s.uv, levels).rrr, smooth_weight);
+    return min(of_vertices, of_map);
+}
+
+vec3 ambient_response(Surface s) {
+    vec3 band[3];
+    ambient_bands(band);
+    vec3 arriving = environment_convolved(s.n_world, band[0], band[1], band[2]);
+    if (normals == kNormalsLerp) {
+        for (int c = 0; c < 3; ++c)
+            arriving[c] = environment_convolved(lerped_normal(s.n_world, n_smooth_world, smooth_weight[c]), band[0], band[1], band[2])[c];
+    } else if (normals != kNormalsSharp) {
+        arriving = blended_light(arriving, environment_convolved(n_smooth_world, band[0], band[1], band[2]), smooth_weight);
+    }
+    return arriving * scattered_occlusion(s);
+}
+
+// The curvature that shades, from any source: radiance 1 is 0.25 per mm.
+vec3 own_view(Surface s) { return vec3(4.0 * curvature_around_per_mm); }
+
+#endif
