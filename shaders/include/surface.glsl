@@ -12,6 +12,7 @@ layout(location = 4) in float occlusion_in;
 layout(location = 5) in vec3 curvature_diagonal_per_mm_in;
 layout(location = 6) in vec3 curvature_mixed_per_mm_in;
 layout(location = 7) in vec3 occlusion_blurred_in;
+layout(location = 8) in vec4 color_linear_in;
 
 layout(scalar) uniform Material {
     vec3 albedo_linear;
@@ -26,6 +27,7 @@ layout(scalar) uniform Material {
     int opacity_from_map;
     float curvature_scale_per_mm;  // of a difference of 1 in the curvature map
     float curvature_mid;           // its value on flat skin
+    float alpha_cutoff;            // 0: nothing is cut out
 };
 
 uniform texture2D albedo_map;
@@ -33,6 +35,7 @@ uniform texture2D normal_map;
 uniform texture2D specular_map;
 uniform texture2D roughness_map;
 uniform texture2D occlusion_map;
+uniform texture2D emission_map;
 
 struct Surface {
     vec3 p_world_mm;
@@ -71,6 +74,11 @@ vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
     return n.x * t + n.y * b + n.z * n_geometry_world;
 }
 
+vec3 emitted_radiance() {
+    if (emission_linear == vec3(0.0)) return vec3(0.0);
+    return emission_linear * texture(sampler2D(emission_map, trilinear_repeat), uv_in).rgb;
+}
+
 Surface load_surface() {
     Surface s;
     s.p_world_mm = p_world_mm_in;
@@ -78,7 +86,8 @@ Surface load_surface() {
     s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
     s.uv = uv_in;
     s.n_world = normalize(mean_normal_world(s.n_geometry_world, uv_in, 0.0));
-    s.albedo_linear = albedo_linear * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
+    s.albedo_linear =
+        albedo_linear * color_linear_in.rgb * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
     s.roughness = clamp(roughness * texture(sampler2D(roughness_map, trilinear_repeat), uv_in).r, 0.03, 1.0);
     s.f0 = f0 * specular * texture(sampler2D(specular_map, trilinear_repeat), uv_in).r;
     // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.

@@ -44,6 +44,40 @@ TEST_F(ViewWindow, a_view_found_with_the_mouse_is_the_picture_that_render_draws)
     EXPECT_LT(differing, seen.width * seen.height / 500);
 }
 
+TEST_F(ViewWindow, the_help_is_whole_in_a_small_window_and_escape_closes_it) {
+    for (const char* size : {"1000x700", "640x400"}) {
+        const ProgramResult result = view(square() + " --samples 1 -t lambert --size " + size, R"(
+            settle
+            capture DIR/without.png
+            key F1
+            wait 3
+            capture DIR/with.png
+            key escape
+            wait 3
+            capture DIR/closed.png
+            quit
+        )");
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const Image without = image("without.png"), with = image("with.png");
+        EXPECT_NE(without.bytes, with.bytes) << "no help";
+        EXPECT_EQ(without.bytes, image("closed.png").bytes) << "escape does not close it";
+        // Nothing of it reaches the window's edges, where it would be cut off.
+        int changed = 0;
+        for (int x = 0; x < with.width; ++x)
+            for (const int y : {0, with.height - 1}) changed += with.at(x, y, 0) != without.at(x, y, 0);
+        for (int y = 0; y < with.height; ++y)
+            for (const int x : {0, with.width - 1}) changed += with.at(x, y, 0) != without.at(x, y, 0);
+        EXPECT_EQ(changed, 0) << size;
+    }
+}
+
+TEST_F(ViewWindow, a_window_that_closes_before_its_first_picture_says_so) {
+    const ProgramResult result = shell(program(*display_) + " view " + kSmall + "--frames 1");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("picture"));
+    EXPECT_THAT(result.out, Not(HasSubstr("first picture after 0.00 s")));
+}
+
 TEST_F(ViewWindow, a_slider_sets_its_parameter) {
     const ProgramResult result = view(kSmall + "-t wrap --set width=source", R"(
         wait 2
