@@ -39,7 +39,8 @@ NormalCount count_normals(const Image& image) {
 std::optional<std::string> doubt_of_normal_map(const Image& image, NormalSpace space) {
     // Of the maps of heads at hand: tangent space 0.95 and above, object space 0.1 to 0.3.
     constexpr double kTangentZ = 0.6, kLeastUnit = 0.5;
-    if (image.channels < 3) return "a normal map has three channels, this has " + std::to_string(image.channels);
+    if (image.channels < 3)
+        return "a normal map has three channels, this has " + std::to_string(image.channels);
     const NormalCount count = count_normals(image);
     if (count.texels == 0) return std::nullopt;
     if (double(count.unit) < kLeastUnit * double(count.texels))

@@ -43,8 +43,8 @@ void warn_of_direction(const SceneObject& object, std::vector<std::string>& warn
     const auto count = [&](Vec3 direction) {
         size_t found = 0;
         for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            const Vec3 n =
-                mesh.normals[mesh.indices[i]] + mesh.normals[mesh.indices[i + 1]] + mesh.normals[mesh.indices[i + 2]];
+            const Vec3 n = mesh.normals[mesh.indices[i]] + mesh.normals[mesh.indices[i + 1]] +
+                           mesh.normals[mesh.indices[i + 2]];
             found += dot(n, direction) > 0.5f * length(n);
         }
         return double(found);

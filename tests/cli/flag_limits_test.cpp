@@ -86,7 +86,8 @@ TEST_F(FlagLimits, text_of_100000_characters_ends_in_one_short_line) {
         for (const HelpOption& option : page.options) {
             // What a command cannot do without is absent, so that no text makes it start.
             const bool starts = page.positionals.empty();
-            const std::string line = command + " " + option.name + " $(head -c 100000 /dev/zero | tr '\\0' 9)" +
+            const std::string line = command + " " + option.name +
+                                     " $(head -c 100000 /dev/zero | tr '\\0' 9)" +
                                      (starts ? " --no-such-option" : "");
             const ProgramResult result = dermis(line);
             EXPECT_TRUE(result.exit_code == 1 || result.exit_code == 2)

@@ -64,18 +64,22 @@ class CutOut : public RenderTest {
         settings.lighting = {.ambient = AmbientModel::renderer, .specular = SpecularReflection::none};
         auto truth = render_reference(scene, settings);
         EXPECT_TRUE(truth) << truth.error().message;
-        return {std::move(drawn), std::move(truth->radiance), camera_matrices(scene.camera, 1).view_projection};
+        return {std::move(drawn), std::move(truth->radiance),
+                camera_matrices(scene.camera, 1).view_projection};
     }
 
     static void expect_at(const Pictures& pictures, Vec3 p_mm, Vec3 expected) {
         const auto& m = pictures.view_projection.m;
-        const auto row = [&](size_t r) { return m[r] * p_mm.x + m[r + 4] * p_mm.y + m[r + 8] * p_mm.z + m[r + 12]; };
-        const int x = int((row(0) / row(3) * 0.5f + 0.5f) * kSide), y = int((row(1) / row(3) * 0.5f + 0.5f) * kSide);
+        const auto row = [&](size_t r) {
+            return m[r] * p_mm.x + m[r + 4] * p_mm.y + m[r + 8] * p_mm.z + m[r + 12];
+        };
+        const int x = int((row(0) / row(3) * 0.5f + 0.5f) * kSide),
+                  y = int((row(1) / row(3) * 0.5f + 0.5f) * kSide);
         for (const Image* image : {&pictures.drawn, &pictures.truth})
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(image->at(x, y, c), (&expected.x)[c], 0.01f)
-                    << (image == &pictures.drawn ? "renderer" : "ground truth") << " at " << p_mm.x << ", channel "
-                    << c;
+                    << (image == &pictures.drawn ? "renderer" : "ground truth") << " at " << p_mm.x
+                    << ", channel " << c;
     }
 };
 
@@ -88,7 +92,9 @@ TEST_F(CutOut, shows_what_is_behind_and_casts_no_shadow_where_alpha_is_low) {
         const char* name;
         std::function<void(Material&)> make;
     };
-    const auto base = [](Material& m) { m.base_color_map = halves("rgba", {255, 255, 255, 255}, {255, 255, 255, 40}); };
+    const auto base = [](Material& m) {
+        m.base_color_map = halves("rgba", {255, 255, 255, 255}, {255, 255, 255, 40});
+    };
     const Case cases[] = {{"mask", [&](Material& m) { base(m), m.alpha_mode = AlphaMode::mask; }},
                           {"blend", [&](Material& m) { base(m), m.alpha_mode = AlphaMode::blend; }},
                           {"mask of half opacity",
@@ -110,7 +116,9 @@ TEST_F(CutOut, shows_what_is_behind_and_casts_no_shadow_where_alpha_is_low) {
 }
 
 TEST_F(CutOut, needs_a_mode_and_a_cutoff_above_the_map) {
-    const auto base = [](Material& m) { m.base_color_map = halves("rgba", {255, 255, 255, 255}, {255, 255, 255, 40}); };
+    const auto base = [](Material& m) {
+        m.base_color_map = halves("rgba", {255, 255, 255, 255}, {255, 255, 255, 40});
+    };
     for (const auto& make : std::initializer_list<std::function<void(Material&)>>{
              base, [&](Material& m) { base(m), m.alpha_mode = AlphaMode::mask, m.alpha_cutoff = 0.1f; }}) {
         const Pictures p = pictures(card_over_skin(make));

@@ -46,24 +46,30 @@ TEST(NormalMapCheck, maps_of_the_right_kind_pass) {
     EXPECT_FALSE(doubt_of_normal_map(map_of(bumps), NormalSpace::tangent));
     EXPECT_FALSE(doubt_of_normal_map(map_of(ball), NormalSpace::object));
     // Black between the charts, as painting programs leave it.
-    EXPECT_FALSE(doubt_of_normal_map(map_of([](Vec2 uv) { return uv.x > 0.2f ? Vec3{-1, -1, -1} : bumps(uv); }),
+    EXPECT_FALSE(doubt_of_normal_map(map_of([](Vec2 uv) {
+                                         return uv.x > 0.2f ? Vec3{-1, -1, -1} : bumps(uv);
+                                     }),
                                      NormalSpace::tangent));
     EXPECT_FALSE(doubt_of_normal_map(map_of([](Vec2) { return Vec3{-1, -1, -1}; }), NormalSpace::tangent));
 }
 
 TEST(NormalMapCheck, maps_of_another_kind_are_named_with_the_mend) {
     EXPECT_TRUE(doubts(map_of(ball), NormalSpace::tangent, "normal_space = \"object\""));
-    EXPECT_TRUE(doubts(map_of([](Vec2) { return Vec3{0, 0, 1}; }), NormalSpace::object,
-                       "normal_space = \"tangent\""));
-    EXPECT_TRUE(doubts(map_of([](Vec2 uv) { return Vec3{0.6f, 0.2f * uv.x, -0.1f}; }), NormalSpace::tangent,
-                       "colour map"));
+    EXPECT_TRUE(doubts(map_of([](Vec2) {
+                           return Vec3{0, 0, 1};
+                       }),
+                       NormalSpace::object, "normal_space = \"tangent\""));
+    EXPECT_TRUE(doubts(map_of([](Vec2 uv) {
+                           return Vec3{0.6f, 0.2f * uv.x, -0.1f};
+                       }),
+                       NormalSpace::tangent, "colour map"));
     EXPECT_TRUE(doubts(Image(8, 8, 1, PixelFormat::u8), NormalSpace::tangent, "three channels"));
 }
 
 TEST(NormalMapCheck, agrees_with_the_maps_of_a_scanned_head) {
     const char* assets = std::getenv("DERMIS_ASSETS");
-    const auto folder = std::filesystem::path(assets ? assets : DERMIS_SOURCE_DIR "/../shared/assets") /
-                        "lee_perry_smith";
+    const auto folder =
+        std::filesystem::path(assets ? assets : DERMIS_SOURCE_DIR "/../shared/assets") / "lee_perry_smith";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the head scan is not here";
     const auto check = [&](const char* name, NormalSpace space) {
         const auto image = read_image(folder / name, ImageUse::data);

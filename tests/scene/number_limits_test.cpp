@@ -22,8 +22,8 @@ std::vector<std::string> wrong_values(bool whole, double min, double max) {
     const double infinity = std::numeric_limits<double>::infinity();
     const double below = whole ? min - 1 : std::nextafter(min, -infinity),
                  above = whole ? max + 1 : std::nextafter(max, infinity);
-    std::vector<std::string> values = {to_text(below), to_text(above), "nan",   "-nan",      "inf",
-                                       "-inf",         "",             "1e400", "99999e309", "x"};
+    std::vector<std::string> values = {to_text(below), to_text(above), "nan", "-nan", "inf", "-inf", "",
+                                       "1e400",        "99999e309",    "x"};
     values.push_back(kEndless);
     values.push_back("-" + kEndless);
     if (whole) values.push_back("0.5");
@@ -87,8 +87,7 @@ void check_parameters(const std::string& owner, const ParameterTable& table) {
             const Result<void> set = values.set(parameter.name, value);
             return set ? "" : printable_line(set.error().message);
         };
-        const bool named =
-            parameter.kind == ParameterKind::toggle || parameter.kind == ParameterKind::choice;
+        const bool named = parameter.kind == ParameterKind::toggle || parameter.kind == ParameterKind::choice;
         for (const double end : {parameter.min, parameter.max})
             if (!named) EXPECT_EQ(error(to_text(end)), "") << to_text(end);
         const ParameterValues before = values;
