@@ -7,6 +7,7 @@
 #include "dermis/optics/fresnel.h"
 #include "dermis/rays/uv_raster.h"
 #include "dermis/scene/image_source.h"
+#include "dermis/scene/object_checks.h"
 
 namespace dermis {
 namespace {
@@ -136,7 +137,7 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .n_geometry = surface.n_geometry_world,
                        .n = normal_at(surface, hit.object),
                        .albedo_linear = material.base_color_linear * rgb(surface.color_linear),
-                       .emission_linear = material.emission_linear,
+                       .emission_linear = emission_of(material, e.material_class),
                        .roughness = material.roughness,
                        .f0 = float(f0_of_eta(material.ior)) * material.specular,
                        .metallic = is_skin ? 0 : material.metallic,

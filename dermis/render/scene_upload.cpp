@@ -9,6 +9,7 @@
 #include "dermis/mesh/stretch.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"
+#include "dermis/scene/object_checks.h"
 #include "shaders/include/constants.h"
 
 namespace dermis {
@@ -110,7 +111,7 @@ gpu::Values material_values(const Material& material, MaterialClass material_cla
             material.normal_space == NormalSpace::object ? kNormalSpaceObject : kNormalSpaceTangent;
     return {{"albedo_linear", material.base_color_linear * tint},
             {"roughness", material.roughness},
-            {"emission_linear", material.emission_linear},
+            {"emission_linear", emission_of(material, material_class)},
             {"specular", material.specular},
             {"f0", dielectric_f0(material.ior)},
             {"metallic", material.metallic},

@@ -6,7 +6,7 @@
 namespace dermis {
 namespace {
 
-void warn_of_cut_outs(const SceneObject& object, std::vector<std::string>& warnings) {
+void warn_of_materials(const SceneObject& object, std::vector<std::string>& warnings) {
     for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
         const Material& material = object.mesh.materials[i];
         const bool is_cut_out = cutoff_of_map(material) > 0;
@@ -15,6 +15,11 @@ void warn_of_cut_outs(const SceneObject& object, std::vector<std::string>& warni
                                "' is skin, of which alpha cuts nothing out; class = \"other\" under "
                                "[material." +
                                material.name + "] of a scene file cuts it");
+        if (emission_of(material, object.classes[i]) != material.emission_linear)
+            warnings.push_back("material '" + material.name +
+                               "' is skin, whose emission map is not drawn; class = \"other\" under "
+                               "[material." +
+                               material.name + "] of a scene file draws it");
         if (object.classes[i] == MaterialClass::other && material.alpha_mode == AlphaMode::blend &&
             is_cut_out)
             warnings.push_back("material '" + material.name +
@@ -62,6 +67,11 @@ void warn_of_direction(const SceneObject& object, std::vector<std::string>& warn
 
 }  // namespace
 
+Vec3 emission_of(const Material& material, MaterialClass material_class) {
+    const bool lacks_map = material_class == MaterialClass::skin && material.emission_map.present();
+    return lacks_map ? Vec3{} : material.emission_linear;
+}
+
 bool is_card(const Mesh& mesh, const Material& material) {
     const auto whole = [](const Material& other) { return cutoff_of_map(other) == 0; };
     return !whole(material) && std::ranges::any_of(mesh.materials, whole);
@@ -69,7 +79,7 @@ bool is_card(const Mesh& mesh, const Material& material) {
 
 std::vector<std::string> object_warnings(const SceneObject& object) {
     std::vector<std::string> warnings;
-    warn_of_cut_outs(object, warnings);
+    warn_of_materials(object, warnings);
     warn_of_direction(object, warnings);
     return warnings;
 }

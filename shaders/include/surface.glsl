@@ -35,7 +35,6 @@ uniform texture2D normal_map;
 uniform texture2D specular_map;
 uniform texture2D roughness_map;
 uniform texture2D occlusion_map;
-uniform texture2D emission_map;
 
 struct Surface {
     vec3 p_world_mm;
@@ -72,11 +71,6 @@ vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
     vec3 t = normalize(t_world_in.xyz - n_geometry_world * dot(n_geometry_world, t_world_in.xyz));
     vec3 b = t_world_in.w * cross(n_geometry_world, t);
     return n.x * t + n.y * b + n.z * n_geometry_world;
-}
-
-vec3 emitted_radiance() {
-    if (emission_linear == vec3(0.0)) return vec3(0.0);
-    return emission_linear * texture(sampler2D(emission_map, trilinear_repeat), uv_in).rgb;
 }
 
 Surface load_surface() {

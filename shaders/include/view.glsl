@@ -8,7 +8,7 @@ layout(constant_id = 1) const int view = kViewFinal;
 
 vec3 shown_radiance(vec3 diffuse_radiance, vec3 specular_radiance, vec3 own_radiance) {
     if (view == kViewOwn) return own_radiance;
-    vec3 radiance = emitted_radiance();
+    vec3 radiance = emission_linear;
     if (view != kViewSpecular) radiance += diffuse_radiance;
     if (view != kViewDiffuse) radiance += specular_radiance;
     return radiance;

@@ -9,6 +9,7 @@
 #include "shaders/include/surface.glsl"
 
 uniform texture2D metallic_map;
+uniform texture2D emission_map;
 
 layout(location = 0) out vec4 radiance_out;
 
@@ -38,5 +39,6 @@ void main() {
                                                               s.roughness, f0_one);
     }
     vec3 diffuse_radiance = s.albedo_linear * (1.0 - metal) * exitance / kPi;
-    radiance_out = vec4(emitted_radiance() + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
+    vec3 emitted = emission_linear * texture(sampler2D(emission_map, trilinear_repeat), s.uv).rgb;
+    radiance_out = vec4(emitted + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
 }

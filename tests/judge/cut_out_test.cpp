@@ -14,12 +14,12 @@ namespace {
 constexpr int kSide = 64;
 constexpr Vec3 kCardColor = {1, 0, 0}, kSkinColor = {1, 1, 1};
 
-// Two texels side by side; a card's u grows with x.
-ImageSource halves(const std::string& name, std::vector<int> left, const std::vector<int>& right) {
+// Sixteen texels side by side, eight of each; a card's u grows with x.
+ImageSource halves(const std::string& name, const std::vector<int>& left, const std::vector<int>& right) {
     ImageSource source{
-        .name = name, .encoded = {}, .width = 2, .height = 1, .channels = int(left.size()), .pixels = {}};
-    left.insert(left.end(), right.begin(), right.end());
-    for (const int code : left) source.pixels.push_back(std::byte(code));
+        .name = name, .encoded = {}, .width = 16, .height = 1, .channels = int(left.size()), .pixels = {}};
+    for (int x = 0; x < source.width; ++x)
+        for (const int code : x < source.width / 2 ? left : right) source.pixels.push_back(std::byte(code));
     return source;
 }
 
@@ -158,6 +158,8 @@ TEST_F(CutOut, surfaces_emit_what_their_map_says) {
     expect_at(p, {-10, 0, 20}, {2, 1, 0.5f});
     expect_at(p, {10, 0, 20}, {});
     expect_at(p, {30, 0, 0}, {0, 0, 3});
+    scene.objects[1].classes = {MaterialClass::skin};
+    expect_at(pictures(scene), {-10, 0, 20}, {});
 }
 
 TEST_F(CutOut, vertex_colours_multiply_the_base_colour) {

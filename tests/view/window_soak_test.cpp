@@ -1,4 +1,4 @@
-// Random actions, seeded: under the validation layers no message, and no memory that grows. 60 of them as a
+// Random actions, seeded: under the validation layers no message, and no memory that grows. 40 of them as a
 // test; for an hour: DERMIS_SOAK_ACTIONS=20000 build/tests/test_view --gtest_filter='*random_actions*'.
 
 #include <gmock/gmock.h>
@@ -72,7 +72,7 @@ std::string random_script(uint32_t seed, int actions, bool prints) {
 TEST_F(ViewWindow, random_actions_bring_no_message_and_keep_no_memory) {
     const char* stated = std::getenv("DERMIS_SOAK_ACTIONS");
     const char* chosen = std::getenv("DERMIS_SOAK_SEED");
-    const int actions = stated ? std::atoi(stated) : 60;
+    const int actions = stated ? std::atoi(stated) : 40;
     const auto seed = uint32_t(chosen ? std::atoi(chosen) : 1);
     ASSERT_GT(actions, 0);
     const std::string arguments = square() + " --size 300x200 --samples 1 -t lambert";
