@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -53,21 +54,23 @@ Option* Option::allow_extra_args(bool allowed) {
 
 namespace {
 
-// CLI11 takes "nan" and "inf" for numbers. Empty when the text is fine.
+// CLI11 takes "nan" and "inf" for numbers, nothing at all for 0, and what no double holds for infinity. Empty
+// when the text is fine.
 std::string finite_number(const std::string& text) {
     const std::optional<double> number = parse_number(text);
-    return !number || std::isfinite(*number) ? "" : text + " is no finite number";
+    if (!number) return text.empty() ? "a number is missing" : text + " is no number";
+    return std::abs(*number) <= std::numeric_limits<float>::max() ? "" : text + " is no finite number";
 }
 
 template <class Value>
-constexpr bool kIsReal = std::is_floating_point_v<Value> || std::is_same_v<Value, std::optional<double>>;
+constexpr bool kIsNumber = std::is_arithmetic_v<Value> || std::is_same_v<Value, std::optional<double>>;
 
 }  // namespace
 
 template <class Value>
 Option* Command::add_any(const std::string& names, Value& value, const std::string& help) {
     CLI::Option* option = app_->add_option(names, value, help);
-    if constexpr (kIsReal<Value>) option->check(CLI::Validator(finite_number, ""));
+    if constexpr (kIsNumber<Value>) option->check(CLI::Validator(finite_number, ""));
     return &options_.emplace_back(option);
 }
 

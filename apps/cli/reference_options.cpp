@@ -103,6 +103,9 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
         Result<ScatteringMedium> parsed = parse_medium(medium);
         if (!parsed) return parsed.error();
         chosen.medium = *parsed;
+        if (chosen.integrator != Integrator::walk)
+            return Error{"--medium has no effect on --integrator " + integrator +
+                         ", which reads the scene's profile; add --integrator walk"};
     }
     return chosen;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <string>
 
@@ -184,6 +185,15 @@ Result<void> check_image_size(uint64_t width, uint64_t height, int channels) {
 int alpha_channel(const Image& image) {
     if (image.channels == 4) return 3;
     return image.channels == 2 && image.encoding == Encoding::srgb ? 1 : -1;
+}
+
+Image single_channel(const Image& image, int channel) {
+    Image single(image.width, image.height, 1, image.format);
+    const size_t size = bytes_per_channel(image.format), stride = size * size_t(image.channels);
+    for (size_t i = 0; i < image.pixel_count(); ++i)
+        std::memcpy(single.bytes.data() + i * size, image.bytes.data() + i * stride + size_t(channel) * size,
+                    size);
+    return single;
 }
 
 Image to_linear_float(const Image& image) {

@@ -20,6 +20,7 @@ struct ImageSource {
     std::vector<std::byte> encoded;  ///< empty: read `name` from disk
     int width = 0, height = 0, channels = 0;
     std::vector<std::byte> pixels;  ///< 8 bit, rows from the top; sRGB where the map is a colour
+    std::string named_by;           ///< the file that names it, for errors; may be empty
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 
     [[nodiscard]] bool present() const { return !name.empty() || !encoded.empty(); }
@@ -34,18 +35,19 @@ struct Material {
     Vec3 base_color_linear = {0.8f, 0.8f, 0.8f};
     float opacity = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;  ///< of AlphaMode::mask: less opacity is none
+    float alpha_cutoff = 0.5f;  ///< of AlphaMode::mask: less opacity is none (cutoff_of_map)
     float roughness = 0.5f;     ///< perceptual, alpha = roughness^2
     float metallic = 0;
     float specular = 1;  ///< scales the dielectric F0
     float ior = 1.5f;
     Vec3 emission_linear = {0, 0, 0};
-    bool double_sided = false;
+    bool double_sided = false;  ///< kept for export: every surface is drawn from both sides
 
     NormalSpace normal_space = NormalSpace::tangent;
     float normal_scale = 1;
 
     ImageSource base_color_map;          ///< sRGB; A multiplies opacity unless the mode is opaque
+    ImageSource alpha_map;               ///< A, or else R: replaces the A of base_color_map
     ImageSource emission_map;            ///< sRGB
     ImageSource normal_map;              ///< data
     ImageSource metallic_roughness_map;  ///< roughness in G, metallic in B
@@ -80,5 +82,9 @@ struct Material {
     };
     std::optional<Scattering> scattering;
 };
+
+/// Cards of hair and lashes: the value of the alpha map, times the vertices' alpha, below which there is no
+/// surface; 0 where nothing is cut out. What should be blended is cut out at 0.5 of its map.
+[[nodiscard]] float cutoff_of_map(const Material& material);
 
 }  // namespace dermis

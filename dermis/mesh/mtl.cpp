@@ -145,6 +145,7 @@ class MtlParser {
 
     void set_opacity(float opacity) {
         Material& material = materials_.back();
+        if (material.alpha_map.present()) return;
         material.opacity = std::clamp(opacity, 0.0f, 1.0f);
         material.alpha_mode = material.opacity < 1 ? AlphaMode::blend : AlphaMode::opaque;
     }
@@ -158,7 +159,7 @@ class MtlParser {
         if (keyword == "map_pr") return &material.roughness_map;
         if (keyword == "norm" || keyword == "map_kn") return &material.normal_map;
         if (keyword == "disp" || keyword == "map_disp") return &material.displacement_map;
-        if (keyword == "map_d") return &material.opacity_map;
+        if (keyword == "map_d") return &material.alpha_map;
         if (keyword != "map_bump" && keyword != "bump") return nullptr;
         // "bump" means heights in the specification, but often holds tangent-space normals: the name decides.
         const std::string lower = to_lower(map.file);
@@ -173,6 +174,10 @@ class MtlParser {
         Material& material = materials_.back();
         if (keyword == "map_ke" && material.emission_linear == Vec3{}) material.emission_linear = {1, 1, 1};
         if (keyword == "map_pr") material.roughness = 1;
+        if (keyword == "map_d") {
+            material.alpha_mode = AlphaMode::mask;
+            material.opacity = 1;
+        }
     }
 
     void read_map_line(std::string_view keyword, const TextCursor& cursor) {
@@ -199,6 +204,7 @@ class MtlParser {
             materials_.back().normal_scale = *map.bump_scale;
         set_constant_beside(keyword);
         target->name = (directory_ / map.file).string();
+        target->named_by = name_;
     }
 
     void warn_once(const std::string& text) {

@@ -1,5 +1,6 @@
 #include "dermis/rays/ray_scene.h"
 #include "dermis/base/parallel.h"
+#include "dermis/rays/cut_out.h"
 
 #include <embree3/rtcore.h>
 
@@ -25,6 +26,7 @@ using ScenePointer = std::unique_ptr<RTCSceneTy, SceneRelease>;
 struct Part {
     uint32_t object = 0;
     std::vector<uint32_t> triangles;  // of the mesh
+    const CutOut* cut_out = nullptr;  // null: every hit counts
 };
 
 struct TriangleSet {
@@ -48,21 +50,31 @@ MaterialClass class_of(std::span<const MaterialClass> classes, uint32_t material
     return material < classes.size() ? classes[material] : MaterialClass::skin;
 }
 
-Part select_triangles(const Mesh& mesh, std::span<const MaterialClass> classes, RaySet set) {
+// Of the materials for which `wanted` is true.
+Part select_triangles(const Mesh& mesh, std::span<const MaterialClass> classes, RaySet set,
+                      const auto& wanted) {
     Part part;
     for (const Submesh& submesh : mesh.submeshes) {
-        if (!belongs(set, class_of(classes, submesh.material))) continue;
+        if (!belongs(set, class_of(classes, submesh.material)) || !wanted(submesh.material)) continue;
         for (uint32_t i = 0; i < submesh.index_count / 3; ++i)
             part.triangles.push_back(submesh.first_index / 3 + i);
     }
-    if (mesh.submeshes.empty() && belongs(set, class_of(classes, 0)))
+    if (mesh.submeshes.empty() && belongs(set, class_of(classes, 0)) && wanted(0))
         for (uint32_t i = 0; i < mesh.triangle_count(); ++i) part.triangles.push_back(i);
     return part;
 }
 
+// A filter's answer: 0 lets the ray go on.
+void pass_cut_outs(const RTCFilterFunctionNArguments* arguments) {
+    assert(arguments->N == 1);
+    const auto* part = static_cast<const Part*>(arguments->geometryUserPtr);
+    const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
+    if (part->cut_out->passes(part->triangles[hit->primID], hit->u, hit->v)) arguments->valid[0] = 0;
+}
+
 // False when Embree has no memory for it.
 bool attach(RTCDevice device, RTCScene scene, std::span<const Vec3> positions_mm,
-            std::span<const uint32_t> corners) {
+            std::span<const uint32_t> corners, const Part* cut_out = nullptr) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                               sizeof(Vec3), positions_mm.size());
@@ -72,6 +84,11 @@ bool attach(RTCDevice device, RTCScene scene, std::span<const Vec3> positions_mm
     if (allocated) {
         std::memcpy(positions, positions_mm.data(), positions_mm.size_bytes());
         std::memcpy(indices, corners.data(), corners.size_bytes());
+        if (cut_out) {
+            rtcSetGeometryUserData(geometry, const_cast<Part*>(cut_out));
+            rtcSetGeometryIntersectFilterFunction(geometry, pass_cut_outs);
+            rtcSetGeometryOccludedFilterFunction(geometry, pass_cut_outs);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
     }
@@ -148,21 +165,45 @@ struct RayScene::Impl {
     DevicePointer device;
     std::array<TriangleSet, 4> sets;
     std::vector<const Mesh*> meshes;
+    std::vector<std::vector<std::unique_ptr<CutOut>>> cut_outs;  // by mesh and material; null: it is whole
     float epsilon_mm = 1e-6f;
 
     [[nodiscard]] const TriangleSet& set(RaySet which) const { return sets[size_t(which)]; }
+
+    [[nodiscard]] const CutOut* cut_out_of(uint32_t object, uint32_t material) const {
+        const bool known = object < cut_outs.size() && material < cut_outs[object].size();
+        return known ? cut_outs[object][material].get() : nullptr;
+    }
+
+    Result<void> load_cut_outs(std::span<const SceneObject> objects) {
+        for (const SceneObject& object : objects) {
+            auto& of_object = cut_outs.emplace_back();
+            for (uint32_t i = 0; i < object.mesh.materials.size(); ++i) {
+                Result<std::unique_ptr<CutOut>> loaded = CutOut::load(object, i);
+                if (!loaded) return loaded.error();
+                of_object.push_back(std::move(*loaded));
+            }
+        }
+        return {};
+    }
 
     // False when the ray library failed.
     bool add_set(RaySet which, std::span<const std::span<const MaterialClass>> classes,
                  std::span<const Flesh> flesh) {
         TriangleSet& set = sets[size_t(which)];
         for (uint32_t object = 0; object < meshes.size(); ++object) {
-            Part part = select_triangles(*meshes[object], classes[object], which);
-            part.object = object;
-            if (!flesh.empty())
-                std::erase_if(part.triangles,
-                              [&](uint32_t t) { return left_out(which, flesh[object].faces[t]); });
-            if (!part.triangles.empty()) set.parts.push_back(std::move(part));
+            const auto add_part = [&](const CutOut* cut_out, const auto& wanted) {
+                Part part = select_triangles(*meshes[object], classes[object], which, wanted);
+                part.object = object, part.cut_out = cut_out;
+                if (!flesh.empty())
+                    std::erase_if(part.triangles,
+                                  [&](uint32_t t) { return left_out(which, flesh[object].faces[t]); });
+                if (!part.triangles.empty()) set.parts.push_back(std::move(part));
+            };
+            add_part(nullptr, [&](uint32_t material) { return !cut_out_of(object, material); });
+            for (uint32_t i = 0; i < meshes[object]->materials.size(); ++i)
+                if (const CutOut* cut_out = cut_out_of(object, i))
+                    add_part(cut_out, [&](uint32_t material) { return material == i; });
         }
         if (set.parts.empty()) return true;
         set.scene.reset(rtcNewScene(device.get()));
@@ -171,7 +212,8 @@ struct RayScene::Impl {
         rtcSetSceneBuildQuality(set.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
         for (const Part& part : set.parts) {
             const Mesh& mesh = *meshes[part.object];
-            if (!attach(device.get(), set.scene.get(), mesh.positions_mm, corners_of(mesh, part)))
+            if (!attach(device.get(), set.scene.get(), mesh.positions_mm, corners_of(mesh, part),
+                        part.cut_out ? &part : nullptr))
                 return false;
         }
         if (which == RaySet::flesh && !add_caps(set, flesh)) return false;
@@ -226,6 +268,7 @@ Result<RayScene> RayScene::build(std::span<const SceneObject> objects, std::span
         impl->meshes.push_back(&object.mesh);
         classes.push_back(object.classes);
     }
+    if (Result<void> loaded = impl->load_cut_outs(objects); !loaded) return loaded.error();
     if (Result<void> built = impl->build(classes, flesh); !built) return built.error();
     return RayScene(std::move(impl));
 }

@@ -48,6 +48,7 @@ struct SurfaceAttributes {
     Vec3 n_geometry_world;  ///< unit, interpolated vertex normal
     Vec4 tangent_world;     ///< interpolated, not orthonormal; zero when the mesh has none
     Vec2 uv;
+    Vec4 color_linear = {1, 1, 1, 1};  ///< the vertices' own
     uint32_t material = 0;
     /// p_world_mm lifted onto the smooth surface that the vertex normals describe, so that a shadow ray does
     /// not meet the facets beside it: Hanika 2021, Hacking the Shadow Terminator, Ray Tracing Gems II,
@@ -60,7 +61,8 @@ struct SurfaceAttributes {
 /// must outlive it and not change. About 100 bytes a triangle; 20 ms for 17,684 triangles.
 class RayScene {
   public:
-    /// Errors: no triangle at all, or the ray library cannot start.
+    /// Rays pass what the alpha maps of materials of class `other` cut out.
+    /// Errors: no triangle at all, the ray library cannot start, or an alpha map cannot be read.
     /// With `flesh` (one an object, of find_flesh) hidden skin is no skin, and the set `flesh` exists;
     /// without it all skin is.
     [[nodiscard]] static Result<RayScene> build(std::span<const SceneObject> objects,

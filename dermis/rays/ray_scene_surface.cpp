@@ -17,6 +17,13 @@ SurfaceAttributes RayScene::surface_at(const RayHit& hit) const {
         surface.p_world_mm += mesh.positions_mm[corner[i]] * weight[i];
         if (!mesh.normals.empty()) normal += mesh.normals[corner[i]] * weight[i];
         if (!mesh.uvs.empty()) surface.uv = surface.uv + mesh.uvs[corner[i]] * weight[i];
+        if (!mesh.colors_linear.empty()) {
+            const Vec4 c = mesh.colors_linear[corner[i]];
+            Vec4& sum = surface.color_linear;
+            if (i == 0) sum = {};
+            sum = {sum.x + c.x * weight[i], sum.y + c.y * weight[i], sum.z + c.z * weight[i],
+                   sum.w + c.w * weight[i]};
+        }
         if (!mesh.tangents.empty()) {
             const Vec4 t = mesh.tangents[corner[i]];
             Vec4& sum = surface.tangent_world;

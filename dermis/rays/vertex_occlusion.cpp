@@ -1,11 +1,13 @@
 #include "dermis/rays/vertex_occlusion.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
+#include "dermis/base/progress.h"
 #include "dermis/rays/random.h"
 #include "dermis/rays/sampling.h"
 
@@ -34,6 +36,14 @@ std::string content_hash(std::span<const SceneObject> objects, const OcclusionSe
     return hasher.hex();
 }
 
+// The hash does not cover alpha maps.
+bool has_cut_outs(std::span<const SceneObject> objects) {
+    return std::ranges::any_of(objects, [](const SceneObject& object) {
+        return std::ranges::any_of(object.mesh.materials,
+                                   [](const Material& m) { return cutoff_of_map(m) > 0; });
+    });
+}
+
 // Equal for vertices that differ only by a UV seam.
 uint32_t seed_of(Vec3 p_mm, Vec3 n) {
     uint32_t seed = 0;
@@ -42,8 +52,8 @@ uint32_t seed_of(Vec3 p_mm, Vec3 n) {
     return seed;
 }
 
-std::vector<float> mesh_occlusion(const RayScene& scene, const Mesh& mesh,
-                                  const OcclusionSettings& settings) {
+std::vector<float> mesh_occlusion(const RayScene& scene, const Mesh& mesh, const OcclusionSettings& settings,
+                                  Progress& progress) {
     std::vector<float> occlusion(mesh.positions_mm.size(), 1.0f);
     if (mesh.normals.size() != occlusion.size()) return occlusion;
     parallel_for(occlusion.size(), 256, [&](size_t begin, size_t end) {
@@ -51,6 +61,7 @@ std::vector<float> mesh_occlusion(const RayScene& scene, const Mesh& mesh,
             const Vec3 p_mm = mesh.positions_mm[i], n = mesh.normals[i];
             if (dot(n, n) > 0.5f) occlusion[i] = point_occlusion(scene, p_mm, n, seed_of(p_mm, n), settings);
         }
+        progress.advance(end - begin);
     });
     return occlusion;
 }
@@ -100,14 +111,19 @@ Result<std::vector<std::vector<float>>> compute_vertex_occlusion(std::span<const
     if (settings.rays < 1 || settings.rays > 65536)
         return Error{"occlusion rays: " + std::to_string(settings.rays) + " is outside 1..65536"};
     const std::string hash = content_hash(objects, settings);
-    if (settings.use_cache)
+    const bool use_cache = settings.use_cache && !has_cut_outs(objects);
+    if (use_cache)
         if (const auto stored = cache_load("occlusion", hash))
             if (auto values = unpack(*stored, objects)) return std::move(*values);
     Result<RayScene> scene = RayScene::build(objects);
     if (!scene) return scene.error();
+    size_t vertices = 0;
+    for (const SceneObject& object : objects) vertices += object.mesh.positions_mm.size();
+    Progress progress("occlusion at the vertices", vertices);
     std::vector<std::vector<float>> values;
-    for (const SceneObject& object : objects) values.push_back(mesh_occlusion(*scene, object.mesh, settings));
-    if (settings.use_cache) cache_store("occlusion", hash, pack(values));
+    for (const SceneObject& object : objects)
+        values.push_back(mesh_occlusion(*scene, object.mesh, settings, progress));
+    if (use_cache) cache_store("occlusion", hash, pack(values));
     return values;
 }
 

@@ -7,6 +7,7 @@
 #include "dermis/optics/fresnel.h"
 #include "dermis/rays/uv_raster.h"
 #include "dermis/scene/image_source.h"
+#include "dermis/scene/object_checks.h"
 
 namespace dermis {
 namespace {
@@ -68,7 +69,8 @@ Result<MaterialSet> MaterialSet::load(const Scene& scene) {
         {&Material::roughness_map, &Maps::roughness, ImageUse::data},
         {&Material::metallic_roughness_map, &Maps::metallic_roughness, ImageUse::data},
         {&Material::occlusion_map, &Maps::occlusion, ImageUse::data},
-        {&Material::opacity_map, &Maps::opacity, ImageUse::color}};
+        {&Material::opacity_map, &Maps::opacity, ImageUse::color},
+        {&Material::emission_map, &Maps::emission, ImageUse::color}};
     MaterialSet set;
     set.scene_ = &scene;
     for (const SceneObject& object : scene.objects) {
@@ -128,23 +130,27 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
     const Entry& e = entry(surface, hit.object);
     const Material& material = *e.material;
     const bool is_skin = e.material_class == MaterialClass::skin;
+    const bool cut_out = e.material_class == MaterialClass::other && cutoff_of_map(material) > 0;
     ShadingPoint point{.p_mm = surface.p_world_mm,
                        .p_smooth_mm = surface.p_smooth_mm,
                        .n_face = surface.n_face_world,
                        .n_geometry = surface.n_geometry_world,
                        .n = normal_at(surface, hit.object),
-                       .albedo_linear = material.base_color_linear,
-                       .emission_linear = material.emission_linear,
+                       .albedo_linear = material.base_color_linear * rgb(surface.color_linear),
+                       .emission_linear = emission_of(material, e.material_class),
                        .roughness = material.roughness,
                        .f0 = float(f0_of_eta(material.ior)) * material.specular,
                        .metallic = is_skin ? 0 : material.metallic,
-                       .opacity = material.opacity,
+                       .opacity = cut_out ? 1 : material.opacity,
                        .occlusion = occlusion_at(surface, hit),
                        .material_class = e.material_class};
     if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;
     if (e.maps.base_color)
         point.albedo_linear =
             point.albedo_linear * rgb(e.maps.base_color->sample(surface.uv, surface.footprint));
+    if (e.maps.emission)
+        point.emission_linear =
+            point.emission_linear * rgb(e.maps.emission->sample(surface.uv, surface.footprint));
     if (e.maps.specular) point.f0 *= factor(*e.maps.specular, surface);
     if (e.maps.roughness) point.roughness *= e.maps.roughness->sample(surface.uv, surface.footprint).x;
     if (e.maps.metallic_roughness) {

@@ -54,6 +54,7 @@ class MaterialSet {
         const Texture* metallic_roughness = nullptr;
         const Texture* occlusion = nullptr;
         const Texture* opacity = nullptr;
+        const Texture* emission = nullptr;
     };
     struct Entry {
         const Material* material = nullptr;

@@ -5,6 +5,7 @@
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
+#include "dermis/base/progress.h"
 #include "dermis/mesh/curvature.h"
 #include "dermis/rays/vertex_occlusion.h"
 
@@ -42,7 +43,9 @@ bool has_occlusion(const SceneObject& object) {
 }  // namespace
 
 Result<void> complete_scene(Scene& scene) {
+    Progress progress("curvature", scene.objects.size());
     for (SceneObject& object : scene.objects) {
+        progress.advance();
         if (object.mesh.curvatures_per_mm.size() == object.mesh.positions_mm.size()) continue;
         Result<std::vector<CurvatureTensor>> tensors = cached_curvature(object.mesh);
         if (!tensors) return tensors.error();

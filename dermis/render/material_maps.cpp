@@ -5,6 +5,7 @@
 
 #include "dermis/image/dilate.h"
 #include "dermis/render/atlas_mask.h"
+#include "dermis/render/normal_map_check.h"
 #include "dermis/scene/image_source.h"
 
 namespace dermis {
@@ -38,16 +39,6 @@ Image to_half_image(const Image& image, int channels) {
     return half;
 }
 
-Image single_channel(const Image& image, int preferred) {
-    const int channel = preferred < image.channels ? preferred : 0;
-    Image single(image.width, image.height, 1, image.format);
-    const size_t size = bytes_per_channel(image.format), stride = size * size_t(image.channels);
-    for (size_t i = 0; i < image.pixel_count(); ++i)
-        std::memcpy(single.bytes.data() + i * size, image.bytes.data() + i * stride + size_t(channel) * size,
-                    size);
-    return single;
-}
-
 }  // namespace
 
 const std::vector<MaterialMap>& material_maps() {
@@ -77,11 +68,17 @@ const std::vector<MaterialMap>& material_maps() {
          .is_single = true,
          .neutral = {}},
         {.texture = "curvature_map", .source = &Material::curvature_map, .is_single = true, .neutral = {}},
-        {.texture = "opacity_map", .source = &Material::opacity_map, .is_color = true}};
+        {.texture = "opacity_map", .source = &Material::opacity_map, .is_color = true},
+        {.texture = "emission_map", .source = &Material::emission_map, .is_color = true},
+        {.texture = "alpha_map",
+         .source = &Material::alpha_map,
+         .is_single = true,
+         .packed = &Material::base_color_map}};
     return kMaps;
 }
 
 const ImageSource* map_source(const MaterialMap& map, const Material& material) {
+    if (map.source == &Material::alpha_map && cutoff_of_map(material) == 0) return nullptr;
     if ((material.*map.source).present()) return &(material.*map.source);
     if (map.packed && (material.*map.packed).present()) return &(material.*map.packed);
     return nullptr;
@@ -110,19 +107,24 @@ gpu::TextureData neutral_map(const MaterialMap& map) {
     return data;
 }
 
-Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material,
-                                           const Mesh& mesh) {
+Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& material, const Mesh& mesh) {
     const ImageSource& source = *map_source(map, material);
     const int channel = &source == &(material.*map.source) ? map.preferred_channel : map.packed_channel;
-    Result<Image> decoded = load_image_source(source, map.is_color ? ImageUse::color : ImageUse::data);
+    Result<Image> decoded = map.source == &Material::alpha_map
+                                ? load_alpha(material)
+                                : load_image_source(source, map.is_color ? ImageUse::color : ImageUse::data);
     if (!decoded) return decoded.error();
     Image& image = *decoded;
+    std::string warning;
+    if (map.source == &Material::normal_map)
+        if (const auto doubt = doubt_of_normal_map(image, material.normal_space))
+            warning = source.name + ": given as a normal map, but " + *doubt;
     if (material.dilate_texels > 0)
         dilate(image, atlas_mask(mesh, image.width, image.height), material.dilate_texels);
     gpu::TextureData data = {.name = source.name, .width = image.width, .height = image.height};
     data.generate_mips = true;
     if (map.is_single) {
-        const Image single = single_channel(image, channel);
+        const Image single = single_channel(image, channel < image.channels ? channel : 0);
         data.format = single.format == PixelFormat::u8 ? ImageFormat::r8 : ImageFormat::r16f;
         data.bytes = single.format == PixelFormat::u8 ? single.bytes : to_half_image(single, 1).bytes;
     } else if (image.format == PixelFormat::u8) {
@@ -133,7 +135,7 @@ Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Materia
         data.format = ImageFormat::rgba16f;
         data.bytes = to_half_image(to_linear_float(image), 4).bytes;
     }
-    return data;
+    return LoadedMap{std::move(data), std::move(warning)};
 }
 
 }  // namespace dermis

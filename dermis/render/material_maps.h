@@ -25,10 +25,14 @@ struct MaterialMap {
 /// The image that fills `map` for this material, or null.
 [[nodiscard]] const ImageSource* map_source(const MaterialMap& map, const Material& material);
 
+struct LoadedMap {
+    gpu::TextureData texture;
+    std::string warning;  ///< names the file; empty: nothing looks wrong
+};
 /// Reads and decodes one map; level 0 only, mips are made on the device. Where the material asks for it the
 /// islands of the mesh's atlas grow into their gutter. Errors name the file.
-[[nodiscard]] Result<gpu::TextureData> load_material_map(const MaterialMap& map, const Material& material,
-                                                         const Mesh& mesh);
+[[nodiscard]] Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& material,
+                                                  const Mesh& mesh);
 
 /// One line for each skin material of the scene that has no image for `texture`.
 [[nodiscard]] std::vector<std::string> missing_map_warnings(const Scene& scene, std::string_view texture);

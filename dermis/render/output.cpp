@@ -1,5 +1,8 @@
 #include "dermis/render/output.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 
@@ -14,22 +17,24 @@ Image channels_of(const Image& image, int first, int count) {
     return part;
 }
 
-// Which channels of which G-buffer image make a layer (shaders/renderer/gbuffer.frag).
+// Which channels of which G-buffer image make a layer, and an EXR of that view
+// (shaders/renderer/gbuffer.frag).
 struct GbufferLayer {
-    const char *layer, *image;
+    const char *layer, *view, *image;
     int first, count;
 };
-constexpr GbufferLayer kGbufferLayers[] = {{"position_world_mm", "gbuffer_position", 0, 3},
-                                           {"distance_mm", "gbuffer_position", 3, 1},
-                                           {"normal_world", "gbuffer_normal", 0, 3},
-                                           {"curvature_per_mm", "gbuffer_normal", 3, 1},
-                                           {"geometry_normal_world", "gbuffer_geometry", 0, 3},
-                                           {"occlusion", "gbuffer_geometry", 3, 1},
-                                           {"albedo_linear", "gbuffer_albedo", 0, 3},
-                                           {"roughness", "gbuffer_albedo", 3, 1},
-                                           {"uv", "gbuffer_light", 0, 2},
-                                           {"n_dot_l", "gbuffer_light", 2, 1},
-                                           {"shadow", "gbuffer_light", 3, 1}};
+constexpr GbufferLayer kGbufferLayers[] = {
+    {"position_world_mm", "position", "gbuffer_position", 0, 3},
+    {"distance_mm", "depth", "gbuffer_position", 3, 1},
+    {"normal_world", "normal", "gbuffer_normal", 0, 3},
+    {"curvature_per_mm", "curvature", "gbuffer_normal", 3, 1},
+    {"geometry_normal_world", "geometry_normal", "gbuffer_geometry", 0, 3},
+    {"occlusion", "occlusion", "gbuffer_geometry", 3, 1},
+    {"albedo_linear", "albedo", "gbuffer_albedo", 0, 3},
+    {"roughness", "roughness", "gbuffer_albedo", 3, 1},
+    {"uv", "uv", "gbuffer_light", 0, 2},
+    {"n_dot_l", "n_dot_l", "gbuffer_light", 2, 1},
+    {"shadow", "shadow", "gbuffer_light", 3, 1}};
 
 Result<std::vector<ImageLayer>> collect_layers(Renderer& renderer, const Technique& technique,
                                                const ParameterValues& values, DrawSettings draw) {
@@ -52,6 +57,20 @@ Result<std::vector<ImageLayer>> collect_layers(Renderer& renderer, const Techniq
         layers.push_back({layer.layer, channels_of(*image, layer.first, layer.count)});
     }
     return layers;
+}
+
+// Linear. Views of the G-buffer have no radiance: their numbers are what is written.
+Result<Image> linear_picture(Renderer& renderer, const std::string& view) {
+    const auto layer = std::ranges::find(kGbufferLayers, std::string_view(view), &GbufferLayer::view);
+    if (layer == std::end(kGbufferLayers)) return renderer.radiance();
+    const Result<Image> image = renderer.read(layer->image);
+    if (!image) return image.error();
+    Image part = channels_of(*image, layer->first, layer->count);
+    if (layer->count != 2) return part;
+    Image padded(part.width, part.height, 3, PixelFormat::f32);  // an EXR of two channels is grey and alpha
+    for (size_t i = 0; i < part.pixel_count(); ++i)
+        for (size_t c = 0; c < 2; ++c) padded.floats()[3 * i + c] = part.floats()[2 * i + c];
+    return padded;
 }
 
 }  // namespace
@@ -77,8 +96,8 @@ Result<void> write_output(Renderer& renderer, const Technique& technique, const 
         return write_layered_exr(path, *layers, text);
     }
     if (to_lower(path.extension().string()) == ".exr") {
-        const Result<Image> radiance = renderer.radiance();
-        return radiance ? write_image(path, *radiance, text) : radiance.error();
+        const Result<Image> picture = linear_picture(renderer, draw.view);
+        return picture ? write_image(path, *picture, text) : picture.error();
     }
     Result<Image> display = renderer.display();
     if (!display) return display.error();

@@ -80,6 +80,7 @@ Result<Renderer> Renderer::create(gpu::Device& device, gpu::ShaderSource shaders
     Renderer renderer(device, std::move(*executor), scene);
     renderer.owned_ = std::make_unique<SceneOnDevice>(std::move(*uploaded));
     renderer.uploaded_ = renderer.owned_.get();
+    renderer.warnings_ = renderer.uploaded_->warnings();
     return renderer;
 }
 
@@ -238,6 +239,7 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
                                        .view = settings.view,
                                        .has_other = uploaded_->has(gpu::DrawClass::other),
                                        .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
+                                       .has_cut_outs = uploaded_->has_cut_outs(),
                                        .gbuffer = settings.gbuffer};
     list_ = frame_passes(technique.build(values, frame), shared);
     radiance_name_ = radiance_image(shared);

@@ -9,6 +9,7 @@
 #include "dermis/mesh/stretch.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"
+#include "dermis/scene/object_checks.h"
 #include "shaders/include/constants.h"
 
 namespace dermis {
@@ -67,6 +68,7 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
     const auto normals = filled(mesh.normals, count, Vec3{0, 0, 1});
     const auto tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
     const auto uvs = filled(mesh.uvs, count, Vec2{});
+    const auto colors = filled(mesh.colors_linear, count, Vec4{1, 1, 1, 1});
     std::vector<Vec3> diagonals, mixed;
     for (const CurvatureTensor& tensor : curvature_tensors(mesh, normals)) {
         diagonals.push_back(tensor.diagonal);
@@ -88,7 +90,8 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
                                          {"occlusion", 1, occlusions},
                                          {"occlusion_blurred", 3, floats_of(*occlusions_blurred)},
                                          {"du_mm", 3, floats_of(du_mm)},
-                                         {"dv_mm", 3, floats_of(dv_mm)}};
+                                         {"dv_mm", 3, floats_of(dv_mm)},
+                                         {"color_linear", 4, floats_of(colors)}};
     return gpu::Geometry::upload(device, name, streams, mesh.indices);
 }
 
@@ -98,18 +101,22 @@ float dielectric_f0(float ior) {
 }
 
 // The block Material of shaders/include/surface.glsl.
-gpu::Values material_values(const Material& material, Vec3 tint) {
+gpu::Values material_values(const Material& material, MaterialClass material_class, const Skin& skin) {
+    const bool is_skin = material_class == MaterialClass::skin;
+    const Vec3 tint = is_skin ? skin.albedo_tint_linear : Vec3{1, 1, 1};
+    const float cutoff = material_class == MaterialClass::other ? cutoff_of_map(material) : 0;
     int32_t normal_space = kNormalSpaceAbsent;
     if (material.normal_map.present())
         normal_space =
             material.normal_space == NormalSpace::object ? kNormalSpaceObject : kNormalSpaceTangent;
     return {{"albedo_linear", material.base_color_linear * tint},
             {"roughness", material.roughness},
-            {"emission_linear", material.emission_linear},
+            {"emission_linear", emission_of(material, material_class)},
             {"specular", material.specular},
             {"f0", dielectric_f0(material.ior)},
             {"metallic", material.metallic},
-            {"opacity", material.opacity},
+            {"opacity", cutoff > 0 ? 1.0f : material.opacity},
+            {"alpha_cutoff", cutoff},
             {"normal_space", normal_space},
             {"normal_scale", material.normal_scale},
             {"opacity_from_map", int32_t(material.opacity_map.present())},
@@ -142,7 +149,7 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
         const MaterialMap* map;
         const Material* material;
         const Mesh* mesh;
-        std::optional<Result<gpu::TextureData>> data;
+        std::optional<Result<LoadedMap>> data;
     };
     std::vector<Job> jobs;
     for (const SceneObject& object : scene.objects)
@@ -156,11 +163,13 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
         for (Job& job : std::span(jobs).subspan(begin, end - begin))
             job.data = map_source(*job.map, *job.material)
                            ? load_material_map(*job.map, *job.material, *job.mesh)
-                           : Result<gpu::TextureData>(neutral_map(*job.map));
+                           : Result<LoadedMap>({neutral_map(*job.map), {}});
     });
     for (const Job& job : jobs) {
         if (!*job.data) return job.data->error();
-        Result<gpu::Texture> texture = gpu::Texture::upload(device, **job.data);
+        const LoadedMap& loaded = **job.data;
+        if (!loaded.warning.empty()) warnings_.push_back(loaded.warning);
+        Result<gpu::Texture> texture = gpu::Texture::upload(device, loaded.texture);
         if (!texture) return texture.error();
         textures_.emplace(job.key, std::move(*texture));
     }
@@ -185,8 +194,8 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
                               .draw_class = draw_class(material_class)};
             for (const MaterialMap& map : material_maps())
                 draw.textures[map.texture] = &textures_.at(texture_key(map, material));
-            const bool is_skin = material_class == MaterialClass::skin;
-            draw.values = material_values(material, is_skin ? scene.skin.albedo_tint_linear : Vec3{1, 1, 1});
+            draw.values = material_values(material, material_class, scene.skin);
+            has_cut_outs_ |= std::get<float>(draw.values["alpha_cutoff"]) > 0;
             draws_.push_back(std::move(draw));
         }
     }
@@ -198,9 +207,8 @@ void SceneOnDevice::update_materials(const Scene& scene) {
     auto draw = draws_.begin();
     for (const SceneObject& object : scene.objects)
         for (const Submesh& submesh : object.mesh.submeshes) {
-            const bool is_skin = object.classes[submesh.material] == MaterialClass::skin;
             draw++->values = material_values(object.mesh.materials[submesh.material],
-                                             is_skin ? scene.skin.albedo_tint_linear : Vec3{1, 1, 1});
+                                             object.classes[submesh.material], scene.skin);
         }
 }
 

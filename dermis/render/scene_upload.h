@@ -23,6 +23,10 @@ class SceneOnDevice {
 
     [[nodiscard]] const std::vector<gpu::Draw>& draws() const { return draws_; }
     [[nodiscard]] bool has(gpu::DrawClass draw_class) const;
+    /// Of its maps, one line each.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    /// Whether alpha cuts any of what is drawn (cutoff_of_map).
+    [[nodiscard]] bool has_cut_outs() const { return has_cut_outs_; }
     [[nodiscard]] const gpu::Texture& environment_cube() const { return *environment_cube_; }
     [[nodiscard]] const gpu::Texture& environment_brdf() const { return *environment_brdf_; }
     [[nodiscard]] const gpu::Texture& no_image() const { return *no_image_; }
@@ -43,6 +47,8 @@ class SceneOnDevice {
     UvDensity uv_density_;
     std::vector<gpu::Values> environment_sh_;
     std::vector<gpu::Draw> draws_;
+    bool has_cut_outs_ = false;
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace dermis

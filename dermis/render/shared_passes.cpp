@@ -9,9 +9,10 @@ namespace dermis {
 namespace {
 
 // `light`: index into Scene::lights, -1 for the key light.
-Pass shadow_pass(int index, int light) {
+Pass shadow_pass(int index, int light, bool has_cut_outs) {
     return {.name = "shadow" + (index > 0 ? " " + std::to_string(index) : ""),
             .kind = PassKind::geometry_light,
+            .shader = has_cut_outs ? "renderer/cut_out.frag" : "",
             .depth = DepthTarget{.image = shadow_image("shadow_map", index)},
             .geometry = GeometryFilter::opaque,
             .constants = {{"from_light", int32_t(light)}}};
@@ -37,7 +38,7 @@ void add_shadows(PassList& list, const SharedPassSettings& settings) {
         const int light = lights[size_t(i)];
         list.images.push_back(
             {.name = shadow_image("shadow_map", i), .format = ImageFormat::depth32f, .size = size});
-        list.passes.push_back(shadow_pass(i, light));
+        list.passes.push_back(shadow_pass(i, light, settings.has_cut_outs));
         if (!settings.has_translucent) continue;
         list.images.push_back(
             {.name = shadow_image("shadow_tint", i), .format = ImageFormat::rgba16f, .size = size});
@@ -60,7 +61,8 @@ Pass other_pass(const SharedPassSettings& settings) {
                  .shader = "renderer/standard.frag",
                  .colors = {{.image = "radiance", .load = LoadOp::load}},
                  .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
-                 .geometry = GeometryFilter::other};
+                 .geometry = GeometryFilter::other,
+                 .constants = {{"has_cut_outs", int32_t(settings.has_cut_outs)}}};
     read_shadows(pass, 1 + int(settings.shadow_lights.size()), settings.has_translucent);
     return pass;
 }
@@ -82,13 +84,14 @@ std::vector<Pass> translucent_passes(const SharedPassSettings& settings) {
     return {tint, gloss};
 }
 
-Pass gbuffer_pass() {
+Pass gbuffer_pass(bool has_cut_outs) {
     Pass pass = {.name = "gbuffer",
                  .kind = PassKind::geometry_screen,
                  .shader = "renderer/gbuffer.frag",
                  .reads = {"shadow_map"},
                  .depth = DepthTarget{.image = "gbuffer_depth"},
-                 .geometry = GeometryFilter::opaque};
+                 .geometry = GeometryFilter::opaque,
+                 .constants = {{"has_cut_outs", int32_t(has_cut_outs)}}};
     for (const std::string& image : gbuffer_images()) pass.colors.push_back({.image = image});
     return pass;
 }
@@ -171,7 +174,7 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
         for (const std::string& image : gbuffer_images())
             list.images.push_back({.name = image, .format = ImageFormat::rgba32f});
         list.images.push_back({.name = "gbuffer_depth", .format = ImageFormat::depth32f});
-        list.passes.push_back(gbuffer_pass());
+        list.passes.push_back(gbuffer_pass(settings.has_cut_outs));
     }
     if (shows_gbuffer) {
         list.passes.push_back(view_pass(int32_t(view - gbuffer_views().begin())));

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "dermis/base/angle.h"
 #include "dermis/base/file.h"
+#include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/scene/displacement.h"
+#include "dermis/scene/object_checks.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/placement.h"
+#include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_paths.h"
@@ -119,7 +123,6 @@ void apply_constants(const MaterialDescription& given, Material& material) {
     assign(given.ior, material.ior);
     assign(given.opacity, material.opacity);
     assign(given.emission_linear, material.emission_linear);
-    assign(given.double_sided, material.double_sided);
 }
 
 Result<void> apply_material(const SceneDescription& description, const MaterialDescription* given,
@@ -154,9 +157,10 @@ Result<SubjectScene> add_objects(const SceneDescription& description, const Mesh
             // A subject states which of its materials are not skin.
             const size_t index = object.classes.size();
             const bool knows = index < own.size() && own[index] != MaterialClass::skin;
-            object.classes.push_back(given && given->material_class ? *given->material_class
-                                     : knows                        ? own[index]
-                                                                    : mesh.default_class);
+            object.classes.push_back(given && given->material_class   ? *given->material_class
+                                     : knows                          ? own[index]
+                                     : is_card(object.mesh, material) ? MaterialClass::other
+                                                                      : mesh.default_class);
             hidden.push_back(given && !given->visible.value_or(true));
             if (const Result<void> applied =
                     apply_material(description, given, object.classes.back(), material);
@@ -165,6 +169,8 @@ Result<SubjectScene> add_objects(const SceneDescription& description, const Mesh
         }
         if (const Result<void> displaced = apply_displacement(object.mesh); !displaced)
             return displaced.error();
+        if (!subject_name(mesh.file.text))
+            std::ranges::move(object_warnings(object), std::back_inserter(scene.warnings));
         hide_materials(object.mesh, hidden);
         scene.objects.push_back(std::move(object));
     }
@@ -200,14 +206,17 @@ Result<Scene> build_scene(const SceneDescription& description, std::span<const S
     const HeadDescription& head = description.head;
     Scene scene{.name = head.name.empty() ? description.file.stem().string() : head.name};
     SubjectScene stated;
+    Progress progress("loading meshes", description.meshes.size());
     for (const MeshDescription& mesh : description.meshes) {
         Result<SubjectScene> added = add_objects(description, mesh, subjects, scene);
         if (!added) return added.error();
         if (added->states_anything()) stated = std::move(*added);
+        progress.advance();
     }
     if (const Result<void> checked = check_material_names(description, scene); !checked)
         return checked.error();
 
+    std::ranges::move(keys_without_effect(description, scene), std::back_inserter(scene.warnings));
     compute_bounds(scene);
     if (const Result<void> placed = place_views(description, scene); !placed) return placed.error();
     if (description.camera.line > 0) stated.camera.reset();

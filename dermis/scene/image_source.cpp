@@ -1,5 +1,7 @@
 #include "dermis/scene/image_source.h"
 
+#include <algorithm>
+
 namespace dermis {
 
 Result<Image> load_image_source(const ImageSource& source, ImageUse use) {
@@ -18,8 +20,24 @@ Result<Image> load_image_source(const ImageSource& source, ImageUse use) {
     }
     Result<LoadedImage> loaded = source.encoded.empty() ? read_image(source.name, use)
                                                         : decode_image(source.encoded, source.name, use);
+    if (!loaded && !source.named_by.empty())
+        return Error{loaded.error().message + " (named by " + source.named_by + ")"};
     if (!loaded) return loaded.error();
     return std::move(loaded->image);
+}
+
+Result<Image> load_alpha(const Material& material) {
+    // A map of all four channels is named twice in MTL files.
+    const bool own = material.alpha_map.present() && material.alpha_map.name != material.base_color_map.name;
+    Image one(1, 1, 1, PixelFormat::u8);
+    one.set(0, 0, 0, 1);
+    if (!own && !material.base_color_map.present()) return one;
+    Result<Image> image =
+        load_image_source(own ? material.alpha_map : material.base_color_map, ImageUse::data);
+    if (!image) return image.error();
+    const int alpha = alpha_channel(*image);
+    if (alpha < 0 && !own) return one;
+    return single_channel(*image, std::max(alpha, 0));
 }
 
 }  // namespace dermis

@@ -1,10 +1,12 @@
 #include "dermis/scene/load_scene.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
+#include "dermis/scene/object_checks.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_paths.h"
@@ -57,13 +59,15 @@ Result<Scene> load_scene_file(const fs::path& path, const SceneOptions& options)
     return instead;
 }
 
-// Where a mesh states which of its materials scatter, those are skin; otherwise all are.
-std::vector<MaterialClass> classes_of(const std::vector<Material>& materials) {
+// Where a mesh states which of its materials scatter, those are skin; otherwise all but cards.
+std::vector<MaterialClass> classes_of(const Mesh& mesh) {
     const auto scatters = [](const Material& m) { return m.scattering.has_value(); };
-    const bool stated = std::ranges::any_of(materials, scatters);
+    const bool stated = std::ranges::any_of(mesh.materials, scatters);
     std::vector<MaterialClass> classes;
-    for (const Material& material : materials)
-        classes.push_back(!stated || scatters(material) ? MaterialClass::skin : MaterialClass::other);
+    for (const Material& material : mesh.materials) {
+        const bool skin = stated ? scatters(material) : !is_card(mesh, material);
+        classes.push_back(skin ? MaterialClass::skin : MaterialClass::other);
+    }
     return classes;
 }
 
@@ -75,7 +79,13 @@ Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) 
                 .files = std::move(loaded->files)};
     scene.objects.push_back({.name = scene.name, .mesh = std::move(loaded->mesh)});
     SceneObject& object = scene.objects.back();
-    object.classes = classes_of(object.mesh.materials);
+    object.classes = classes_of(object.mesh);
+    std::ranges::move(object_warnings(object), std::back_inserter(scene.warnings));
+    const auto has_color = [](const Material& material) { return material.base_color_map.present(); };
+    if (std::ranges::none_of(object.mesh.materials, has_color) && object.mesh.colors_linear.empty())
+        scene.warnings.push_back(path.string() +
+                                 ": no map of colour, so the skin has one colour; write a scene file with "
+                                 "[[mesh]] file and [maps] albedo (docs/scene_file.md)");
     for (size_t i = 0; i < object.classes.size(); ++i)
         if (object.classes[i] == MaterialClass::skin && !object.mesh.materials[i].scattering)
             apply_skin(scene.skin, object.mesh.materials[i]);

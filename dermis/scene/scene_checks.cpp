@@ -78,7 +78,55 @@ Result<void> check_camera(const SceneDescription& scene) {
     return {};
 }
 
+// A key of [maps] and the map without which it is nothing.
+struct MapKey {
+    const char* key;
+    bool (*given)(const MapsDescription& maps);
+    ImageSource Material::*map;
+};
+constexpr MapKey kMapKeys[] = {
+    {"normal_space", [](const MapsDescription& m) { return m.normal_space.has_value(); },
+     &Material::normal_map},
+    {"normal_scale", [](const MapsDescription& m) { return m.normal_scale.has_value(); },
+     &Material::normal_map},
+    {"thickness_scale_mm", [](const MapsDescription& m) { return m.thickness_scale_mm.has_value(); },
+     &Material::thickness_map},
+    {"curvature_scale_per_mm", [](const MapsDescription& m) { return m.curvature_scale_per_mm.has_value(); },
+     &Material::curvature_map},
+    {"curvature_mid", [](const MapsDescription& m) { return m.curvature_mid.has_value(); },
+     &Material::curvature_map},
+    {"displacement_mid", [](const MapsDescription& m) { return m.displacement_mid.has_value(); },
+     &Material::displacement_map},
+    {"displacement_amplitude_mm",
+     [](const MapsDescription& m) { return m.displacement_amplitude_mm.has_value(); },
+     &Material::displacement_map}};
+
+bool any_material(const Scene& scene, const auto& holds) {
+    return std::ranges::any_of(scene.objects, [&](const SceneObject& object) {
+        return std::ranges::any_of(object.mesh.materials, holds);
+    });
+}
+
 }  // namespace
+
+std::vector<std::string> keys_without_effect(const SceneDescription& description, const Scene& scene) {
+    std::vector<const MapsDescription*> sections = {&description.maps};
+    for (const auto& [name, material] : description.materials) sections.push_back(&material.maps);
+    std::vector<std::string> warnings;
+    for (const MapKey& row : kMapKeys)
+        if (std::ranges::any_of(sections, [&](const MapsDescription* maps) { return row.given(*maps); }) &&
+            !any_material(scene, [&](const Material& m) { return (m.*row.map).present(); }))
+            warnings.push_back(std::string("maps.") + row.key +
+                               " has no effect: no material has the map that it is for");
+    const auto is_flat = [](const Material& m) {
+        return m.displacement_map.present() && m.displacement_amplitude_mm == 0;
+    };
+    if (any_material(scene, is_flat))
+        warnings.emplace_back(
+            "a displacement map has no effect without displacement_amplitude_mm under "
+            "[maps], the height in mm of a step of 1 in map value");
+    return warnings;
+}
 
 Result<void> check_scene(SceneDescription& scene) {
     if (scene.meshes.empty())

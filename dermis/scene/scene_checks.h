@@ -11,4 +11,9 @@ namespace dermis {
 /// The lights, the environment and the camera alone.
 [[nodiscard]] Result<void> check_views(SceneDescription& scene);
 
+/// Keys of [maps] that change nothing, as no material of the scene has the map that they are for; one line
+/// each.
+[[nodiscard]] std::vector<std::string> keys_without_effect(const SceneDescription& description,
+                                                           const Scene& scene);
+
 }  // namespace dermis

@@ -34,7 +34,7 @@ struct MaterialDescription {
     std::optional<MaterialClass> material_class;
     std::optional<Vec3> albedo_linear, emission_linear;
     std::optional<float> roughness, specular, metallic, ior, opacity;
-    std::optional<bool> double_sided, visible;
+    std::optional<bool> visible;
     MapsDescription maps;
 };
 

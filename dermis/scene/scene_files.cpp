@@ -13,7 +13,7 @@ constexpr ImageSource Material::*kMaps[] = {
     &Material::metallic_roughness_map, &Material::specular_map,  &Material::occlusion_map,
     &Material::displacement_map,       &Material::thickness_map, &Material::opacity_map,
     &Material::transmission_map,       &Material::roughness_map, &Material::curvature_map,
-    &Material::kernel_size_map};
+    &Material::kernel_size_map,        &Material::alpha_map};
 
 bool is_on_disk(const ImageSource& source) {
     return !source.name.empty() && source.encoded.empty() && source.pixels.empty();

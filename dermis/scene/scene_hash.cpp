@@ -39,7 +39,10 @@ Result<void> add(Hasher& hasher, const Material& m) {
          {&m.base_color_map, &m.emission_map, &m.normal_map, &m.metallic_roughness_map, &m.specular_map,
           &m.occlusion_map, &m.opacity_map, &m.roughness_map})
         if (Result<void> added = add(hasher, *source); !added) return added;
-    return {};
+    // Only where it counts, so that the cached ground truth of other scenes is found.
+    if (cutoff_of_map(m) == 0) return {};
+    hasher.add("cut out").add(cutoff_of_map(m));
+    return add(hasher, m.alpha_map);
 }
 
 Result<void> add(Hasher& hasher, const SceneObject& object) {
@@ -49,6 +52,10 @@ Result<void> add(Hasher& hasher, const SceneObject& object) {
     add_all(hasher, mesh.tangents);
     add_all(hasher, mesh.uvs);
     add_all(hasher, mesh.occlusions);
+    if (!mesh.colors_linear.empty()) {
+        hasher.add("colours");
+        add_all(hasher, mesh.colors_linear);
+    }
     add_all(hasher, mesh.indices);
     for (const Submesh& part : mesh.submeshes)
         hasher.add(part.first_index).add(part.index_count).add(part.material);

@@ -205,7 +205,6 @@ const KeyTable<MaterialDescription>& material_keys() {
                     {.name = "opacity", .doc = "coverage; below 1 the surfaces behind are visible"})
             .color(&D::emission_linear,
                    {.name = "emission", .unit = "linear", .doc = "emitted radiance", .max = 1e3})
-            .toggle(&D::double_sided, {.name = "double_sided", .doc = "back faces are drawn too"})
             .toggle(&D::visible, {.name = "visible", .doc = "false removes its triangles"});
     return table;
 }

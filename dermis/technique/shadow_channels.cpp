@@ -25,7 +25,7 @@ Pass depth_pass(const LightChannels& light, LoadOp load, bool draws_depth) {
             .depth = DepthTarget{.image = light.depth_image,
                                  .load = draws_depth ? LoadOp::clear : LoadOp::load,
                                  .write = draws_depth,
-                                 .compare = Compare::less_equal},
+                                 .compare = draws_depth ? Compare::less_equal : Compare::equal},
             .geometry = GeometryFilter::opaque};
 }
 

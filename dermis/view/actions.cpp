@@ -28,7 +28,7 @@ constexpr Shortcut kShortcuts[] = {
     {{{'S'}, kCtrl}, Action::save_scene, "save the scene with what was changed"},
     {{kKeyF12, {}}, Action::screenshot, "save the picture as a PNG"},
     {{{'Y'}, {}}, Action::vsync, "vertical sync on or off"},
-    {{kKeyEscape, {}}, Action::dismiss, "close the messages"},
+    {{kKeyEscape, {}}, Action::dismiss, "close this page and the messages"},
     {{{'='}, kCtrl}, Action::larger_interface, "larger interface"},
     {{{'-'}, kCtrl}, Action::smaller_interface, "smaller interface"},
     {{{'Q'}, kCtrl}, Action::quit, "quit"},

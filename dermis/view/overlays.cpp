@@ -22,10 +22,13 @@ void show_side_name(const std::string& name, float x, float scale, bool to_the_l
     list.AddText({left + pad, 1.5f * pad + pad * 0.5f}, IM_COL32(225, 225, 225, 255), name.c_str());
 }
 
+constexpr float kWhatColumn = 13, kHelpColumns = 40;  // widths, in heights of the font
+
 void help_table(const char* id, std::span<const std::pair<std::string, std::string>> rows) {
     if (!ImGui::BeginTable(id, 2)) return;
-    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 13);
-    ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 27);
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * kWhatColumn);
+    ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthFixed,
+                            ImGui::GetFontSize() * (kHelpColumns - kWhatColumn));
     for (const auto& [what, meaning] : rows) {
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(what.c_str());
@@ -70,12 +73,20 @@ void show_notices(const Model& model, const PanelFacts& facts) {
     }
 }
 
-void show_help(const Model& model, const PanelFacts& facts) {
-    const Region picture = picture_region(model, facts.width, facts.height, facts.scale);
-    ImGui::SetNextWindowPos({picture.width / 2, picture.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+void show_help(const PanelFacts& facts) {
+    const auto width = float(facts.width), height = float(facts.height);
+    ImGui::SetNextWindowPos({width / 2, height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowBgAlpha(0.97f);
     ImGui::Begin("help", nullptr,
                  fixed_window() | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    // Smaller in a small window, so that all of it is visible.
+    ImGui::SetWindowFontScale(1);
+    const size_t rows = gestures().size() + shortcuts().size() + 3;
+    const ImVec2 margin = ImGui::GetStyle().WindowPadding;
+    const float row = ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetStyle().CellPadding.y;
+    const float fit = std::min((height - 4 * margin.y) / (float(rows) * row),
+                               (width - 4 * margin.x) / (kHelpColumns * ImGui::GetFontSize()));
+    ImGui::SetWindowFontScale(std::clamp(fit, 0.3f, 1.0f));
     std::vector<std::pair<std::string, std::string>> mouse, keys;
     for (const Gesture& gesture : gestures()) mouse.emplace_back(gesture.gesture, gesture.meaning);
     for (const Shortcut& shortcut : shortcuts())

@@ -23,6 +23,6 @@ void show_times(const PanelFacts& facts);
 // overlays.cpp; over the picture
 void show_side_names(const Model& model, const PanelFacts& facts);
 void show_notices(const Model& model, const PanelFacts& facts);
-void show_help(const Model& model, const PanelFacts& facts);
+void show_help(const PanelFacts& facts);
 
 }  // namespace dermis::view

@@ -83,7 +83,7 @@ void show_panels(Model& model, const PanelFacts& facts, PanelRequests& requests,
     }
     show_side_names(model, facts);
     show_notices(model, facts);
-    if (model.show_help) show_help(model, facts);
+    if (model.show_help) show_help(facts);
 }
 
 }  // namespace dermis::view

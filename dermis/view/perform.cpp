@@ -130,7 +130,7 @@ constexpr Performer kPerformers[] = {
     {Action::save_scene, save_shown_scene},
     {Action::screenshot, take_screenshot},
     {Action::vsync, toggle_vsync},
-    {Action::dismiss, [](Parts& p) { p.model.notices.dismiss(); }},
+    {Action::dismiss, [](Parts& p) { p.model.show_help = false, p.model.notices.dismiss(); }},
     {Action::larger_interface, [](Parts& p) { scale_interface(p, 1.125f); }},
     {Action::smaller_interface, [](Parts& p) { scale_interface(p, 1 / 1.125f); }},
     {Action::quit, [](Parts& p) { p.quit = true; }},

@@ -143,7 +143,7 @@ Result<void> Session::show_pictures(const InterfaceDraws& draws) {
     const ShownPictures pictures = p.pictures.shown(p.model, p.truth.texture());
     const Result<bool> shown = p.presenter->show(draws, pictures, p.model, p.interface->scale());
     if (!shown) return shown.error();
-    if (*shown && pictures.a && report_.first_picture_s == 0) report_.first_picture_s = p.clock.elapsed_s();
+    if (*shown && pictures.a && !report_.first_picture_s) report_.first_picture_s = p.clock.elapsed_s();
     return {};
 }
 

@@ -56,7 +56,7 @@ struct ViewerOptions {
 /// What a run came to, for one line at its end.
 struct ViewerReport {
     int frames = 0;
-    double first_picture_s = 0;  ///< from the call to the first presented picture
+    std::optional<double> first_picture_s;  ///< from the call to the first presented picture
     std::string device;
 };
 

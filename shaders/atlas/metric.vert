@@ -3,10 +3,10 @@
 // In the UV atlas, with the derivatives of the position by u and v.
 #include "shaders/include/mesh_vertex.glsl"
 
-layout(location = 8) in vec3 du_mm;  // of a step of 1 in u
-layout(location = 9) in vec3 dv_mm;
-layout(location = 8) out vec3 du_mm_out;
-layout(location = 9) out vec3 dv_mm_out;
+layout(location = 9) in vec3 du_mm;  // of a step of 1 in u
+layout(location = 10) in vec3 dv_mm;
+layout(location = 9) out vec3 du_mm_out;
+layout(location = 10) out vec3 dv_mm_out;
 
 invariant gl_Position;  // passes that test for equal depth rely on it
 

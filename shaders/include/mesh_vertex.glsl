@@ -10,6 +10,7 @@ layout(location = 4) in float occlusion;
 layout(location = 5) in vec3 curvature_diagonal_per_mm;
 layout(location = 6) in vec3 curvature_mixed_per_mm;
 layout(location = 7) in vec3 occlusion_blurred;
+layout(location = 8) in vec4 color_linear;
 
 layout(location = 0) out vec3 p_world_mm_out;
 layout(location = 1) out vec3 n_world_out;
@@ -19,6 +20,7 @@ layout(location = 4) out float occlusion_out;
 layout(location = 5) out vec3 curvature_diagonal_per_mm_out;
 layout(location = 6) out vec3 curvature_mixed_per_mm_out;
 layout(location = 7) out vec3 occlusion_blurred_out;
+layout(location = 8) out vec4 color_linear_out;
 
 void write_varyings() {
     p_world_mm_out = position_mm;
@@ -29,4 +31,5 @@ void write_varyings() {
     curvature_diagonal_per_mm_out = curvature_diagonal_per_mm;
     curvature_mixed_per_mm_out = curvature_mixed_per_mm;
     occlusion_blurred_out = occlusion_blurred;
+    color_linear_out = color_linear;
 }

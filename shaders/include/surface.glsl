@@ -12,6 +12,7 @@ layout(location = 4) in float occlusion_in;
 layout(location = 5) in vec3 curvature_diagonal_per_mm_in;
 layout(location = 6) in vec3 curvature_mixed_per_mm_in;
 layout(location = 7) in vec3 occlusion_blurred_in;
+layout(location = 8) in vec4 color_linear_in;
 
 layout(scalar) uniform Material {
     vec3 albedo_linear;
@@ -26,6 +27,7 @@ layout(scalar) uniform Material {
     int opacity_from_map;
     float curvature_scale_per_mm;  // of a difference of 1 in the curvature map
     float curvature_mid;           // its value on flat skin
+    float alpha_cutoff;            // 0: nothing is cut out
 };
 
 uniform texture2D albedo_map;
@@ -78,7 +80,8 @@ Surface load_surface() {
     s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
     s.uv = uv_in;
     s.n_world = normalize(mean_normal_world(s.n_geometry_world, uv_in, 0.0));
-    s.albedo_linear = albedo_linear * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
+    s.albedo_linear =
+        albedo_linear * color_linear_in.rgb * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
     s.roughness = clamp(roughness * texture(sampler2D(roughness_map, trilinear_repeat), uv_in).r, 0.03, 1.0);
     s.f0 = f0 * specular * texture(sampler2D(specular_map, trilinear_repeat), uv_in).r;
     // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.

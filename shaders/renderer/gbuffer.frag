@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The surface itself, one attribute a target: for debug views, layered EXR, and techniques that ask for it.
+#include "shaders/include/cut_out.glsl"
 #include "shaders/include/lights.glsl"
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/surface.glsl"
@@ -11,7 +12,10 @@ layout(location = 2) out vec4 geometry_out;   // world normal without the map; o
 layout(location = 3) out vec4 albedo_out;     // linear; roughness
 layout(location = 4) out vec4 light_out;      // uv; n_dot_l of the key light; its visibility
 
+layout(constant_id = 40) const int has_cut_outs = 0;  // without it depth is tested before the shader runs
+
 void main() {
+    if (has_cut_outs != 0 && cut_out()) discard;
     Surface s = load_surface();
     position_out = vec4(s.p_world_mm, distance(s.p_world_mm, eye_world_mm));
     normal_out = vec4(s.n_world, mean_curvature_per_mm(s));

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What is not skin: eyes, teeth, hair, frames, glass. Metallic-roughness as glTF has it.
+#include "shaders/include/cut_out.glsl"
 #include "shaders/include/environment.glsl"
 #include "shaders/include/lights.glsl"
 #include "shaders/include/shadow.glsl"
@@ -8,10 +9,14 @@
 #include "shaders/include/surface.glsl"
 
 uniform texture2D metallic_map;
+uniform texture2D emission_map;
 
 layout(location = 0) out vec4 radiance_out;
 
+layout(constant_id = 40) const int has_cut_outs = 0;  // without it depth is tested before the shader runs
+
 void main() {
+    if (has_cut_outs != 0 && cut_out()) discard;
     Surface s = load_surface();
     if (!gl_FrontFacing) {
         s.n_world = -s.n_world;
@@ -34,5 +39,6 @@ void main() {
                                                               s.roughness, f0_one);
     }
     vec3 diffuse_radiance = s.albedo_linear * (1.0 - metal) * exitance / kPi;
-    radiance_out = vec4(emission_linear + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
+    vec3 emitted = emission_linear * texture(sampler2D(emission_map, trilinear_repeat), s.uv).rgb;
+    radiance_out = vec4(emitted + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
 }

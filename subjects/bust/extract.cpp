@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "dermis/base/parallel.h"
+#include "dermis/base/progress.h"
 #include "subjects/bust/surface.h"
 
 namespace dermis::bust {
@@ -45,6 +46,7 @@ std::vector<BlockValues> sample(const Grid& grid, const std::function<double(Poi
     const double reach = 0.5 * kBlock * grid.cell_mm * std::sqrt(3.0) * 2;
     std::vector<BlockValues> all(count);
     std::vector<char> near(count, 0);
+    Progress progress("making the head", count);
     parallel_for(count, 32, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             BlockValues& b = all[i];
@@ -58,6 +60,7 @@ std::vector<BlockValues> sample(const Grid& grid, const std::function<double(Poi
                 b.distance[k] = distance(grid.at(b.x + k % kCorners, b.y + k / kCorners % kCorners,
                                                  b.z + k / kCorners / kCorners));
         }
+        progress.advance(end - begin);
     });
     std::vector<BlockValues> kept;
     for (size_t i = 0; i < count; ++i)

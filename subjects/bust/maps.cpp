@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "dermis/base/parallel.h"
+#include "dermis/base/progress.h"
 #include "dermis/image/colour.h"
 #include "dermis/image/skin_colour.h"
 #include "subjects/bust/skin.h"
@@ -161,6 +162,7 @@ SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams
     const Hairs hairs(uint32_t(params.seed));
     const Vec3 plain = skin_tone_albedo_linear(params.tone);
     const Vec3 balance = colour_balance(atlas, standard, zones, params, hairs);
+    Progress progress("painting the skin", size_t(side));
     parallel_for(size_t(side), 8, [&](size_t begin, size_t end) {
         for (size_t i = begin * side; i < end * side; ++i) {
             SkinSample s = {.albedo_linear = plain};
@@ -179,6 +181,7 @@ SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams
             kernel[i] = code(s.kernel_size);
             height[i] = s.height_mm;
         }
+        progress.advance(end - begin);
     });
     parallel_for(size_t(side), 8, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y)

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "dermis/base/parallel.h"
+#include "dermis/base/progress.h"
 #include "dermis/mesh/topology.h"
 
 namespace dermis::bust {
@@ -323,7 +324,8 @@ HalfEdges::HalfEdges(const Surface& surface) : twin(surface.triangles.size() * 3
 
 Surface remesh(const Surface& surface, const RemeshTarget& target) {
     Remesher remesher(surface, target);
-    for (int i = 0; i < target.rounds; ++i) remesher.round();
+    Progress progress("meshing the head", size_t(target.rounds));
+    for (int i = 0; i < target.rounds; ++i) remesher.round(), progress.advance();
     remesher.tidy();
     return remesher.result();
 }

@@ -108,6 +108,7 @@ TEST_F(BadInput, ground_truths_that_cannot_be_made_leave_nothing) {
     expect_error("reference builtin:spheres -o truth.png", "name a .exr file");
     expect_error("reference builtin:spheres --integrator wolk" + to, "did you mean 'walk'?");
     expect_error("reference builtin:spheres --medium 'sigma=1'" + to, "--medium: 'sigma=1'");
+    expect_error("reference builtin:spheres --medium 'g=0.5'" + to, "add --integrator walk");
     expect_error("reference builtin:spheres --probes 3" + to, "probes is 3");
     expect_error("reference builtin:spheres --noise 2" + to, "noise is 2");
     expect_error("reference builtin:spheres --size 0x8" + to, "0");

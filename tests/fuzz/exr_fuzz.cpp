@@ -1,4 +1,5 @@
 // OpenEXR, behind the look at the header that keeps it from allocating what a file claims.
+// Dictionary: dermis/image/codec/exr_header.cpp dermis/image/codec/exr_read.cpp
 
 #include "dermis/image/codec/codec.h"
 

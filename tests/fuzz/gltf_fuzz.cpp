@@ -1,4 +1,5 @@
 // glTF as JSON or GLB, by its first bytes. Buffers beside it are the input itself.
+// Dictionary: dermis/mesh/gltf/*.cpp
 
 #include <cstdint>
 

@@ -1,4 +1,5 @@
 // KTX2 and its key/value data.
+// Dictionary: dermis/image/codec/ktx2.cpp
 
 #include "dermis/image/codec/codec.h"
 

@@ -1,5 +1,6 @@
 // OBJ, with the input's second half served as its MTL. Whatever loads must survive all that is done with
 // meshes.
+// Dictionary: dermis/mesh/obj.cpp dermis/mesh/mtl.cpp
 
 #include <cstdint>
 #include <cstdlib>

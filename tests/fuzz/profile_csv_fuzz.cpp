@@ -1,4 +1,5 @@
 // Any text is a profile that answers every question, or one line that says why not.
+// Dictionary: dermis/optics/profile_file.cpp dermis/optics/tabulated_profile.cpp dermis/optics/tool_rows.cpp
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,5 @@
 // Radiance HDR.
+// Dictionary: dermis/image/codec/radiance.cpp
 
 #include "dermis/image/codec/codec.h"
 

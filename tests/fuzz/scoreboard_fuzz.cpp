@@ -1,5 +1,6 @@
 // A scoreboard that a person may have edited: rows, or one line that names the line; what was read can be
 // written, tabled and plotted.
+// Dictionary: dermis/judge/scores_csv.cpp
 
 #include <cstddef>
 #include <cstdint>

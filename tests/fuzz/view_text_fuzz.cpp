@@ -1,4 +1,5 @@
 // What dermis view reads as text: a line from the clipboard, its small memory, a scene file it changes.
+// Dictionary: dermis/view/view_line.cpp dermis/view/state_file.cpp dermis/scene/scene_tables.cpp
 
 #include <cstddef>
 #include <cstdint>

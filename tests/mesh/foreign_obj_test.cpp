@@ -131,6 +131,17 @@ TEST(ForeignMtl, maps_of_the_pbr_additions_are_read) {
     EXPECT_EQ(with_mtl("Ke 0.5 0 0\nmap_Ke e.png\n").mesh.materials[0].emission_linear, (Vec3{0.5f, 0, 0}));
 }
 
+TEST(ForeignMtl, a_map_of_opacity_cuts_the_surface_out) {
+    for (const char* text : {"map_d -imfchan m a.png\n", "d 0\nmap_d a.png\n", "map_d a.png\nTr 1\n"}) {
+        const Material m = with_mtl(text).mesh.materials[0];
+        EXPECT_EQ(m.alpha_map.name, "dir/a.png") << text;
+        EXPECT_EQ(cutoff_of_map(m), 0.5f) << text;
+        EXPECT_FALSE(m.opacity_map.present()) << "which is the colour of what passes through glass";
+    }
+    EXPECT_EQ(cutoff_of_map(with_mtl("d 0.5\nmap_Kd a.png\n").mesh.materials[0]), 0.5f);
+    EXPECT_EQ(cutoff_of_map(with_mtl("d 0.5\n").mesh.materials[0]), 0) << "glass";
+}
+
 TEST(ForeignMtl, maps_that_are_not_used_are_named_once) {
     const LoadedMesh loaded =
         with_mtl("map_Pm m.png\nmap_Ns n.png\nmap_Ka a.png\nnewmtl other\nmap_Pm m2.png\nillum 2\n");

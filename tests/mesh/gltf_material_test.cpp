@@ -81,24 +81,6 @@ TEST(GltfMaterial, emissive_maps_are_read) {
     EXPECT_EQ(m.emission_linear, (Vec3{4, 2, 0}));
 }
 
-TEST(GltfMaterial, what_is_read_but_not_drawn_is_named) {
-    struct Case {
-        std::string material, warning;
-    };
-    const Case cases[] = {
-        {R"({"emissiveTexture":{"index":0}})", "materials[0].emissiveTexture: is not drawn yet"},
-        {R"({"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
-         "materials[0].alphaMode: is not drawn yet"},
-        {R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})", ""}};
-    for (const Case& c : cases) {
-        const std::vector<std::string> warnings = load_with(c.material).warnings;
-        if (c.warning.empty())
-            EXPECT_FALSE(any_contains(warnings, "not drawn yet")) << c.material;
-        else
-            EXPECT_TRUE(any_contains(warnings, c.warning)) << c.material;
-    }
-}
-
 TEST(GltfMaterial, samplers_say_how_a_map_goes_on) {
     const auto map = [](const std::string& sampler) {
         const auto loaded = parse_gltf_text(

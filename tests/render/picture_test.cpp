@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dermis/image/colour.h"
@@ -10,6 +11,7 @@
 #include "dermis/render/atlas_mask.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/output.h"
+#include "dermis/render/shared_passes.h"
 #include "render/render_test.h"
 #include "support/built_in.h"
 #include "support/temporary_directory.h"
@@ -38,6 +40,49 @@ TEST_F(Pictures, the_shader_tone_maps_as_the_library_does) {
                     ASSERT_NEAR(display.at(x, y, k), srgb_encode(std::min(mapped[k], 1.0f)), 2e-3f)
                         << int(curve) << " " << x << " " << y;
             }
+    }
+}
+
+TEST_F(Pictures, an_exr_of_a_debug_view_holds_its_numbers) {
+    const TemporaryDirectory directory;
+    Scene scene = load("builtin:spheres");
+    for (SceneObject& object : scene.objects) {
+        object.mesh.materials[0].base_color_linear = {0.25f, 0.5f, 0.75f};
+        object.mesh.materials[0].roughness = 0.375f;
+    }
+    Renderer renderer = make_renderer(scene);
+    const Technique& technique = built_in_technique("lambert");
+    const ParameterValues values(technique.parameters);
+    for (const std::string& view : gbuffer_views()) {
+        const DrawSettings draw = {.width = 48, .height = 48, .view = view, .shadow_map_size = 64};
+        ASSERT_TRUE(renderer.draw(technique, values, draw));
+        const auto path = directory.path / (view + ".exr");
+        ASSERT_TRUE(write_output(renderer, technique, values, draw, path, {})) << view;
+        const Result<LoadedImage> read = read_image(path, ImageUse::data);
+        ASSERT_TRUE(read) << read.error().message;
+        const Image& image = read->image;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < image.channels; ++c)
+                    ASSERT_TRUE(std::isfinite(image.at(x, y, c))) << view;
+        float largest[3] = {};
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < std::min(image.channels, 3); ++c)
+                    largest[c] = std::max(largest[c], image.at(x, y, c));
+        if (view == "albedo") {
+            EXPECT_NEAR(largest[0], 0.25f, 1e-3f);
+            EXPECT_NEAR(largest[2], 0.75f, 1e-3f);
+        }
+        if (view == "roughness") {
+            EXPECT_NEAR(largest[0], 0.375f, 1e-3f);
+        }
+        if (view == "normal") {
+            EXPECT_GT(largest[2], 0.95f) << "towards the camera";
+        }
+        if (view == "depth") {
+            EXPECT_GT(largest[0], 100) << "millimetres";
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -62,6 +63,52 @@ struct Variable {
 const std::string kMesh = "[[mesh]]\nfile = \"two.obj\"\nunit_mm = 100\n";
 
 }  // namespace
+
+TEST(LoadScene, keys_without_effect_are_named) {
+    const SceneDirectory directory;
+    const auto warnings = [&](const std::string& maps) {
+        const auto scene = directory.load("[mesh]\nfile = \"two.obj\"\nunit_mm = 200\n[maps]\n" + maps);
+        EXPECT_TRUE(scene) << scene.error().message;
+        std::string all;
+        if (scene)
+            for (const std::string& warning : scene->warnings) all += warning + "\n";
+        return all;
+    };
+    directory.put("a.png", "");
+    EXPECT_EQ(warnings("").find("no effect"), std::string::npos);
+    for (const char* key : {"normal_scale", "thickness_scale_mm", "displacement_amplitude_mm"})
+        EXPECT_NE(warnings(std::string(key) + " = 1\n").find(std::string("maps.") + key + " has no effect"),
+                  std::string::npos);
+    EXPECT_EQ(warnings("thickness = \"a.png\"\nthickness_scale_mm = 1\n").find("no effect"),
+              std::string::npos);
+    EXPECT_NE(warnings("displacement = \"a.png\"\n").find("without displacement_amplitude_mm"),
+              std::string::npos);
+}
+
+TEST(LoadScene, materials_that_alpha_cuts_out_are_not_skin) {
+    const SceneDirectory directory;
+    directory.put("two.obj", std::string("mtllib two.mtl\n") + kTwoMaterials);
+    directory.put("two.mtl", "newmtl face\nnewmtl eyes\nmap_d lashes.png\n");
+    const std::string mesh = "[mesh]\nfile = \"two.obj\"\nunit_mm = 100\n";
+    const auto scene = directory.load(mesh);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->objects[0].classes, (std::vector{MaterialClass::skin, MaterialClass::other}));
+    const auto told = directory.load(mesh + "[material.eyes]\nclass = \"skin\"\n");
+    ASSERT_TRUE(told) << told.error().message;
+    EXPECT_EQ(told->objects[0].classes, (std::vector{MaterialClass::skin, MaterialClass::skin}));
+    EXPECT_NE(std::ranges::find_if(
+                  told->warnings,
+                  [](const std::string& w) { return w.find("'eyes' is skin, of which alpha") != w.npos; }),
+              told->warnings.end());
+    const auto bare = load_built_in_scene(directory.file("two.obj"));
+    ASSERT_TRUE(bare) << bare.error().message;
+    EXPECT_EQ(bare->objects[0].classes, (std::vector{MaterialClass::skin, MaterialClass::other}));
+    // Exporters mark whole heads so: without another material it is the skin.
+    directory.put("two.mtl", "newmtl face\nmap_d a.png\nnewmtl eyes\nmap_d a.png\n");
+    const auto all = directory.load(mesh);
+    ASSERT_TRUE(all) << all.error().message;
+    EXPECT_EQ(all->objects[0].classes, (std::vector{MaterialClass::skin, MaterialClass::skin}));
+}
 
 TEST(PlaceMesh, scales_then_turns_about_x_y_z_then_moves) {
     Mesh mesh{.positions_mm = {{1, 0, 0}, {0, 0, 1}},

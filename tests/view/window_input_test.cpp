@@ -44,6 +44,48 @@ TEST_F(ViewWindow, a_view_found_with_the_mouse_is_the_picture_that_render_draws)
     EXPECT_LT(differing, seen.width * seen.height / 500);
 }
 
+TEST_F(ViewWindow, the_help_is_whole_in_a_small_window_and_escape_closes_it) {
+    for (const char* size : {"1000x700", "640x400"}) {
+        const ProgramResult result = view(square() + " --samples 1 -t lambert --size " + size, R"(
+            settle
+            key escape
+            wait 2
+            capture DIR/without.png
+            key F1
+            wait 3
+            capture DIR/with.png
+            key escape
+            wait 3
+            capture DIR/closed.png
+            quit
+        )");
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const Image without = image("without.png"), with = image("with.png"), closed = image("closed.png");
+        const auto changed = [&](const Image& image, int x, int y) {
+            return image.at(x, y, 0) != without.at(x, y, 0);
+        };
+        // Nothing of it reaches the window's edges, where it would be cut off. Times in the panels change
+        // too.
+        int open = 0, left = 0, at_edges = 0;
+        for (int y = 0; y < with.height; ++y)
+            for (int x = 0; x < with.width; ++x) {
+                open += changed(with, x, y), left += changed(closed, x, y);
+                const bool edge = x == 0 || y == 0 || x == with.width - 1 || y == with.height - 1;
+                at_edges += edge && changed(with, x, y);
+            }
+        EXPECT_GT(open, with.width * with.height / 5) << "no help";
+        EXPECT_LT(left, with.width * with.height / 50) << "escape does not close it";
+        EXPECT_EQ(at_edges, 0) << size;
+    }
+}
+
+TEST_F(ViewWindow, a_window_that_closes_before_its_first_picture_says_so) {
+    const ProgramResult result = shell(program(*display_) + " view " + kSmall + "--frames 1");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("picture"));
+    EXPECT_THAT(result.out, Not(HasSubstr("first picture after 0.00 s")));
+}
+
 TEST_F(ViewWindow, a_slider_sets_its_parameter) {
     const ProgramResult result = view(kSmall + "-t wrap --set width=source", R"(
         wait 2

@@ -1,5 +1,6 @@
 // dermis view: the techniques in a window.
 
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -45,6 +46,13 @@ Result<view::Start> first_scene(const RenderOptions& options) {
                        .file_look = std::move(prepared->as_filed)};
 }
 
+std::string first_picture_text(const view::ViewerReport& report) {
+    if (!report.first_picture_s) return "closed before the first picture";
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "first picture after %.2f s", *report.first_picture_s);
+    return text.data();
+}
+
 Result<int> view_scene(Options options) {
     if (options.turn_frames != 0) return turn_scene(options);
     if (options.render.size.empty()) {
@@ -76,7 +84,7 @@ Result<int> view_scene(Options options) {
     const Result<view::ViewerReport> report = view::run_viewer(viewer);
     if (!report) return report.error();
     if (options.frames > 0 || !options.script.empty())
-        std::printf("%d frames, first picture after %.2f s on %s\n", report->frames, report->first_picture_s,
+        std::printf("%d frames, %s on %s\n", report->frames, first_picture_text(*report).c_str(),
                     report->device.c_str());
     return 0;
 }

@@ -56,8 +56,6 @@ class MaterialReader {
         material.occlusion_map = texture(source["occlusionTexture"]);
         material.emission_linear = color(source["emissiveFactor"], {0, 0, 0});
         material.emission_map = texture(source["emissiveTexture"]);
-        if (material.emission_map.present())
-            source["emissiveTexture"].warn("is not drawn yet: emissiveFactor is emitted everywhere");
         material.double_sided = source["doubleSided"].boolean(false);
         read_alpha(source, base[3], material);
     }
@@ -69,8 +67,6 @@ class MaterialReader {
         if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
             source["alphaMode"].warn("'" + mode.substr(0, 20) + "' is not OPAQUE, MASK or BLEND; opaque");
         material.alpha_cutoff = float(source["alphaCutoff"].number(0.5));
-        if (material.alpha_mode != AlphaMode::opaque && material.base_color_map.present())
-            source["alphaMode"].warn("is not drawn yet: the alpha of baseColorTexture cuts nothing out");
         // Opaque surfaces ignore the factor's alpha as they do the map's.
         if (material.alpha_mode != AlphaMode::opaque) material.opacity = float(std::clamp(factor, 0.0, 1.0));
     }
@@ -142,9 +138,6 @@ class MaterialReader {
             const JsonView sampler = document_.view()["samplers"][size_t(chosen["sampler"].integer(0))];
             if (sampler.failed()) return {};
             found.wrap_u = wrap(sampler["wrapS"]), found.wrap_v = wrap(sampler["wrapT"]);
-            if ((found.wrap_u != TextureWrap::repeat || found.wrap_v != TextureWrap::repeat) &&
-                !std::exchange(warned_of_wrap_, true))
-                sampler.warn("clamps or mirrors; maps are drawn repeating");
         }
         return found;
     }
@@ -174,7 +167,9 @@ class MaterialReader {
         if (!stays_inside(path))
             return source.fail("uri '" + path.substr(0, 200) + "' leaves the file's directory"),
                    ImageSource{};
-        return {.name = (document_.directory / path).string(), .encoded = {}};
+        return {.name = (document_.directory / path).string(),
+                .encoded = {},
+                .named_by = document_.complaints.file};
     }
 
     ImageSource embedded(const JsonView& source, const std::string& name, std::vector<std::byte> bytes) {
@@ -190,7 +185,6 @@ class MaterialReader {
     Document& document_;
     double mm_per_unit_;
     UvMapping mapping_;  // of the material being read
-    bool warned_of_wrap_ = false;
     size_t embedded_bytes_ = 0;
 };
 

@@ -50,6 +50,7 @@ class MaterialWriter {
         add_texture(json, "occlusionTexture", m.occlusion_map);
         if (m.alpha_mode != AlphaMode::opaque)
             json["alphaMode"] = m.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND";
+        if (m.alpha_mode == AlphaMode::mask) json["alphaCutoff"] = m.alpha_cutoff;
         if (m.double_sided) json["doubleSided"] = true;
         write_surface(m, json);
         if (m.scattering) write_body(m, *m.scattering, json);
@@ -60,6 +61,7 @@ class MaterialWriter {
         const Vec3 e = m.emission_linear;
         const float strength = std::max({1.0f, e.x, e.y, e.z});  // factors end at 1
         if (e != Vec3{}) json["emissiveFactor"] = array_of(e * (1 / strength));
+        add_texture(json, "emissiveTexture", m.emission_map);
         if (strength > 1) extend(json, "KHR_materials_emissive_strength", {{"emissiveStrength", strength}});
         if (m.ior != 1.5f) extend(json, "KHR_materials_ior", {{"ior", m.ior}});
         if (m.specular == 1 && !m.specular_map.present()) return;

@@ -1,0 +1,15 @@
+// Cards of hair and lashes: no surface where the alpha map has too little (dermis::cutoff_of_map). The ground truth has the
+// same rule, at the map's full resolution (dermis/rays/cut_out.h).
+#ifndef DERMIS_CUT_OUT_GLSL
+#define DERMIS_CUT_OUT_GLSL
+
+#include "shaders/include/surface.glsl"
+
+uniform texture2D alpha_map;
+
+bool cut_out() {
+    float alpha = texture(sampler2D(alpha_map, trilinear_repeat), uv_in).r * color_linear_in.a;
+    return alpha < alpha_cutoff;
+}
+
+#endif

@@ -1,0 +1,91 @@
+// Random actions, seeded: under the validation layers no message, and no memory that grows. 40 of them as a
+// test; for an hour: DERMIS_SOAK_ACTIONS=20000 build/tests/test_view --gtest_filter='*random_actions*'.
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "support/built_in.h"
+#include "view/window_fixture.h"
+
+namespace dermis {
+namespace {
+
+class RandomActions {
+  public:
+    explicit RandomActions(uint32_t seed) : random_(seed) {}
+
+    std::string next() {
+        switch (number(0, 9)) {
+            case 0:
+                return "technique " + one_of(techniques_);
+            case 1:
+                return "view " + one_of({"final", "diffuse", "specular", "normal", "albedo", "curvature"});
+            case 2:
+                return "tone " + text(0, 6);
+            case 3:
+                return "resize " + text(120, 500) + " " + text(90, 400);
+            case 4:
+                return "scroll " + text(0, 400) + " " + text(0, 300) + " " + text(-3, 3);
+            case 5:
+            case 6:
+                return "drag " + one_of({"left", "middle", "right"}) + " " + text(0, 400) + " " +
+                       text(0, 300) + " " + text(0, 400) + " " + text(0, 300) +
+                       one_of({"", " ctrl", " shift"});
+            case 7:
+                return "open " + one_of({"builtin:spheres", "DIR/square.obj", "no_such_scene"});
+            case 8:
+                return "wait " + text(1, 3);
+            default:
+                return "key " + one_of({"F1", "tab", "F", "T", "shift+T", "V", "shift+V", "0", "R", "]", "[",
+                                        "C", "X", "ctrl+C", "ctrl+V", "Y", "escape", "ctrl+=", "ctrl+-"});
+        }
+    }
+
+  private:
+    int number(int low, int high) { return int(random_() % uint32_t(high - low + 1)) + low; }
+    std::string text(int low, int high) { return std::to_string(number(low, high)); }
+    std::string one_of(const std::vector<std::string>& words) { return words[random_() % words.size()]; }
+
+    static std::vector<std::string> technique_names() {
+        std::vector<std::string> names;
+        for (const Technique& technique : built_in_catalog().techniques) names.push_back(technique.id);
+        return names;
+    }
+    std::mt19937 random_;  // the same numbers on every machine
+    std::vector<std::string> techniques_ = technique_names();
+};
+
+std::string random_script(uint32_t seed, int actions, bool prints) {
+    RandomActions random(seed);
+    std::string script;
+    for (int i = 0; i < actions; ++i) {
+        if (prints && (i == actions / 2)) script += "print\n";
+        script += random.next() + "\n";
+    }
+    return script + "print\nquit\n";
+}
+
+}  // namespace
+
+TEST_F(ViewWindow, random_actions_bring_no_message_and_keep_no_memory) {
+    const char* stated = std::getenv("DERMIS_SOAK_ACTIONS");
+    const char* chosen = std::getenv("DERMIS_SOAK_SEED");
+    const int actions = stated ? std::atoi(stated) : 40;
+    const auto seed = uint32_t(chosen ? std::atoi(chosen) : 1);
+    ASSERT_GT(actions, 0);
+    const std::string arguments = square() + " --size 300x200 --samples 1 -t lambert";
+    const ProgramResult checked = view(arguments, random_script(seed, actions, false));
+    EXPECT_EQ(checked.exit_code, 0) << "seed " << seed << ": " << checked.err;
+    if (!stated) return;
+    // The layers keep memory.
+    const ProgramResult plain = view(arguments, random_script(seed, actions, true), "");
+    ASSERT_EQ(plain.exit_code, 0) << plain.err;
+    const double middle_mb = std::stod(value_of(plain, "peak_memory_mb"));
+    const double end_mb = std::stod(plain.out.substr(plain.out.rfind("peak_memory_mb ") + 15));
+    std::printf("%d actions: %.0f MB after half of them, %.0f MB at the end\n", actions, middle_mb, end_mb);
+    EXPECT_LT(end_mb, 1.1 * middle_mb + 16);
+}
+
+}  // namespace dermis
