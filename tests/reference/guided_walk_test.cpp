@@ -71,7 +71,7 @@ Measured measure(const ScatteringMedium& medium, const Boundary& boundary, bool 
     for (int i = 0; i < walks; ++i) {
         Pcg32 random(guided ? 1 : 2, uint32_t(i));
         const Vec3 n{0, 0, 1}, start = sample_entry_direction(n, prepared.eta, random);
-        measured.add(guided ? guided_walk(prepared, guide, boundary, {}, n, start, random)
+        measured.add(guided ? guided_walk(prepared, guide, boundary, {}, n, start, i % 3, random)
                             : random_walk(prepared, boundary, {}, start, random));
     }
     return measured;
