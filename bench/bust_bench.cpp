@@ -1,6 +1,6 @@
-// What the built-in head costs: one value of its field, and its stages from the field to the painted maps.
-// CPU is that of the whole process, so that a machine busy with other things gives the same answer; halve it
-// for two cores.
+// The time of the built-in head: one value of its field, and its stages from the field to the painted maps.
+// CPU is that of the whole process, so that other work on the machine does not change it; on two cores the
+// elapsed time is half of it.
 
 #include <benchmark/benchmark.h>
 

@@ -1,10 +1,11 @@
 // How many points of a pixel are enough: the captured shares of every technique with 16, 36 and 64 points, as
 // the table of docs/ground_truth.md.
 //
-//     build/bench/pixel_points_bench [SIZE] [NOISE] [SCENE...]     128 pixels, 0.08 of the effect, three scenes
+//     build/bench/pixel_points_bench [SIZE] [NOISE] [SCENE...]     128 pixels, 0.08 of the effect, three
+//     scenes
 //
-// Each number of points has its own ground truth, as in a comparison: maps are read at another level of detail
-// too. Truths are kept in the cache.
+// Each number of points has its own ground truth, as in a comparison: maps are read at another level of
+// detail too. Truths are kept in the cache.
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +112,8 @@ int main(int argc, char** argv) {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     Result<gpu::Device> device = gpu::Device::create({});
     if (!device) return fail(device.error().message);
-    std::printf("| scene | technique | 16 | 36 | 64 | 16 to 36 | 36 to 64 |\n|---|---|---|---|---|---|---|\n");
+    std::printf(
+        "| scene | technique | 16 | 36 | 64 | 16 to 36 | 36 to 64 |\n|---|---|---|---|---|---|---|\n");
     for (const std::string& name : names)
         if (Result<void> printed = print_scene(*device, name, size, noise); !printed)
             return fail(name + ": " + printed.error().message);

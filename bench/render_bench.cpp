@@ -1,6 +1,6 @@
 // The cost of a frame: every technique on the bust, which every machine has, or another scene, at 1024 x
-// 1024, MSAA 1, shadow and environment on; medians over frames in one run, the first left out. Ratios to
-// lambert are what to quote; absolute times belong to the machine.
+// 1024, MSAA 1, shadow and environment on; medians over frames in one run, the first left out. Quote ratios
+// to lambert; absolute times depend on the machine.
 //
 //     build/bench/render_bench [SCENE] [FRAMES] [TECHNIQUE, beside lambert]
 
@@ -44,11 +44,11 @@ struct Run {
 Run run_of(const std::string& id, const std::string& parameter = "", const std::string& value = "") {
     const Technique* technique = *find_technique(built_in_catalog().techniques, id);
     Run run = {value.empty() ? id : id + " " + value, technique, ParameterValues(technique->parameters)};
-    if (!value.empty() && !run.values.set(parameter, value)) std::abort();  // our own list below
+    if (!value.empty() && !run.values.set(parameter, value)) std::abort();  // from the list below
     return run;
 }
 
-// Lambert, then every technique (or one), and the settings of preintegrated whose costs its page states.
+// Lambert, then every technique (or one), and the settings of preintegrated whose costs its README states.
 std::vector<Run> runs(const std::string& only) {
     std::vector<Run> all = {run_of("lambert")};
     for (const Technique& technique : built_in_catalog().techniques) {
@@ -63,8 +63,8 @@ std::vector<Run> runs(const std::string& only) {
     return all;
 }
 
-// Medians over frames. cpu_ms is the time all threads of this process worked, which on lavapipe is what a
-// frame costs whatever else the machine does; on a GPU it is the driver's share only.
+// Medians over frames. cpu_ms is the time all threads of this process worked, which on lavapipe is the cost
+// of a frame independent of other work on the machine; on a GPU it is the driver's part only.
 struct Cost {
     double frame_ms = 0, cpu_ms = 0;
     std::vector<std::pair<std::string, double>> passes;

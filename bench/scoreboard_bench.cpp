@@ -2,9 +2,9 @@
 //
 //     build/bench/scoreboard_bench DIRECTORY [SIZE] [SCENE...]
 //
-// A scene that is not there is passed over with a message; the rows it had are kept. The rows of a scene are
-// cached under the content of this program, the scene and the settings: a run that was stopped goes on with
-// the scene it was at, whose ground truth goes on too.
+// A missing scene is skipped with a message and its old rows are kept. The rows of a scene are cached under a
+// hash of this program, the scene and the settings: a run that was stopped continues with the scene it was
+// at, and with its ground truth.
 
 #include <algorithm>
 #include <chrono>
@@ -76,7 +76,8 @@ Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& na
     return score_rows(name, *comparison);
 }
 
-// What a scene's rows depend on: this program with its shaders and techniques, the scene, the settings.
+// Everything that a scene's rows depend on: this program with its shaders and techniques, the scene, the
+// settings.
 Result<std::string> rows_hash(const Scene& scene, const ComparisonSettings& settings) {
     const Result<std::vector<std::byte>> program = read_file("/proc/self/exe");
     if (!program) return program.error();
@@ -95,7 +96,7 @@ Result<std::string> rows_hash(const Scene& scene, const ComparisonSettings& sett
         .hex();
 }
 
-// What is left to do: a scene by its name, or one of a set of test scenes that is made already.
+// A scene to do: by its name, or one of a set of test scenes that is already made.
 struct Job {
     std::string name;
     std::optional<SubjectCase> made;
@@ -127,7 +128,7 @@ Result<SubjectCase> scene_of(Job& job) {
     return std::move(*job.made);
 }
 
-// From the cache, or made and kept there.
+// From the cache, or computed and stored there.
 Result<std::vector<ScoreRow>> rows_of(gpu::Device& device, const std::string& name, const Scene& scene,
                                       const ComparisonSettings& settings) {
     const Result<std::string> hash = rows_hash(scene, settings);

@@ -1,6 +1,6 @@
 #pragma once
-// All that this repository has of techniques, subjects and shaders. For programs, tests and benchmarks; what
-// lies in dermis/ gets it as an argument.
+// All techniques, subjects and shaders of this repository, for programs, tests and benchmarks. The libraries
+// of dermis/ get it as an argument.
 
 #include "dermis/render/catalog.h"
 

@@ -30,7 +30,7 @@ Result<TableStorage> TableOutput::chosen_storage(TableStorage preferred) const {
     static const std::vector<std::string> kNames = {"auto", "8", "16", "half", "float"};
     for (size_t i = 0; i < kNames.size(); ++i)
         if (kNames[i] == storage) {
-            // A published convention's own storage is a default, where the file can hold it.
+            // The storage of a published convention is the default where the file format allows it.
             if (i == 0 && preferred != TableStorage::automatic && storage_for(path, preferred))
                 return preferred;
             return storage_for(path, TableStorage(i));

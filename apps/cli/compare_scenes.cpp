@@ -9,7 +9,7 @@
 namespace dermis::cli {
 namespace {
 
-// All of the set, or the one that a word chooses; the other words change each.
+// All scenes of the set, or the one that a word chooses; the other words change each scene.
 Result<ComparedScenes> scenes_of_set(const Subject& subject, const SceneChoice& choice) {
     const Result<std::vector<SceneWord>> words = choice.all_words();
     if (!words) return words.error();
@@ -28,7 +28,7 @@ Result<ComparedScenes> scenes_of_set(const Subject& subject, const SceneChoice& 
     }
     for (SubjectCase& one : *cases) {
         const std::vector<SceneWord> changes = words_for(*words, false);
-        // Its answer is known under its own light alone.
+        // The exact answer is valid under the scene's own light only.
         if (std::ranges::any_of(changes, [](const SceneWord& w) {
                 return w.key.starts_with("light") || w.key.starts_with("environment");
             }))

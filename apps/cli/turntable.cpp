@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the pictures carry: their credit and what they show.
+// Returns what each picture states: its credit and its content.
 Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& pattern) {
     Result<Prepared> prepared = prepare(turntable.render);
     if (!prepared) return prepared.error();
@@ -44,8 +44,8 @@ Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& 
     return output;
 }
 
-// The matrix and the curve are stated, inside the file too: otherwise players choose them by the size, and
-// skin turns red or green. Sides must be even.
+// States the colour matrix and the transfer curve, in the file too: otherwise players guess them from the
+// size, and skin gets red or green. Sides must be even.
 std::vector<std::string> film_command(const std::string& pattern, const std::string& film,
                                       const OutputSettings& output) {
     return {"ffmpeg",
@@ -78,7 +78,7 @@ std::vector<std::string> film_command(const std::string& pattern, const std::str
             film};
 }
 
-// Frames in a folder beside the film, which goes when the film is made.
+// Draws the frames into a folder beside the film, which is removed when the film is made.
 Result<void> draw_film(const Turntable& turntable) {
     const fs::path folder = turntable.output + ".frames";
     const std::string pattern = (folder / "%04d.png").string();

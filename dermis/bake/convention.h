@@ -105,7 +105,6 @@ struct TableUse {
 [[nodiscard]] std::string_view name_of(Construction construction);
 [[nodiscard]] std::string_view name_of(RingWeights weights);
 [[nodiscard]] Result<Construction> find_construction(std::string_view name);
-[[nodiscard]] Result<TableEncoding> find_encoding(std::string_view name);
 [[nodiscard]] Result<AxisWarp> find_warp(std::string_view name);
 
 /// "dermis 0.1.0".

@@ -1,5 +1,5 @@
-// The convention as JSON. Reading is strict: a key that is missing, unknown to its list or out of range is
-// named, because a table with a guessed meaning is what this file exists to prevent.
+// The convention as JSON. Reading is strict: a missing key, an unknown value or one out of range is an error
+// that names it, because a table must not be read with a guessed meaning.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -31,7 +31,7 @@ Result<Enum> find_name(std::string_view what, std::span<const std::string_view> 
     return Error{unknown_name(what, name, std::vector<std::string>(names.begin(), names.end()))};
 }
 
-// Collects the first error, so that a reader is a plain list of keys.
+// Keeps the first error, so that the caller is a plain list of keys.
 class Reader {
   public:
     Reader(const Json& object, std::string place) : object_(object), place_(std::move(place)) {}
@@ -189,9 +189,6 @@ std::string_view name_of(RingWeights weights) {
 
 Result<Construction> find_construction(std::string_view name) {
     return find_name<Construction>("construction", kConstructions, name);
-}
-Result<TableEncoding> find_encoding(std::string_view name) {
-    return find_name<TableEncoding>("encoding", kEncodings, name);
 }
 Result<AxisWarp> find_warp(std::string_view name) {
     return find_name<AxisWarp>("warp", kWarps, name);

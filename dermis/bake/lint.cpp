@@ -22,7 +22,7 @@ namespace {
 constexpr double kExplained = 0.01;
 constexpr size_t kFinalists = 16;
 
-// A way the picture may lie and be stored, with the light it then shows.
+// A possible orientation and encoding of the picture, with the light that it then shows.
 struct View {
     LintHypothesis hypothesis;
     lint::Sample sample;
@@ -86,7 +86,7 @@ std::vector<Candidate> free_candidates(const std::vector<View>& views,
     return all;
 }
 
-// The candidate with its axis, for the texel sampling that suits it best.
+// Fits the candidate's axis, for the texel sampling with the smallest error.
 LintHypothesis fitted(const Candidate& candidate, const View& view) {
     LintHypothesis best;
     best.rms = std::numeric_limits<double>::infinity();

@@ -31,14 +31,14 @@ double squared_distance(std::span<const float> a, std::span<const float> b) {
     return sum;
 }
 
-// A fitted axis may begin a little below zero; no surface there is flatter than flat.
+// A fitted axis may begin slightly below zero; such a curvature counts as 0.
 double radius_at(const TableAxis& axis, double s) {
     const double value = axis.min + (axis.max - axis.min) * s;
     return radius_of(axis,
                      axis.name == "radius_mm" ? std::max(kLeastRadius_mm, value) : std::max(0.0, value));
 }
 
-// Curves between those of the bank, straight in the logarithm of the radius.
+// Interpolates the bank's curves linearly in the logarithm of the radius.
 double squared_distance_at(const Bank& bank, double radius_mm, std::span<const float> light) {
     const double index = std::clamp(bank_index(radius_mm), 0.0, kRadii - 1.001);
     const size_t low = size_t(index);
@@ -61,7 +61,7 @@ double mean_square(const Bank& bank, const Sample& sample, std::span<const float
     return sum / double(light.size());
 }
 
-// Straight line through (s, value) with weights: where the search begins.
+// The start of the search: a weighted straight line through (s, value).
 void regress(const Sample& sample, std::span<const double> values, std::span<const double> weights,
              TableAxis& axis) {
     double w = 0, s = 0, ss = 0, v = 0, sv = 0;
@@ -185,7 +185,7 @@ double free_fit(const Bank& bank, std::span<const float> light, std::vector<doub
             const double distance = squared_distance(bank.curve(i), row);
             if (distance < least) least = distance, best = i;
         }
-        // Between the curves: the better of the halfway marks to both sides, twice.
+        // Refines between the curves: the better of the midpoints on both sides, twice.
         double index = double(best);
         for (double step : {0.5, 0.25, 0.125})
             for (double candidate : {index - step, index + step}) {

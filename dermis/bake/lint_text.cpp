@@ -1,4 +1,4 @@
-// What the linter's numbers mean for the person who asked.
+// The linter's numbers as advice.
 
 #include <cmath>
 #include <cstdio>
@@ -40,7 +40,7 @@ std::string stored_text(StoredAs stored_as) {
     return {};
 }
 
-// What is within the fit's own uncertainty of zero is zero.
+// A value that differs from zero by less than the fit's uncertainty is zero.
 double snapped(double value, const TableAxis& axis) {
     return std::abs(value) < 0.004 * std::abs(axis.max - axis.min) ? 0 : value;
 }

@@ -52,10 +52,6 @@ Result<void> check(const LutOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> lut_convention_names() {
-    return names();
-}
-
 TableAxis curvature_axis(double min_per_mm, double max_per_mm) {
     return {.name = "curvature_per_mm", .unit = "1/mm", .min = min_per_mm, .max = max_per_mm};
 }

@@ -33,11 +33,9 @@ struct LutOptions {
 /// "unity_2011"  the same ring by taps of 0.05 rad, all variances x 1.414; u: N.L at i/n; v: curvature at
 ///               0.5 (j+1)/n per mm, v = 0 at the bottom of the picture; linear 8 bit.
 /// "faceworks"   ring, 200 taps over +-10 mm of arc (or the whole ring), not normalised; v: curvature
-/// 0.01..1/mm;
-///               stored as difference, 8 bit (NVIDIA FaceWorks 1.0).
+///               0.01..1/mm; stored as difference, 8 bit (NVIDIA FaceWorks 1.0).
 /// All start from the GPU Gems 3 profile. Error: an unknown name, with the closest.
 [[nodiscard]] Result<LutOptions> lut_options(std::string_view convention_name);
-[[nodiscard]] std::vector<std::string> lut_convention_names();
 
 /// v as radius in mm instead of curvature: min and max > 0.
 [[nodiscard]] TableAxis curvature_axis(double min_per_mm, double max_per_mm);

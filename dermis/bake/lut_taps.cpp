@@ -11,7 +11,7 @@ namespace dermis {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMaxRadius_mm = 1e6;  // infinity times an angle of 0 is none
+constexpr double kMaxRadius_mm = 1e6;  // infinity times an angle of 0 has no value
 
 struct Tap {
     double angle_rad;
@@ -38,7 +38,7 @@ std::vector<Tap> unity_taps(const GaussianSum& sum, double radius_mm, double var
         taps.push_back({a, gaussian_line_profile(sum, chord_mm, variance_scale)});
         for (size_t c = 0; c < 3; ++c) total[c] += taps.back().weight[c];
     }
-    // On a nearly flat ring every tap lies beyond the profile; the nearest one is the limit.
+    // On a nearly flat ring every tap is beyond the profile's reach; the limit is the nearest tap alone.
     const auto nearest =
         std::ranges::min_element(taps, {}, [](const Tap& tap) { return std::abs(tap.angle_rad); });
     for (size_t c = 0; c < 3; ++c) {

@@ -154,7 +154,7 @@ Plot profile_plot(const Profile& profile, const GaussianFit& fit) {
 }
 
 Plot comparison_plot(const std::vector<Profile>& profiles) {
-    // One family of published skins shares a stroke and runs from light to dark; the others take the palette.
+    // Skins of one published series share a dash pattern and run from light to dark; others take the palette.
     constexpr std::string_view kSkinTones[] = {"#e0a875", "#cf8f5a", "#b87443",
                                                "#965a30", "#6f4022", "#452512"};
     Plot plot{.title = "Published skins: the light that leaves within r", .columns = 3};

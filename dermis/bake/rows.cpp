@@ -14,7 +14,7 @@
 namespace dermis {
 namespace {
 
-// Bumped when the quadrature changes, so that old cache entries are not taken for its results.
+// Raise with every change to the quadrature: old cache entries are then not found.
 constexpr std::string_view kCacheKind = "radial_rows_1";
 
 struct ProfileHash {

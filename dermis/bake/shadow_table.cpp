@@ -1,7 +1,7 @@
 // S' = 6 k u (1 - u) on 0 <= u <= 1, u = 1/2 + k (p - 1/2). In units of the sharpened ramp the blurred step
 // is int_0^1 6 u (1 - u) Phi((x - u) / s) du; by parts, with moments of the normal distribution over [0, 1],
 // it is Phi at the lit end plus polynomials times Phi and phi. For s beyond the ramp those cancel; there the
-// integral itself is smooth and 24 Gauss nodes have it to rounding.
+// integral itself is smooth and 24 Gauss nodes give it to rounding.
 
 #include "dermis/bake/shadow_table.h"
 

@@ -55,7 +55,7 @@ struct Section {
     std::string name;
 };
 
-// The rows worth looking at: where the axis reaches them.
+// The rows that are drawn, as far as the axis reaches them.
 std::vector<Section> sections_of(const Table& table) {
     const TableAxis& axis = table.convention.axes[1];
     std::vector<Section> all;
@@ -93,7 +93,7 @@ std::vector<double> samples(const TableAxis& axis, int count, int samples) {
     return values;
 }
 
-// One colour a section; the sphere's curve has it too, dashed.
+// One colour per section; the sphere's curve of the same section is dashed.
 constexpr std::string_view kSectionColor[] = {"#1864ab", "#e8590c", "#2b8a3e", "#862e9c"};
 
 struct Curves {

@@ -16,7 +16,7 @@ int channels_of(TableKind kind) {
     return kind == TableKind::beckmann ? 1 : 3;
 }
 
-// Names what is wrong with one line of the CSV, or stores its values.
+// Stores the values of one line of the CSV, or says what is wrong with it.
 Result<void> parse_line(std::string_view line, const Table& table, int x, int y, float* values) {
     const std::vector<std::string_view> cells = split(line, ',');
     if (cells.size() != size_t(2 + table.channels))

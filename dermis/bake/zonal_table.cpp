@@ -20,7 +20,7 @@ Result<Table> bake_zonal_harmonics(const ZonalOptions& options) {
         return profile.error();
 
     Table table{.width = options.width, .height = orders};
-    // Texel centres are the orders themselves.
+    // Texel l is order l.
     table.convention = {.kind = TableKind::zonal_harmonics,
                         .axes = {options.curvature, TableAxis{"order", "1", -0.5, orders - 0.5}},
                         .how = options.how,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kChecksumBytes = 32;
 
-// The name is part of it: an entry that was moved to another's place reads as absent.
+// The entry's name is part of the checksum, so that an entry under another's name reads as absent.
 std::string checksum(std::string_view kind, std::string_view hash, std::span<const std::byte> bytes) {
     return Hasher().add(kind).add(hash).add(bytes).hex();
 }

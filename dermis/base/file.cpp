@@ -28,8 +28,8 @@ struct Descriptor {
     }
 };
 
-// The temporary files there are at the moment, where a signal handler can read them: it may neither lock nor
-// allocate. A file beyond the slots, or with a longer path, is only not removed by a signal.
+// The temporary files that exist now, where a signal handler can read them: it may neither lock nor allocate.
+// A file beyond the slots, or with a longer path, is not removed by a signal.
 struct Slot {
     enum State { unused, filling, filled };
     std::atomic<State> state = unused;
@@ -37,7 +37,7 @@ struct Slot {
 };
 std::array<Slot, 32> g_slots;
 
-// A file beside its target, under a name of its own; removed at the end, unless it was renamed.
+// A file in the folder of its target, with a unique name; removed at the end unless it was renamed.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& target) : path_(target) {
@@ -165,7 +165,7 @@ Result<void> write_files(std::span<const FileContent> files) {
     for (const FileContent& file : files) {
         if (fs::is_directory(file.path, ec))
             return Error{file.path.string() + ": is a directory; give a file name"};
-        // Of its own kind: see write_beside().
+        // Devices and pipes are written directly: see write_beside().
         const bool direct = fs::exists(file.path, ec) && !fs::is_regular_file(file.path, ec);
         if (direct) {
             if (Result<void> written = write_file(file.path, file.bytes); !written) return written;
@@ -176,7 +176,7 @@ Result<void> write_files(std::span<const FileContent> files) {
         const Result<void> written = write_all(temporaries.emplace_back(file.path).path(), file.bytes);
         if (!written) return Error{file.path.string() + ": cannot write: " + written.error().message};
     }
-    std::vector<fs::path> made;  // that were not there before
+    std::vector<fs::path> made;  // did not exist before
     for (size_t i = 0; i < renamed.size(); ++i) {
         const fs::path& path = renamed[i]->path;
         const bool is_new = !fs::exists(path, ec);
@@ -194,7 +194,7 @@ Result<void> write_files(std::span<const FileContent> files) {
 Result<void> try_output(const fs::path& path) {
     std::error_code ec;
     if (fs::is_directory(path, ec)) return Error{path.string() + ": is a directory; give a file name"};
-    // Nothing of a device or a pipe may be used up.
+    // A device or a pipe is not tried: what is written to it cannot be taken back.
     if (fs::exists(path, ec) && !fs::is_regular_file(path, ec)) return {};
     std::vector<fs::path> missing;
     for (fs::path at = fs::absolute(path, ec).parent_path(); !at.empty() && !fs::exists(at, ec);

@@ -37,8 +37,8 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
     const size_t tasks = (count + grain - 1) / grain;
     const size_t threads = std::min<size_t>(thread_limit(), tasks);
     if (threads <= 1) return body(0, count);
-    // Chunks are handed out by a counter, so that uneven items balance; eight a thread keeps the counter
-    // cold.
+    // Threads take chunks by a counter, so that uneven items balance. Eight chunks per thread keep the
+    // contention on the counter low.
     const size_t chunk = std::max(grain, count / (threads * 8));
     std::atomic<size_t> next = 0;
     std::once_flag first;
@@ -57,7 +57,7 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
         workers.reserve(threads);
         try {
             for (size_t i = 1; i < threads; ++i) workers.emplace_back(work);
-        } catch (const std::system_error&) {  // no more threads: those that there are do the work
+        } catch (const std::system_error&) {  // no more threads: the existing ones do the work
         }
         work();
     }

@@ -1,4 +1,4 @@
-// Barriers from what was and what comes: one rule for all passes.
+// The barrier between two uses of an image: one rule for all passes.
 
 #include "dermis/gpu/frame_images.h"
 

@@ -8,7 +8,7 @@
 
 namespace dermis::gpu {
 
-// The frame is waited for, so one buffer serves all frames; it only ever grows.
+// Each frame is waited for, so one buffer serves all frames; it grows and never shrinks.
 Result<void> Executor::State::store(const std::vector<std::byte>& bytes) {
     if (bytes.size() > uploads.size) {
         constexpr VkBufferUsageFlags kUsage =

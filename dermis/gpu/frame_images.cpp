@@ -8,7 +8,8 @@
 namespace dermis::gpu {
 namespace {
 
-// Lists that alternate keep their images; a window being resized does not pile them up.
+// Images that no list used for so many runs are freed: lists that alternate keep theirs, and resizing a
+// window does not fill the memory.
 constexpr uint64_t kIdleImageRuns = 8;
 
 VkExtent2D resolve_size(const ImageSize& size, int width, int height) {

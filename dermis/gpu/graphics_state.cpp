@@ -55,7 +55,7 @@ GraphicsState::GraphicsState(const Pass& pass, const TargetFormats& formats,
                  .scissorCount = 1};
 }
 
-// One buffer a stream, tightly packed floats.
+// One buffer per stream, tightly packed floats.
 void GraphicsState::set_vertex_input(const std::vector<StageVariable>& inputs) {
     constexpr VkFormat kFormats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT,
                                      VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};

@@ -30,7 +30,7 @@ std::string megabytes(VkDeviceSize bytes) {
     return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MB";
 }
 
-// The only place that takes device memory.
+// All device memory is allocated here.
 Result<OwnedMemory> allocate(const Context& context, const VkMemoryRequirements& needs, MemoryUse use,
                              std::string_view name) {
     const VkMemoryAllocateInfo info = {

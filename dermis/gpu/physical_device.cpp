@@ -1,4 +1,4 @@
-// Which devices there are, and which of them can run dermis.
+// Lists the devices, and which of them can run dermis.
 
 #include <algorithm>
 #include <cstring>
@@ -33,7 +33,7 @@ bool has_device_extension(VkPhysicalDevice device, const char* name) {
     return std::ranges::any_of(all, [&](const auto& one) { return !std::strcmp(one.extensionName, name); });
 }
 
-// A graphics queue that also computes; the specification makes such a queue transfer, too.
+// A graphics queue that also computes; by the specification such a queue can transfer, too.
 bool find_queue(PhysicalDevice& device) {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
@@ -99,7 +99,7 @@ Result<std::vector<PhysicalDevice>> physical_devices(const Instance& instance) {
     VkResult result = vkEnumeratePhysicalDevices(instance.get(), &count, nullptr);
     std::vector<VkPhysicalDevice> handles(count);
     if (result >= 0) result = vkEnumeratePhysicalDevices(instance.get(), &count, handles.data());
-    if (result != VK_ERROR_INITIALIZATION_FAILED)  // what the loader says when every driver failed
+    if (result != VK_ERROR_INITIALIZATION_FAILED)  // the loader returns it when every driver failed
         if (Result<void> ok = check(result, "list Vulkan devices"); !ok) return ok.error();
     if (handles.empty() || result < 0)
         return Error{

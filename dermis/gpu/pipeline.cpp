@@ -9,7 +9,7 @@
 namespace dermis::gpu {
 namespace {
 
-// More than this many pipelines, and those that have been idle for kIdlePipelineRuns go.
+// Above this number, pipelines that were idle for kIdlePipelineRuns are removed.
 constexpr size_t kManyPipelines = 256;
 constexpr uint64_t kIdlePipelineRuns = 64;
 
@@ -28,7 +28,7 @@ int32_t constant_value(const Pass& pass, const SpecializationConstant& constant)
     return int32_t(constant.default_value);
 }
 
-// A misspelt constant would leave the shader's default in place without a word.
+// A misspelt constant would silently leave the shader's default in place.
 Result<void> check_constants(const Pass& pass, std::span<const Shader* const> shaders) {
     std::vector<std::string> declared;
     for (const Shader* shader : shaders)

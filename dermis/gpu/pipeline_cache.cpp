@@ -1,4 +1,4 @@
-// Compiled pipelines, kept on disk from process to process under device and driver.
+// Compiled pipelines on disk, one file for each device and driver.
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
@@ -8,7 +8,7 @@ namespace dermis::gpu {
 namespace {
 
 constexpr std::string_view kCacheKind = "pipelines";
-// Above this it is thrown away rather than kept growing by every shader that ever was.
+// A larger cache is removed: it holds pipelines of shaders that no longer exist.
 constexpr size_t kMaxCacheBytes = size_t{64} << 20;
 
 std::string cache_key(const VkPhysicalDeviceProperties& properties) {

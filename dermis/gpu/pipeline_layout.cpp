@@ -1,4 +1,4 @@
-// One set of bindings for all stages of a pipeline, given out by name.
+// One descriptor set for all stages of a pipeline; binding numbers are assigned by name.
 
 #include <algorithm>
 

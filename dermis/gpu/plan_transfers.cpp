@@ -1,4 +1,4 @@
-// Passes without shaders: which images they move, and what the device can.
+// Passes without shaders: their images, and whether the device can copy them.
 
 #include "dermis/gpu/plan.h"
 
@@ -13,7 +13,7 @@ bool has_extent(const FrameImage& image, VkExtent2D extent) {
     return image.extent().width == extent.width && image.extent().height == extent.height;
 }
 
-// Scaling filters its source.
+// A scaling copy reads its source with a filter, which the format must allow.
 Result<void> check_blit(const Context& context, const PlannedPass& planned, const FrameImage& source,
                         const FrameImage& target) {
     constexpr VkFormatFeatureFlags kSource =

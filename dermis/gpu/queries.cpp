@@ -22,7 +22,7 @@ Result<std::vector<uint64_t>> read_pool(const Context& context, VkQueryPool pool
     return values;
 }
 
-// Only some of the bits count, and they may wrap around.
+// Only some of the bits are valid, and they may wrap around.
 double elapsed_ms(const Context& context, uint64_t from, uint64_t to) {
     const uint64_t mask =
         context.timestamp_bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << context.timestamp_bits) - 1;

@@ -10,7 +10,7 @@ namespace {
 
 using Resources = std::span<const spvc_reflected_resource>;
 
-// Reads one module. The first problem stays in error_; everything after it is moot.
+// Reads one module. error_ keeps the first problem; what is read after it is not used.
 class Reflector {
   public:
     Reflector(std::string_view shader, spvc_compiler compiler, spvc_resources resources)
@@ -232,7 +232,7 @@ class Reflector {
         result_.outputs = variables(SPVC_RESOURCE_TYPE_STAGE_OUTPUT);
     }
 
-    // Vertex inputs come from float streams; what passes between stages may be anything.
+    // Vertex inputs come from float streams; variables between stages may have any type.
     std::vector<StageVariable> variables(spvc_resource_type kind) {
         const bool from_streams =
             kind == SPVC_RESOURCE_TYPE_STAGE_INPUT && result_.stage == VK_SHADER_STAGE_VERTEX_BIT;

@@ -1,4 +1,4 @@
-// The samplers that shaders name; conventions in shaders are easier than a sampler for each texture.
+// The samplers, by the names that shaders use for them.
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ VkSamplerCreateInfo sampler_info(std::string_view name, const Context& context) 
     VkSamplerAddressMode address =
         name.ends_with("repeat") ? VK_SAMPLER_ADDRESS_MODE_REPEAT : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     const bool compare = name == "shadow_compare";
-    // Outside the shadow map nothing is in shadow: the border is as far as depth goes.
+    // Outside the shadow map nothing is in shadow: the border has the largest depth.
     if (compare) address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
     VkSamplerCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
@@ -27,7 +27,7 @@ VkSamplerCreateInfo sampler_info(std::string_view name, const Context& context) 
         .compareOp = VK_COMPARE_OP_LESS_OR_EQUAL,
         .maxLod = VK_LOD_CLAMP_NONE,
         .borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE};
-    // A CPU pays for each of the footprints that a GPU filters almost for nothing.
+    // Not on a CPU, where each sample of an anisotropic read costs time.
     if (trilinear && context.features.samplerAnisotropy && !context.is_cpu) {
         info.anisotropyEnable = VK_TRUE;
         info.maxAnisotropy = std::min(8.0f, context.properties.limits.maxSamplerAnisotropy);

@@ -18,7 +18,7 @@ Result<OwnedSemaphore> make_semaphore(const Context& context) {
     return OwnedSemaphore(context, semaphore);
 }
 
-// Eight bits as they are: the pictures are sRGB-encoded already.
+// Eight bits without conversion: the pictures are sRGB-encoded already.
 Result<VkSurfaceFormatKHR> choose_format(const Context& context, VkSurfaceKHR surface) {
     uint32_t count = 0;
     vkGetPhysicalDeviceSurfaceFormatsKHR(context.physical, surface, &count, nullptr);
@@ -70,7 +70,7 @@ struct Swapchain::State {
     OwnedSwapchain handle;
     std::vector<VkImage> images;
     OwnedSemaphore acquired;
-    std::vector<OwnedSemaphore> drawn;  ///< one an image: presentation may still wait for another's
+    std::vector<OwnedSemaphore> drawn;  ///< one per image: presentation may still wait for another's
 
     explicit State(Device::State& device_state) : device(device_state) {}
     State(const State&) = delete;

@@ -29,7 +29,7 @@ void resolve(const Context& context, VkCommandBuffer commands, const PlannedPass
     context.vk.vkCmdEndRendering(commands);
 }
 
-// Leaves every level but the last as a copy source, which the tracked uses say, too.
+// Leaves every level but the last as a copy source, and records that in the tracked uses.
 void generate_mips(const Context& context, VkCommandBuffer commands, const PlannedPass& planned) {
     FrameImage& image = *planned.accesses[0].image;
     BarrierBatch barriers;

@@ -20,7 +20,7 @@ constexpr Decoder kDecoders[] = {
     {codec::is_dds, codec::decode_dds},           {codec::is_ktx2, codec::decode_ktx2},
 };
 
-// A message may quote names out of the file; whatever they hold, it stays one printable line.
+// A message may quote names from the file, so it is reduced to one printable line.
 template <class T>
 Result<T> named(Result<T> result, std::string_view name) {
     if (result) return result;
@@ -42,7 +42,7 @@ Image with_channels(const Image& from, int channels) {
     return to;
 }
 
-// Grey and alpha spelled out, before the encoding that tells them from red and green is lost.
+// Expands grey and alpha first: only the sRGB encoding tells them from red and green.
 Image linear_with_channels(const Image& image, int channels) {
     Image linear = to_linear_float(image);
     if (image.channels != 2 || alpha_channel(image) != 1) return with_channels(linear, channels);
@@ -74,8 +74,8 @@ Image as_exr(const Image& image) {
                    half ? PixelFormat::f16 : PixelFormat::f32, Encoding::linear);
 }
 
-// What PNG allows as a keyword (ISO/IEC 15948, 11.3.4.2), less the upper half of Latin-1; EXR and KTX2 take
-// those too.
+// What PNG allows as a keyword (ISO/IEC 15948, 11.3.4.2), less the upper half of Latin-1; EXR and KTX2 accept
+// these too.
 Result<void> check_text(const ImageText& text) {
     for (const auto& [key, value] : text) {
         const bool plain = std::ranges::all_of(key, [](char c) { return c >= ' ' && c <= '~'; });

@@ -18,7 +18,7 @@ constexpr const char* kFontFiles[] = {
     "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};
 constexpr char32_t kReplacement = 0xFFFD;
 
-// One character off the front of UTF-8; a byte that starts none is a replacement character by itself.
+// Removes one UTF-8 character from the front; a byte that begins none gives a replacement character.
 char32_t take_character(std::string_view& text) {
     const auto lead = static_cast<unsigned char>(text.front());
     const size_t length = lead < 0x80         ? 1

@@ -15,8 +15,8 @@ struct Taps {
     std::vector<float> weights;
 };
 
-// Shrinking: target texel i covers the interval [i, i+1) * from/to; a source texel weighs what it shares with
-// it.
+// Shrinking: target texel i covers the interval [i, i+1) * from/to; a source texel's weight is its overlap
+// with it.
 Taps area_taps(int i, int from, int to) {
     const double scale = double(from) / double(to), begin = i * scale, end = (i + 1) * scale;
     Taps taps{int(begin), {}};
@@ -75,7 +75,7 @@ Image resize_columns(const Image& from, int height) {
     return to;
 }
 
-// `offset` and `scale` bring the stored numbers to vectors: v = stored * scale + offset.
+// Vectors are stored * scale + offset.
 void make_unit(Image& image, float scale, float offset) {
     if (image.channels < 3) return;
     parallel_for(image.pixel_count(), 4096, [&](size_t begin, size_t end) {
@@ -123,7 +123,7 @@ std::vector<Image> mip_chain(const Image& image, Texels texels) {
 }
 
 Vec4 sample_bilinear(const Image& image, Vec2 uv) {
-    // The far outside is clamped before texels are counted, which keeps int from overflowing.
+    // Clamped first, so that the texel's number fits into int.
     const float x = std::clamp(uv.x, -1.0f, 2.0f) * float(image.width) - 0.5f;
     const float y = std::clamp(uv.y, -1.0f, 2.0f) * float(image.height) - 0.5f;
     const int x0 = int(std::floor(x)), y0 = int(std::floor(y));

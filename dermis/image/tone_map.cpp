@@ -80,7 +80,7 @@ Result<ToneMap> parse_tone_map(std::string_view name) {
 }
 
 Vec3 tone_map(ToneMap curve, Vec3 c_linear) {
-    // NaN becomes 0; infinity a number whose square is still one.
+    // NaN becomes 0; infinity becomes a number whose square is finite.
     const Vec3 c = each(c_linear, [](float x) { return x > 0.0f ? std::min(x, 1e15f) : 0.0f; });
     switch (curve) {
         case ToneMap::hable:

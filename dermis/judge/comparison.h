@@ -2,7 +2,7 @@
 // Techniques compared with the ground truth of the same scene: captured share, pictures, errors, times,
 // bytes.
 //
-// All show the same: skin's diffuse transport, direct lights with the key light's shadow, specular reflection
+// All show the same: skin's diffuse transport, direct lights with their shadows, specular reflection
 // by GGX, the environment as the renderer approximates it (order-2 harmonics, split sum, occlusion). The
 // ground truth takes these over as they are, so that what differs is the transport within the skin; with
 // AmbientModel::traced the environment is traced instead, and its approximation counts as error of every

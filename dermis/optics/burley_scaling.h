@@ -3,15 +3,7 @@
 // and Burley 2015 to Monte Carlo walks in an index-matched half-space, one fit per length and illumination. A
 // is the albedo under diffuse light, 0..1; every s is positive.
 
-#include <cmath>
-
 namespace dermis {
-
-/// Mean free path / d for light that enters in one direction, perpendicular (searchlight): equation 5.
-[[nodiscard]] inline double searchlight_mean_free_path_per_d(double albedo) {
-    const double x = std::abs(albedo - 0.8);
-    return 1.85 - albedo + 7 * x * x * x;
-}
 
 /// Mean free path / d for light that enters diffusely, right for blurring irradiance: equation 6.
 [[nodiscard]] inline double mean_free_path_per_d(double albedo) {

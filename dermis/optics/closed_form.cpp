@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSamples = 64;
 
-// |N.L| from 0 to 1, denser towards both ends, where E bends.
+// |N.L| from 0 to 1, denser towards both ends, where E is curved most.
 std::vector<double> sample_cosines() {
     std::vector<double> cosines;
     for (int i = 0; i <= kSamples; ++i)
@@ -36,8 +36,8 @@ EvenFit fit_linear(const std::vector<double>& cosines, const Eigen::VectorXd& ev
     return {q, x[0], x[1], x[2], (basis * x - even).cwiseAbs().maxCoeff()};
 }
 
-// The residual over log q has one valley for every profile tried; a scan finds it, a golden section its
-// bottom.
+// For every profile tried the residual over log q has one minimum; a scan brackets it and a golden section
+// finds it.
 EvenFit fit_even(const std::vector<double>& cosines, const Eigen::VectorXd& even) {
     constexpr double kLow = -12, kHigh = 1, kStep = 0.5;
     const auto at = [&](double log_q) { return fit_linear(cosines, even, std::exp(log_q)); };

@@ -15,7 +15,7 @@ double radius_share(double curvature_per_mm) {
     return (1 / std::clamp(curvature_per_mm, 0.0625, 0.5) - 2) / 14;
 }
 
-// Tightest: a parabola (a cubic in blue) in the dark that turns into a line in the light.
+// r = 2 mm: a parabola (a cubic in blue) on the dark side that blends into a line on the lit side.
 double tight_curve(size_t channel, double x) {
     constexpr double kLow[3] = {0, 0.3, 0.3}, kHigh[3] = {1, 0.7, 0.7}, kOffset[3] = {0, 0.06, 0.06};
     constexpr double kDark[3] = {0.65, 0.5, 0.9}, kLift[3] = {0.045, 0, 0}, kSlope[3] = {1.75, 2, 1.97};

@@ -35,7 +35,7 @@ double diffuse_internal_reflectance(double eta) {
 }
 
 double diffuse_external_reflectance(double eta) {
-    // Midpoint rule in cos^2: the integrand is smooth but for a root at grazing angles.
+    // Midpoint rule in cos^2: the integrand is smooth except for a square root at grazing angles.
     constexpr int kSteps = 20000;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) sum += fresnel_dielectric(std::sqrt((i + 0.5) / kSteps), eta);

@@ -3,6 +3,7 @@
 
 #include "dermis/optics/gaussian_fit.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -49,16 +50,18 @@ double squared_error(const Parameters& p, const Samples& samples) {
     return sum;
 }
 
-// Row-major square matrix and right-hand side of the normal equations.
+// The lower triangle of the matrix, and the right-hand side.
 struct NormalEquations {
-    std::vector<double> matrix, right;
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd right;
 };
 
 NormalEquations normal_equations(const Parameters& p, const Samples& samples) {
     const size_t n = p.size(), terms = n / 2;
     const std::vector<double> share = softmax(p);
-    NormalEquations out{std::vector<double>(n * n), std::vector<double>(n)};
-    std::vector<double> gradient(n), beyond(terms), inverse_variance(terms);
+    NormalEquations out{Eigen::MatrixXd::Zero(long(n), long(n)), Eigen::VectorXd::Zero(long(n))};
+    Eigen::VectorXd gradient(n);
+    std::vector<double> beyond(terms), inverse_variance(terms);
     for (size_t i = 0; i < terms; ++i) inverse_variance[i] = std::exp(-p[i]);
     for (size_t k = 0; k < samples.beyond.size(); ++k) {
         double value = 0;
@@ -67,40 +70,21 @@ NormalEquations normal_equations(const Parameters& p, const Samples& samples) {
             value += share[i] * beyond[i];
         }
         for (size_t i = 0; i < terms; ++i) {
-            gradient[i] = share[i] * beyond[i] * samples.half_r_squared[k] * inverse_variance[i];
-            gradient[terms + i] = share[i] * (beyond[i] - value);
+            gradient[long(i)] = share[i] * beyond[i] * samples.half_r_squared[k] * inverse_variance[i];
+            gradient[long(terms + i)] = share[i] * (beyond[i] - value);
         }
-        const double error = value - samples.beyond[k];
-        for (size_t i = 0; i < n; ++i) {
-            out.right[i] -= samples.importance[k] * gradient[i] * error;
-            for (size_t j = 0; j <= i; ++j)
-                out.matrix[i * n + j] += samples.importance[k] * gradient[i] * gradient[j];
-        }
+        out.right -= samples.importance[k] * (value - samples.beyond[k]) * gradient;
+        out.matrix.selfadjointView<Eigen::Lower>().rankUpdate(gradient, samples.importance[k]);
     }
     return out;
 }
 
-// Solves (A + damping diag(A)) x = b by Cholesky's lower triangle; the floor on the diagonal covers the one
-// direction the softmax does not see.
-std::vector<double> damped_step(NormalEquations equations, double damping) {
-    const size_t n = equations.right.size();
-    std::vector<double>&a = equations.matrix, &x = equations.right;
-    for (size_t i = 0; i < n; ++i) a[i * n + i] = a[i * n + i] * (1 + damping) + 1e-14;
-    for (size_t i = 0; i < n; ++i)
-        for (size_t j = 0; j <= i; ++j) {
-            double sum = a[i * n + j];
-            for (size_t k = 0; k < j; ++k) sum -= a[i * n + k] * a[j * n + k];
-            a[i * n + j] = i == j ? std::sqrt(std::max(sum, 1e-18)) : sum / a[j * n + j];
-        }
-    for (size_t i = 0; i < n; ++i) {
-        for (size_t k = 0; k < i; ++k) x[i] -= a[i * n + k] * x[k];
-        x[i] /= a[i * n + i];
-    }
-    for (size_t i = n; i-- > 0;) {
-        for (size_t k = i + 1; k < n; ++k) x[i] -= a[k * n + i] * x[k];
-        x[i] /= a[i * n + i];
-    }
-    return x;
+// Solves (A + damping diag(A)) x = b. The small number on the diagonal keeps it definite along the direction
+// that does not change the softmax.
+Eigen::VectorXd damped_step(NormalEquations equations, double damping) {
+    equations.matrix.diagonal().array() *= 1 + damping;
+    equations.matrix.diagonal().array() += 1e-14;
+    return equations.matrix.llt().solve(equations.right);
 }
 
 void minimise(Parameters& p, const Samples& samples, int iterations) {
@@ -108,10 +92,10 @@ void minimise(Parameters& p, const Samples& samples, int iterations) {
     for (int i = 0; i < iterations && damping < 1e9; ++i) {
         const NormalEquations equations = normal_equations(p, samples);
         for (; damping < 1e9; damping *= 4) {
-            const std::vector<double> step = damped_step(equations, damping);
+            const Eigen::VectorXd step = damped_step(equations, damping);
             Parameters tried = p;
-            // A step of more than e^2 in one go leaves the region in which the linear model means anything.
-            for (size_t k = 0; k < p.size(); ++k) tried[k] += std::clamp(step[k], -2.0, 2.0);
+            // Variances change by a factor of e^2 at most: beyond that the linear model is not valid.
+            for (size_t k = 0; k < p.size(); ++k) tried[k] += std::clamp(step[long(k)], -2.0, 2.0);
             const double tried_error = squared_error(tried, samples);
             if (!(tried_error < error)) continue;
             const bool settled = error - tried_error < 1e-9 * error;
@@ -130,7 +114,7 @@ double largest_error(const Parameters& p, const Samples& samples) {
     return largest;
 }
 
-// Lawson 1961: raising the importance where the error is large turns least squares into least maximum.
+// Lawson 1961: raising the importance where the error is large turns least squares into the smallest maximum.
 Parameters level_errors(Parameters p, Samples samples) {
     Parameters best = p;
     double best_error = largest_error(p, samples);
@@ -161,7 +145,7 @@ Samples sample(const Profile& profile, int channel) {
     return samples;
 }
 
-// Starts are ladders of variances between the radii of two percentiles.
+// Starts from geometric series of variances between the radii of two percentiles.
 Parameters fit_channel(const Profile& profile, int channel, const Samples& samples, int terms) {
     constexpr double kLadders[][2] = {{0.02, 0.99}, {0.05, 0.97}, {0.1, 0.999}, {0.3, 0.9}};
     Parameters best;

@@ -54,7 +54,7 @@ std::array<Rgb, 2> even_moments(const pre::Row& row, Construction construction) 
 
 double blurred_cosine(Construction construction, double n_dot_l, double concentration) {
     const GaussianSum single = {"", {{1, {1, 1, 1}}}};
-    constexpr double kLeast = 1e-60;  // as good as none, and its weight can still be normalised
+    constexpr double kLeast = 1e-60;  // negligible, and its weight can still be normalised
     return preintegrated_diffuse(single, n_dot_l, std::sqrt(std::max(concentration, kLeast)),
                                  {.construction = construction})[0];
 }

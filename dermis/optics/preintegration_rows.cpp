@@ -27,7 +27,7 @@ Block accumulate(const pre::Row& row, const double* basis) {
 
 DiffuseRows::DiffuseRows(std::span<const double> n_dot_l, const Preintegration& how)
     : how_(how), n_dot_l_(n_dot_l.begin(), n_dot_l.end()), elevation_of_(n_dot_l.size()) {
-    // Values that mirror each other to rounding share their even part.
+    // Values that are opposite to rounding share their even part.
     constexpr double kSame = 1e-14;
     std::vector<size_t> order(size());
     for (size_t i = 0; i < size(); ++i) order[i] = i;

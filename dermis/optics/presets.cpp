@@ -52,8 +52,8 @@ constexpr Rgb kFairRadiusCm = {0.482, 0.169, 0.109}, kDarkRadiusCm = {0.367, 0.1
 
 // Jimenez 2012 (SeparableSSS 1.0): the red Gaussians of GPU Gems 3 but the narrowest, widened per channel by
 // 0.001 + falloff and mixed by strength with unscattered light. That light is given the narrowest Gaussian,
-// which the source counts as directly bounced. Its filter multiplies two 1-D kernels, which is not this
-// radial profile exactly.
+// which the source takes for light reflected at the surface. Its filter multiplies two 1-D kernels, which is
+// not this radial profile exactly.
 Profile separable_sss() {
     constexpr Rgb kStrength = {0.48, 0.41, 0.28}, kFalloff = {1.0, 0.37, 0.3};
     const std::vector<GaussianTerm> red = gpu_gems_3_skin().terms;

@@ -1,5 +1,5 @@
-// How a tool's keys read as {A, d} and how {A, d} writes them. Most tools differ only in which length they
-// state per d (a function of A) and in their unit.
+// Converts a tool's keys to {A, d} and back. Most tools differ only in the length that they state per d (a
+// function of A) and in its unit.
 
 #include "dermis/optics/tool_rows.h"
 
@@ -28,7 +28,7 @@ double four_pi_mean_free_path_per_d(double albedo) {
     return 4 * pi * mean_free_path_per_d(albedo);
 }
 
-// Lengths as largest * colour, the form most interfaces have.
+// Lengths as largest * colour, the form of most interfaces.
 struct ScaledColor {
     double scale;
     Rgb color;

@@ -1,5 +1,5 @@
-// One panel at a time: ranges from the data, ticks from the ranges, then grid, curves, frame and words are
-// appended to one string in painter's order.
+// One panel at a time: ranges from the data, ticks from the ranges, then grid, curves, frame and text are
+// appended to one string, back to front.
 
 #include "dermis/plot/plot.h"
 
@@ -16,8 +16,7 @@
 namespace dermis {
 namespace {
 
-// Dark enough for thin lines on white, alternating in lightness so that a grey print still tells neighbours
-// apart.
+// Dark enough for thin lines on white, alternating in lightness so that neighbours differ in a grey print.
 constexpr std::array<std::string_view, 8> kPalette = {"#1864ab", "#e8590c", "#2b8a3e", "#9c36b5",
                                                       "#c92a2a", "#0b8fa3", "#7a5c00", "#495057"};
 constexpr double kMarginLeft = 66, kMarginRight = 18, kMarginBottom = 46, kLegendLine = 18;
@@ -26,7 +25,7 @@ struct Rect {
     double x, y, width, height;
 };
 
-// Two decimals are a hundredth of a pixel: nothing to see, half the file.
+// Two decimals, a hundredth of a pixel, are exact enough and halve the file.
 std::string px(double value) {
     std::string text = to_text(std::round(std::clamp(value, -1e5, 1e5) * 100) / 100);
     return text == "-0" ? "0" : text;
@@ -49,7 +48,7 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-// Sans-serif fonts differ; 0.56 em a glyph is on the wide side of all common ones.
+// Sans-serif fonts differ; 0.56 em per glyph is at least the mean width in all common ones.
 double estimated_width_px(std::string_view text, double size_px) {
     const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };  // UTF-8
     return 0.56 * size_px * double(std::ranges::count_if(text, is_start));
@@ -85,8 +84,8 @@ std::string_view color_of(const PlotPanel& panel, size_t index) {
     return kPalette[size_t(before) % kPalette.size()];
 }
 
-// Leaves out points that the straight line between the last kept one and the next passes close to: flat parts
-// of finely sampled curves are most of a file otherwise.
+// Leaves out points close to the straight line between the last kept point and the next: else the straight
+// parts of finely sampled curves would be most of the file.
 std::string path_data(const std::vector<Vec2>& points) {
     constexpr float kTolerance_px = 0.03f;
     std::string path;

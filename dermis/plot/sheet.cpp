@@ -10,7 +10,7 @@ constexpr Vec3 kPaper = {0.125f, 0.125f, 0.133f}, kInk = {0.93f, 0.93f, 0.93f},
                kFaint = {0.66f, 0.66f, 0.68f};
 constexpr float kTitlePx = 18, kRowPx = 15, kLabelPx = 13, kNumberPx = 12;
 
-// Words and pictures at a place. The sheet is laid out twice, without an image to measure and with one to
+// Places text and pictures. The sheet is laid out twice, first without an image to measure, then with one to
 // draw, so that both agree.
 class Pen {
   public:
@@ -50,7 +50,7 @@ int sheet_width(const Sheet& sheet) {
     return std::max(kSmallestWidth, 2 * kMargin + int(columns) * (widest_picture(sheet) + kGap) - kGap);
 }
 
-// Labels of a row stand on one line above its pictures, however many lines one of them takes.
+// The pictures of a row begin at one height, below its longest label.
 int lay_row(const Pen& pen, const SheetRow& row, int y, int cell_width, int width) {
     y = pen.text(kMargin, y, width, row.label, kRowPx, kInk);
     const auto x_of = [&](size_t i) { return kMargin + int(i) * (cell_width + kGap); };

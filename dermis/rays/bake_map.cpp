@@ -48,7 +48,7 @@ Image curvature_values(std::span<const SceneObject> objects, const UvRaster& ras
     return image;
 }
 
-// The metric is linear in its coefficients, so those are interpolated, not the lengths.
+// The coefficients of the metric are interpolated, not the lengths: they are linear.
 Image stretch_values(std::span<const SceneObject> objects, const UvRaster& raster) {
     std::vector<std::vector<UvMetric>> metrics;
     for (const SceneObject& object : objects)
@@ -83,7 +83,7 @@ struct Depth {
 Depth inward_depth(const RayScene& rays, const SurfaceAttributes& surface, uint32_t seed,
                    const BakeMapSettings& settings) {
     const LocalFrame frame = frame_of(-surface.n_geometry_world);
-    // Cosine-weighted within the cone: the disk sample of the hemisphere, shrunk to the cone's sine.
+    // Cosine-weighted within the cone: a disk sample of the hemisphere, scaled by the cone's sine.
     const float sine = std::sin(settings.cone_rad), least_mm = 10 * rays.epsilon_mm();
     Depth depth;
     for (int i = 0; i < settings.rays; ++i) {
@@ -93,14 +93,14 @@ Depth inward_depth(const RayScene& rays, const SurfaceAttributes& surface, uint3
         if (dot(direction, surface.n_face_world) >= 0) continue;
         const auto hit = rays.closest_hit(
             RaySet::opaque, {.origin_mm = surface.p_world_mm, .direction = direction, .min_mm = least_mm});
-        if (!hit) continue;  // which side it met is not asked: slivers have no reliable normal
+        if (!hit) continue;  // from either side: slivers have no reliable normal
         depth.sum_mm += std::min(hit->distance_mm * cosine, settings.max_mm);
         ++depth.found;
     }
     return depth;
 }
 
-// One value a covered texel of a grid no finer than the rays need.
+// One value per covered texel of a grid that is no finer than needed.
 template <class Value>
 void trace_texels(const UvRaster& raster, const RayScene& rays, Image& image, const Progress01& progress,
                   Value value) {
@@ -113,7 +113,7 @@ void trace_texels(const UvRaster& raster, const RayScene& rays, Image& image, co
                 if (!texel.covered()) continue;
                 const Vec3 n_face = face_normal(rays.mesh(texel.object), texel.triangle);
                 SurfaceAttributes surface = rays.surface_at(texel.as_hit(n_face));
-                // A triangle can have an area in UV and none in space, as at the poles of a globe.
+                // A triangle can have an area in UV but none in space, as at the poles of a globe.
                 if (surface.n_face_world == Vec3{}) surface.n_face_world = surface.n_geometry_world;
                 values[i] = value(surface, hash_u32(uint32_t(i)));
             }

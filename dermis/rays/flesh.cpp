@@ -22,12 +22,12 @@ constexpr int kFleshVersion = 1;
 constexpr int kRays = 256;
 // Of kRays: what hidden parts grow over (2 %), and what a part enclosed by them may see at most (5 %).
 constexpr int kGrowRays = 5, kEnclosedRays = 12;
-// Enough to classify most rays of a hidden face.
+// A majority of them decides whether a hidden face is buried.
 constexpr int kBuriedRays = 31;
 // A hidden patch smaller than this share of the skin is the bottom of a crease, not a cavity.
 constexpr double kLeastCavityShare = 1e-4;
 
-// Triangles of one mesh, across whose edges one can step; UV seams do not separate.
+// The triangles of a mesh with their neighbours across edges; UV seams do not separate neighbours.
 class Neighbours {
   public:
     explicit Neighbours(const Mesh& mesh) {
@@ -55,7 +55,7 @@ class Neighbours {
     std::vector<Side> sides_;
 };
 
-// What a patch of connected triangles adds up to; patches are named by their lowest triangle.
+// Sums over patches of connected triangles; a patch has the number of its lowest triangle.
 struct Patches {
     std::vector<uint32_t> leader;
     std::vector<double> area_mm2;
@@ -69,7 +69,7 @@ struct Triangles {
     [[nodiscard]] size_t count() const { return skin.size(); }
 };
 
-// Patches of skin that is hidden alike.
+// Patches whose triangles are all hidden or all visible.
 Patches patches_of(const Triangles& triangles, const Neighbours& neighbours) {
     Patches patches{std::vector<uint32_t>(triangles.count()), std::vector<double>(triangles.count()),
                     std::vector<int>(triangles.count())};
@@ -100,7 +100,7 @@ void grow(Triangles& triangles, const Neighbours& neighbours) {
     }
 }
 
-// Rays from places all over a triangle, cosine-weighted.
+// Rays from points spread over a triangle, with cosine-weighted directions.
 class FaceRays {
   public:
     FaceRays(const RayScene& scene, uint32_t triangle) : seed_(triangle), lift_mm_(2 * scene.epsilon_mm()) {
@@ -132,7 +132,8 @@ class FaceRays {
     LocalFrame frame_;
 };
 
-// How many of kRays rays reach the outside. Stops once more than kEnclosedRays have: no more is asked.
+// How many of kRays rays reach the outside. Stops when more than kEnclosedRays have, because the exact number
+// is not needed.
 int open_rays(const RayScene& scene, uint32_t triangle) {
     const FaceRays rays(scene, triangle);
     int open = 0;
@@ -141,7 +142,7 @@ int open_rays(const RayScene& scene, uint32_t triangle) {
     return open;
 }
 
-// Whether most rays meet a face from its back: they run in flesh.
+// Whether most rays meet a face from its back, which means that they run inside flesh.
 bool is_buried(const RayScene& scene, uint32_t triangle) {
     const FaceRays rays(scene, triangle);
     int backs = 0;
@@ -169,7 +170,7 @@ Triangles measure(const SceneObject& object) {
     return triangles;
 }
 
-// Closes what `flesh.faces` leave open and adds up the areas.
+// Makes caps for the openings that `flesh.faces` leave, and sums the areas.
 void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
     std::vector<uint32_t> skin, boundary;
     for (uint32_t t = 0; t < triangles.count(); ++t) {
@@ -188,7 +189,7 @@ void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
     }
 }
 
-// Hides what the outside cannot see; steps of flesh.h in their order.
+// Hides what cannot be seen from outside: the steps of flesh.h, in their order.
 void hide(const Mesh& mesh, Triangles& triangles, const RayScene& rays) {
     parallel_for(triangles.count(), 64, [&](size_t begin, size_t end) {
         for (size_t t = begin; t < end; ++t)
@@ -209,7 +210,7 @@ void hide(const Mesh& mesh, Triangles& triangles, const RayScene& rays) {
     for (size_t t = 0; t < triangles.count(); ++t)
         if (triangles.hidden[t])
             triangles.hidden[t] = closed.area_mm2[closed.leader[t]] >= kLeastCavityShare * skin_mm2;
-    // All of it: the triangles turn the wrong way, which no cavity explains.
+    // All skin hidden: not a cavity, but triangles that wind the wrong way.
     if (triangles.hidden == triangles.skin) std::ranges::fill(triangles.hidden, 0);
 }
 
@@ -247,7 +248,7 @@ std::string content_hash(const SceneObject& object, Cavities cavities) {
     return hasher.hex();
 }
 
-// The stored form: the numbers, one byte a triangle, then the caps.
+// The stored form: the numbers, one byte per triangle, then the caps.
 struct Header {
     uint64_t triangles = 0, hidden = 0, caps = 0, openings = 0;
     double hidden_area_mm2 = 0, skin_area_mm2 = 0;

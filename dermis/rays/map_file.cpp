@@ -49,7 +49,7 @@ std::string sidecar_text(const BakedMap& map, const MapOrigin& origin) {
     return json.dump(2) + "\n";
 }
 
-// The 98th percentile of the absolute value: a few wild texels must not darken the rest.
+// The 98th percentile of the absolute value: a few outliers must not darken the rest.
 float full_scale(const BakedMap& map) {
     std::vector<float> values;
     const auto channels = size_t(map.values.channels);
@@ -62,7 +62,7 @@ float full_scale(const BakedMap& map) {
     return std::max(*at, 1e-12f);
 }
 
-// White at 0, and as light on both sides.
+// White at 0; equally light on both sides.
 Vec3 diverging(float t) {
     const Vec3 white{0.9f, 0.9f, 0.9f}, convex{0.6f, 0.04f, 0.03f}, concave{0.03f, 0.12f, 0.6f};
     const Vec3 end = t > 0 ? convex : concave;

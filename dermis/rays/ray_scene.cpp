@@ -38,7 +38,7 @@ bool belongs(RaySet set, MaterialClass material_class) {
     return material_class != MaterialClass::translucent;
 }
 
-// What is drawn stays whole.
+// The set of drawn surfaces keeps all faces.
 bool left_out(RaySet set, SkinFace face) {
     return (set == RaySet::skin && face != SkinFace::visible) ||
            (set == RaySet::flesh && face == SkinFace::cavity);
@@ -123,7 +123,7 @@ RayHit make_hit(const TriangleSet& set, float distance_mm, uint32_t geometry, ui
             .n_face = normalize(normal)};
 }
 
-// Embree calls the filter for every triangle the ray crosses; refusing each one makes it go on to the next.
+// Embree calls the filter for every triangle the ray crosses; rejecting each one makes it go on to the next.
 struct CollectContext {
     RTCIntersectContext embree;
     const TriangleSet* set;
@@ -167,7 +167,7 @@ struct RayScene::Impl {
         if (set.parts.empty()) return true;
         set.scene.reset(rtcNewScene(device.get()));
         rtcSetSceneFlags(set.scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-        // Not the high quality: its spatial splits would report a triangle twice to all_hits.
+        // Not high quality: its spatial splits report a triangle twice to all_hits.
         rtcSetSceneBuildQuality(set.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
         for (const Part& part : set.parts) {
             const Mesh& mesh = *meshes[part.object];
@@ -202,7 +202,7 @@ struct RayScene::Impl {
         }
         if (triangles == 0) return Error{"the scene has no triangle to trace rays against"};
         epsilon_mm = 2e-6f * extent_mm;
-        // The library's own thread pool ends the program where it gets no thread.
+        // Embree's thread pool ends the program when it cannot start a thread, so one is tried first.
         if (!can_start_thread())
             return Error{"no thread can be started; raise the limit on processes (ulimit -u)"};
         device.reset(rtcNewDevice(nullptr));
@@ -282,9 +282,6 @@ bool RayScene::has(RaySet which) const {
 }
 const Mesh& RayScene::mesh(uint32_t object) const {
     return *impl_->meshes[object];
-}
-size_t RayScene::object_count() const {
-    return impl_->meshes.size();
 }
 float RayScene::epsilon_mm() const {
     return impl_->epsilon_mm;

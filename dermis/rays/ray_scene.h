@@ -81,7 +81,6 @@ class RayScene {
     /// How far uv moves for a step within the plane of the triangle that was hit; zero without uvs.
     [[nodiscard]] Vec2 uv_step(const RayHit& hit, Vec3 step_mm) const;
     [[nodiscard]] const Mesh& mesh(uint32_t object) const;
-    [[nodiscard]] size_t object_count() const;
 
     struct Bounds {
         Vec3 min_mm, max_mm;

@@ -24,7 +24,7 @@ SurfaceAttributes RayScene::surface_at(const RayHit& hit) const {
         }
     }
     surface.n_geometry_world = dot(normal, normal) > 1e-12f ? normalize(normal) : hit.n_face;
-    // Each corner's tangent plane, where the point lies below it, pulls the point up to it.
+    // The point is moved up towards each corner's tangent plane that it lies below.
     surface.p_smooth_mm = surface.p_world_mm;
     if (!mesh.normals.empty())
         for (int i = 0; i < 3; ++i) {

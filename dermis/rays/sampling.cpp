@@ -64,11 +64,11 @@ float sample_exponential_mm(float u, float sigma_per_mm) {
 
 Vec3 sample_ggx_visible_normal(Vec2 u, Vec3 to_eye, float alpha) {
     // Stretched so that the surface has roughness 1, where visible normals project evenly onto a half disk
-    // that leans towards the eye.
+    // that is tilted towards the eye.
     const Vec3 stretched = normalize(Vec3{alpha * to_eye.x, alpha * to_eye.y, to_eye.z});
     const LocalFrame frame = frame_of(stretched);
     const float radius = std::sqrt(u.x), azimuth = 2 * kPi * u.y;
-    // The leaning axis must be the one in the plane of the normal: rebuild the base about it.
+    // The tilted axis must lie in the plane of the normal, so the frame is built from it.
     const float flat = stretched.x * stretched.x + stretched.y * stretched.y;
     const Vec3 t1 =
         flat > 1e-12f ? Vec3{-stretched.y, stretched.x, 0} * (1 / std::sqrt(flat)) : frame.tangent;

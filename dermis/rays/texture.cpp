@@ -8,7 +8,7 @@
 namespace dermis {
 namespace {
 
-// The channel of the image that stands in for red, green, blue or alpha; -1: nothing, take 1.
+// The channel of the image that is read as red, green, blue or alpha; -1: none, the value is 1.
 int source_channel(int channels, int wanted) {
     if (wanted == 3) return channels == 4 ? 3 : channels == 2 ? 1 : -1;
     return channels <= 2 ? 0 : wanted;
@@ -47,7 +47,8 @@ Texture::Texture(const Image& image) : channels_(image.channels), encoded_(image
         levels_.push_back(half_size(levels_.back()));
 }
 
-// An odd side loses its last row: half a texel of the level, where a GPU's blit would spread it over all.
+// An odd side loses its last row: half a texel of the level; a GPU's blit spreads the difference over all
+// rows.
 Texture::Level Texture::half_size(const Level& level) const {
     Level half{.width = std::max(level.width / 2, 1), .height = std::max(level.height / 2, 1)};
     const size_t count = size_t(half.width) * size_t(half.height);
@@ -89,7 +90,7 @@ Vec4 Texture::sample_level(const Level& level, Vec2 uv) const {
     const float x = (uv.x - std::floor(uv.x)) * float(level.width) - 0.5f;
     const float y = (uv.y - std::floor(uv.y)) * float(level.height) - 0.5f;
     const float x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
-    // uv of NaN or infinity would index anywhere: such a point reads the first texel.
+    // A uv of NaN or infinity reads the first texel instead of an arbitrary address.
     const auto wrapped = [](float at, int size) {
         const int i = at >= -1 && at <= float(size) ? int(at) : 0;
         return i < 0 ? i + size : i >= size ? i - size : i;

@@ -7,17 +7,17 @@ namespace dermis {
 namespace {
 
 bool within_unit(Vec2 uv) {
-    // A hair of slack: exporters round borders of an atlas.
+    // A small tolerance, since exporters round the borders of an atlas.
     return uv.x >= -1e-4f && uv.y >= -1e-4f && uv.x <= 1.0001f && uv.y <= 1.0001f;
 }
 
-// Twice the signed area of (a, b, p). Double: at 16384 texels floats would leave cracks.
+// Twice the signed area of (a, b, p). In double: at 16384 texels floats would leave gaps.
 double edge(const double (&a)[2], const double (&b)[2], double x, double y) {
     return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
 }
 
-// Of a triangle with positive area in a y-down raster: edges that run up, or to the right when level, own
-// their points.
+// Of a triangle with positive area in a y-down raster: edges that run up, or to the right when horizontal,
+// own their points.
 bool owns(const double (&a)[2], const double (&b)[2]) {
     return b[1] < a[1] || (b[1] == a[1] && b[0] > a[0]);
 }

@@ -34,7 +34,7 @@ std::string content_hash(std::span<const SceneObject> objects, const OcclusionSe
     return hasher.hex();
 }
 
-// Equal for vertices that only a UV seam tells apart.
+// Equal for vertices that differ only by a UV seam.
 uint32_t seed_of(Vec3 p_mm, Vec3 n) {
     uint32_t seed = 0;
     for (const float value : {p_mm.x, p_mm.y, p_mm.z, n.x, n.y, n.z})
@@ -62,7 +62,7 @@ std::vector<std::byte> pack(const std::vector<std::vector<float>>& objects) {
     return bytes;
 }
 
-// Nothing when the size is not that of these objects.
+// Empty when the size is not that of these objects.
 std::optional<std::vector<std::vector<float>>> unpack(std::span<const std::byte> bytes,
                                                       std::span<const SceneObject> objects) {
     std::vector<std::vector<float>> values;

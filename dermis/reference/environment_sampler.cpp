@@ -10,8 +10,8 @@
 namespace dermis {
 namespace {
 
-// Solid angle per unit of the uv square at this height: 2 pi wide, pi high, times the sine of the polar
-// angle.
+// Solid angle per unit of the uv square at this height: 2 pi wide, pi high, times the sine of the
+// polar angle.
 float uv_solid_angle(float v) {
     return 2 * kPi * kPi * std::max(std::sin(kPi * v), 1e-6f);
 }
@@ -64,7 +64,7 @@ EnvironmentSampler::Sample EnvironmentSampler::sample(Vec2 u) const {
     const double below = texel == 0 ? 0 : cumulative_[texel - 1];
     const auto share = float(cumulative_[texel] - below);
     const auto width = size_t(panorama_.width);
-    // What is left of u.x within the texel's share is a fresh uniform number.
+    // The remainder of u.x within the texel's share is uniform again.
     const float across = share > 0 ? std::clamp(float(u.x - below) / share, 0.0f, 1.0f) : 0.5f;
     const float uv_x = (float(texel % width) + across) / float(panorama_.width);
     const float uv_y = (float(texel / width) + u.y) / float(panorama_.height);

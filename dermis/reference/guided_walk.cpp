@@ -27,11 +27,11 @@ double diffusion_length_in_paths(double albedo) {
 }
 
 WalkGuide walk_guide(const ScatteringMedium& medium) {
-    // Directions that the phase function would hardly take waste the step.
+    // Directions that the phase function hardly ever takes would waste the step.
     WalkGuide guide{.chance = kGuidedChance * float(1 - std::abs(medium.g))};
     for (int c = 0; c < 3; ++c) {
-        // Paths of hundreds of collisions: their steps' weights multiply, and a few rare ones would carry the
-        // light.
+        // Over hundreds of collisions the weights of the steps multiply, so that a few paths would have most
+        // of the light.
         if (reduced_albedo(medium, c) > kMostAlbedo) guide.chance = 0;
         // The decay is that of the reduced medium, counted in mean free paths of this one.
         const double nu =

@@ -69,7 +69,7 @@ float specular_response(SpecularReflection model, Vec3 n, Vec3 to_eye, Vec3 to_l
     const double fresnel = fresnel_schlick(std::clamp(dot(h, to_eye), 0.0f, 1.0f), f0);
     const double alpha = double(roughness) * roughness;
     if (model == SpecularReflection::blinn_phong) {
-        // The renderer's: normalised to reflect all light at normal incidence (Hoffman 2010), exponent at
+        // As in the renderer: normalised to reflect all light at normal incidence (Hoffman 2010), exponent at
         // least 1.
         const double exponent = std::max(blinn_phong_exponent(alpha), 1.0);
         return float(fresnel * (exponent + 8) / (8 * std::numbers::pi) * std::pow(n_dot_h, exponent) *

@@ -11,14 +11,14 @@
 namespace dermis {
 namespace {
 
-// Renderer and ground truth keep roughness off zero alike, where a highlight would be a point.
+// The renderer's minimum of the roughness too: at 0 a highlight would be a point.
 constexpr float kLeastRoughness = 0.03f;
 
 Vec3 rgb(Vec4 v) {
     return {v.x, v.y, v.z};
 }
 
-// A factor that glTF keeps in alpha and others in red.
+// A factor that glTF stores in alpha and other formats in red.
 float factor(const Texture& map, const SurfaceAttributes& surface) {
     const Vec4 value = map.sample(surface.uv, surface.footprint);
     return map.channels() == 4 ? value.w : value.x;

@@ -20,8 +20,8 @@ constexpr float kDarkShare = 0.05f;
 // block means vary less than single samples suggest.
 constexpr uint32_t kBlock = 4;
 
-// Sums of squared differences from the mean, updated as Welford 1962 does, so that little noise on much light
-// does not drown in rounding.
+// Sums of squared differences from the mean, updated as in Welford 1962, so that small noise on bright light
+// is not lost in rounding.
 struct Spread {
     Vec3 mean, squares;
     float luminance_squares = 0;
@@ -37,7 +37,7 @@ struct Spread {
     [[nodiscard]] float per_mean() const { return count < 2 ? 0 : 1 / (float(count) * float(count - 1)); }
 };
 
-// One pixel so far.
+// The samples of one pixel so far.
 struct PixelState {
     Spread samples, blocks;
     Vec3 block_sum, diffuse, specular;
@@ -103,9 +103,8 @@ double root_mean_square(const std::vector<float>& errors) {
     return count > 0 ? std::sqrt(sum / double(count)) : 0;
 }
 
-// Sampling of a pixel stops when its error and its eight neighbours' are small enough: a pixel whose error
-// is underestimated by chance has worse
-// neighbours.
+// Sampling of a pixel stops when its error and its eight neighbours' are small enough: where a pixel's error
+// is underestimated by chance, its neighbours' are not.
 void let_rest(Canvas& canvas, const std::vector<float>& errors, double wanted) {
     for (int y = 0; y < canvas.height; ++y)
         for (int x = 0; x < canvas.width; ++x) {
@@ -203,8 +202,8 @@ Result<void> check_settings(const ReferenceSettings& s) {
     return {};
 }
 
-// How far the work is: by passes, or by how near the error has come when it falls as one over the root of the
-// work.
+// The part of the work that is done: by passes, or by the error, which falls as one over the square root of
+// the work.
 double share_done(const ReferenceSettings& settings, int pass, double error) {
     const double by_passes = double(pass) / settings.samples;
     if (!settings.noise || error <= 0 || pass < 2) return by_passes;

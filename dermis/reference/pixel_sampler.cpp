@@ -138,7 +138,7 @@ Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footpr
     }
     const Receiver receiver{point.p_smooth_mm, point.n_geometry, point.n, point.occlusion};
     if (!skin) return lighting_.irradiance(receiver, random);
-    // Width 0. Beside an integral over many probes a single ray into a penumbra would be most of the noise.
+    // For a width of 0: with a single ray per sample the penumbra would be most of the noise.
     constexpr int kProbesARay = 4;
     const bool exact =
         lighting_.settings().penumbra_mm == 0 && lighting_.settings().ambient == AmbientModel::renderer;

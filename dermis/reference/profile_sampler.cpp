@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kCells = 2048;
 constexpr double kLeftOut = 1e-5;
-// Smallest radius told apart, as a part of the largest; Burley's peak below it is flat.
+// The smallest radius as a part of the largest; below it Burley's peak counts as flat.
 constexpr double kLeastRatio = 1e-6;
 
 bool reflects(const Profile& profile, int channel) {

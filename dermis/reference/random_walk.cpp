@@ -9,8 +9,7 @@
 namespace dermis {
 namespace {
 
-// Throughput below which roulette begins; keeps the work on paths that matter without making rare bright
-// ones.
+// Throughput below which roulette begins: saves work on dim paths without making rare bright ones.
 constexpr float kRouletteBelow = 0.1f;
 constexpr int kMostEntryTries = 256;
 

@@ -44,7 +44,7 @@ Result<SplitSumReflection> SplitSumReflection::load(const Environment& environme
 
 Vec3 SplitSumReflection::texel(int level, int face, int x, int y) const {
     const int size = light_.base_size >> level;
-    // Across an edge the neighbouring face is read, as Vulkan filters cubes.
+    // Beyond an edge the neighbouring face is read, as Vulkan filters cubes.
     if (x < 0 || y < 0 || x >= size || y >= size) {
         const CubePoint p = cube_point(
             cube_direction(face, (float(x) + 0.5f) / float(size), (float(y) + 0.5f) / float(size)));

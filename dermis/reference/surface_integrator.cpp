@@ -10,7 +10,7 @@
 namespace dermis {
 namespace {
 
-// Chances of the disk's axis: the normal, and two tangents for what the normal's probes pass at a flat angle.
+// Probabilities of the disk's axis: the normal, and two tangents for surfaces nearly parallel to the normal.
 constexpr float kNormalChance = 0.5f, kTangentChance = 0.25f;
 constexpr size_t kMostHits = 32;
 // Russian roulette: a point whose weight is less than this many times the typical weight is evaluated with
@@ -28,13 +28,13 @@ Vec3 quotient(Vec3 a, Vec3 b) {
     return {quotient(a.x, b.x), quotient(a.y, b.y), quotient(a.z, b.z)};
 }
 
-// The quotient of both halves together, less the bias that the halves alone show twice. A half whose probes
-// all missed says nothing: then the plain quotient stands.
+// The quotient of both halves together, less its bias, which is twice as large in each half alone. Where all
+// probes of a half missed, the plain quotient is used.
 float jackknife(float all, float first, float second, float first_weight, float second_weight) {
     return first_weight > 0 && second_weight > 0 ? 2 * all - 0.5f * (first + second) : all;
 }
 
-// The axis of the disk first, then two that span it.
+// First the axis of the disk, then the two directions that span it.
 LocalFrame probe_frame(const LocalFrame& frame, float u) {
     if (u < kNormalChance) return frame;
     if (u < kNormalChance + kTangentChance) return {frame.bitangent, frame.normal, frame.tangent};
@@ -92,7 +92,7 @@ void SurfaceIntegrator::probe(const DiffusePoint& point, const LocalFrame& frame
 Vec3 SurfaceIntegrator::exitance(const DiffusePoint& point, uint32_t seed) const {
     const LocalFrame frame = frame_of(point.n_geometry);
     Sums half[2];
-    // Neighbours of the sequence go to different halves, so that both cover the domain evenly.
+    // Neighbours in the sequence go to different halves, so that both cover the domain evenly.
     for (int i = 0; i < settings_.probes; ++i) probe(point, frame, seed, uint32_t(i), half[i & 1]);
     const Sums all{half[0].irradiance + half[1].irradiance, half[0].reflectance + half[1].reflectance};
     if (settings_.normalisation == Normalisation::none)

@@ -7,9 +7,9 @@
 namespace dermis {
 namespace {
 
-// The triangles that bound the flesh. Where parts of it overlap (lids that cross, a nose set into a face) all
-// of them are one body: only a face that leads out of the last one is its boundary. Remembers the last face
-// met, for its attributes, and whether the path is at a face; one path uses one boundary.
+// The triangles that bound the flesh. Parts that overlap (lids that cross, a nose set into a face) count as
+// one body: only a face that leads out of the last part is its boundary. Remembers the last face met, for its
+// attributes, and whether the path is at a face; one path uses one boundary.
 class FleshBoundary {
   public:
     explicit FleshBoundary(const RayScene& rays)
@@ -25,13 +25,13 @@ class FleshBoundary {
                 last_ = *hit;
                 return BoundaryHit{hit->distance_mm, hit->n_face, hit->object == kCapObject};
             }
-            // A path that starts at a face may by rounding start just before it: that is no way in.
+            // A path that starts at a face may, by rounding, start just before it: it does not enter there.
             const bool rounding = cosine <= 0 && -cosine * hit->distance_mm < rounding_mm_;
             if (!rounding) bodies_ += cosine > 0 ? -1 : 1;
             from_mm = std::nextafter(hit->distance_mm, max_mm);
         }
-        // Past the box the path came out where no face was: a boundary met from its back, which ends it as
-        // lost.
+        // Outside the box the path left where there is no face: a boundary met from its back, which ends it
+        // as lost.
         if (!inside_box(p_mm + direction * max_mm)) return BoundaryHit{max_mm, -direction};
         return std::nullopt;
     }

@@ -17,7 +17,7 @@ std::string percent(double share) {
     return to_text(rounded > 0 ? rounded : 0.1) + " %";
 }
 
-// What one skin material says about its UVs; empty when they are fine.
+// The warning about the UVs of one skin material; empty when they are fine.
 std::string tiles_warning(const Mesh& mesh, const Submesh& submesh) {
     const uint32_t count = submesh.index_count / 3;
     std::vector<int> tiles;

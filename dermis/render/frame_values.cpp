@@ -36,7 +36,8 @@ Mat4 light_matrix(const Light& light, Vec3 center_mm, float radius_mm) {
     const Vec3 eye_mm = light.position_mm;
     const float distance_mm = std::max(length(eye_mm - center_mm), 1e-3f);
     const Vec3 direction = (eye_mm - center_mm) * (1 / distance_mm);
-    // The cone that touches the sphere; a light inside it sees at most 150 degrees.
+    // The cone around the bounding sphere, at most 150 degrees wide, also for a light near or inside the
+    // sphere.
     const float sine = std::min(radius_mm / distance_mm, 0.966f);
     const float near_mm = std::max(distance_mm - radius_mm, 0.01f * distance_mm);
     return perspective(2 * std::asin(sine), 1.0f, near_mm, distance_mm + radius_mm) *

@@ -43,7 +43,7 @@ std::string settings_key(const Technique& technique, const ParameterValues& valu
     return hasher.hex();
 }
 
-// What the light on the surface depends on, beside the scene's objects.
+// Everything that the light on the surface depends on, except the scene's objects.
 std::string light_key(const Technique& technique, const ParameterValues& values, const DrawSettings& settings,
                       const Scene& scene) {
     Hasher hasher;
@@ -56,7 +56,7 @@ std::string light_key(const Technique& technique, const ParameterValues& values,
     return hasher.hex();
 }
 
-// The lights with a map beside the first one.
+// The light of each shadow map after the first.
 std::vector<int> lights_by_shadow_map(const Scene& scene) {
     const std::vector<int> maps = scene.shadow_maps();
     std::vector<int> lights;
@@ -122,7 +122,7 @@ Result<void> Renderer::prepare_tables(const Technique& technique, const Paramete
 }
 
 Result<void> Renderer::prepare_legend(const std::string& view) {
-    // Views without a scale declare the texture too; any will do for them.
+    // Views without a scale declare the texture too, but do not read it.
     if (legend_ && (!has_legend(view) || view == legend_view_)) return {};
     const Result<Image> ink = make_legend(view);
     if (!ink) return ink.error().within("view " + view);

@@ -52,8 +52,6 @@ class Renderer {
     /// Warnings about wrong pictures, found when a technique first asked for it; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
-    /// The last frame's list, whole.
-    [[nodiscard]] const PassList& pass_list() const { return list_; }
     gpu::Executor& executor() { return executor_; }
 
   private:

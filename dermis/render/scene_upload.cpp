@@ -14,7 +14,7 @@
 namespace dermis {
 namespace {
 
-// The same image taken for the same use is one texture, however many materials name it.
+// One texture for each image and use, even if several materials name it.
 std::string texture_key(const MaterialMap& map, const Material& material) {
     const ImageSource* source = map_source(map, material);
     if (!source) return map.texture;
@@ -29,13 +29,13 @@ std::span<const float> floats_of(const auto& attribute) {
             attribute.size() * sizeof(Element) / sizeof(float)};
 }
 
-// Missing attributes get values that change nothing.
+// Missing attributes get neutral values.
 template <class T>
 std::vector<T> filled(const std::vector<T>& attribute, size_t count, T neutral) {
     return attribute.size() == count ? attribute : std::vector<T>(count, neutral);
 }
 
-// Where a mesh has no tensors it bends alike in all directions.
+// A mesh without tensors has the same curvature in all directions.
 std::vector<CurvatureTensor> curvature_tensors(const Mesh& mesh, const std::vector<Vec3>& normals) {
     if (mesh.curvature_tensors_per_mm.size() == normals.size()) return mesh.curvature_tensors_per_mm;
     const auto curvatures = filled(mesh.curvatures_per_mm, normals.size(), 0.0f);
@@ -135,7 +135,7 @@ bool SceneOnDevice::has(gpu::DrawClass wanted) const {
     return std::ranges::any_of(draws_, [&](const gpu::Draw& draw) { return draw.draw_class == wanted; });
 }
 
-// Decoding dominates, so all maps decode at once; uploads follow one by one.
+// Decoding takes most of the time, so all maps are decoded in parallel, then uploaded one by one.
 Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene) {
     struct Job {
         std::string key;
@@ -193,7 +193,7 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
     return {};
 }
 
-// The draws stand in the order in which upload_objects made them.
+// The draws are in the order in which upload_objects made them.
 void SceneOnDevice::update_materials(const Scene& scene) {
     auto draw = draws_.begin();
     for (const SceneObject& object : scene.objects)

@@ -49,7 +49,7 @@ struct AreaSample {
     float value = 0, area_mm2 = 0;
 };
 
-// The value that `share` of the area does not exceed; 0 without samples.
+// The value that is not exceeded on `share` of the area; 0 without samples.
 float quantile(std::vector<AreaSample>& samples, double share) {
     double total = 0, sum = 0;
     for (const AreaSample& sample : samples) total += double(sample.area_mm2);

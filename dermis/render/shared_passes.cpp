@@ -17,7 +17,7 @@ Pass shadow_pass(int index, int light) {
             .constants = {{"from_light", int32_t(light)}}};
 }
 
-// What is translucent before the first opaque surface.
+// Translucent surfaces in front of the first opaque one.
 Pass shadow_tint_pass(int index, int light) {
     return {.name = "translucent shadow" + (index > 0 ? " " + std::to_string(index) : ""),
             .kind = PassKind::geometry_light,
@@ -45,7 +45,7 @@ void add_shadows(PassList& list, const SharedPassSettings& settings) {
     }
 }
 
-// Clears depth on its way, so that every later pass loads both.
+// Also clears depth, so that every later pass loads both.
 Pass background_pass() {
     return {.name = "background",
             .kind = PassKind::fullscreen,
@@ -65,7 +65,8 @@ Pass other_pass(const SharedPassSettings& settings) {
     return pass;
 }
 
-// Glass: what lies behind is multiplied, then what the glass reflects is added. Neither minds the order.
+// Glass: multiplies what is behind it by the transmittance, then adds the reflection. The order of several
+// surfaces does not matter within each pass.
 std::vector<Pass> translucent_passes(const SharedPassSettings& settings) {
     constexpr uint32_t kColor = 7;
     const DepthTarget tested = {.image = "depth", .load = LoadOp::load, .write = false};

@@ -15,7 +15,7 @@ namespace dermis {
 
 namespace {
 
-// A half vector with the density of what `v` sees of a GGX surface (Heitz 2018, "Sampling the GGX
+// A half vector with the density of the GGX normals visible from `v` (Heitz 2018, "Sampling the GGX
 // Distribution of Visible Normals", section 3): stretch to a hemisphere, sample its disk as seen from v,
 // stretch back.
 Vec3 sample_visible_half_vector(Vec2 xi, Vec3 v, float alpha) {

@@ -1,4 +1,4 @@
-// A description to a scene: load the meshes, place them, give their materials what the file says.
+// From a description to a scene: load the meshes, place them, set their materials.
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
     return made;
 }
 
-// Each map of the description, and where it goes in a material.
+// Each map of the description, and its member of a material.
 struct MapRow {
     NamedFile MapsDescription::*from;
     ImageSource Material::*to;
@@ -98,7 +98,7 @@ Result<void> apply_maps(const SceneDescription& description, const MapsDescripti
             if (Result<void> known = check_curvature_unit(description, maps, *path); !known) return known;
         material.*row.to = {.name = path->string(), .encoded = {}};
     }
-    // A map multiplies the constant beside it; the grey that mesh files leave there is no tint.
+    // A map multiplies the constant beside it; the grey that mesh files write there is not meant as a tint.
     if (maps.albedo.given()) material.base_color_linear = {1, 1, 1};
     assign(maps.normal_space, material.normal_space);
     assign(maps.normal_scale, material.normal_scale);
@@ -135,7 +135,7 @@ Result<void> apply_material(const SceneDescription& description, const MaterialD
     return {};
 }
 
-// The objects go to the scene; what else a subject states is returned.
+// Adds the objects to the scene; returns what else a subject states.
 Result<SubjectScene> add_objects(const SceneDescription& description, const MeshDescription& mesh,
                                  std::span<const Subject> subjects, Scene& scene) {
     Result<SubjectScene> made = load_objects(description, mesh, subjects, scene);

@@ -9,7 +9,8 @@
 namespace dermis {
 namespace {
 
-// Looking along `up` leaves the roll open: then the world axis that is farthest from the view stands in.
+// Where the view is along `up`, the roll is undefined: then the world axis farthest from the view replaces
+// it.
 Vec3 usable_up(Vec3 forward, Vec3 up) {
     if (length(cross(forward, normalize(up))) > 1e-4f) return up;
     return std::abs(forward.z) < 0.7f ? Vec3{0, 0, -1} : Vec3{0, 1, 0};

@@ -89,7 +89,7 @@ CubePyramid::CubePyramid(const Image& panorama, int size) {
     for (Level& level : levels_) level.fill_borders();
 }
 
-// Means weighted by solid angle, so that light in a corner counts no more than elsewhere. `solid_angles`
+// Means weighted by solid angle, because texels in a corner are smaller. `solid_angles`
 // become those of the new level.
 CubePyramid::Level CubePyramid::half_size(const Level& level, std::vector<float>& solid_angles) {
     Level half(level.size / 2);
@@ -108,8 +108,8 @@ CubePyramid::Level CubePyramid::half_size(const Level& level, std::vector<float>
     return half;
 }
 
-// A border texel takes the nearest texel of the face its direction lies on; in a corner, where three
-// texels meet, the mean of the three.
+// A border texel copies the nearest texel of the neighbouring face; in a corner, where three texels meet, it
+// is the mean of the three.
 void CubePyramid::Level::fill_borders() {
     const auto neighbour = [&](int face, int x, int y) {
         const CubePoint p = cube_point(

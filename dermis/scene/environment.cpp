@@ -19,7 +19,7 @@ namespace {
 // Raise with every change to the studio, the prefilter or the layout of what is cached.
 constexpr uint32_t kVersion = 1;
 constexpr int kPanoramaWidth = 1024;
-constexpr int kStudioWidth = 512;  // its boxes are smooth
+constexpr int kStudioWidth = 512;  // enough: its lights have soft edges
 
 Result<Image> decode_panorama(std::span<const std::byte> bytes, const std::filesystem::path& file) {
     const Result<LoadedImage> loaded = decode_image(bytes, file.string(), ImageUse::data);

@@ -31,7 +31,7 @@ Result<SceneDescription> read_description(const fs::path& path, const SceneOptio
     return description;
 }
 
-// Only a scene file has these keys; a wrong one is told all the same.
+// Only a scene file has these keys; an unknown one is reported as such first.
 Result<void> refuse_words(const std::string& name, const SceneOptions& options) {
     if (options.words.empty()) return {};
     SceneDescription any{.meshes = {{.file = {.text = name}}}};
@@ -57,7 +57,7 @@ Result<Scene> load_scene_file(const fs::path& path, const SceneOptions& options)
     return instead;
 }
 
-// In a mesh that says which of its materials scatter, those are the skin; otherwise everything is.
+// Where a mesh states which of its materials scatter, those are skin; otherwise all are.
 std::vector<MaterialClass> classes_of(const std::vector<Material>& materials) {
     const auto scatters = [](const Material& m) { return m.scattering.has_value(); };
     const bool stated = std::ranges::any_of(materials, scatters);

@@ -52,7 +52,7 @@ const Light& Scene::key_light() const {
 
 std::vector<int> Scene::shadow_maps() const {
     std::vector<int> maps(lights.size(), -1);
-    // Map 0 is the key light's, whether it casts a shadow or not.
+    // Map 0 is reserved for the key light, even if it casts no shadow.
     int used = 0, next = 1;
     for (size_t i = 0; i < lights.size(); ++i)
         if (lights[i].is_key && lights[i].casts_shadow && used < shadow_map_budget) maps[i] = 0, ++used;

@@ -12,8 +12,8 @@
 namespace dermis {
 namespace {
 
-// Rough levels have few texels and wide lobes: more samples there cost little and keep each one's footprint
-// small.
+// Rough levels have few texels and wide lobes: more samples there cost little and keep each sample's
+// footprint small.
 constexpr uint32_t samples_for(int mip) {
     return mip == 1 ? 256 : mip == 2 ? 512 : 1024;
 }
@@ -72,7 +72,7 @@ std::vector<std::byte> prefilter_ggx(const CubePyramid& environment, int base_si
         const float roughness = mips > 1 ? float(mip) / float(mips - 1) : 0;
         std::vector<LobeSample> samples;
         if (mip > 0) samples = lobe_samples(roughness, samples_for(mip), environment);
-        // The mirror level is the environment itself, at the level of its own resolution.
+        // Roughness 0 reads the environment itself, at the level with the target's resolution.
         const float mirror_level = std::log2(float(environment.size()) / float(size));
         parallel_for(size_t(6 * size), 1, [&](size_t begin, size_t end) {
             for (size_t row = begin; row < end; ++row)

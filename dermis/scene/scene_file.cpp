@@ -1,4 +1,4 @@
-// TOML to a description: walk the tree, look every key up in its section's table, check, set.
+// From TOML to a description: looks every key up in its section's table, checks and sets it.
 
 #include <algorithm>
 #include <set>
@@ -41,7 +41,7 @@ Result<void> read_table(const TomlNode& root, const std::string& name, const Key
     return read_section(*table, path, keys, target, place);
 }
 
-// Its own keys first: `file` says whose parameters the others are.
+// `file` first: it decides whose parameters the other keys are.
 Result<void> read_mesh(const TomlNode& section, std::span<const Subject> subjects, MeshDescription& mesh,
                        const TomlPlace& place) {
     for (const bool own : {true, false})

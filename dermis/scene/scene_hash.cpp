@@ -17,7 +17,7 @@ void add_all(Hasher& hasher, const std::vector<T>& values) {
     hasher.add(std::as_bytes(std::span(values)));
 }
 
-// Pixels and embedded bytes as they are, files by what is in them.
+// Pixels and embedded bytes, and files by their content.
 Result<void> add(Hasher& hasher, const ImageSource& source) {
     hasher.add(source.present());
     if (!source.present()) return {};
@@ -64,7 +64,7 @@ void add(Hasher& hasher, const Light& light) {
     add(hasher, light.position_mm);
     hasher.add(light.kind).add(light.intensity).add(light.inner_angle_rad).add(light.outer_angle_rad);
     hasher.add(light.is_key);
-    // Only what differs from a scene with one light, so that its cached ground truth is found.
+    // Only where it is not the default, so that the hash of older scenes with one light stays the same.
     if (light.casts_shadow != light.is_key) hasher.add("shadow").add(light.casts_shadow);
 }
 
@@ -75,7 +75,7 @@ void add(Hasher& hasher, const Camera& camera) {
     hasher.add(camera.vertical_fov_rad).add(camera.near_mm).add(camera.far_mm);
 }
 
-// All but the objects and the panorama.
+// Everything but the objects and the panorama.
 void add_views(Hasher& hasher, const Scene& scene) {
     for (const Light& light : scene.lights) add(hasher, light);
     if (scene.shadow_map_budget != Scene{}.shadow_map_budget)

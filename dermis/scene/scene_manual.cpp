@@ -1,4 +1,4 @@
-// docs/scene_file.md out of the rows that parse: the manual cannot say what the program does not do.
+// docs/scene_file.md, printed from the rows that the parser uses.
 
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_keys.h"

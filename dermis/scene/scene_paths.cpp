@@ -24,7 +24,7 @@ fs::path data_directory() {
     return {};
 }
 
-// What `cmake --install` puts beside the program; empty when this one is not installed.
+// The data folder that `cmake --install` puts beside the program; empty when the program is not installed.
 fs::path installed_data() {
     std::error_code ec;
     const fs::path program = fs::read_symlink("/proc/self/exe", ec);

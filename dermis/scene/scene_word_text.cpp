@@ -1,4 +1,4 @@
-// A loaded scene as words: describe it, read every row of the tables back.
+// A loaded scene as --scene words: describe it, then print every row of the tables.
 
 #include <cmath>
 
@@ -10,11 +10,11 @@
 namespace dermis {
 namespace {
 
-// The keys of a light's short text; the window changes no others.
+// The keys of a light's short form; the window changes no others.
 constexpr const char* kLightKeys[] = {"yaw_deg", "pitch_deg", "intensity", "color", "distance_mm"};
 constexpr const char* kCameraKeys[] = {"yaw_deg", "pitch_deg", "distance_mm", "fov_deg", "target_mm"};
 
-// Rounded, so that 20 degrees do not come back as 19.999998.
+// Rounded, so that 20 degrees are not printed as 19.999998.
 std::string number_text(double value) {
     const double rounded = std::round(value * 1e4) / 1e4;
     return to_text(rounded == 0 ? 0.0 : rounded);

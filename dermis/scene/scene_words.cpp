@@ -15,8 +15,8 @@ namespace {
 constexpr std::string_view kSections[] = {"mesh",  "maps",        "material", "skin",
                                           "light", "environment", "camera",   "settings"};
 
-// "light.key.intensity": the section, which of its tables, and the key. Names of lights and materials may
-// have dots.
+// "light.key.intensity": the section, the name of one of its tables, and the key. Names of lights and
+// materials may contain dots.
 struct Address {
     std::string section, which, key;
 
@@ -29,7 +29,7 @@ struct Address {
     }
 };
 
-// A word's value in the kind that its key wants, so that the file's checks read it.
+// A word's value as the TOML type of its key, so that the checks of the file apply to it.
 TomlNode word_node(std::string_view text, const KeyInfo& info) {
     TomlNode node{.kind = TomlKind::string, .text = std::string(text)};
     if (info.kind == KeyKind::file && text.find(':') == text.npos && !text.empty())
@@ -127,8 +127,8 @@ void take_change(const Value& before, const Value& after, Value& value) {
     if (!(before == after)) value = after;
 }
 
-// What differs between two scenes that came out of descriptions, so that the rest keeps its bits: on the way
-// through degrees a camera would move.
+// Copies only what differs between two scenes made from descriptions. The rest stays bit-equal: converted to
+// degrees and back, a camera would move.
 void take_changes(const Scene& before, const Scene& after, Scene& scene) {
     take_change(before.camera.eye_mm, after.camera.eye_mm, scene.camera.eye_mm);
     take_change(before.camera.target_mm, after.camera.target_mm, scene.camera.target_mm);
@@ -223,7 +223,7 @@ Result<void> set_words(Scene& scene, std::span<const SceneWord> words) {
     if (Result<void> checked = check_views(after); !checked) return checked;
     if (const auto known = find_profile(after.skin.profile); !known)
         return Error{"skin.profile: " + known.error().message};
-    // The panorama of an environment that no word changes may have gone.
+    // The panorama is read again only if a word changed it: its file may have been removed.
     const bool turned = after.environment->yaw_deg != before.environment->yaw_deg;
     before.environment.reset();
     if (!environment) after.environment.reset();

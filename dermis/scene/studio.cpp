@@ -30,8 +30,8 @@ float smooth_step(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-// Where the direction meets the box's plane at distance 1, over its half sides: -1..1 inside. The cloth is
-// brightest in the middle, where the lamp is, and its edge is as soft as a tenth of the box.
+// The point where the direction meets the box's plane at distance 1, divided by its half sides: -1..1 inside.
+// The cloth is brightest in the middle; the edge is soft over a tenth of the box.
 float box_shape(const SoftBox& box, Vec3 d) {
     const Vec3 axis =
         direction_from_yaw_pitch(box.yaw_deg * kRadiansPerDegree, box.pitch_deg * kRadiansPerDegree);
@@ -45,7 +45,7 @@ float box_shape(const SoftBox& box, Vec3 d) {
     return edge * (1.15f - 0.3f * std::min((a * a + b * b) / 2, 1.0f));
 }
 
-// A grey room: dark floor with a warm bounce, walls that fade upwards.
+// A grey room: dark floor with warm reflected light, walls that get darker upwards.
 Vec3 room_radiance(Vec3 d) {
     const Vec3 floor = {0.045f, 0.040f, 0.036f}, wall = {0.085f, 0.087f, 0.092f},
                ceiling = {0.050f, 0.052f, 0.056f};

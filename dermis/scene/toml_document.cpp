@@ -1,7 +1,7 @@
-// Debian 12's toml++ 3.3.0 cannot be trusted with malformed files: it asserts on some headers ("[ ="), takes
-// the assertion as a promise to the compiler when NDEBUG is set, and reaches a branch it calls unreachable
-// when a letter like U+00E9 stands outside of quotes. So this file is compiled without NDEBUG, assertions
-// throw, and the text is parsed with every byte beyond ASCII spelled in ASCII (see escape_bytes).
+// Debian 12's toml++ 3.3.0 fails on some malformed files: it asserts on some headers ("[ ="), has undefined
+// behaviour there when NDEBUG is set, and reaches a branch declared unreachable when a letter like U+00E9 is
+// outside of quotes. So this file is compiled without NDEBUG, assertions throw, and bytes beyond ASCII are
+// escaped before parsing (see escape_bytes).
 
 #include "dermis/scene/toml_document.h"
 
@@ -27,7 +27,7 @@ namespace {
 constexpr char kEscape = '~';
 
 // "~" and two hexadecimal digits for every byte beyond ASCII and for "~" itself. TOML allows "~" in strings
-// and comments only, as it allows what it stands for.
+// and comments only, as it does the bytes that it replaces.
 std::string escape_bytes(std::string_view text) {
     constexpr char kDigits[] = "0123456789abcdef";
     std::string escaped;
@@ -109,8 +109,8 @@ bool asserts(std::string_view text) {
     return false;
 }
 
-// An assertion does not say where. The parser reads from the front, so exactly the prefixes that reach the
-// line assert.
+// An assertion does not state its line. The parser reads from the front, so that exactly the prefixes that
+// contain the line assert.
 int asserting_line(std::string_view text) {
     std::vector<size_t> ends;
     for (size_t i = 0; i < text.size(); ++i)

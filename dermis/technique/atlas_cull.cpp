@@ -13,7 +13,7 @@ Vec3 circle(const UvCircle& c) {
     return {c.u, c.v, c.radius};
 }
 
-// Grows the tiles of `image` by way of `other`; they end in `image`.
+// Grows the tiles of `image`, with `other` for the step between; the result is in `image`.
 void add_growth(PassList& list, const std::string& image, const std::string& other, int tiles,
                 const std::string& suffix) {
     for (const bool across : {true, false})
@@ -53,7 +53,7 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings) {
                            .colors = {{.image = "atlas_tiles", .load = LoadOp::discard}}});
     const int grow = in_tiles(settings.reach_texels);
     add_growth(list, "atlas_tiles", "atlas_tiles_grown", grow, "");
-    // What is needed beyond a seam: the gutters that hold it, and light goes as far again.
+    // Light from across a seam is in gutters: their tiles are needed too, and those in reach of them.
     if (settings.across_seams) {
         list.passes.push_back({.name = "cull seams",
                                .kind = PassKind::fullscreen,

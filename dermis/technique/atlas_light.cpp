@@ -6,7 +6,7 @@
 namespace dermis {
 namespace {
 
-// Blurs in texels tell by alpha 1 what was never written; blurs in mm by alpha 0.
+// Alpha of texels that were never written: 1 for blurs in texels, 0 for blurs in mm.
 std::array<float, 4> nothing_written(bool in_mm) {
     return {0, 0, 0, in_mm ? 0.0f : 1.0f};
 }

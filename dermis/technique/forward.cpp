@@ -20,7 +20,7 @@ std::string shadow_image(std::string_view name, int index) {
     return std::string(name) + (index > 0 ? "_" + std::to_string(index) : "");
 }
 
-// Something must be bound where the shader, by the light's index, never looks.
+// Textures that no light uses must be bound to something too.
 void read_shadows(Pass& pass, int shadow_map_count, bool has_translucent) {
     for (int i = 0; i < kMaxShadowMaps; ++i) {
         const bool exists = i < shadow_map_count;

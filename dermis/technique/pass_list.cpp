@@ -35,7 +35,7 @@ std::string size_text(const ImageSize& size) {
     return size.frame_scale == 1 ? "frame" : "frame x " + to_text(size.frame_scale);
 }
 
-// Walks the passes in order, remembering what has been written so far.
+// Checks the passes in order and keeps the names of the images written so far.
 class Checker {
   public:
     Checker(const PassList& list, const std::vector<std::string>& inputs)

@@ -8,15 +8,15 @@ namespace {
 constexpr uint32_t kRedBit = 1, kGreenBit = 2, kBlueBit = 4, kAlphaBit = 8;
 constexpr const char* kMap = "shadow_channels";
 
-// What one light puts where.
+// The channels and images of one light.
 struct LightChannels {
     std::string suffix, depth_image, vertex_shader;
     uint32_t opacity = 0, depth = 0;
 };
 
 Pass depth_pass(const LightChannels& light, LoadOp load, bool draws_depth) {
-    // The key light's depth image is the frame's shadow map: what is equal in it is what the light sees
-    // first.
+    // The key light's depth image is the frame's shadow map: points that are equal to it are those that the
+    // light reaches first.
     return {.name = "shadow channels" + light.suffix,
             .kind = PassKind::geometry_light,
             .shader = "atlas/shadow_channels_depth.frag",
@@ -74,7 +74,7 @@ void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, 
 void read_shadow_channels(Pass& pass, const ShadowChannelSettings& settings, const FrameContext& frame) {
     const ShadowChannels channels = shadow_channels_of(settings, frame);
     read_shadows(pass, frame.shadow_map_count, frame.has_translucent);
-    // Something must be bound even where the shader, by its constants, never looks.
+    // A texture that the constants switch off must be bound to something too.
     pass.reads.emplace_back("shadow_channels",
                             channels == ShadowChannels::none ? "no_image" : "shadow_channels");
     pass.constants.emplace_back("channels", int32_t(channels));

@@ -52,6 +52,15 @@ struct TableImage {
     std::vector<std::byte> bytes;
 };
 
+/// `texels`, floats or arrays of floats, as a table of `height` rows.
+template <class T>
+[[nodiscard]] TableImage table_image(std::string name, int height, const std::vector<T>& texels,
+                                     ImageFormat format = ImageFormat::rgba32f) {
+    const auto bytes = std::as_bytes(std::span(texels));
+    const int width = int(bytes.size() / bytes_per_texel(format)) / height;
+    return {std::move(name), format, width, height, {bytes.begin(), bytes.end()}};
+}
+
 struct Technique {
     std::string id;
     std::string summary;  ///< one line

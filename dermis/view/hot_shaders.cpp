@@ -5,7 +5,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kFolders[] = {"shaders", "techniques"};
-constexpr const char* kFrame = "frame";  // the key of errors that are no single shader's
+constexpr const char* kFrame = "frame";  // the key of errors of several shaders together
 
 // "folder/name.frag", as pass lists have it; empty for a file outside.
 std::string shader_name(const fs::path& root, const fs::path& file) {
@@ -72,7 +72,7 @@ void HotShaders::confirm() {
 
 bool HotShaders::take_back(const std::string& message) {
     if (compiled_ == confirmed_) return false;
-    // What is taken back counts as tried, so that it waits for its next change.
+    // A version that was taken back is not tried again before its next change.
     for (const auto& [name, words] : compiled_)
         if (!confirmed_.contains(name)) {
             const Result<Words> built_in = embedded_(name);

@@ -67,7 +67,7 @@ struct Interface::State {
 
 namespace {
 
-// All commands of a frame as one geometry. Every list has its own vertex numbering.
+// All commands of a frame as one geometry, whose lists number their vertices from 0 each.
 struct Collected {
     std::vector<float> positions, colors;
     std::vector<uint32_t> indices;

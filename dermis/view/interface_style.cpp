@@ -5,7 +5,7 @@
 namespace dermis::view {
 namespace {
 
-// Neutral greys, so that the interface casts no colour on the eye that judges skin; one warm accent.
+// Neutral greys, so that the interface does not influence the judgement of skin colours; one warm accent.
 void set_colors(ImGuiStyle& style) {
     const auto grey = [](float value, float alpha = 1) { return ImVec4(value, value, value, alpha); };
     const ImVec4 accent(0.80f, 0.53f, 0.40f, 1), dim_accent(0.80f, 0.53f, 0.40f, 0.55f);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLookEveryS = 0.3;
 
-// The baseline, or against the baseline the technique after it.
+// The baseline, or, for the baseline itself, the second technique.
 const Technique& compared_with(const Technique& technique, std::span<const Technique> all) {
     const auto baseline = std::ranges::find(all, "lambert", &Technique::id);
     if (baseline != all.end() && technique.id != baseline->id) return *baseline;
@@ -33,7 +33,7 @@ void Opener::open(const std::string& path) {
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
         return to_.truth.open(path, to_.model);
     if (extension != ".exr") return load(path);
-    // Twice as wide as high is a panorama; anything else is a rendered picture.
+    // An EXR twice as wide as high is a panorama; any other is a rendered picture.
     const Result<LoadedImage> loaded = read_image(path, ImageUse::color);
     if (!loaded) return to_.model.notices.report_error("open", loaded.error().message);
     if (loaded->image.width == 2 * loaded->image.height) return open_panorama(path);
@@ -63,7 +63,7 @@ Result<bool> Opener::take() {
     const Result<void> shown = *start ? show(std::move(**start), first) : start->error();
     if (shown) return true;
     if (first) return shown.error();
-    if (loader_.is_reload()) loader_.follow_stated_files();  // what it waits for may be missing
+    if (loader_.is_reload()) loader_.follow_stated_files();  // a file may be missing and come later
     to_.model.notices.report_error("open", shown.error().message + (loader_.is_reload() ? kLastGood : ""));
     return false;
 }
@@ -78,7 +78,7 @@ Result<void> Opener::show(Start start, bool first) {
             keep_look(shown.file_look(), *model.scene, *scene);
         else
             put_look(*model.scene, *scene);
-        loader_.follow_too(files_of(*scene));  // also when it cannot be drawn
+        loader_.follow_too(files_of(*scene));  // even if it cannot be drawn
     }
     Result<Stage> stage =
         Stage::create(to_.device, to_.pictures.shaders(), std::move(scene), options_.samples);
@@ -98,7 +98,7 @@ Result<void> Opener::show(Start start, bool first) {
     return {};
 }
 
-// What the window opens with, or what one whose device was lost has left.
+// The first scene, or the state before a device was lost.
 void Opener::take_start(const Start& start) {
     Model& model = to_.model;
     if (start.handed) {
@@ -116,7 +116,7 @@ void Opener::take_start(const Start& start) {
     if (!options_.truth.empty()) to_.truth.open(options_.truth, model);
 }
 
-// What the scene's file asks for; of one that is only read again, what it asks for anew.
+// Applies the file's technique and settings; after a reload only those that changed.
 void Opener::take_technique(const Scene& file) {
     Model& model = to_.model;
     const Scene& before = to_.pictures.scene().file_look();
@@ -143,7 +143,7 @@ bool Opener::follow_files() {
     return changed;
 }
 
-// A panorama is read again alone; anything else is the whole scene, beside the window's work.
+// A changed panorama is read alone; after any other change the whole scene is loaded in the background.
 bool Opener::follow_scene_files() {
     Model& model = to_.model;
     const std::vector<fs::path> changed = loader_.changed_files();

@@ -25,7 +25,7 @@ Vec3 direction(YawPitch angles) {
 void orbit(Camera& camera, Vec2 drag_px, float height_px) {
     const Vec3 to_eye = camera.eye_mm - camera.target_mm;
     const Vec2 eye_drag_px = {-drag_px.x,
-                              drag_px.y};  // the head follows the mouse, so the eye goes against it
+                              drag_px.y};  // the head follows the mouse, so the eye moves the other way
     camera.eye_mm =
         camera.target_mm + direction(turned(yaw_pitch_of(to_eye), eye_drag_px, height_px)) * length(to_eye);
 }

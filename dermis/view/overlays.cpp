@@ -1,4 +1,4 @@
-// What stands over the picture: which side is which, notices, help.
+// Drawn over the picture: names of the sides, notices, help.
 
 #include <imgui.h>
 
@@ -12,7 +12,7 @@
 namespace dermis::view {
 namespace {
 
-// Which side is which, on a dark plate so that it reads over any picture.
+// A side's name, on a dark plate so that it can be read over any picture.
 void show_side_name(const std::string& name, float x, float scale, bool to_the_left) {
     const ImVec2 size = ImGui::CalcTextSize(name.c_str());
     const float pad = 6 * scale, left = to_the_left ? x - size.x - 2 * pad : x;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kColumnWidth = 330, kStatusHeight = 26;
 
-// A list that opens over its button.
+// The list of recent files, which opens over its button.
 void show_recent(const Model& model, PanelRequests& requests) {
     if (model.recent.size() < 2) return;
     const float width = ImGui::CalcTextSize("recent").x + 2 * ImGui::GetStyle().FramePadding.x;

@@ -70,7 +70,7 @@ void copy_view(Parts& p) {
         view_line(p.model, shown.file_look(),
                   {.width = size.width, .height = size.height, .samples = shown.stage().samples()});
     p.window.set_clipboard(line);
-    // Rounded as the line is, so that both draw the same; what the line leaves out of the camera is as the
+    // Rounded as in the line, so that both draw the same; what the line leaves out of the camera is as the
     // files say.
     p.model.scene->camera = shown.file_look().camera;
     (void)apply_view_line(p.model, line);

@@ -34,7 +34,7 @@ void Pictures::refresh(Model& model, const gpu::Texture* truth, PictureSize size
         const Result<bool> drew = scene_.stage().refresh(model, side, size, now_s);
         const std::string topic = "picture " + std::to_string(side);
         if (!drew) {
-            // Shaders that compile and do not fit together are taken back; anything else is told.
+            // Shaders that compile but do not fit together are taken back; any other error is shown.
             if (shaders_unproven_ && shaders_.take_back(drew.error().message))
                 scene_.stage().forget_shaders();
             else

@@ -7,7 +7,7 @@
 namespace dermis::view {
 namespace {
 
-// From the eye through a place of the picture, by way of the far plane.
+// From the eye through a point of the picture, computed on the far plane.
 Ray ray_through(const Camera& camera, Vec2 place, float aspect) {
     const Mat4 m = camera_matrices(camera, aspect).inverse_view_projection;
     const float clip[4] = {place.x * 2 - 1, place.y * 2 - 1, 1, 1};
@@ -18,7 +18,7 @@ Ray ray_through(const Camera& camera, Vec2 place, float aspect) {
     return {.origin_mm = camera.eye_mm, .direction = normalize(far_mm - camera.eye_mm)};
 }
 
-// Nothing of a head is thicker.
+// More than the thickness of any head.
 constexpr float kMaxThicknessMm = 400;
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace dermis::view {
 namespace {
 
-// Few steps, so that images are not made anew for every wobble of the clock.
+// Few steps, so that images are not made again for every variation of the measured time.
 constexpr float kScales[] = {1, 0.75f, 0.5f, 0.375f, 0.25f};
 
 }  // namespace
@@ -33,8 +33,7 @@ void QualityLadder::drawn(Quality quality, double megapixels, double time_ms) {
     const double drawn_megapixels = megapixels * quality.scale * quality.scale;
     if (quality.samples > 1 || drawn_megapixels <= 0) return;
     const double measured = time_ms / drawn_megapixels;
-    // The first drawing of a pipeline compiles; later ones count more the nearer they are to the whole
-    // picture.
+    // Half of each new time, since the first drawing of a pipeline also compiles it.
     ms_per_megapixel_ = std::lerp(ms_per_megapixel_, measured, 0.5);
 }
 

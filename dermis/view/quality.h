@@ -20,7 +20,7 @@ struct QualityLimits {
     int samples = 4;
 };
 
-/// Remembers what a pixel costs. One a picture.
+/// Estimates the time of a pixel. One for each picture.
 class QualityLadder {
   public:
     explicit QualityLadder(double guessed_ms_per_megapixel) : ms_per_megapixel_(guessed_ms_per_megapixel) {}

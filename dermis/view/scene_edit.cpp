@@ -9,7 +9,7 @@ namespace {
 
 struct Line {
     std::string text;
-    std::string table;  ///< the section it stands in; "" before the first
+    std::string table;  ///< the section that the line is in; "" before the first
     int index = 0;      ///< of an array of tables
     bool header = false;
 };
@@ -23,8 +23,8 @@ std::string header_name(std::string_view line) {
     return std::string(trim(text.substr(open, close - open)));
 }
 
-// Where the value ends: a '#' or the end of the line, outside of quotes. Adds to `depth` what brackets it
-// opens.
+// The end of the value: a '#' or the end of the line, outside of quotes. Adds the brackets that it opens to
+// `depth`.
 size_t value_end(std::string_view line, size_t from, int& depth) {
     char quote = 0;
     for (size_t i = from; i < line.size(); ++i) {

@@ -1,4 +1,4 @@
-// The scene under it: light, skin, camera.
+// The panels of the scene: light, skin, camera.
 
 #include <imgui.h>
 

@@ -1,4 +1,4 @@
-// What a person changed, as edits of the scene file.
+// The user's changes as edits of the scene file.
 
 #include <algorithm>
 
@@ -14,11 +14,10 @@ namespace dermis::view {
 namespace fs = std::filesystem;
 namespace {
 
-// What the window changes of a light; a file's other keys stay as they are written.
+// The keys of a light that the window changes; a file's other keys are kept.
 constexpr std::string_view kLightKeys[] = {"yaw_deg", "pitch_deg", "distance_mm", "intensity", "color"};
 
-// Every key that can be changed of a loaded scene; of lights that are in the file already, what the window
-// changes.
+// Every key that can be changed of a loaded scene; of lights that are in the file, only the keys above.
 void add_scene(std::vector<TomlEdit>& edits, const Scene& scene, bool lights_in_file) {
     for (const SceneKey& key : keys_of(scene)) {
         const std::string& name = key.info->name;
@@ -27,7 +26,7 @@ void add_scene(std::vector<TomlEdit>& edits, const Scene& scene, bool lights_in_
             continue;
         edits.push_back({key.section, name, toml_value(*key.info, key.value), key.light});
     }
-    // Keys that exclude those.
+    // Keys that cannot be combined with those.
     edits.push_back({"camera", "eye_mm", ""});
     if (scene.environment.kind != EnvironmentKind::file) edits.push_back({"environment", "file", ""});
     const auto key = std::ranges::find(scene.lights, true, &Light::is_key);
@@ -36,7 +35,7 @@ void add_scene(std::vector<TomlEdit>& edits, const Scene& scene, bool lights_in_
         edits.push_back({"light", name, "", int(key - scene.lights.begin())});
 }
 
-// A choice's name is a string, a toggle true or false, three numbers an array: as [settings] has them.
+// As in [settings]: a choice is a string, a toggle true or false, a colour an array.
 std::string setting_value(const Parameter& parameter, const ParameterValues& values) {
     const std::string text = values.text(parameter);
     switch (parameter.kind) {
@@ -68,7 +67,7 @@ std::string empty_lights(const Scene& scene) {
     return text;
 }
 
-// A mesh or a built-in: a scene file that has just it, with all lights of the studio.
+// For a mesh or a built-in: a scene file with this mesh and all lights of the studio.
 std::string new_scene(const Model& model) {
     const std::string& path = model.scene_path;
     const bool is_file = !path.starts_with("builtin:");
@@ -77,7 +76,7 @@ std::string new_scene(const Model& model) {
            empty_lights(*model.scene);
 }
 
-// Every path of the file that only means something beside it.
+// Makes the file's relative paths absolute.
 std::string with_absolute_paths(std::string text, const SceneDescription& scene) {
     for (const NamedFile* named : named_files(scene)) {
         const NamedFile& file = *named;

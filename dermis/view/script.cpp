@@ -9,7 +9,7 @@
 namespace dermis::view {
 namespace {
 
-// What follows a command: 'w' a word, 'n' a number in its range, 'b' a mouse button, 'k' a key, 'm' any
+// The arguments of a command: 'w' a word, 'n' a number in its range, 'b' a mouse button, 'k' a key, 'm' any
 // modifiers.
 struct Grammar {
     std::string_view name;
@@ -41,7 +41,7 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
                                 {"print", CommandKind::print, "", "print"},
                                 {"quit", CommandKind::quit, "", "quit"}};
 
-// Nothing that a script says in pixels, frames or notches is larger.
+// The maximum of pixels, frames and steps of the wheel in a script.
 constexpr double kMaxNumber = 1e5;
 constexpr int kDragFrames = 4;
 

@@ -12,7 +12,7 @@
 namespace dermis::view {
 namespace {
 
-// The most that the process has held in memory so far.
+// The peak memory of the process.
 long peak_memory_mb() {
     rusage usage = {};
     return getrusage(RUSAGE_SELF, &usage) == 0 ? usage.ru_maxrss / 1024 : 0;
@@ -23,7 +23,7 @@ std::string environment_text(const Environment& environment) {
     return environment.kind == EnvironmentKind::studio ? "studio" : "none";
 }
 
-// What `print` prints: one thing a line.
+// The output of `print`, one property per line.
 std::string state_text(Parts& p) {
     Model& model = p.model;
     TechniqueChoice& choice = model.choices[0];
@@ -109,7 +109,7 @@ Result<void> copy_file(Parts&, Command command) {
 
 Result<void> resize_window(Parts& p, Command command) {
     p.window.resize({int(command.numbers[0]), int(command.numbers[1])});
-    p.input.play(std::deque<std::vector<Event>>(3));  // the display answers in its own time
+    p.input.play(std::deque<std::vector<Event>>(3));  // frames for the display to answer
     return {};
 }
 
@@ -124,7 +124,7 @@ Result<void> print_state(Parts& p, Command) {
     return {};
 }
 
-// Of the ones below that cannot fail.
+// For commands that cannot fail.
 template <auto Run>
 Result<void> always(Parts& p, Command command) {
     Run(p, command);

@@ -50,7 +50,8 @@ void Session::hand_over(ViewerOptions& options) const {
 }
 
 Result<ViewerReport> run_viewer(const ViewerOptions& options) {
-    constexpr int kMostLosses = 3;  // a scene that the driver cannot stand would lose it for ever
+    // A scene that makes the driver fail would lose the device again and again.
+    constexpr int kMostLosses = 3;
     ViewerOptions current = options;
     for (int losses = 0;; ++losses) {
         Result<Session> session = Session::open(current);

@@ -46,11 +46,11 @@ PanelFacts panel_facts(Parts& p) {
 std::vector<Event> gather_events(Parts& p) {
     const bool busy = p.input.is_awake() || p.opener.is_loading() || p.player.has_script() ||
                       !p.has_final_pictures() || p.options.frames > 0 || p.input.has_waiting();
-    // A ground truth in the making wants the processor for itself.
+    // While a ground truth is computed, the window leaves the processor to it.
     return p.input.gather(p.window, busy ? 0 : p.truth.is_making() ? kShortSleepS : kSleepS);
 }
 
-// Nothing has happened and nothing is on its way: the window shows what it would show again.
+// No event and no work in progress: a new frame would be the same as the last.
 bool is_idle(const Parts& p, const std::vector<Event>& events) {
     return events.empty() && !p.input.is_awake() && p.window.framebuffer() == p.presenter->size() &&
            !p.player.has_script() && p.options.frames == 0 && p.model.notices.all().empty() && p.is_settled();
@@ -86,7 +86,7 @@ Result<void> Session::frame() {
     if (is_idle(p, events)) return {};
     const WindowSize size = p.window.framebuffer();
     if (size.width == 0 || size.height == 0) {  // minimised
-        p.input.put_back(events);               // a key let go meanwhile is not held
+        p.input.put_back(events);               // so that a key released meanwhile does not count as held
         p.pictures.skip_refresh();
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         return step_script();

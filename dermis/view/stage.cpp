@@ -6,7 +6,7 @@
 namespace dermis::view {
 namespace {
 
-// A guess for the first frame: what the skin costs on a processor and on a graphics card.
+// Estimates for the first frame: the time of the skin on a processor and on a graphics card.
 constexpr double kProcessorMsPerMegapixel = 600, kCardMsPerMegapixel = 3;
 
 double megapixels(PictureSize size) {

@@ -1,4 +1,4 @@
-// What is drawn: the technique with its parameters, the view, what it is compared with.
+// The panels of the technique with its parameters, the view, and the comparison.
 
 #include <imgui.h>
 

@@ -1,4 +1,4 @@
-// What a frame costs, pass by pass, now and in the frames before.
+// The time of each pass, of the last frame and the frames before.
 
 #include <imgui.h>
 
@@ -10,7 +10,7 @@
 namespace dermis::view {
 namespace {
 
-constexpr size_t kFrames = 90;  // as wide as the whole history
+constexpr size_t kFrames = 90;  // the whole history
 
 std::string time_text(double time_ms) {
     char text[32];
@@ -23,7 +23,7 @@ float median(std::vector<float> values) {
     return values[values.size() / 2];
 }
 
-// A bar a frame, the newest on the right, as high as its share of `most_ms`.
+// One bar per frame, the newest on the right; its height is its share of `most_ms`.
 void show_history(const std::vector<float>& history_ms, float most_ms, ImVec2 size) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();

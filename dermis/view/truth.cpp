@@ -46,7 +46,7 @@ void Truth::open(const std::string& path, Model& model) {
     put(std::move(loaded->image), "", path, model);
 }
 
-// On a copy of the scene; found in the cache when an earlier G made it.
+// Computed from a copy of the scene, or read from the cache.
 void Truth::ask(const Model& model, PictureSize size) {
     if (!model.scene) return;
     if (making_.valid()) {

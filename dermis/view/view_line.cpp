@@ -30,7 +30,7 @@ std::string text_of(const SceneWord& word) {
     return word.key + "=" + word.value;
 }
 
-// What differs from the files: the camera and the key light in their short forms, the rest key by key.
+// The differences from the files: the camera and the key light in their short forms, the rest key by key.
 std::string scene_options(const Scene& scene, const Scene& file) {
     constexpr std::string_view kCamera = "camera.", kLight = "light.key.";
     const std::vector<SceneWord> filed = words_of(file);
@@ -49,7 +49,7 @@ std::string scene_options(const Scene& scene, const Scene& file) {
            (light.empty() ? "" : " --light " + shell_word(light));
 }
 
-// What a line asks for, checked and not yet in the model.
+// The content of a line, checked but not yet applied to the model.
 struct Wanted {
     std::span<const Technique> techniques;
     TechniqueChoice choice;
@@ -92,7 +92,7 @@ std::string view_line(Model& model, const Scene& file, const DrawSettings& draw)
     const ParameterValues defaults(choice.technique().parameters);
     for (const Parameter& parameter : choice.technique().parameters.parameters) {
         const std::string text = choice.values().text(parameter);
-        // A scene's own settings count where its own technique is named.
+        // A setting that the file states is written even at its default, or the file's value would apply.
         const bool stated = file.technique == choice.technique().id && file.settings.contains(parameter.name);
         if (stated || text != defaults.text(parameter))
             line += " --set " + shell_word(parameter.name + "=" + text);
@@ -110,11 +110,11 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
     if (line.size() > kMaxLineBytes) return Error{"the clipboard holds no view: it is too long"};
     Wanted wanted{
         .techniques = model.catalog.techniques, .choice = model.choices[0], .words = {}, .view = model.view};
-    // A line that was broken on its way, inside of quotes too, is one line.
+    // Line breaks that were added on the way, also inside of quotes, are removed.
     std::string one_line(line);
     std::ranges::replace_if(
         one_line, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
-    // As a shell would split them; an open quote is no view.
+    // Split as by a shell; with an open quote the line is not a view.
     const std::vector<std::string> words = quoted_words(one_line, "'\"").value_or(std::vector<std::string>());
     for (size_t i = 0; i + 1 < words.size(); ++i)
         if (std::ranges::find(kOptions, words[i]) != std::end(kOptions)) {
@@ -129,7 +129,7 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
         return Error{"the clipboard holds no view; copy one with ctrl+C, or write --camera 'yaw_deg=30'"};
     const std::vector<std::string> views = view_names(wanted.choice.technique());
     if (!std::ranges::count(views, wanted.view)) return Error{unknown_name("view", wanted.view, views)};
-    std::erase_if(wanted.words, [&](const SceneWord& word) {  // what the scene was loaded with
+    std::erase_if(wanted.words, [&](const SceneWord& word) {  // those that the scene was loaded with
         return std::ranges::find(model.loading_words, word) != model.loading_words.end();
     });
     if (Result<void> set = set_words(*model.scene, wanted.words); !set) return set;

@@ -17,7 +17,7 @@ std::string range_text(const NumberRow& row) {
            (row.unit.empty() ? "" : " " + row.unit);
 }
 
-// Beside the column, level with its row: below the mouse it would hide the rows that follow.
+// To the side of the column: below the mouse it would hide the rows that follow.
 void tooltip(const std::string& text, const std::string& detail) {
     if (text.empty() && detail.empty()) return;
     const float gap = ImGui::GetStyle().WindowPadding.x / 2;
@@ -31,7 +31,7 @@ void tooltip(const std::string& text, const std::string& detail) {
     ImGui::EndTooltip();
 }
 
-// Enough digits to see a hundredth of the range; '%' of a unit would be read as a format.
+// Enough digits for a hundredth of the range. A '%' in a unit is doubled, or it would be a format.
 std::string format_of(const NumberRow& row) {
     const double step = std::max((row.max - row.min) / 200, 1e-6);
     const int digits = row.whole ? 0 : std::clamp(int(std::ceil(-std::log10(step))), 0, 5);
@@ -41,7 +41,7 @@ std::string format_of(const NumberRow& row) {
     return "%." + std::to_string(digits) + "f" + (close ? "" : " ") + unit;
 }
 
-// Ranges over more than two decades are even in the logarithm.
+// Ranges over more than two decades are logarithmic.
 ImGuiSliderFlags flags_of(const NumberRow& row) {
     const bool decades = row.min > 0 && row.max / row.min > 100;
     return ImGuiSliderFlags_AlwaysClamp | (decades ? ImGuiSliderFlags_Logarithmic : 0);
@@ -81,7 +81,7 @@ void Rows::begin(const NumberRow& row, bool changed_from_default) {
     ImGui::SetNextItemWidth(-1);
 }
 
-// True when the default is wanted.
+// True when the default is to be restored.
 bool Rows::end(const NumberRow& row) {
     const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
     (*widgets_)[prefix_ + row.name] = {min.x, min.y, max.x - min.x, max.y - min.y};

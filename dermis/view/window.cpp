@@ -76,7 +76,7 @@ void on_text(GLFWwindow* handle, unsigned character) {
     state_of(handle).events.push_back({.kind = EventKind::text, .character = character});
 }
 
-// Uncovered: what is shown has to be shown again.
+// The window was uncovered: its picture must be presented again.
 void on_refresh(GLFWwindow* handle) {
     Window::State& state = state_of(handle);
     state.events.push_back({.kind = EventKind::mouse_move, .position_px = state.mouse_px});
@@ -99,7 +99,7 @@ Result<Window> Window::open(const std::string& title, WindowSize size) {
     if (!glfwInit())
         return Error{"no display to open a window on (" + last_error() +
                      "); start it in a desktop session, through ssh -X, or with: xvfb-run dermis view"};
-    auto state = std::make_unique<State>();  // from here on it ends GLFW
+    auto state = std::make_unique<State>();  // its destructor terminates GLFW
     if (!glfwVulkanSupported())
         return Error{"this display shows no Vulkan (" + last_error() + "); install mesa-vulkan-drivers"};
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);

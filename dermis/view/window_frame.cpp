@@ -17,7 +17,7 @@ PassList window_passes(const WindowFrame& frame) {
                     .kind = PassKind::fullscreen,
                     .colors = {{.image = "window",
                                 .clear = {kFrameColor.x, kFrameColor.y, kFrameColor.z, kFrameColor.w}}}};
-    if (frame.arrangement != Arrangement::none) {  // else it only clears
+    if (frame.arrangement != Arrangement::none) {  // otherwise the pass only clears
         compose.shader = "renderer/compose.frag";
         compose.values = {{"region_px", Vec4{region.x, region.y, region.width, region.height}},
                           {"frame_color", kFrameColor},

@@ -1,5 +1,5 @@
-// The one file outside of dermis/gpu that sees Vulkan: its types switch GLFW's surface functions on. No
-// Vulkan function is called here.
+// The only file outside dermis/gpu that includes Vulkan: GLFW declares its surface functions only after
+// Vulkan's types. No Vulkan function is called here.
 
 #include "dermis/view/window_surface.h"
 

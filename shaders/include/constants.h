@@ -28,8 +28,8 @@ const float kShadowConcavity = 0.1;  // curvature times the disk's radius, up to
 const float kShadowFacetLift = 0.3;  // in radii: the tangent plane of a smooth normal cuts through the facets
 const float kShadowMaxSlope = 4.0;   // of the plane against the light: 76 degrees
 
-// Of the occlusion that is blurred at the vertices, an axis: less than 0.5 is sharp for them, and no Gaussian
-// of skin is wider than 8.
+// Variances along one axis of the three blurs of the occlusion at the vertices: less than 0.5 counts as
+// sharp, and no Gaussian of skin is wider than 8.
 const float kOcclusionVariance0Mm2 = 0.5, kOcclusionVariance1Mm2 = 2.0, kOcclusionVariance2Mm2 = 8.0;
 
 #ifdef __cplusplus

@@ -28,7 +28,7 @@ void prepare_surface(inout Surface s);
 vec3 own_view(Surface s);
 #endif
 
-// With DERMIS_TRANSMISSION defined: the same for light of the key that comes through the skin from behind.
+// With DERMIS_TRANSMISSION defined: as direct_response(), for light of the key that comes through the skin.
 #ifdef DERMIS_TRANSMISSION
 vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility);
 #endif

@@ -8,6 +8,7 @@
 #include "shaders/include/constants.h"
 
 const float kPi = 3.14159265359;
+const float kGoldenAngle = 2.39996323;
 
 layout(scalar) uniform Frame {
     mat4 view_projection;

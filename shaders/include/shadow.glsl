@@ -14,7 +14,6 @@ layout(constant_id = 30) const int tinted_shadows = 0;
 
 const int kShadowTaps = 24;
 const int kTintTaps = 12;
-const float kGoldenAngle = 2.39996323;
 
 // Point `index` of a Vogel spiral: even cover of the unit disk by any number of points (Vogel 1979).
 vec2 vogel_disk(int index, int count) {
@@ -41,7 +40,7 @@ bool outside_shadow_map(vec3 p_light) {
 // The disk of a filtered shadow, round as the light sees it, in the tangent plane of the receiver: no flat or
 // convex surface shadows itself, and no shadow moves when the filter grows, as it does when the lookup is lifted by the
 // filter's radius (Holbert 2011). That is left for grazing light alone, where the disk would be endless; past the
-// terminator it lets through what scatters there. Out of cavities whose radius is above ten times its own the disk is
+// terminator it lets through what scatters there. In cavities whose radius is above ten times the disk's, the disk is
 // lifted too. dermis/reference/lighting.cpp has the same disk.
 struct ShadowDisk {
     vec3 center, axis_x, axis_y;  // in the shadow map

@@ -12,7 +12,7 @@ uniform texture2D skin_key_visibility;  // so that the shadow's filter runs once
 
 layout(location = 0) out vec4 radiance_out;
 
-// The blurred picture has one value a pixel, at its middle. A sample at an edge may be of another surface than the
+// The blurred picture has one value per pixel, at its middle. A sample at an edge may be of another surface than the
 // middle: then the neighbour nearest in depth is taken, and where none is near, the light is not blurred at all.
 const float kSameSurfaceMm = 3.0;
 
@@ -45,7 +45,7 @@ void main() {
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
-        // The key light's filter ran in the first pass; the colour of its shadow did not stay.
+        // The first pass stored the key light's visibility, but not the tint of its shadow.
         if (i == key_light && tinted_shadows == 0) {
             light.irradiance_linear *= key_visibility;
         } else {

@@ -17,7 +17,7 @@ using namespace bust;
 namespace {
 
 // Part of the cache's key: raise it when meshing, flattening or painting change. Changes of the shape and of
-// the skin show in the key's probes by themselves.
+// the skin are in the key already, by sampled values.
 constexpr uint32_t kGeneration = 5;
 
 Vec3 to_float(Point p) {
@@ -70,7 +70,7 @@ Mesh to_mesh(const Atlas& atlas, const BustField& field) {
     return mesh;
 }
 
-// One long byte string for the cache: the mesh's arrays, then the images' texels.
+// The byte string of the cache: the mesh's arrays, then the images' texels.
 class Writer {
   public:
     template <class T>
@@ -151,7 +151,7 @@ std::string cache_key(const BustParams& params) {
     const BustField field(params);
     const Hairs hairs(uint32_t(params.seed));
     for (int i = 0; i < 600; ++i) {
-        // A spiral over the head, and on from the face into the features.
+        // Sample points on a spiral over the head, which ends inside the features of the face.
         const double t = i / 600.0, a = i * 2.399963;
         const Point p = {80 * std::sin(a) * (1 - 0.6 * t), 130 - 320 * t,
                          110 * std::cos(a) * (0.4 + 0.6 * t)};

@@ -20,7 +20,7 @@ int label(const BustField& field, Point p_world) {
     return int(ChartKind::head);
 }
 
-// Smooths ragged borders: a face takes the label that two of its neighbours agree on.
+// Smooths the borders: a face takes the label that two of its neighbours have.
 void smooth(Labels& labels, const HalfEdges& edges) {
     for (int round = 0; round < 6; ++round) {
         Labels next = labels;
@@ -36,7 +36,7 @@ void smooth(Labels& labels, const HalfEdges& edges) {
     }
 }
 
-// Keeps each label's largest piece; the rest joins what surrounds it.
+// Keeps each label's largest piece; the others take the label around them.
 void unite(Labels& labels, const HalfEdges& edges) {
     for (int round = 0; round < 4; ++round) {
         std::vector<int> piece(labels.size(), -1), size;
@@ -74,8 +74,8 @@ void unite(Labels& labels, const HalfEdges& edges) {
     }
 }
 
-// Draws the zigzag of edges between two labels straight, then lets the vertices beside it follow. A move that
-// would leave a sliver is not made.
+// Straightens the edges between two labels, then moves the neighbouring vertices. A move that would leave a
+// sliver is not made.
 void straighten(Surface& surface, const Labels& labels, const HalfEdges& edges, const BustField& field) {
     constexpr double kLeastTwiceAreaMm2 = 0.03;
     const size_t n = surface.points.size();
@@ -112,8 +112,8 @@ void straighten(Surface& surface, const Labels& labels, const HalfEdges& edges, 
     }
 }
 
-// Shortest way from the underside's rim at the nape to the crown, drawn to the midline: half-edges of the
-// seam.
+// The seam as half-edges: the shortest path from the underside's rim at the nape to the crown, with lower
+// costs near the midline.
 std::vector<int> back_seam(const Surface& surface, const HalfEdges& edges, const Labels& labels) {
     const size_t n = surface.points.size();
     std::vector<std::vector<int>> outgoing(n);

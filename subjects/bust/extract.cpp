@@ -12,8 +12,8 @@ namespace {
 constexpr int kBlock = 4;  // cubes along a block's edge
 constexpr int kCorners = kBlock + 1;
 
-// Corners are bit masks of (x, y, z); each tetrahedron walks from 0 to 7 along one order of the axes, and the
-// walk's parity says which way it is turned.
+// Corners are bit masks of (x, y, z); each tetrahedron goes from corner 0 to corner 7 along one order of the
+// axes, and the parity of this order is its orientation.
 struct Tetrahedron {
     int corner[4];
     bool flipped;
@@ -97,7 +97,8 @@ class Builder {
         int k = 0;
         for (int i = 0; i < ins; ++i) order[k++] = in[i];
         for (int i = 0; i < outs; ++i) order[k++] = out[i];
-        // Parity of (inside..., outside...) against the tetrahedron's own order says which way the cut faces.
+        // The parity of (inside..., outside...) relative to the tetrahedron's order is the orientation of the
+        // cut.
         bool odd = t.flipped;
         for (int i = 0; i < 4; ++i)
             for (int j = i + 1; j < 4; ++j) odd ^= place(t, order[i]) > place(t, order[j]);
@@ -122,7 +123,7 @@ class Builder {
     }
     int vertex(const int (&a)[3], double da, const int (&b)[3], double db) {
         // Edges of one cube's tetrahedra never span more than one step, so the lower node and the direction
-        // name it.
+        // identify an edge.
         const uint64_t na = grid_.node(a[0], a[1], a[2]), nb = grid_.node(b[0], b[1], b[2]);
         const int* low = na < nb ? a : b;
         const int* high = na < nb ? b : a;

@@ -1,5 +1,5 @@
-// Eyelids and nose as blended solids. Positions after the average head in docs' table of measurements: pupils
-// 62 mm apart, nose 50 mm long and 35 mm wide.
+// Eyelids and nose as blended solids. Positions as in the table of measurements in docs/bust.md: pupils 62 mm
+// apart, nose 50 mm long and 35 mm wide.
 
 #include "subjects/bust/parts.h"
 

@@ -17,7 +17,7 @@ Point difference(const auto& f, Point p, double h) {
            (0.5 / h);
 }
 
-// Forward differences: three more values a step are enough to find the way.
+// Forward differences: three more values per step are exact enough for the direction.
 Point newton(const auto& f, Point p, int steps) {
     constexpr double h = kGradientStep;
     for (int i = 0; i < steps; ++i) {
@@ -69,7 +69,7 @@ Point BustField::to_standard(Point p) const {
     q.x /= 1 + (params_.head_width_mm / standard.head_width_mm - 1) * head;
     q.x /= 1 + (params_.jaw_width_mm / standard.jaw_width_mm - 1) * jaw;
     q.x /= 1 + (params_.nose_width_mm / standard.nose_width_mm - 1) * nose_box;
-    // Low waves that differ from left to right, about a millimetre each.
+    // Waves of low frequency that differ from left to right, about a millimetre high each.
     const double a = params_.asymmetry;
     q.x += a * (1.1 * std::sin(p.y / 40 + phase_[0]) * std::exp(-p.x * p.x / 3600) +
                 0.3 * std::sin(p.z / 40 + phase_[1]));

@@ -1,7 +1,7 @@
 // Springs between neighbours with the boundary held on a convex curve (Tutte 1963; weights by the cotangents
 // of Pinkall & Polthier 1993, kept positive). As in Yoshizawa, Belyaev & Seidel 2004, the weights are then
-// corrected by the stretch found, so that the stiff side of a stretched triangle pulls it together; here an
-// edge at a time, which keeps the matrix symmetric.
+// corrected by the stretch found, so that stretched triangles shrink; here edge by edge, which keeps the
+// matrix symmetric.
 
 #include "subjects/bust/flatten.h"
 
@@ -95,7 +95,7 @@ std::vector<Spring> springs(const Surface& mesh, const std::function<double(Poin
     return list;
 }
 
-// Fan over every hole, so that what is inside stays put.
+// A fan over every hole, so that its inside is held.
 Surface with_holes_spanned(const Surface& mesh, const std::vector<std::vector<int>>& loops) {
     Surface closed = mesh;
     for (size_t k = 1; k < loops.size(); ++k) {

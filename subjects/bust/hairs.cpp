@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kCell = 1.5, kLow = 4, kHigh = 64;  // both axes
 constexpr int kCells = int((kHigh - kLow) / kCell);
-// Half a texel of the 2048 atlas on the face: a hair thinner than that shows as a paler one.
+// Half a texel of the 2048 atlas on the face: a thinner hair is drawn paler instead.
 constexpr double kSoftMm = 0.17;
 
 class Random {
@@ -24,7 +24,7 @@ class Random {
     uint32_t state_;
 };
 
-// Middle line and half breadth of the brow by the way along it, 0 beside the nose to 1 at the tail.
+// Middle line and half width of the brow along its length, 0 beside the nose to 1 at the tail.
 struct BrowLine {
     double x, y, half, lean_rad;  ///< lean of the hairs from straight outward
 };
@@ -75,7 +75,7 @@ void Hairs::grow_brow(Side& side, uint32_t seed) {
     constexpr int kHairs = 720;
     for (int i = 0; i < kHairs; ++i) {
         const double t = (i + random.between(0, 1)) / kHairs;
-        // Two draws added: denser along the middle line than at the borders.
+        // The sum of two random numbers: denser along the middle line than at the borders.
         const double across = random.between(-0.62, 0.62) + random.between(-0.5, 0.5);
         const BrowLine b = brow_at(t * 0.96);
         const Point root = {b.x + random.between(-0.6, 0.6), b.y + across * b.half, 0};

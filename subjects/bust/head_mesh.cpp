@@ -6,7 +6,8 @@ namespace dermis::bust {
 namespace {
 
 constexpr double kCoarse = 3.0;
-// Fine enough for the ears, 3 mm thin; the second try is for heads whose ears happen to fall badly.
+// Fine enough for the ears, 3 mm thin; the second try is for heads where the first grid makes a tunnel
+// through an ear.
 constexpr double kExtractionCells[] = {2.0, 1.5};
 
 struct Focus {
@@ -22,7 +23,7 @@ constexpr Focus kFaceFocus[] = {{{0, -39, 112}, {27, 3.5, 24}, 0.5}, {{31.5, 18,
 double wished_edge_mm(const Ear& ear, Point p) {
     const Point q = {std::abs(p.x), p.y, p.z};
     double edge = kCoarse;
-    // Full fineness inside a focus, grown out to the coarse size over 1.2 times its radius.
+    // The fine size inside a focus, which grows to the coarse size over 1.2 times its radius.
     const auto focus = [&](Point offset, Point radii, double fine) {
         const double k = length({offset.x / radii.x, offset.y / radii.y, offset.z / radii.z});
         edge = std::min(edge, mix(fine, kCoarse, smooth_step(0.9, 2.2, k)));

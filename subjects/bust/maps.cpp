@@ -1,4 +1,4 @@
-// Every texel evaluates the skin at its own point of the surface; the relief's slope becomes the normal map.
+// Every texel is the skin evaluated at its point of the surface; the normal map is the relief's slope.
 
 #include "subjects/bust/maps.h"
 
@@ -12,13 +12,13 @@
 namespace dermis::bust {
 namespace {
 
-constexpr int kBand = 32;  // rows that one task fills; no other task writes them
+constexpr int kBand = 32;  // rows of one task; no other task writes them
 
 struct Barycentric {
     double a, b, c;
 };
 
-// Of the texel's middle in triangle t, also outside it.
+// Barycentric coordinates in the triangle of a texel's middle, also outside the triangle.
 Barycentric locate(const Atlas& atlas, int triangle, double u, double v) {
     const auto& t = atlas.mesh.triangles[size_t(triangle)];
     const Point p = atlas.uvs[t[0]], e = atlas.uvs[t[1]] - p, f = atlas.uvs[t[2]] - p, q = Point{u, v, 0} - p;
@@ -87,8 +87,8 @@ SkinZones blend(const SkinZones& a, const SkinZones& b, const SkinZones& c, cons
     return zones;
 }
 
-// What brings the mean over the surface, were it not shaved, to the tone: zones and noise add more pigment
-// than they take.
+// The factor that makes the mean over the surface without stubble the tone: zones and noise add more pigment
+// than they remove.
 Vec3 colour_balance(const Atlas& atlas, const std::vector<Point>& standard,
                     const std::vector<SkinZones>& zones, BustParams params, const Hairs& hairs) {
     params.stubble = 0;

@@ -1,4 +1,4 @@
-// Lips: a swell of the face along the meeting line, whose outline gives the vermilion border as well.
+// Lips: a bulge of the face along the meeting line, whose outline is also the vermilion border.
 
 #include <array>
 
@@ -8,7 +8,7 @@ namespace dermis::bust {
 namespace {
 
 // By distance from the midline: meeting line, upper border (cupid's bow), lower border, upper and lower
-// swell.
+// bulge.
 struct Column {
     double x, line, top, bottom, upper, lower;
 };
@@ -42,7 +42,7 @@ LipShape lip_shape(double x) {
     const double span = kColumns[i + 1].x - kColumns[i].x;
     const double t = std::clamp((ax - kColumns[i].x) / span, 0.0, 1.0);
     const auto at = [&](double Column::*member) {
-        // Cubic Hermite with slopes by central differences; even at the midline.
+        // Cubic Hermite interpolation with central differences as slopes; symmetric at the midline.
         const auto slope = [&](size_t k) {
             if (k == 0 || k + 1 == std::size(kColumns)) return 0.0;
             return (kColumns[k + 1].*member - kColumns[k - 1].*member) /
@@ -63,7 +63,7 @@ double add_lips(double d, Point p, double fullness) {
     double swell = above > 0
                        ? s.upper_swell_mm * upper_profile(above / std::max(s.top_y - s.line_y, 0.4))
                        : s.lower_swell_mm * lower_profile(-above / std::max(s.line_y - s.bottom_y, 0.4));
-    // The crease between the lips: its floor rounded, deeper than the lips are full.
+    // The crease between the lips, with a rounded floor, deeper than the lips are thick.
     const double open = 1 - smooth_step(18, 27, std::abs(p.x));
     swell = std::hypot(swell, 0.3 * std::min(s.upper_swell_mm, s.lower_swell_mm) * bump(above / 4)) -
             open * 0.9 * bump(above / 1.3);

@@ -1,5 +1,5 @@
 // Neck and shoulders: an elliptic column that leans forward, sternomastoids, larynx, trapezius and collar
-// bones, cut below by an ellipsoid as sculptors cut a bust.
+// bones, cut below by an ellipsoid.
 
 #include <span>
 
@@ -39,7 +39,7 @@ double column(std::span<const Ring> rings, Point p) {
     const double z = p.z - at(&Ring::center_z), b = at(&Ring::half_depth), a = at(&Ring::half_width);
     const double k = std::hypot(p.x / a, z / b), steep = std::hypot(p.x / (a * a), z / (b * b));
     if (steep < 1e-9) return -std::min(a, b);
-    // Where the column widens downwards, the way across is longer than the way to the surface.
+    // Where the column widens downwards, the horizontal distance is longer than the distance to the surface.
     const double widening = slope * std::abs(p.x) / a;
     const double side = k * (k - 1) / steep / std::sqrt(1 + widening * widening);
     return std::max(side, p.y - rings[0].y);
@@ -79,7 +79,7 @@ double cut_distance(Point p) {
     const double k = std::hypot(p.x / a, z / b),
                  steep = std::max(std::hypot(p.x / (a * a), z / (b * b)), 1e-9);
     const double cut = smooth_max(k * (k - 1) / steep, -208 - p.y, 40);
-    // The cut sinks away towards the chin, which stands in front of it.
+    // The cut is lower below the chin, which is in front of it.
     return cut - 90 * smooth_step(-152, -112, p.y);
 }
 }  // namespace

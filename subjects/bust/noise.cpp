@@ -23,7 +23,7 @@ Cells cell_noise(Point p, uint32_t seed) {
     for (int k = 0; k < 8; ++k) {
         const int x = x0 + (k & 1), y = y0 + (k >> 1 & 1), z = z0 + (k >> 2);
         const float random = lattice_random(x, y, z, seed);
-        // Three more numbers from the one: its digits, shuffled.
+        // Three more numbers from the digits of the first.
         const auto digit = [&](float f) {
             const float v = random * f;
             return 0.2f + 0.6f * (v - std::floor(v));

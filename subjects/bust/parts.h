@@ -34,7 +34,6 @@ struct LipShape {
     double upper_swell_mm, lower_swell_mm;
 };
 [[nodiscard]] LipShape lip_shape(double x);
-inline constexpr double kMouthHalfWidth = 25.0;
 
 class Ear {
   public:

@@ -1,5 +1,5 @@
-// Pores sit at the middles of cells and furrows between the cells; over them lies a coarser unevenness, which
-// is what tears a highlight into pieces. Lines of expression follow the face.
+// Pores sit at the middles of cells and furrows between the cells; over them lies a coarser relief, which
+// breaks a highlight into pieces. Lines of expression follow the face.
 
 #include "subjects/bust/relief.h"
 
@@ -17,7 +17,7 @@ float groove(double away, double width) {
     return float(rest * rest);
 }
 
-// Three lines across the forehead, which break off and wander.
+// Three lines across the forehead, interrupted and not straight.
 float forehead_lines(Point p, uint32_t seed) {
     constexpr std::array<double, 3> kHeights = {58, 69, 80};
     float sum = 0;
@@ -75,7 +75,7 @@ float lip_folds(Point p, uint32_t seed) {
 
 Relief relief_at(Point p, const SkinZones& z, float vermilion, uint32_t seed) {
     const Point q = {std::abs(p.x), p.y, p.z};
-    // Cells are drawn out along the lines of least tension: level on the forehead and neck.
+    // Cells are stretched along the lines of least tension: horizontal on the forehead and neck.
     const double level =
         std::min(0.6, 0.5 * double(z.forehead) + 0.4 * double(z.neck) + 0.3 * double(z.eye_ring));
     const Point drawn = {p.x * (1 - level), p.y * (1 + 0.4 * level), p.z * (1 - 0.5 * level)};

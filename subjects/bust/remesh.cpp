@@ -40,7 +40,7 @@ class Remesher {
         relax();
     }
 
-    /// In creases narrower than the wished size, relaxation presses triangles flat: takes those out.
+    /// Removes triangles that relaxation makes flat, in creases narrower than the wanted size.
     void tidy() {
         flip();
         for (int i = 0; i < 3; ++i) {
@@ -127,8 +127,8 @@ class Remesher {
     }
 
     void split_long() {
-        // Longest first, in passes: a split moves its neighbours' edges to the end of the list, where a plain
-        // sweep could chase one of them for ever.
+        // Longest first, in passes: a split appends its neighbours' edges to the list, so that one loop over
+        // it might not end.
         struct Long {
             double excess;
             int h, a, b;
@@ -193,7 +193,7 @@ class Remesher {
             if (alive_[h / 3] && edge(h) < least * wish(h) && may_collapse(h)) collapse(h);
     }
 
-    // Triangles of next to no height lose their shortest edge.
+    // Collapses the shortest edge of triangles with almost no height.
     void remove_flat() {
         for (int f = 0; f < int(alive_.size()); ++f) {
             if (!alive_[f]) continue;

@@ -1,6 +1,6 @@
-// Colour, gloss and relief of the skin from a few layers of noise. Zones say how much of each; borders that
-// must be sharp (vermilion, brows, lashes) come from the shapes themselves. All colour is a matter of more or
-// less melanin and blood than the tone has.
+// Colour, gloss and relief of the skin from a few layers of noise. Zones give the amount of each; sharp
+// borders (vermilion, brows, lashes) are those of the shapes themselves. All colours are the tone with more
+// or less melanin and blood.
 
 #include "subjects/bust/skin.h"
 
@@ -47,7 +47,7 @@ struct Mottle {
 Mottle mottle(Point p, uint32_t seed) {
     Mottle m;
     m.broad = value_noise(p * (1 / 15.0), seed + 1);
-    // The larger layers push the smaller ones aside, which hides the lattice they are drawn on.
+    // The larger layers displace the smaller ones, which hides the lattice of the noise.
     const Point q = p + Point{1, -1, 1} * (2.5 * double(m.broad));
     m.blotch = value_noise(q * (1 / 7.0), seed + 2);
     m.middle = value_noise((q + Point{1, 1, -1} * double(m.blotch)) * (1 / 3.5), seed + 3);
@@ -71,14 +71,14 @@ float freckle(Point p, const SkinZones& z, const Mottle& m, float density, uint3
 }
 
 struct Stubble {
-    float shade = 0, hair = 0;  // of the roots under the skin, and 1 on a cut end
+    float shade = 0, hair = 0;  // shade: of the roots under the skin; hair: 1 on a cut end
 };
 Stubble stubble(Point p, const SkinZones& z, const Mottle& m, float amount, uint32_t seed) {
     const float patchy = 1 + 0.12f * m.broad + 0.14f * m.blotch + 0.10f * m.middle;
     const float cover = std::min(1.0f, amount * patchy * std::max(1.5f * z.beard, 1.6f * z.scalp));
     if (cover <= 0) return {};
-    // Ends are cut aslant and lie along the growth, mostly downwards; each has a place, and thins out with
-    // the cover.
+    // Cut ends are oblique and lie along the growth, mostly downwards; each has a fixed place, and there are
+    // fewer where the cover is less.
     const double spacing = z.scalp > z.beard ? 0.86 : 1.0;
     const Cells ends = cell_noise(Point{p.x, 0.72 * p.y, p.z} * (1 / spacing), seed + 5);
     Stubble s;
@@ -88,7 +88,7 @@ Stubble stubble(Point p, const SkinZones& z, const Mottle& m, float amount, uint
     return s;
 }
 
-// Where the tone's skin has more or less of each pigment than its mean.
+// The difference of each pigment from the tone's mean.
 struct Pigments {
     float melanin, blood;
 };
@@ -124,7 +124,7 @@ Vec3 lip_colour(Vec3 tone, const Lips& l, const Mottle& m, float depth) {
 SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const Hairs& hairs_drawn) {
     const uint32_t seed = params.seed * 7919u;
     const float depth = float(std::clamp((params.tone - 1) / 5, 0.0, 1.0));
-    const float brown = std::max(0.0f, depth - 0.2f);  // beyond the fair tones
+    const float brown = std::max(0.0f, depth - 0.2f);  // above the fair tones
     const Mottle m = mottle(p, seed);
     Lips lip;
     if (z.mouth > 0 && p.z > 60) lip = lips(p);
@@ -162,7 +162,7 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     s.specular = std::clamp(
         0.92f + 0.08f * z.t_zone - 0.45f * r.pore - 0.2f * r.cavity + 0.06f * m.middle - 0.4f * hairs, 0.2f,
         1.0f);
-    // Nothing of the sky is seen from the nostrils and from between the lips.
+    // The nostrils and the line between the lips see nothing of the environment.
     s.specular *= 1 - 0.95f * std::max(hollow, lip.line * lip.vermilion);
     s.kernel_size = std::clamp(0.6f * z.ear + 0.45f * z.nostril + 0.3f * z.lid, 0.0f, 1.0f) * (1 - hairs);
     return s;

@@ -1,4 +1,4 @@
-// Where the face reddens, shines, grows a beard: soft regions of the standard head.
+// Regions of the standard head with soft borders: redness, gloss, beard.
 
 #include <array>
 #include <span>

@@ -17,8 +17,8 @@ constexpr int kHalf = kAzimuth / 2 + 1;
 constexpr int kUnknowns = (kPolar + 1) * kHalf;
 
 // Radius in mm around the axis (x 0, z 10) at angles from the front (0) to the back (180 degrees) of an
-// average adult head, with nose, eyes, lips and ears taken out and the neck left to its own part. Height is
-// above the ear axis.
+// average adult head, without nose, eyes, lips, ears and neck, which are parts of their own. Height is above
+// the ear axis.
 constexpr std::array<double, 11> kAngles = {0, 15, 30, 45, 60, 75, 90, 112, 135, 157, 180};
 struct Section {
     double y;
@@ -116,7 +116,7 @@ Skull::Skull() {
                 terms.push_back({unknown(i, j), basis(u - i) * basis(v - j)});
         equation(terms, d.radius, s.weight);
     }
-    // Thin plate: second differences along both directions, equalised for the narrowing of the azimuth spans
+    // Thin plate: second differences along both directions, weighted because the azimuth spans get narrower
     // towards the poles.
     constexpr double kSmoothness = 0.02;
     for (int i = 0; i <= kPolar; ++i) {
@@ -136,9 +136,6 @@ Skull::Skull() {
     for (int i = -1; i <= kPolar + 2; ++i)
         for (int j = -1; j <= kAzimuth + 2; ++j)
             coefficients_[(i + 1) * (kAzimuth + 4) + j + 1] = solution[unknown(i, j)];
-    double sum = 0;
-    for (const Sample& s : data) sum += distance_mm(s.p) * distance_mm(s.p);
-    fit_rms_mm_ = std::sqrt(sum / double(data.size()));
 }
 
 Skull::Value Skull::evaluate(double polar, double azimuth) const {

@@ -14,8 +14,6 @@ class Skull {
     Skull();
     /// First-order distance: (r - R) / |gradient of it|. Good within some 20 mm of the surface.
     [[nodiscard]] double distance_mm(Point p) const;
-    /// Root-mean-square distance of the fit from the section table.
-    [[nodiscard]] double fit_rms_mm() const { return fit_rms_mm_; }
 
   private:
     struct Value {
@@ -24,7 +22,6 @@ class Skull {
     [[nodiscard]] Value evaluate(double polar, double azimuth) const;
 
     std::vector<double> coefficients_;
-    double fit_rms_mm_ = 0;
 };
 
 }  // namespace dermis::bust

@@ -1,4 +1,4 @@
-// The built-in head, with its parameters. bust.h has how it is made.
+// The built-in head with its parameters; bust.h describes how it is made.
 
 #include "dermis/scene/subject.h"
 #include "subjects/bust/bust.h"
@@ -14,7 +14,7 @@ ImageSource made_by_code(std::string name, const Image& image) {
             .pixels = image.bytes};
 }
 
-// Maps are told apart by their names: "builtin:bust tone=5".
+// Maps of different busts need different names: "builtin:bust tone=5".
 std::string name_of(const ParameterValues& values) {
     std::string name = "builtin:bust";
     const ParameterValues standard(values.table());

@@ -1,6 +1,6 @@
-// A pair of glasses, to cast coloured shadows: an opaque frame and tinted lenses, fitted to builtin:bust (mm,
-// origin between the ears); other heads move it by the scene's keys. Each lens is a single surface, so that
-// light is tinted once; its UVs run over 0..1.
+// A pair of glasses that casts coloured shadows: an opaque frame and tinted lenses, fitted to builtin:bust
+// (mm, origin between the ears); for other heads the scene's keys move it. Each lens is a single surface, so
+// that light is tinted once; its UVs run over 0..1.
 //
 // Rims, bridge and temples are tubes swept along curves, the lenses surfaces stretched over the rims' curve.
 // All of it lies on one gently curved front, which wraps back towards the temples and leans in below.

@@ -1,4 +1,4 @@
-// Four spheres of skin: their curvature is known, so that what curvature does can be seen and tested.
+// Four spheres of skin with known curvature, to see and test its effect.
 
 #include <cmath>
 #include <numbers>
@@ -56,7 +56,7 @@ SceneObject make_sphere_object(float radius_mm, Vec3 center_mm) {
     return object;
 }
 
-// Resting on y = 0, the row centred on x = 0.
+// All touch y = 0; the row is centred on x = 0.
 Result<SubjectScene> make(const ParameterValues& values) {
     const float gap_mm = values.as<SpheresParams>().gap_mm;
     float x_mm[4] = {};

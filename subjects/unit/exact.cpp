@@ -22,7 +22,7 @@ double normal_cdf(double z) {
     return 0.5 * std::erfc(-z / std::numbers::sqrt2);
 }
 
-// sum_i w_i above_i / sum_i w_i below_i, a channel at a time; `of` gives {above, below} of a Gaussian.
+// sum_i w_i above_i / sum_i w_i below_i, for each channel; `of` gives {above, below} of a Gaussian.
 template <class Of>
 Rgb weighted_quotient(const GaussianSum& profile, Of of) {
     Rgb above = {}, below = {};
@@ -83,7 +83,7 @@ ExactExitance exact_shadow_edge(float half_width_mm, Vec3 to_light) {
                                       Vec3 p_mm) -> ExactPoint {
         const double cosine = to_light.z, half_edge_mm = 0.5 * penumbra_mm / cosine, b = half_width_mm;
         const Rgb part = weighted_quotient(profile, [&](double sigma) {
-            // The light between an edge and the strip's border, and all that the strip could send.
+            // The light between an edge and the strip's border, and the light of the whole strip.
             const double border = normal_cdf((b - p_mm.x) / sigma);
             double lit = 0;
             for (const SharpEdge& edge : edges) {

@@ -1,5 +1,5 @@
-// Scenes that ask one thing of a technique each, most of them with an exact answer: they say why a captured
-// share is what it is. `dermis compare unit` runs them all.
+// Scenes that test one property of a technique each, most of them with an exact answer: they explain a
+// technique's captured share. `dermis compare unit` runs them all.
 
 #include <array>
 #include <cmath>
@@ -31,7 +31,7 @@ Vec3 light_from(float yaw_deg, float pitch_deg = 0) {
 // Objects under one white light, seen from the front; half_mm is half the picture's height.
 SubjectScene scene_of(std::vector<SceneObject> objects, Vec3 to_light, float half_mm,
                       ExactExitance exact = {}) {
-    // Narrow, so that a pixel sees as much of the surface at the border of the picture as in its middle.
+    // Narrow, so that a pixel covers the same area at the border of the picture as in its middle.
     constexpr float kFovRad = 0.2f;
     SubjectScene scene{.objects = std::move(objects), .exact = std::move(exact)};
     for (SceneObject& object : scene.objects)
@@ -109,7 +109,7 @@ SubjectScene relief_scene() {
                     kWavesInSight / 2 * kWavelengthMm, exact_relief(kWavelengthMm, kSlope, to_light));
 }
 
-// No exact answer: the integral reaches from one to the other through the fold.
+// No exact answer: scattering reaches from one to the other across the fold.
 SubjectScene touching_spheres() {
     constexpr float kRadiusMm = 4;
     std::vector<SceneObject> objects;

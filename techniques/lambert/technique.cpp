@@ -1,4 +1,4 @@
-// Lambert 1760, Photometria: a surface that sends what it receives evenly everywhere. No scattering, so no
+// Lambert 1760, Photometria: a surface whose radiance is the same in all directions. No scattering, so no
 // width to set; the baseline of every comparison.
 
 #include "dermis/technique/forward.h"

@@ -34,7 +34,7 @@ double summed_response(double eye_angle, double sigma) {
 
 }  // namespace
 
-TEST_F(OrenNayarEvenLight, is_answered_as_the_model_does) {
+TEST_F(OrenNayarEvenLight, gives_the_models_sum_over_the_hemisphere) {
     Scene scene = evenly_lit_spheres();
     scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 3);
     Vec3 center_mm;

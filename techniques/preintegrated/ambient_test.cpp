@@ -1,4 +1,4 @@
-// Light from all around: which normals it sees, and how its occlusion scatters.
+// Light from all around: by which normals it is computed, and how its occlusion scatters.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ ImageSource stripes() {
 
 }  // namespace
 
-TEST_F(PreintegratedAmbient, sees_the_smoothed_normals) {
+TEST_F(PreintegratedAmbient, uses_the_smoothed_normals) {
     Scene scene = in_studio();
     scene.objects[0].mesh.materials[0].normal_map = stripes();
     const Image sharp = draw_grid(scene, {{"normals", "sharp"}}),

@@ -1,12 +1,12 @@
 // The curvature that scattering sees. To second order, light spread over a neighbourhood of variance v a direction sees N.L
 // change by -S L across it, S the curvature tensor, and its mean fall by v / 2 N.L |S|^2 (squares of all elements). A sphere
-// of curvature k changes by k sin and falls by v k^2 cos, so the sphere that does both alike has
+// of curvature k changes by k sin and falls by v k^2 cos, so the sphere for which both are the same has
 //
 //     k^2 = |S L|^2 + (N.L)^2 |S|^2 / 2
 //
 // At the terminator that is the turn of the normal towards the light, 1/r on a cylinder lit from its side, and k on a saddle
 // of k and -k, whose mean curvature is 0. Light from all around has no direction: k^2 = |S|^2 / 2, the curvedness (Koenderink,
-// van Doorn 1992). Signs drop out: where nothing casts a shadow, a concave surface scatters as its convex mould does.
+// van Doorn 1992). Signs drop out: where nothing casts a shadow, a concave surface scatters as the convex one of the same shape.
 #ifndef DERMIS_PREINTEGRATED_CURVATURE_GLSL
 #define DERMIS_PREINTEGRATED_CURVATURE_GLSL
 

@@ -51,7 +51,7 @@ TEST_F(PreintegratedCurvature, of_a_cylinder_lit_from_its_side_is_near_the_ring)
     EXPECT_LT(difference, 0.04);
 }
 
-// Across its axis the light does not change, and nothing blurs.
+// Around the axis N.L stays the same, and nothing is blurred.
 TEST_F(PreintegratedCurvature, of_a_cylinder_lit_along_its_axis_is_lamberts_at_the_terminator) {
     const Image image = draw_grid(bent_grid(0, 1), {{"shadow", "plain"}});
     for (int y = 0; y < kGrid; ++y)
@@ -59,11 +59,11 @@ TEST_F(PreintegratedCurvature, of_a_cylinder_lit_along_its_axis_is_lamberts_at_t
             EXPECT_NEAR(image.at(x, y, 0), std::max(grid_cosine(x), 0.0), 0.012) << x << " " << y;
 }
 
-// Mean curvature 0: folds of ears, between nose and cheek, and the neck have lines of such points.
-TEST_F(PreintegratedCurvature, of_a_saddle_is_that_of_a_sphere_as_tight) {
+// Mean curvature 0: folds of the ear, of the neck, and between nose and cheek have lines of such points.
+TEST_F(PreintegratedCurvature, of_a_saddle_is_that_of_a_sphere_with_its_curvature) {
     EXPECT_LT(largest_difference(bent_grid(1, -1), {}), 1e-3);
 }
 
-TEST_F(PreintegratedCurvature, of_a_concave_surface_is_that_of_its_convex_mould) {
+TEST_F(PreintegratedCurvature, of_a_concave_surface_is_that_of_the_convex_one) {
     EXPECT_LT(largest_difference(bent_grid(-1, -1), {}), 1e-3);
 }

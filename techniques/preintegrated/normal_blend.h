@@ -1,5 +1,5 @@
 #pragma once
-// How far each channel's diffuse normal goes from the sharp to a smoother read of the normal map (Penner
+// How much of each channel's diffuse light is of a smoother read of the normal map (Penner
 // 2011, "one normal a channel"; d'Eon, Luebke 2007 and Hable 2010 before him by eye), from the profile and
 // the map's scale.
 //
@@ -22,7 +22,7 @@
 
 namespace dermis {
 
-/// Weights of the smoother normal, 0..1 a channel, and how many mip levels it lies above the sharp one.
+/// Weights of the smoother normal, 0..1 for each channel, and its mip levels above the sharp one.
 struct NormalBlend {
     Rgb weight = {};
     double lod_bias = 0;

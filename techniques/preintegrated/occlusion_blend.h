@@ -1,7 +1,7 @@
 #pragma once
-// Scattered occlusion out of what vertices have: occlusion itself (variance 0) and three blurs of it. A
-// Gaussian of the profile lies between two of the four and takes from both by its variance, which damps long
-// waves, 1 - 2 pi^2 v / wavelength^2, as it does itself.
+// Scattered occlusion from what the vertices hold: occlusion itself (variance 0) and three blurs of it. A
+// Gaussian of the profile is replaced by a mix of the two with the nearest variances. The mix has the
+// Gaussian's own variance v, so that it damps long waves by the same 1 - 2 pi^2 v / wavelength^2.
 
 #include <array>
 
@@ -9,7 +9,7 @@
 
 namespace dermis {
 
-/// Weights a channel of the three blurs (kOcclusionVariance0Mm2 and following); what is missing to 1 is that
+/// Weights of the three blurs (kOcclusionVariance0Mm2 and following) per channel; the rest to 1 is the weight
 /// of the unblurred occlusion.
 [[nodiscard]] std::array<Rgb, 3> occlusion_blend(const GaussianSum& profile);
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pre-integrated skin: scattering as a function of N.L and curvature, of small bumps as one normal a channel, and of
-// shadow edges as a function of where in the penumbra one is (Penner 2011).
+// Pre-integrated skin: scattering as a function of N.L and curvature, of small bumps by one normal per channel, and of
+// shadow edges as a function of the position in the penumbra (Penner 2011).
 #include "shaders/include/frame.glsl"
 #include "techniques/preintegrated/constants.h"
 
@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform PassValues {
     vec3 occlusion_weight_0, occlusion_weight_1, occlusion_weight_2;  // of Surface::occlusion_blurred
 };
 layout(constant_id = 3) const int shadow = kShadowScattered;
-// A plain shadow keeps the scene's penumbra, so that both variants filter what they should.
+// shadow=plain filters the scene's penumbra; shadow=scattered the width that the shadow table was made for.
 #define DERMIS_SHADOW_WIDTH_MM (shadow == kShadowScattered ? shadow_width_mm : penumbra_mm)
 #define DERMIS_PREPARE_SURFACE
 #define DERMIS_BECKMANN_TABLE
@@ -47,12 +47,12 @@ uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
 uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
 uniform texture2D skin_transmission;  // distance
 
-// What prepare_surface() found; the same for every light.
+// Set by prepare_surface(); the same for every light.
 mat3 skin_tensor_per_mm;
 float curvature_around_per_mm;
 vec3 n_smooth_world;
-vec3 smooth_weight;    // of the answer to it; 1 where only it counts
-float smooth_levels;   // how many it lies above the sharp one
+vec3 smooth_weight;    // of the light that n_smooth_world gets; the sharp normal's has the rest
+float smooth_levels;   // mip levels from the sharp normal to the smooth one
 
 float beckmann(float n_dot_h, float alpha) {
     float root = textureLod(sampler2D(skin_beckmann, linear_clamp), vec2(sqrt(1.0 - n_dot_h), sqrt(alpha)), 0.0).r;
@@ -75,8 +75,8 @@ mat3 chosen_tensor_per_mm(Surface s) {
     return isotropic_curvature(curvature_gain * k, s.n_geometry_world);
 }
 
-// What a texel of the normal map covers on the skin, along the atlas axis that is stretched more: how the position moves
-// with the texel, out of how both move with the pixel.
+// The size of a texel of the normal map on the skin, along the atlas axis that is stretched more: the derivative of the
+// position by the texel, from the derivatives of both by the pixel.
 float normal_texel_mm(Surface s) {
     vec2 map_size = vec2(textureSize(sampler2D(normal_map, trilinear_repeat), 0));
     vec2 texel_dx = dFdx(s.uv) * map_size, texel_dy = dFdy(s.uv) * map_size;
@@ -122,16 +122,16 @@ vec3 falloff(float n_dot_l, float k) {
     return textureLod(sampler2D(skin_lut, linear_clamp), uv, 0.0).rgb;
 }
 
-// One N.L a channel.
+// One N.L per channel.
 vec3 falloff_of_channels(vec3 n_dot_l, float k) {
     return vec3(falloff(n_dot_l.r, k).r, falloff(n_dot_l.g, k).g, falloff(n_dot_l.b, k).b);
 }
 
-// The normal of a channel as Penner 2011 has it: mixed itself.
+// Penner 2011 mixes the normals themselves, in each channel.
 vec3 lerped_normal(Surface s, float weight) { return normalize(mix(s.n_world, n_smooth_world, weight)); }
 
-// Light is what scatters, so the answers to both normals are mixed, not the normals: a bump's lit side still counts where
-// the mean normal has turned away, and the table is read twice instead of once a channel.
+// The light of both normals is mixed, not the normals, because light scatters: a bump's lit side still counts where the
+// mean normal has turned away, and the table is read twice instead of three times.
 vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
     float k = curvature_towards(skin_tensor_per_mm, s.n_geometry_world, to_light_world);
     if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world), k);
@@ -153,7 +153,7 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
     return scattered * penumbra;
 }
 
-// The shadow table has what scatters into the penumbra; beyond it, and behind thin parts, the light is gathered.
+// The shadow table has the light that scatters into the penumbra; deeper in the shadow, light is gathered from the shadow map.
 vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility) {
     if (transmission == kTransmissionNone || visibility > 0.3) return vec3(0.0);
     return (1.0 - smoothstep(0.0, 0.3, visibility)) *
@@ -176,8 +176,8 @@ void ambient_bands(out vec3 band[3]) {
     for (int l = 0; l < 3; ++l) band[l] = sqrt(4.0 * kPi / float(2 * l + 1)) * zh[l];
 }
 
-// Occluded light scatters too: a crease is lit through its sides, in red farther than in blue. The vertices' occlusion
-// by the weights of occlusion_blend.h, the material's map as the normal map.
+// Occluded light scatters too: a crease is lit through its sides, in red farther than in blue. The occlusion of the
+// vertices is mixed by the weights of occlusion_blend.h, that of the material's map like the normals.
 vec3 scattered_occlusion(Surface s) {
     vec3 weight_0 = occlusion_weight_0, weight_1 = occlusion_weight_1, weight_2 = occlusion_weight_2;
     vec3 of_vertices = (1.0 - weight_0 - weight_1 - weight_2) * s.occlusion_vertex + weight_0 * s.occlusion_blurred.x +
@@ -202,5 +202,5 @@ vec3 ambient_response(Surface s) {
     return arriving * scattered_occlusion(s);
 }
 
-// The curvature that shades, whatever it comes from: radiance 1 is 1/4 mm.
+// The curvature that shades, from any source: radiance 1 is 0.25 per mm.
 vec3 own_view(Surface s) { return vec3(4.0 * curvature_around_per_mm); }

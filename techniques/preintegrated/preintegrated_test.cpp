@@ -42,7 +42,7 @@ TEST_F(PreintegratedDiffuse, of_the_table_is_the_librarys) {
     EXPECT_LT(difference, 1e-3);
 }
 
-TEST_F(PreintegratedDiffuse, of_the_closed_form_is_its_own_and_near_the_exact) {
+TEST_F(PreintegratedDiffuse, of_the_closed_form_is_the_librarys_and_near_the_exact) {
     const ClosedForm form = *fit_closed_form(gpu_gems_3_skin(), kGridMaxCurvaturePerMm, 257);
     EXPECT_LT(
         largest_difference("closed_form", "sphere", [&](double t, double k) { return evaluate(form, t, k); }),

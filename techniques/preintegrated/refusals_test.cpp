@@ -1,4 +1,4 @@
-// Tables, curvature maps and images that cannot mean what they are used for are refused with the reason.
+// Tables, curvature maps and images that do not fit their use are refused with the reason.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST_F(PreintegratedRefusals, tables_in_another_unit) {
     EXPECT_THAT(refusal(per_cm), HasSubstr("1/cm"));
 }
 
-TEST_F(PreintegratedRefusals, a_table_that_claims_to_be_a_colour) {
+TEST_F(PreintegratedRefusals, a_table_marked_as_srgb) {
     // A linear table whose PNG somebody marked as sRGB: the same bytes with an sRGB chunk after the header.
     const std::string table = baked("flag.png", [](LutOptions&) {});
     std::vector<std::byte> bytes = *read_file(table);

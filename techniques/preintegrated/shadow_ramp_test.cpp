@@ -59,7 +59,7 @@ TEST(ShadowRamp, lit_skin_keeps_all_its_light_and_shadow_none) {
     }
 }
 
-TEST(ShadowRamp, narrow_filters_would_darken_all_skin_if_their_ends_were_left) {
+TEST(ShadowRamp, narrow_filters_without_scaled_ends_would_darken_lit_skin) {
     EXPECT_NEAR(light_at_mm(1.0, 0), 0.85, 0.01);
     EXPECT_NEAR(light_at_mm(1.5, 0), 0.92, 0.01);
 }

@@ -1,7 +1,6 @@
 #include "techniques/preintegrated/tables.h"
 
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "dermis/bake/beckmann_table.h"
@@ -18,27 +17,8 @@ constexpr int kLutWidth = 512, kLutHeight = 256, kRows = 257;
 constexpr int kBeckmannWidth = 256, kBeckmannHeight = 256;
 constexpr int kBlendTexels = 97;
 
-TableImage to_image(std::string name, int width, int height, const std::vector<float>& values,
-                    ImageFormat format = ImageFormat::rgba32f) {
-    TableImage image{.name = std::move(name), .format = format, .width = width, .height = height};
-    image.bytes.resize(values.size() * sizeof(float));
-    std::memcpy(image.bytes.data(), values.data(), image.bytes.size());
-    return image;
-}
-
-TableImage to_image(std::string name, const Table& table) {
-    std::vector<float> rgba;
-    rgba.reserve(size_t(table.width) * size_t(table.height) * 4);
-    for (int y = 0; y < table.height; ++y)
-        for (int x = 0; x < table.width; ++x) {
-            for (int c = 0; c < 3; ++c) rgba.push_back(table.at(x, y, c));
-            rgba.push_back(1);
-        }
-    return to_image(std::move(name), table.width, table.height, rgba);
-}
-
-// A table from a file, read at our texels: whatever its own size, range and warp, its convention says where
-// it holds which value. Only what it was integrated for has to be the same.
+// A table from a file, resampled at this technique's texels: its size, range and warp are those of its
+// convention. Kind, construction, axes and profile must be the same.
 Result<TableImage> own_diffuse_table(const TableSettings& settings, const SkinContext& skin) {
     const Result<Table> table = read_table(skin.diffuse_table, {.kind = TableKind::diffuse,
                                                                 .construction = settings.construction,
@@ -56,7 +36,7 @@ Result<TableImage> own_diffuse_table(const TableSettings& settings, const SkinCo
                 lookup(*table, -1 + 2 * (x + 0.5) / kLutWidth, kMaxCurvaturePerMm * (y + 0.5) / kLutHeight);
             rgba.insert(rgba.end(), {float(d[0]), float(d[1]), float(d[2]), 1.0f});
         }
-    return to_image("skin_lut", kLutWidth, kLutHeight, rgba);
+    return table_image("skin_lut", kLutHeight, rgba);
 }
 
 Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContext& skin) {
@@ -70,7 +50,13 @@ Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContex
     options->height = kLutHeight;
     const Result<Table> table = bake_lut(*options);
     if (!table) return table.error();
-    return to_image("skin_lut", *table);
+    std::vector<float> rgba;
+    for (int y = 0; y < kLutHeight; ++y)
+        for (int x = 0; x < kLutWidth; ++x) {
+            for (int c = 0; c < 3; ++c) rgba.push_back(table->at(x, y, c));
+            rgba.push_back(1);
+        }
+    return table_image("skin_lut", kLutHeight, rgba);
 }
 
 // Rows at even steps of curvature, both ends included.
@@ -83,10 +69,10 @@ Result<TableImage> zonal_table(const TableSettings& settings, const SkinContext&
         for (size_t l = 0; l < 3; ++l)
             for (size_t c = 0; c < 3; ++c) rgba[(l * kRows + size_t(i)) * 4 + c] = float(zh[l][c]);
     }
-    return to_image("skin_zonal", kRows, 3, rgba);
+    return table_image("skin_zonal", 3, rgba);
 }
 
-// Half of a, s, k0 and k1, which is what the shader multiplies with; q travels in the fourth channels.
+// Half of a, s, k0 and k1, as the shader needs them; q in the fourth channels of the first three rows.
 Result<TableImage> closed_form_table(const TableSettings& settings, const SkinContext& skin) {
     const Result<ClosedForm> form =
         fit_closed_form(skin.gaussians, kMaxCurvaturePerMm, kRows, {.construction = settings.construction});
@@ -101,7 +87,7 @@ Result<TableImage> closed_form_table(const TableSettings& settings, const SkinCo
             if (k < 3) texel[3] = float(row.q[k]);
         }
     }
-    return to_image("skin_closed_form", kRows, 4, rgba);
+    return table_image("skin_closed_form", 4, rgba);
 }
 
 // Rows at even steps of visibility, both ends included.
@@ -111,20 +97,20 @@ Result<TableImage> shadow_table(const TableSettings& settings, const SkinContext
     std::vector<float> rgba;
     for (const Rgb& light : *ramp)
         rgba.insert(rgba.end(), {float(light[0]), float(light[1]), float(light[2]), 1.0f});
-    return to_image("skin_shadow", kRows, 1, rgba);
+    return table_image("skin_shadow", 1, rgba);
 }
 
-// The profile itself: weights in red, green, blue, variance in alpha; one texel a term.
+// The profile itself, one texel per term: weights in red, green, blue, variance in alpha.
 Result<TableImage> gaussian_table(const TableSettings&, const SkinContext& skin) {
     std::vector<float> rgba;
     for (const GaussianTerm& term : skin.gaussians.terms)
         rgba.insert(rgba.end(), {float(term.weight[0]), float(term.weight[1]), float(term.weight[2]),
                                  float(term.variance_mm2)});
-    return to_image("skin_gaussians", int(skin.gaussians.terms.size()), 1, rgba);
+    return table_image("skin_gaussians", 1, rgba);
 }
 
-// Weights of the smoother normal, and in alpha the levels it lies above, over the logarithm of the texel in
-// mm.
+// Weights of the smoother normal, and in alpha its mip level above the sharp one's, over the logarithm of a
+// texel's size in mm.
 Result<TableImage> normal_blend_table(const TableSettings& settings, const SkinContext& skin) {
     std::vector<float> rgba;
     for (int i = 0; i < kBlendTexels; ++i) {
@@ -133,25 +119,25 @@ Result<TableImage> normal_blend_table(const TableSettings& settings, const SkinC
         for (const double weight : blend.weight) rgba.push_back(float(weight));
         rgba.push_back(float(blend.lod_bias));
     }
-    return to_image("skin_normal_blend", kBlendTexels, 1, rgba);
+    return table_image("skin_normal_blend", 1, rgba);
 }
 
-// Beckmann's distribution over u = sqrt(1 - N.H) and v = sqrt(alpha). Along these axes its tenth root, which
-// is what is kept, bends gently enough to be interpolated; the published table's axes, N.H and alpha, lose 11
-// % of an oily highlight.
+// The tenth root of Beckmann's distribution over u = sqrt(1 - N.H) and v = sqrt(alpha), which is smooth
+// enough to be interpolated; a table over N.H and alpha, as published, loses 11 % of an oily highlight.
 Result<TableImage> beckmann_table(const TableSettings& settings, const SkinContext&) {
-    if (!settings.needs_beckmann) return to_image("skin_beckmann", 1, 1, {0}, ImageFormat::r32f);
+    if (!settings.needs_beckmann)
+        return table_image("skin_beckmann", 1, std::vector{0.0f}, ImageFormat::r32f);
     std::vector<float> roots;
     for (int y = 0; y < kBeckmannHeight; ++y)
         for (int x = 0; x < kBeckmannWidth; ++x) {
             const double u = (x + 0.5) / kBeckmannWidth, v = (y + 0.5) / kBeckmannHeight;
             roots.push_back(float(std::pow(beckmann(1 - u * u, v * v) / std::numbers::pi, 0.1)));
         }
-    return to_image("skin_beckmann", kBeckmannWidth, kBeckmannHeight, roots, ImageFormat::r32f);
+    return table_image("skin_beckmann", kBeckmannHeight, roots, ImageFormat::r32f);
 }
 
-// R per mm^2 divided by its integral, at even steps of distance, both ends included: the albedo map holds the
-// albedo, which the profile's own would multiply a second time.
+// R per mm^2 divided by its integral, at even steps of distance, both ends included. The albedo is left out
+// because the albedo map holds it.
 Result<TableImage> transmission_table(const TableSettings&, const SkinContext& skin) {
     const Profile profile = {.name = "", .source = "", .model = skin.gaussians};
     std::vector<float> rgba;
@@ -163,7 +149,7 @@ Result<TableImage> transmission_table(const TableSettings&, const SkinContext& s
         }
         rgba.push_back(1);
     }
-    return to_image("skin_transmission", kRows, 1, rgba);
+    return table_image("skin_transmission", 1, rgba);
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 // The scattered light of a point, from samples of a disk around it (Golubev 2018). Samples are placed by the mean of the
 // channels' radial densities, and weighted by each channel's own at the true distance between the points on the skin
-// (bilateral filtering). The part of the profile within the pixel itself is not sampled but known: its share goes to the
-// middle, so that a profile far narrower than a pixel changes nothing.
+// (bilateral filtering). The part of the profile within the pixel itself is computed, not sampled, and is
+// the centre's weight, so that a profile far narrower than a pixel changes nothing.
+#include "shaders/include/texel_centres.glsl"
 #include "shaders/screen/rays.glsl"
-#include "techniques/screen_space_burley/constants.h"
 
 uniform texture2D light;
 uniform texture2D skin_z;
@@ -19,22 +19,20 @@ layout(constant_id = 11) const int rotate = 1;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 light_out;
 
-const float kGoldenAngle = 2.39996323;
-
 vec4 density_row(float distance_mm, float reach_mm, float row) {
-    float x = sqrt(clamp(distance_mm / reach_mm, 0.0, 1.0));
-    return textureLod(sampler2D(skin_density, linear_clamp),
-                      vec2((x * (kDensityTexels - 1.0) + 0.5) / kDensityTexels, (row + 0.5) / 2.0), 0.0);
+    float size = float(textureSize(sampler2D(skin_density, linear_clamp), 0).x);
+    float u = texel_centres(sqrt(clamp(distance_mm / reach_mm, 0.0, 1.0)), size);
+    return textureLod(sampler2D(skin_density, linear_clamp), vec2(u, (row + 0.5) / 2.0), 0.0);
 }
 
-float radius_mm(float u) {
-    return textureLod(sampler2D(skin_radius, linear_clamp),
-                      vec2((u * (kRadiusTexels - 1.0) + 0.5) / kRadiusTexels, 0.5), 0.0).r;
+float radius_mm(float part) {
+    float u = texel_centres(part, float(textureSize(sampler2D(skin_radius, linear_clamp), 0).x));
+    return textureLod(sampler2D(skin_radius, linear_clamp), vec2(u, 0.5), 0.0).r;
 }
 
-// A different turn of the disk for each pixel, evenly distributed in any 3 x 3 block (Jimenez 2014, interleaved gradient
-// noise).
-float turn(vec2 pixel) { return 2.0 * kPi * fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
+// A different rotation of the disk for each pixel, evenly distributed in any 3 x 3 block (Jimenez 2014, interleaved
+// gradient noise).
+float rotation(vec2 pixel) { return 2.0 * kPi * fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 
 void main() {
     vec4 middle = textureLod(sampler2D(light, nearest_clamp), uv, 0.0);
@@ -50,7 +48,7 @@ void main() {
     vec2 pixel_mm = size_mm / vec2(textureSize(sampler2D(light, nearest_clamp), 0));
     float inner_mm = min(sqrt(pixel_mm.x * pixel_mm.y / kPi), reach_mm);  // the disk of a pixel's area
     vec4 inside = density_row(inner_mm, reach_mm, 1.0);
-    float start = rotate == 1 ? turn(gl_FragCoord.xy) : 0.0;
+    float start = rotate == 1 ? rotation(gl_FragCoord.xy) : 0.0;
 
     vec3 sum = vec3(0.0), weights = vec3(0.0);
     for (int i = 0; i < sample_count; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the shader samples a profile by.
+// The tables with which the shader samples a profile.
 
 #include <array>
 #include <vector>

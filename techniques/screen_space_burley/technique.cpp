@@ -2,12 +2,9 @@
 // Real-Time" (SIGGRAPH course), after Christensen, Burley 2015, "Approximate Reflectance Profiles for
 // Efficient Subsurface Scattering": the skin's diffuse light on the picture, before the base colour, is
 // gathered from a disk whose samples follow the profile. Changed: any profile, sampled by the mean of its
-// channels; what leaves within the pixel is not sampled but known.
-
-#include <cstring>
+// channels; the part that leaves within the pixel is computed, not sampled.
 
 #include "dermis/technique/screen_light.h"
-#include "techniques/screen_space_burley/constants.h"
 #include "techniques/screen_space_burley/tables.h"
 
 namespace dermis {
@@ -16,6 +13,7 @@ namespace {
 using namespace screen_space_burley;
 
 constexpr const char* kOwnView = "gathered_light";
+constexpr int kTexels = 512;
 
 struct Params {
     int32_t samples = 16;
@@ -49,27 +47,18 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     return list;
 }
 
-template <class Value>
-TableImage to_image(std::string name, ImageFormat format, int height, const std::vector<Value>& texels) {
-    TableImage image{.name = std::move(name), .format = format, .height = height};
-    image.width = int(texels.size()) / height;
-    image.bytes.resize(texels.size() * sizeof(Value));
-    std::memcpy(image.bytes.data(), texels.data(), image.bytes.size());
-    return image;
-}
-
 Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
     const Profile profile = scaled(skin.profile, double(values.as<Params>().width));
     const double reach = reach_mm(profile);
-    std::vector<Texel> density = radial_density(profile, reach, int(kDensityTexels));
-    const std::vector<Texel> part = part_within(profile, reach, int(kDensityTexels));
+    std::vector<Texel> density = radial_density(profile, reach, kTexels);
+    const std::vector<Texel> part = part_within(profile, reach, kTexels);
     density.insert(density.end(), part.begin(), part.end());
     return std::vector<TableImage>{
-        to_image("skin_density", ImageFormat::rgba32f, 2, density),
-        to_image("skin_radius", ImageFormat::r32f, 1, radius_of_part(profile, reach, int(kRadiusTexels)))};
+        table_image("skin_density", 2, density),
+        table_image("skin_radius", 1, radius_of_part(profile, reach, kTexels), ImageFormat::r32f)};
 }
 
-// The fewest samples that do not show single taps.
+// The minimum at which single samples are not visible.
 ParameterValues coarse(ParameterValues values, float) {
     constexpr int32_t kFewest = 8;
     auto params = values.as<Params>();

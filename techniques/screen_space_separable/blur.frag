@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One direction of the blur. Taps lie at squared steps, dense in the middle (Jimenez et al. 2015, section 6); each
-// stands for the cell between the middles to its neighbours, whose share is the difference of the kernel's cumulative
-// function at the ends of the cell, so that also Gaussians much narrower than a pixel keep their whole weight. Distances
-// are those of the points on the skin, not of the pixels: a cell on a slope is longer than it looks, and a tap behind a
-// gap is too far away to count.
+// One direction of the blur. Taps lie at squared steps, dense in the middle (Jimenez et al. 2015, section 6). Each
+// represents the cell that ends half way to its neighbours; its weight is the difference of the kernel's cumulative
+// function at the ends of the cell, so that Gaussians much narrower than a pixel keep their whole weight. Distances
+// are those of the points on the skin, not of the pixels: a cell on a slope is longer than its projection, and a tap
+// behind a gap is too far away to count.
+#include "shaders/include/texel_centres.glsl"
 #include "shaders/screen/rays.glsl"
 #include "techniques/screen_space_separable/constants.h"
 
@@ -24,8 +25,8 @@ layout(location = 0) out vec4 light_out;
 // The share of the light that leaves within this distance on both sides.
 vec3 share_within(float distance_mm) {
     float size = float(textureSize(sampler2D(skin_kernel, linear_clamp), 0).x);
-    float x = sqrt(clamp(distance_mm / reach_mm, 0.0, 1.0));
-    return textureLod(sampler2D(skin_kernel, linear_clamp), vec2((x * (size - 1.0) + 0.5) / size, 0.5), 0.0).rgb;
+    float u = texel_centres(sqrt(clamp(distance_mm / reach_mm, 0.0, 1.0)), size);
+    return textureLod(sampler2D(skin_kernel, linear_clamp), vec2(u, 0.5), 0.0).rgb;
 }
 
 // In mm on the picture's plane through the point; i from 0 to half_taps.

@@ -4,8 +4,6 @@
 // distances are those of the points on the skin, and a tap's weight is the kernel's integral over its cell
 // (blur.frag).
 
-#include <cstring>
-
 #include "dermis/technique/screen_light.h"
 #include "techniques/screen_space_separable/constants.h"
 #include "techniques/screen_space_separable/kernel.h"
@@ -93,13 +91,9 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
             rgba.push_back(float(share_within(kernel, params.width, c, reach * x * x)));
         rgba.push_back(1);
     }
-    TableImage image{.name = "skin_kernel", .format = ImageFormat::rgba32f, .width = kTexels, .height = 1};
-    image.bytes.resize(rgba.size() * sizeof(float));
-    std::memcpy(image.bytes.data(), rgba.data(), image.bytes.size());
-    return std::vector<TableImage>{std::move(image)};
+    return std::vector<TableImage>{table_image("skin_kernel", 1, rgba)};
 }
 
-// The fewest taps.
 ParameterValues coarse(ParameterValues values, float) {
     auto params = values.as<Params>();
     params.taps = Taps::taps_7;

@@ -25,7 +25,7 @@ vec4 average_of_written(vec4 centre, vec2 radius_uv) {
 }
 
 // The source's own: every tap counts, and with copy_lowest a texel whose taps find one that was never written becomes the
-// tap with the smallest kernel, which surely was.
+// tap with the smallest kernel, which was written.
 vec4 average_of_all(vec4 centre, vec2 radius_uv, bool copy_lowest) {
     vec4 lowest = centre;
     float flag = centre.a;

@@ -17,8 +17,8 @@ using Curves = std::array<Curve, 3>;
 // Reading a texture between its texels spreads light like a Gaussian of this variance, in squares of a texel.
 constexpr double kBilinearVariance = 1.0 / 6;
 
-// Logarithmic steps from waves that the widest Gaussian hardly damps to those that the narrowest takes away,
-// or that the texels no longer hold.
+// Logarithmic steps from waves that the widest Gaussian hardly damps to those that the narrowest removes or
+// that the texels cannot hold.
 Curve samples_of(const GaussianSum& profile, double texel_mm) {
     const auto [narrowest, widest] = std::ranges::minmax(profile.terms, {}, &GaussianTerm::variance_mm2);
     const double first = 0.1 / widest.variance_mm2;

@@ -14,8 +14,8 @@ constexpr int kMaxPasses = 16;
 constexpr int kSourceSize = 512;
 constexpr float kSourceScale = 3, kSourceBias = 2;
 
-// Of a filter's taps without their centre: variance along one axis at radius 1, and their part of the filter
-// as it is published, centre included.
+// The taps of a filter without its centre: variance along one axis at radius 1, and their share of the
+// published filter, which includes the centre.
 struct Taps {
     double variance = 0;
     float share = 1;
@@ -35,12 +35,12 @@ Taps taps_of(Filter filter) {
     return {};
 }
 
-// Pass i reads i + 1/2 texels off along both axes, each read the mean of four texels: 1/4 more.
+// Pass i reads i + 1/2 texels off along both axes; each read is the mean of four texels, which adds 1/4.
 double kawase_variance_texels(int pass) {
     return (pass + 0.5) * (pass + 0.5) + 0.25;
 }
 
-std::vector<BlurPass> alike(int count, float share) {
+std::vector<BlurPass> equal_passes(int count, float share) {
     return std::vector<BlurPass>(size_t(std::max(count, 0)), {.radius = 1, .share = Vec3{1, 1, 1} * share});
 }
 
@@ -55,7 +55,7 @@ std::vector<BlurPass> passes_of_profile(const Params& params, const FrameContext
         std::vector<double> variances;
         for (int i = 0; i < std::min(params.blur_passes, kMaxPasses); ++i)
             variances.push_back(kawase_variance_texels(i));
-        return alike(nearest_pass_count(frame.skin_gaussians, variances, texel), 1);
+        return equal_passes(nearest_pass_count(frame.skin_gaussians, variances, texel), 1);
     }
     std::vector<BlurPass> passes = fit_blur(
         frame.skin_gaussians,
@@ -87,7 +87,7 @@ BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
             plan.kernel_bias = params.blur_bias;
             break;
     }
-    plan.passes = alike(params.blur_passes, taps_of(plan.filter).share);
+    plan.passes = equal_passes(params.blur_passes, taps_of(plan.filter).share);
     return plan;
 }
 
@@ -95,9 +95,9 @@ float widest_tap(Filter filter, size_t pass) {
     return filter == Filter::kawase ? 0.5f + float(pass) : 1.0f;
 }
 
-// Variances of blurs add, so that n passes of radius r and m of r sqrt(n / m) are one width. A fit to the
-// profile finds its own radii for the fewer passes; Kawase's filter has its radii from the number of the pass
-// and keeps them.
+// Variances of blurs add, so that n passes of radius r are as wide as m of radius r sqrt(n / m). A fit to
+// the profile finds its own radii for the fewer passes; Kawase's radii follow from the number of the pass and
+// are kept.
 Params coarse_params(Params params, float scale) {
     if (params.blur == Blur::source) return params;  // its light map is small already
     const int32_t size = params.atlas.light_map_size;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Step 4 of the source: the mesh through the camera, diffuse from the blurred light map. What the map's texels are too
-// coarse for stays at the pixel: light there, and what the blur adds to the map or takes from it.
+// Step 4 of the source: the mesh through the camera, diffuse from the blurred light map. Detail that is
+// smaller than a texel of the map is kept: the light at the pixel, plus the difference that the blur makes to the map.
 #include "shaders/atlas/final.glsl"
 #include "techniques/texture_space/constants.h"
 

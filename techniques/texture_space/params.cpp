@@ -6,13 +6,12 @@ ParameterTable parameter_table() {
     return ParameterTableBuilder<Params>()
         .part(&Params::atlas, atlas_parameters())
         .choice(&Params::blur, "blur", {"profile", "source", "set"},
-                "radii of the blur: from the skin's profile and the texels' size on it, a colour each; the "
-                "source's "
-                "(3, 2) texels of poisson on a light map of 512; or blur_scale and blur_bias")
+                "radii of the blur: from the skin's profile and the texels' size on it, for each colour; the "
+                "source's (3, 2) texels of poisson on a light map of 512; or blur_scale and blur_bias")
         .choice(&Params::filter, "filter", {"poisson", "gaussian", "box", "kawase"},
-                "taps of the blur; kawase's are in texels and have one width in all colours")
+                "taps of the blur; kawase's are in texels and equally wide in all colours")
         .integer(&Params::blur_passes, "blur_passes", "", 0, 16,
-                 "how often the light map is blurred; with blur=profile at most so often")
+                 "number of passes of the blur; with blur=profile their maximum")
         .number(&Params::blur_scale, "blur_scale", "texels or mm", 0, kMaxBlurRadius,
                 "blur=set: added to the radius where the kernel map is 1")
         .number(&Params::blur_bias, "blur_bias", "texels or mm", 0, kMaxBlurRadius,
@@ -21,9 +20,9 @@ ParameterTable parameter_table() {
                 "in texels, at chart borders: nothing, the source's copy in the first pass, or written "
                 "texels only")
         .choice(&Params::space, "space", {"texels", "mm"},
-                "radii in texels, as in the source, or in mm on the skin, whatever the unwrap")
+                "radii in texels, as in the source, or in mm on the skin, independent of the UV layout")
         .choice(&Params::seams, "seams", {"drop", "carry"},
-                "in mm: taps that leave a chart are dropped, or carried into the chart beyond the seam")
+                "in mm: taps that leave a chart are dropped, or read in the chart across the seam")
         .toggle(&Params::single_channel_opacity, "single_channel_opacity",
                 "translucent shadows without colour, from the red channel")
         .toggle(&Params::second_light_shadow, "second_light_shadow",
@@ -42,8 +41,7 @@ ParameterTable parameter_table() {
                 "what is too small for the light map's texels is lost, as in the source, or lit at the pixel")
         .choice(&Params::specular_shadow, "specular_shadow", {"off", "source", "shadow_map"},
                 "the key light's specular: not shadowed, dimmed by the blurred light's luminance as in the "
-                "source, or "
-                "shadowed as the diffuse light is")
+                "source, or shadowed as the diffuse light is")
         .number(&Params::specular_shadow_scale, "specular_shadow_scale", "", 0, 10,
                 "specular_shadow=source: times the luminance")
         .number(&Params::specular_shadow_bias, "specular_shadow_bias", "", -1, 1,

@@ -1,4 +1,4 @@
-// The taps of the four filters that the source weighed.
+// The taps of the four filters that the source compares.
 #ifndef DERMIS_TEXTURE_SPACE_TAPS_GLSL
 #define DERMIS_TEXTURE_SPACE_TAPS_GLSL
 

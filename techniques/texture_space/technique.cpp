@@ -23,9 +23,9 @@ using texture_space::Seams;
 
 constexpr const char* kOwnView = "light_map";
 
-// How far the passes after the light map carry it: the widest tap of every blur and its bilinear neighbour,
-// and the bilinear lookup of the final mesh. In mm a tap goes along two steps at once. `kernel_texels` is the
-// longest radius of a pass whose own is 1.
+// How far the passes after the light map carry light: the widest tap of every blur and its bilinear
+// neighbour, and the bilinear lookup of the final mesh. In mm a tap goes along two steps at once.
+// `kernel_texels` is the longest radius of a pass with BlurPass::radius 1.
 int reach_texels(const BlurPlan& plan, float kernel_texels) {
     float reach = 1;
     for (size_t i = 0; i < plan.passes.size(); ++i) {
@@ -59,15 +59,15 @@ AtlasLightSettings atlas_settings(const Params& params, const BlurPlan& plan, co
 
 constexpr std::array<float, 4> kNothingWritten = {0, 0, 0, 1};
 
-// Where pass `index` reads, and the pass before it wrote: the light is lit into light_map_a and blurred by
-// turns.
+// The image that pass `index` reads and that the pass before it wrote. The first reads light_map_a; the
+// others alternate between light_map_b and light_map_a, or light_map_c where light_map_a is kept.
 std::string source_of(const BlurPlan& plan, size_t index) {
     if (index % 2 == 1) return "light_map_b";
     return plan.keeps_lit && index > 0 ? "light_map_c" : "light_map_a";
 }
 
 Pass blur_pass(const Params& params, const BlurPlan& plan, size_t index) {
-    // The source dilates in the first pass only; leaving out what was never written must hold in all.
+    // The source dilates in the first pass only; written_only must hold in all.
     const Dilate dilate = params.dilate == Dilate::source && index > 0 ? Dilate::off : params.dilate;
     const BlurPass& blur = plan.passes[index];
     return {
@@ -115,8 +115,8 @@ int32_t texels_of(const Params& params, const BlurPlan& plan) {
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
-    // Far away the map of the frame before is taken again: if that one was far too, it is whole, for the
-    // first far frame draws all of it.
+    // Far away the light map of the frame before is used again. If that frame was far too, its map is
+    // complete, because the first far frame draws all of it.
     const auto is_far = [&](float distance_mm) {
         return params.cull_distance && distance_mm > params.cull_beyond_mm;
     };
@@ -126,7 +126,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const BlurPlan plan = blur_plan(params, frame);
     const ImageSize size = {plan.size, plan.size};
     const std::string result = source_of(plan, plan.passes.size());
-    // In mm charts and gutters must agree to a thousandth, which halves lose in a few passes.
+    // In mm, charts and gutters must agree to 1/1000; half floats lose that in a few passes.
     const ImageFormat format = plan.in_mm ? ImageFormat::rgba32f : ImageFormat::rgba16f;
     PassList list;
     const bool keeps_lit = plan.keeps_lit && !plan.passes.empty();

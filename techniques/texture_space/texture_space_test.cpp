@@ -57,7 +57,7 @@ TEST_F(TextureSpace, without_blur_it_is_lambert) {
     EXPECT_GT(mean_difference(lambert, blurred), 1e-2) << "the blur does nothing";
 }
 
-TEST_F(TextureSpace, every_filter_keeps_even_light_even_up_to_the_chart_borders) {
+TEST_F(TextureSpace, every_filter_keeps_constant_light_constant_up_to_the_chart_borders) {
     const Scene scene = evenly_lit_spheres();
     Renderer renderer = make_renderer(scene);
     const Image lambert = radiance(renderer, built_in_technique("lambert"), kSmall);
@@ -91,7 +91,7 @@ TEST_F(TextureSpace, its_coarse_settings_blur_as_widely) {
     }
 }
 
-// A tap between texels is a mean of four, so that a radius under half a texel blurs too.
+// A tap between texels is a mean of four texels, so that a radius under half a texel blurs too.
 TEST_F(TextureSpace, dilation_reads_between_texels) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
@@ -136,7 +136,7 @@ namespace {
 
 class TextureSpaceSpecular : public TextureSpace {
   protected:
-    static constexpr DrawSettings kSpecular = {
+    static inline const DrawSettings kSpecular = {
         .width = 128, .height = 128, .view = "specular", .deep = true, .shadow_map_size = 512};
 
     static Image specular(const Scene& scene, const char* how) {
@@ -167,11 +167,11 @@ TEST_F(TextureSpaceSpecular, its_shadow_does_not_depend_on_how_bright_the_key_is
     const double bright = taken("shadow_map", 6), dim = taken("shadow_map", 1);
     EXPECT_GT(bright, 0);
     EXPECT_NEAR(dim, bright, 1e-2 * bright);
-    // The source's does.
+    // With specular_shadow=source it does.
     EXPECT_LT(taken("source", 1), 0.5 * taken("source", 6));
 }
 
-TEST_F(TextureSpaceSpecular, is_every_other_techniques) {
+TEST_F(TextureSpaceSpecular, is_that_of_every_other_technique) {
     const Scene scene = load("bust");
     Renderer renderer = make_renderer(scene);
     const Image lambert = radiance(renderer, built_in_technique("lambert"), kSpecular);

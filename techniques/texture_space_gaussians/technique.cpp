@@ -1,5 +1,5 @@
 // d'Eon, Luebke 2007, "Advanced Techniques for Realistic Real-Time Skin Rendering" (GPU Gems 3, chapter 14):
-// the light map is blurred by each Gaussian of the diffusion profile, every one from the one before, in two
+// the light map is blurred by each Gaussian of the diffusion profile, each from the one before, in two
 // passes along the surface, and the results are summed by the profile's weights. Changed: the steps of the
 // blur follow shear as well as stretch and agree across seams (shaders/atlas/blur_mm.glsl); gutter texels
 // hold the light from across the UV seam; the sum is accumulated by blending, so that any number of Gaussians
@@ -114,7 +114,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const AtlasLightSettings atlas = atlas_settings(params, steps, frame);
     const ImageSize size = {params.atlas.light_map_size, params.atlas.light_map_size};
     PassList list;
-    // Floats: a dozen roundings to half in a row are seen.
+    // Not half floats: the rounding of a dozen passes in a row is visible.
     for (const char* name : {"light_map_a", "light_map_b"})
         list.images.push_back({.name = name, .format = ImageFormat::rgba32f, .size = size});
     if (!steps.empty())

@@ -1,6 +1,6 @@
 // Wrapped diffuse: the cheapest imitation of scattering (Green 2004), with the energy-conserving scale of
 // McAuley 2010. How far light reaches past the terminator follows from the skin's profile and the curvature,
-// a colour each, or is set by eye as Green has it, with a colour shift at the terminator.
+// for each colour, or is set by eye as Green has it, with a colour shift at the terminator.
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
         .choice(
             &Params::width, "width", {"profile", "source"},
-            "how far light reaches past the terminator: by the skin's profile and the curvature, a colour "
-            "each; or wrap, scatter_width and scatter_color_linear, set by eye as in the source")
+            "how far light reaches past the terminator: by the skin's profile and the curvature, for each "
+            "colour; or wrap, scatter_width and scatter_color_linear, set by eye as in the source")
         .number(&Params::wrap, "wrap", "", 0, 1,
                 "width=source: how far past the terminator light reaches, in n_dot_l")
         .number(&Params::scatter_width, "scatter_width", "", 0.001, 0.5,
@@ -37,14 +37,14 @@ ParameterTable parameters() {
         .build();
 }
 
-// Reach of a colour at curvature k: second_moment k^2 / (1 + bend k^2), times kReachScale.
+// For one colour, the reach at curvature k is second_moment k^2 / (1 + bend k^2), times kReachScale.
 struct Reach {
     double second_moment_mm2 = 0, bend_mm2 = 0;
 };
 
 // On a sphere of curvature k the profile damps the cosine's part of the light (its zonal harmonic of order 1)
-// by d(k) = sum w exp(-v k^2), and 1 - d is second_moment k^2 for small k. The bend makes it right at 1/2 per
-// mm too.
+// by d(k) = sum w exp(-v k^2), and 1 - d is second_moment k^2 for small k. The bend is set so that 1 - d is
+// also right at 1/2 per mm.
 Reach reach_of(const GaussianSum& profile, size_t c) {
     constexpr double kSharpest = 0.25;  // (1/2 per mm)^2
     double total = 0, second_moment = 0, damped = 0;

@@ -14,7 +14,7 @@ class Wrap : public GridTest {
         settings.emplace_back("width", width);
         return draw_grid(make_grid_scene(), built_in_technique("wrap"), settings);
     }
-    /// Over all cosines, which are even steps over x: a quarter is Lambert's.
+    /// Over all cosines, which are even steps over x; Lambert's is 1/4.
     static double mean(const Image& image, int channel) {
         double sum = 0;
         for (int x = 0; x < kGrid; ++x) sum += image.at(x, 0, channel);
@@ -24,7 +24,7 @@ class Wrap : public GridTest {
 
 }  // namespace
 
-TEST_F(Wrap, keeps_the_energy_however_far_it_reaches) {
+TEST_F(Wrap, keeps_the_energy_at_every_reach) {
     for (const char* reach : {"0", "0.25", "0.5", "1"})
         EXPECT_NEAR(mean(draw({{"wrap", reach}, {"scatter_color_linear", "0"}}), 0), 0.25, 5e-4) << reach;
 }
@@ -66,7 +66,7 @@ TEST_F(Wrap, the_coloured_band_adds_3_percent_in_red_and_less_than_1_in_green_an
     EXPECT_LT(mean(image, 2), mean(image, 1));
 }
 
-TEST_F(Wrap, light_reaches_past_the_terminator_as_far_as_it_is_told) {
+TEST_F(Wrap, light_reaches_past_the_terminator_as_far_as_wrap_says) {
     const Image image = draw({{"wrap", "0.4"}});
     for (int x = 0; x < kGrid; ++x) {
         if (grid_cosine(x) < -0.4) {

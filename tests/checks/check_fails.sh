@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # check_fails.sh CHECK SOURCE_DIR: each check of .ci/run must fail on a fault made for it, in a folder of its own, and pass
-# without. The faults are compiled with the preset `clang` and cmake/Compiler.cmake, as the repository is. 77: skipped.
+# without. The faults are compiled with the presets that .ci/run uses and cmake/Compiler.cmake. 77: skipped.
 set -euo pipefail
 check=$1
 source_dir=$2
@@ -11,7 +11,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 fail() { echo "$check: $1"; exit 1; }
 
-# project FLAGS NAME: a program NAME of $folder/fault.cpp in $folder/build-clang, its output in $folder/log.
+# project PRESET FLAGS NAME: a program NAME of $folder/fault.cpp in $folder/build-PRESET, its output in $folder/log.
 project() {
     cat > "$folder/CMakePresets.json" <<END
 { "version": 6, "include": ["$source_dir/CMakePresets.json"] }
@@ -20,11 +20,11 @@ END
 cmake_minimum_required(VERSION 3.25)
 project(fault LANGUAGES C CXX)
 include("$source_dir/cmake/Compiler.cmake")
-add_executable($2 fault.cpp)
-target_compile_options($2 PRIVATE \${DERMIS_WARNINGS} $1)
-target_link_options($2 PRIVATE $1)
+add_executable($3 fault.cpp)
+target_compile_options($3 PRIVATE \${DERMIS_WARNINGS} $2)
+target_link_options($3 PRIVATE $2)
 END
-    (cd "$folder" && cmake --preset clang && cmake --build build-clang) > "$folder/log" 2>&1
+    (cd "$folder" && cmake --preset "$1" && cmake --build "build-$1") > "$folder/log" 2>&1
 }
 
 case $check in
@@ -37,12 +37,14 @@ format)
     ;;
 warning)
     printf 'int main() {\n    int a = 0;\n    { int a = 1; (void)a; }\n    return a;\n}\n' > "$folder/fault.cpp"
-    project "" fault && fail "builds what clang warns of"
+    project warnings "" fault && fail "passes what clang warns of"
     grep -q "Wshadow" "$folder/log" || fail "fails for another reason: $(tail -5 "$folder/log")"
+    printf 'int main() {}\n' > "$folder/fault.cpp"
+    project warnings "" fault || fail "fails on a sound file: $(tail -5 "$folder/log")"
     ;;
 leak)
     printf 'int main(int count, char**) {\n    return *new int(count) == 0;\n}\n' > "$folder/fault.cpp"
-    project "" fault || fail "does not build: $(tail -5 "$folder/log")"
+    project clang "" fault || fail "does not build: $(tail -5 "$folder/log")"
     "$folder/build-clang/fault" 2> "$folder/log" && fail "passes a leak"
     grep -q "LeakSanitizer: detected memory leaks" "$folder/log" || fail "no leak found: $(head -5 "$folder/log")"
     ;;
@@ -56,7 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     return 0;
 }
 END
-    project -fsanitize=fuzzer fault_fuzz || fail "does not build: $(tail -5 "$folder/log")"
+    project clang -fsanitize=fuzzer fault_fuzz || fail "does not build: $(tail -5 "$folder/log")"
     DERMIS_FUZZ_TARGETS=$folder/build-clang "$source_dir/tools/fuzz" 20 > "$folder/log" && fail "passes a crash"
     grep -q "fault: FAILED" "$folder/log" || fail "fails for another reason: $(cat "$folder/log")"
     ls "$folder"/build-clang/findings/fault-crash-* >/dev/null || fail "does not keep the input"

@@ -8,9 +8,8 @@
 namespace dermis {
 namespace {
 
-// What shows that a package is used: a name that CMake looks for, the beginning of an included path, a
-// program or a file that is used at run time. Several of a kind are separated by spaces; one of any kind is
-// enough.
+// Shows that a package is used: a name that CMake looks for, the beginning of an included path, a program or
+// a file that is used at run time. Several of a kind are separated by spaces; one of any kind is enough.
 struct Evidence {
     const char* package;
     const char* cmake;
@@ -36,7 +35,6 @@ constexpr Evidence kPackageEvidence[] = {
     {"libfreetype-dev", "Freetype", "ft2build.h", ""},
     {"fonts-dejavu-core", "", "", "DejaVuSans.ttf"},
     {"libosd-dev", "osdCPU", "opensubdiv/", ""},
-    {"libmeshoptimizer-dev", "meshoptimizer", "meshoptimizer.h", ""},
     {"libembree-dev", "embree", "embree3/", ""},
     {"libvulkan-dev", "", "vulkan/", "GLFW_INCLUDE_VULKAN"},
     {"libvulkan-volk-dev", "", "volk.h", ""},
@@ -66,7 +64,7 @@ constexpr Evidence kPackageEvidence[] = {
     {"file", "file", "", ""},
 };
 
-// What needs no package of its own: part of CMake, optional, or of the repository.
+// These need no package: they are part of CMake, optional, or of the repository.
 const std::set<std::string> kOwnCmakeNames = {"Threads", "ccache", "dermis"};
 // Folders and files of the C library; a header without '.' or '/' is C++'s own.
 const std::regex kSystemHeader(

@@ -1,4 +1,4 @@
-// dermis bake closed_form: the coefficients that stand in for the table, and how wrong they are.
+// dermis bake closed_form: the coefficients that replace the table, and their error.
 
 #include <cstdio>
 #include <memory>

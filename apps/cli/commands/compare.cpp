@@ -67,8 +67,8 @@ Result<ComparisonSettings> settings_of(const Options& options, const char* defau
     return settings;
 }
 
-// Tried before minutes of work rather than after, by a file that is removed again with every directory that
-// it needed: a comparison that cannot be made leaves nothing.
+// Tries before minutes of work whether the directory can be written. The trial file and the directories made
+// for it are removed again, so that a failed comparison leaves nothing.
 Result<void> try_directory(const fs::path& directory) {
     std::error_code ec;
     if (fs::exists(directory, ec) && !fs::is_directory(directory, ec))
@@ -79,7 +79,7 @@ Result<void> try_directory(const fs::path& directory) {
     return {};
 }
 
-// One line for the truth, one for the techniques; of a set with the scene's name.
+// One line of progress for the truth and one for the techniques; for a set, with the scene's name.
 Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const std::string& prefix,
                            const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
     Progress line(prefix + "ground truth", 0);
@@ -105,7 +105,7 @@ std::vector<std::string> warnings_of(const Comparison& comparison, const Compari
     return warnings;
 }
 
-// Beneath the directory: report.html, and of a set one a scene in a folder of its own.
+// report.html in the directory; for a set, one per scene in a folder of its own.
 fs::path report_path(const Options& options, const ComparedScenes& scenes, const SubjectCase& one) {
     const fs::path directory(options.output);
     return scenes.is_set ? directory / fs::path(one.name).filename() / "report.html"

@@ -1,4 +1,4 @@
-// dermis figures: the figures of a technique's source, made again and compared.
+// dermis figures: reproduces the figures of a technique's source and compares them.
 
 #include <cstdio>
 #include <memory>

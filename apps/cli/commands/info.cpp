@@ -1,5 +1,5 @@
-// dermis info MESH: what is in a mesh file or in the meshes of a scene, and what its UV layout is worth for
-// maps of skin.
+// dermis info MESH: the content of a mesh file or of the meshes of a scene, and the quality of its UV layout
+// for maps of skin.
 
 #include <fmt/format.h>
 
@@ -136,7 +136,7 @@ void print_uv(const UvReport& uv) {
         fmt::print("    degenerate    {} triangles without UV area\n", uv.degenerate_triangles);
 }
 
-// What the ground truth closes and leaves out.
+// The openings that the ground truth closes and the faces that it leaves out.
 void print_flesh(const Flesh& flesh) {
     if (flesh.hidden_triangles > 0)
         fmt::print(
@@ -172,7 +172,7 @@ void print_text(const std::string& path, const LoadedMesh& loaded, const Flesh& 
 struct NamedMesh {
     std::string name;
     LoadedMesh loaded;
-    Flesh flesh = {};  ///< all of the mesh taken for skin
+    Flesh flesh = {};  ///< with the whole mesh as skin
 };
 
 Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
@@ -214,7 +214,7 @@ Result<int> run_info(const InfoArguments& arguments) {
             list.push_back(to_json(mesh.loaded, mesh.flesh));
         else
             print_text(mesh.name, mesh.loaded, mesh.flesh);
-    // One mesh is one object; the four spheres are a list of four.
+    // JSON: an object for one mesh, an array for several.
     if (arguments.json)
         fmt::print("{}\n",
                    (list.size() == 1 ? list[0] : list).dump(1, ' ', false, Json::error_handler_t::replace));

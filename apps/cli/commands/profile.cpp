@@ -1,4 +1,4 @@
-// dermis profile: what the published skins are, and what their numbers are called elsewhere.
+// dermis profile: the published skins, and their parameters in other tools.
 
 #include <cstdio>
 #include <memory>
@@ -163,7 +163,7 @@ Result<BurleyProfile> source_of(const Options& options) {
         const Result<Profile> profile = find_profile(options.name);
         if (!profile) return profile.error();
         const BurleyProfile burley = burley_equivalent(*profile);
-        // A channel without reflectance has no length that another tool could hold.
+        // A channel without reflectance has no length to convert.
         if (const auto checked = check(Profile{profile->name, "", burley}); !checked) return checked.error();
         return burley;
     }
@@ -175,7 +175,7 @@ Result<BurleyProfile> source_of(const Options& options) {
     return to_canonical(settings);
 }
 
-// A pure blur has the albedo 1; the surface's own comes from --albedo.
+// A profile with the albedo 1 is a blur only; --albedo gives the surface's own.
 Result<BurleyProfile> with_albedo(BurleyProfile burley, const std::string& text) {
     if (text.empty()) return burley;
     const auto numbers = parse_numbers(text, "--albedo");

@@ -22,11 +22,11 @@
 namespace dermis::cli {
 namespace {
 
-// The picture is written, but noisier than asked.
+// Exit status: the picture is written, but noisier than asked for.
 constexpr int kNoiseMissed = 3;
 
-// Set by Ctrl-C or a request to end: the picture so far is written, then the program ends. A second one ends
-// it at once. The signal, or 0.
+// The signal of Ctrl-C or of a request to end, or 0. The picture so far is written, then the program ends; a
+// second signal ends it at once.
 std::atomic<int> g_signal = 0;
 std::atomic<bool> g_stop = false;
 
@@ -36,7 +36,7 @@ extern "C" void stop_on_signal(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
-// While it exists, the signals only ask to stop.
+// While an object exists, the signals only set g_signal.
 class StopOnSignals {
   public:
     StopOnSignals()
@@ -53,7 +53,7 @@ class StopOnSignals {
     void (*terminate_)(int);
 };
 
-// Before the work rather than after it.
+// Before the work, not after it.
 Result<void> try_outputs(const ReferenceOptions& options) {
     if (to_lower(std::filesystem::path(options.output).extension().string()) != ".exr")
         return Error{"-o " + options.output + ": the ground truth is linear and layered; name a .exr file"};
@@ -69,7 +69,7 @@ Result<void> try_outputs(const ReferenceOptions& options) {
 Result<Scene> scene_of(const ReferenceOptions& options) {
     Result<Scene> scene = options.scene.load();
     if (!scene) return scene;
-    // The renderer's approximation wants the vertices' occlusion.
+    // The renderer's approximation needs the vertices' occlusion.
     if (options.ambient == "renderer")
         if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     if (!options.profile.empty()) scene->skin.profile = options.profile;
@@ -109,7 +109,7 @@ Result<void> write_picture(const ReferenceOptions& options, const Scene& scene,
     return write_layered_exr(options.output, layers, inside);
 }
 
-// For the eye: the scene's own exposure and tone map, 8 bits.
+// For display: the scene's exposure and tone map, 8 bits.
 Result<void> write_preview(const ReferenceOptions& options, const Scene& scene,
                            const ReferencePicture& picture) {
     if (options.preview.empty()) return {};

@@ -25,7 +25,7 @@ struct Options {
     bool timings = false, json = false;
 };
 
-// Medians over the frames after the first, which pays for compilation.
+// Medians over the frames after the first, which compiles pipelines.
 gpu::FrameResult median_timings(const std::vector<gpu::FrameResult>& frames) {
     const auto median = [&](auto value_of) {
         std::vector<double> values;
@@ -36,7 +36,7 @@ gpu::FrameResult median_timings(const std::vector<gpu::FrameResult>& frames) {
     };
     gpu::FrameResult result = frames.back();
     result.frame_ms = median([](const gpu::FrameResult& f) { return f.frame_ms; });
-    // Frames may differ in their passes: the median is over those that have this one.
+    // Frames may have different passes: the median is over the frames with this pass.
     for (gpu::PassTiming& pass : result.passes)
         pass.time_ms = median([&](const gpu::FrameResult& f) {
             const auto same = std::ranges::find(f.passes, pass.name, &gpu::PassTiming::name);

@@ -1,4 +1,4 @@
-// dermis report: what a fault report should say of the program and the machine, as text to paste.
+// dermis report: the program and the machine as text for a fault report.
 
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What differs between machines that draw differently: drivers, loaders, and libraries that are linked.
+// Packages that can change a picture: drivers, loaders, and linked libraries.
 constexpr const char* kPackages[] = {"mesa-vulkan-drivers",
                                      "libvulkan1",
                                      "vulkan-validationlayers",
@@ -62,8 +62,7 @@ std::string output_of(const std::vector<std::string>& arguments) {
     return text && status != 127 && status != -1 ? *text : std::string();
 }
 
-// The value of the first line that begins with `key`, behind its separator: "model name : X",
-// "PRETTY_NAME=X".
+// The value after the separator in the first line that begins with `key`: "model name : X", "PRETTY_NAME=X".
 std::string value_in(const char* file, std::string_view key, char separator) {
     std::ifstream stream(file);
     for (std::string line; std::getline(stream, line);) {

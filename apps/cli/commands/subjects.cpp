@@ -1,4 +1,4 @@
-// dermis subjects: what "builtin:NAME" may be in a scene, and what can be set of it.
+// dermis subjects: the names after "builtin:" in a scene, with their parameters.
 
 #include <cstdio>
 #include <memory>

@@ -1,4 +1,4 @@
-// dermis techniques: what can be rendered, where it comes from, what can be set.
+// dermis techniques: the techniques with their sources and parameters.
 
 #include <cstdio>
 #include <memory>

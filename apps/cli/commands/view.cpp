@@ -31,8 +31,8 @@ Result<int> turn_scene(const Options& options) {
     return run_turntable(turntable);
 }
 
-// What the files say is kept apart from what --scene, --camera and --light say: it decides what stays when
-// the files change.
+// Keeps the scene of the files apart from the changes by --scene, --camera and --light, which stay when the
+// files change.
 Result<view::Start> first_scene(const RenderOptions& options) {
     Result<Prepared> prepared = prepare(options);
     if (!prepared) return prepared.error();
@@ -85,7 +85,7 @@ Result<int> view_scene(Options options) {
 
 void add_view_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    options->render.size = "";  // the last window's
+    options->render.size = "";  // the size of the last window
     options->render.samples = 4;
     Command* command = line.add("view", "Shows a scene in a window, in real time; F1 lists the keys",
                                 "dermis view head_scan --technique preintegrated");

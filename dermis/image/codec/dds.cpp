@@ -1,7 +1,7 @@
 // DirectDraw Surface with the DX10 header (Microsoft, "Programming Guide for DDS"): magic, a header of 124
 // bytes, one of 20, then the texels. Written as RGBA16F without mips; read in any format of texel_format.h,
 // plus what older files, without the second header, describe: two float formats by a D3DFORMAT number, and 8
-// bits a channel by masks.
+// bits per channel by masks.
 
 #include <array>
 
@@ -33,14 +33,14 @@ struct Masks {
     std::array<uint32_t, 4> of{};  // red, green, blue, alpha
 };
 
-// The channel of 8 bits under a mask by its place in the file, "rgba" for the first to the fourth byte.
+// The byte that an 8-bit channel's mask selects: 'r', 'g', 'b', 'a' for the first to the fourth in the file.
 char channel_under(uint32_t mask) {
     for (uint32_t byte = 0; byte < 4; ++byte)
         if (mask == 0xffu << (8 * byte)) return "rgba"[byte];
     return '0';
 }
 
-// Files of Direct3D 9. They do not say whether colours are sRGB-encoded: the use does.
+// Files of Direct3D 9. They do not state whether colours are sRGB-encoded; the image's use decides.
 Result<void> read_masked_format(const Masks& masks, ImageUse use, Header& header) {
     const bool grey = (masks.flags & kLuminanceFlag) != 0;
     const char red = channel_under(masks.of[0]), green = channel_under(masks.of[1]),
@@ -52,11 +52,11 @@ Result<void> read_masked_format(const Masks& masks, ImageUse use, Header& header
         return Error{"DDS of " + std::to_string(masks.bits) +
                      " bits a texel without a DX10 header; of these dermis reads 8 bits a channel, grey or "
                      "colour, with or without alpha"};
-    // Linear until alpha has its place.
+    // Linear while the channels are sorted: sRGB treats the last of two or four channels as alpha.
     header.format = {0, 0, PixelFormat::u8, int(masks.bits / 8), Encoding::linear};
     header.encoding = use == ImageUse::color ? Encoding::srgb : Encoding::linear;
     header.swizzle = {red, grey ? red : green, grey ? red : blue, has_alpha ? alpha : '1'};
-    // Grey stays one channel.
+    // A grey image stays one channel.
     if (header.swizzle == "rrr1" && header.format.channels == 1) header.swizzle = "r001";
     return {};
 }
@@ -76,7 +76,7 @@ Result<void> set_format(uint32_t dxgi, Header& header) {
     return {};
 }
 
-// The header of 20 bytes; what is left of its format is in `header`.
+// The header of 20 bytes, into `header`.
 Result<void> read_dx10_header(ByteReader& in, Header& header) {
     const uint32_t dxgi = in.u32(), dimension = in.u32(), misc = in.u32(), layers = in.u32();
     in.u32();

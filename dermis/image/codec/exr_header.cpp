@@ -1,4 +1,4 @@
-// The look at an EXR header that comes before OpenEXR's own; layout: "OpenEXR File Layout", Academy Software
+// The check of an EXR header before OpenEXR reads it; layout: "OpenEXR File Layout", Academy Software
 // Foundation. A header is a list of attributes (name, type, size, value) ended by an empty name; a file of
 // several parts has several headers ended by an empty one.
 
@@ -11,8 +11,7 @@ namespace {
 
 constexpr uint32_t kDeepFlag = 0x800, kMultiPartFlag = 0x1000;
 constexpr int kMostChannels = 256;
-// Chunks (a tile, or the scanlines of one compressed block) are decoded whole, in buffers as large as they
-// are.
+// A chunk (a tile, or the scanlines of one compressed block) is decoded whole, in a buffer of its size.
 constexpr uint64_t kMostChunkBytes = uint64_t{512} << 20;
 
 struct Part {
@@ -22,7 +21,7 @@ struct Part {
     int64_t lines_per_chunk = 1;
     uint64_t bytes_per_texel = 0;
     int channels = 0;
-    bool bounded = true;  // false: the compression has no largest ratio worth checking
+    bool bounded = true;  // false: the compression has no useful largest ratio
     bool deep = false;
 };
 
@@ -118,7 +117,7 @@ Result<void> check_part(const Part& part, uint64_t file_bytes) {
         tiled ? part.tile_width * part.tile_height : part.width * part.lines_per_chunk;
     if (uint64_t(chunk_texels) * part.bytes_per_texel > kMostChunkBytes)
         return Error{"EXR in blocks larger than 512 MiB"};
-    // Each chunk has its place in a table of 8 bytes each.
+    // A table has 8 bytes for each chunk.
     if (uint64_t(chunks) * 8 > file_bytes) return Error{"corrupt EXR: the file is too short for its size"};
     constexpr uint64_t kMostZipRatio = 1032;
     if (!part.bounded) return {};

@@ -28,8 +28,8 @@ struct Channel {
 };
 using Layers = std::map<std::string, std::vector<Channel>>;
 
-// The order within a layer: luminance or red, green, blue; then what has another name, alphabetically (X Y Z,
-// U V); then alpha.
+// The order within a layer: luminance or red, green, blue; then other names, alphabetically (X Y Z, U V);
+// then alpha.
 enum ChannelOrder { kLuminance, kRed, kGreen, kBlue, kOther, kAlpha };
 int order_of(const std::string& short_name) {
     struct Name {
@@ -50,7 +50,7 @@ bool has(const std::vector<Channel>& channels, std::string_view short_name) {
 void sort_channels(std::vector<Channel>& channels) {
     for (Channel& c : channels) {
         c.order = order_of(c.short_name);
-        // Beside an X, a Y is a coordinate and no luminance.
+        // With an X, a Y is a coordinate, not luminance.
         if (c.order == kLuminance && has(channels, "X")) c.order = kOther;
     }
     std::ranges::stable_sort(channels, {}, &Channel::order);
@@ -145,7 +145,7 @@ ImageText read_text(const Imf::Header& header) {
     for (auto it = header.begin(); it != header.end(); ++it)
         if (const auto* value = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
             text[it.name()] = value->value();
-    // What a part of a file of several is called and how it is stored is no text about the image.
+    // The name and the type of a part in a file of several do not describe the image.
     text.erase("name");
     text.erase("type");
     return text;
@@ -194,7 +194,7 @@ Result<LayeredImage> read_layers(Bytes bytes, Pick pick) {
     return out;
 }
 
-// OpenEXR reports by exceptions, and allocates; neither leaves.
+// OpenEXR reports errors, and failed allocations, by exceptions; none leaves this function.
 template <class Pick>
 Result<LayeredImage> read_guarded(Bytes file, Pick pick) {
     if (Result<void> fine = check_exr_header(file); !fine) return fine.error();

@@ -1,4 +1,4 @@
-// OpenEXR writing: one part of scanlines, ZIP (lossless, 16 lines a block), every layer's channels in one
+// OpenEXR writing: one part of scanlines, ZIP (lossless, 16 lines per block), every layer's channels in one
 // list.
 
 #include <ImfChannelList.h>

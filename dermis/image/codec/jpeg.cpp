@@ -18,8 +18,8 @@ struct Decompressor {
     }
     [[nodiscard]] Error error() const { return {std::string("corrupt JPEG: ") + tjGetErrorStr2(handle)}; }
 
-    // libjpeg decodes on after a warning and fills in grey. Only what leaves all texels intact (junk between
-    // markers, odd application data) is let pass.
+    // After a warning libjpeg goes on and fills missing texels with grey. Accepted are only warnings that
+    // leave all texels intact (junk between markers, unusual application data).
     [[nodiscard]] bool passes(int status) const {
         if (status == 0) return true;
         if (tjGetErrorCode(handle) != TJERR_WARNING) return false;

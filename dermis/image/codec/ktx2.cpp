@@ -17,7 +17,7 @@ constexpr size_t kKtx2HeaderBytes = 80, kLevelBytes = 24;
 constexpr std::string_view kWriter = "KTXwriter", kOrientation = "KTXorientation", kSwizzle = "KTXswizzle";
 
 // Khronos Data Format Specification 1.3, basic descriptor block: model RGBSDA (1), primaries BT.709 (1),
-// transfer linear (1), one sample a channel: 16 bits, signed float, -1 to 1 being the nominal range.
+// transfer linear (1), one sample per channel: 16 bits, signed float, -1 to 1 being the nominal range.
 std::array<uint32_t, 23> rgba16f_descriptor() {
     constexpr uint32_t kBlockBytes = 24 + 4 * 16, kVersion = 2;
     constexpr uint32_t kModelRgbsda = 1, kPrimariesBt709 = 1, kTransferLinear = 1;
@@ -54,7 +54,7 @@ Buffer key_values(const ImageText& text) {
     return out.finish();
 }
 
-// Of all pairs; those of the format itself are no text of the image's and are taken out by the caller.
+// All pairs; the caller removes those of the format itself.
 Result<ImageText> read_key_values(Bytes bytes) {
     const Error cut{"corrupt KTX2: the key/value data is cut short"};
     ImageText text;
@@ -84,7 +84,7 @@ std::string take_value(ImageText& text, std::string_view key, std::string_view f
     return value;
 }
 
-// As KTXswizzle and KTXorientation say: "rd" has its first texel at the top left, "ru" at the bottom left.
+// Applies KTXswizzle and KTXorientation: "rd" has its first texel at the top left, "ru" at the bottom left.
 Result<Image> as_oriented(Image stored, const TexelFormat& format, ImageText& text) {
     const std::string orientation = take_value(text, kOrientation, "rd");
     const std::string swizzle = take_value(text, kSwizzle, "rgba");

@@ -13,7 +13,7 @@ namespace dermis::codec {
 namespace {
 
 // Deflate reaches 1032:1 (a match of 258 bytes in two bits), and a 1-bit palette with transparency expands to
-// 32 bits a texel.
+// 32 bits per texel.
 constexpr uint64_t kMostPngRatio = 1032 * 32;
 constexpr size_t kMostTextBytes = size_t{16} << 20;
 
@@ -93,7 +93,7 @@ ImageText read_text(Reader& r) {
     return text;
 }
 
-// libpng allocates what a chunk says it holds before it reads. Every chunk must end within the file.
+// libpng allocates a chunk's stated length before it reads. Every chunk must end within the file.
 Result<void> check_chunks(Bytes file) {
     ByteReader in(file, 8);
     for (;;) {

@@ -45,7 +45,7 @@ int color_type(int channels) {
     return kTypes[channels - 1];
 }
 
-// Everything that may jump; owns nothing with a destructor.
+// All calls of libpng that may jump; owns nothing with a destructor.
 void write_all(Writer* w, const Image* image, png_textp text, int text_count, png_bytepp rows) {
     png_set_write_fn(w->png, &w->target, on_write, on_flush);
     png_set_user_limits(w->png, kMaxImageSide, kMaxImageSide);
@@ -54,7 +54,7 @@ void write_all(Writer* w, const Image* image, png_textp text, int text_count, pn
     png_set_IHDR(w->png, w->info, png_uint_32(image->width), png_uint_32(image->height), wide ? 16 : 8,
                  color_type(image->channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    // Linear data carries no gAMA chunk: tools that honour it would bend normal maps and tables.
+    // Linear data carries no gAMA chunk: tools that apply it would change normal maps and tables.
     if (image->encoding == Encoding::srgb) png_set_sRGB(w->png, w->info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (text_count > 0) png_set_text(w->png, w->info, text, text_count);
     png_write_info(w->png, w->info);

@@ -1,8 +1,8 @@
 // Radiance HDR (.hdr, .pic): RGB mantissas with one shared exponent (RGBE), run-length coded.
 //
 // G. Ward, "Real Pixels", Graphics Gems II, 1991: value = (mantissa + 0.5)/256 * 2^(exponent - 128) in the
-// original; every reader in use leaves the 0.5 out, and so does this one. Written here rather than taken from
-// stb_image, which reads a truncated file as if it were whole.
+// original; every reader in use leaves the 0.5 out, and so does this one. stb_image is not used because it
+// reads a truncated file as if it were complete.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 // New-style scanlines: a marker of four bytes, then the four components, each run-length coded by itself.
 constexpr int kShortestCodedRow = 8, kLongestCodedRow = 32767;
 // The oldest coding stores a row like the last texel of the row before in 8 bytes (two repeat codes), at 12
-// decoded bytes a texel.
+// decoded bytes per texel.
 constexpr uint64_t kMostRunRatio = kMaxImageSide * 12 / 8;
 
 struct RadianceHeader {
@@ -69,8 +69,8 @@ Result<RadianceHeader> parse_header(Bytes& rest) {
     return parse_resolution(resolution);
 }
 
-// One component of a row: a count over 128 repeats the next byte count - 128 times, else that many follow as
-// they are.
+// One component of a row: a count over 128 repeats the next byte count - 128 times; else `count` bytes
+// follow.
 bool read_runs(ByteReader& in, uint8_t* component, int width) {
     for (int x = 0; x < width;) {
         const int count = in.read<uint8_t>();

@@ -1,4 +1,4 @@
-// Stored texels into the order of channels, columns and rows that Image has.
+// Brings stored texels into the order of channels, columns and rows of Image.
 
 #include "dermis/image/codec/texel_format.h"
 

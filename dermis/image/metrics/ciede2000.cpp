@@ -26,7 +26,7 @@ double hue_of(double a, double b) {
     return h < 0 ? h + 360.0 : h;
 }
 
-// The shorter way round. [10]
+// Along the shorter arc. [10]
 double hue_difference(double h1, double h2, bool grey) {
     if (grey) return 0;
     const double d = h2 - h1;

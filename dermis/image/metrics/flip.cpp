@@ -1,4 +1,4 @@
-// LDR FLIP, Andersson et al. 2020. Two differences a texel, each as an observer would see it:
+// LDR FLIP, Andersson et al. 2020. Two differences per texel, each as an observer would see it:
 //   colour: both pictures are blurred by the eye's contrast sensitivity in an opponent space, then compared
 //   in L*a*b*
 //     with Hunt's adjustment by the HyAB distance (section 4.1);
@@ -62,7 +62,7 @@ Planes map_planes(const Planes& in, Body body) {
     return out;
 }
 
-// A sum of Gaussians is no product of rows and columns, but each Gaussian is. The sum is normalised over the
+// A sum of Gaussians is not separable, but each Gaussian is. The sum is normalised over the
 // square of texels that the widest one needs (three standard deviations).
 Plane contrast_filter(const Plane& plane, std::span<const Gaussian> gaussians, double pixels_per_degree) {
     constexpr double kPi2 = std::numbers::pi * std::numbers::pi;
@@ -90,7 +90,7 @@ Plane contrast_filter(const Plane& plane, std::span<const Gaussian> gaussians, d
     return out;
 }
 
-// L*a*b* with a and b scaled by lightness: colours seem more colourful where it is bright.
+// L*a*b* with a and b scaled by lightness: colours look more saturated where it is bright.
 Vec3 hunt_from_linear(Vec3 c_linear) {
     const Vec3 lab = lab_from_linear(c_linear);
     return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
@@ -100,7 +100,7 @@ float hyab(Vec3 a, Vec3 b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// What the eye makes of a picture: filtered opponent channels, brought back into the gamut, in Hunt's L*a*b*.
+// The perceived picture: filtered opponent channels, clamped to the gamut, in Hunt's L*a*b*.
 Planes perceived(const Planes& opponent, double pixels_per_degree) {
     const Planes filtered = {contrast_filter(opponent[0], kAchromatic, pixels_per_degree),
                              contrast_filter(opponent[1], kRedGreen, pixels_per_degree),
@@ -112,8 +112,8 @@ Planes perceived(const Planes& opponent, double pixels_per_degree) {
     });
 }
 
-// HyAB^q_c, whose largest value (blue to green) is brought to 1: linear to the knee, and the rare errors
-// beyond it compressed into the last twentieth.
+// HyAB^q_c, whose largest value (blue to green) is brought to 1: linear to the knee; the rare errors beyond
+// it are compressed into the last twentieth.
 float colour_error(Vec3 a, Vec3 b) {
     static const float kLargest =
         std::pow(hyab(hunt_from_linear({0, 1, 0}), hunt_from_linear({0, 0, 1})), kColourExponent);

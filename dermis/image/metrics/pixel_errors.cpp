@@ -1,4 +1,4 @@
-// The metrics that look at one texel at a time, and the report of all of them.
+// The metrics of single texels, and the report of all metrics.
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Structural similarity, Wang, Bovik, Sheikh and Simoncelli 2004. Means, variances and the covariance under a
-// Gaussian window (equations 14 to 16) are five filtered pictures; equation 13 combines them a texel at a
-// time.
+// Gaussian window (equations 14 to 16) are five filtered pictures; equation 13 combines them
+// texel by texel.
 
 #include <cmath>
 #include <functional>
@@ -30,7 +30,7 @@ std::vector<float> window() {
     return kernel;
 }
 
-// BT.601 luma of sRGB codes, as the authors' own program takes colour pictures.
+// BT.601 luma of sRGB codes, as the authors' own program converts colour pictures.
 Plane luma(const Image& linear) {
     std::array<Plane, 3> rgb = metrics::display_planes(linear);
     Plane out(linear.width, linear.height);
@@ -60,7 +60,7 @@ Result<Image> ssim_map(const Image& image, const Image& reference) {
     if (!pair) return pair.error();
     const std::vector<float> kernel = window();
     const auto mean = [&](const Plane& p) { return filter_columns(filter_rows(p, kernel), kernel); };
-    // Variances do not care about a shift, but rounding does: E[x^2] - E[x]^2 of floats loses least around 0.
+    // A shift does not change variances, but it reduces rounding: E[x^2] - E[x]^2 is most exact around 0.
     const Plane x = shifted(luma(pair->image)), y = shifted(luma(pair->reference));
     const Plane mu_x = mean(x), mu_y = mean(y);
     const Plane xx = mean(product(x, x)), yy = mean(product(y, y)), xy = mean(product(x, y));
@@ -86,7 +86,7 @@ Result<double> ssim(const Image& image, const Image& reference, const Image& mas
     for (int y = border; y < image.height - border; ++y)
         for (int x = border; x < image.width - border; ++x)
             inner.set(x, y, 0, mask.empty() || mask.at(x, y, 0) > 0.0f ? 1.0f : 0.0f);
-    // A mask that lies in the border only is still answered, from the repeated border.
+    // A mask inside the border only is measured on the repeated border.
     return metrics::check_mask(inner, image.width, image.height) ? mean_of(*map, inner) : mean_of(*map, mask);
 }
 

@@ -1,6 +1,6 @@
 // Narrow lobes. With f(t) = max(0, t) and the Laplacian of the unit sphere, (Laplacian + 2) f = delta(t): a
-// clamped cosine is what a line source on the terminator leaves behind. Blurring commutes with the Laplacian,
-// so F solves (Laplacian + 2) F = kappa I_0(kappa sqrt(1 - t^2)) / (2 sinh kappa), the lobe's density on that
+// clamped cosine is the field of a line source on the terminator. Blurring commutes with the Laplacian, so F
+// solves (Laplacian + 2) F = kappa I_0(kappa sqrt(1 - t^2)) / (2 sinh kappa), the lobe's density on that
 // line, and variation of parameters with the solutions t and 1 - t atanh t gives, in closed form but for one
 // integral,
 //     F(t) = t (rho_1 / 2 + J(t)) + (1 - t atanh t) c I_1(kappa c) / (2 sinh kappa),   c = sqrt(1 - t^2),

@@ -7,7 +7,7 @@ namespace dermis {
 namespace preintegration {
 namespace {
 
-// Narrower lobes are indistinguishable from none, and infinity has no series.
+// Limits the concentration of very narrow lobes, since infinity has no series; the error is below rounding.
 constexpr double kMaxConcentration = 1e34;
 
 double concentration_of(const GaussianTerm& term, double radius_mm, const Preintegration& how) {
@@ -22,7 +22,7 @@ std::vector<Lobe> lobes_of(const GaussianSum& profile, double radius_mm, const P
 }
 
 // Mass of the lobe times the Gaussian's own normalisation. On the sphere the area of the Gaussian cancels the
-// kappa of the lobe's area, so the mass says it all.
+// kappa of the lobe's area, so the mass alone remains.
 double measure_of(const GaussianTerm& term, const Lobe& lobe, const Preintegration& how) {
     if (how.construction == Construction::sphere) return lobe.mass;
     const double width =

@@ -120,7 +120,7 @@ void bessel_ratios(BesselOrders orders, double concentration, std::span<double> 
     // I_{nu+1} / I_nu = 1 / (2 (nu + 1) / kappa + I_{nu+2} / I_{nu+1}), from far above downwards.
     const double offset = orders == BesselOrders::half ? 0.5 : 0.0;
     const double twice_by_kappa = 2 / concentration;
-    // The start value is forgotten once the orders are well above sqrt(kappa).
+    // The start value has no influence once the orders are well above sqrt(kappa).
     const size_t start = values.size() + 24 + size_t(8 * std::sqrt(concentration));
     double ratio = 0;
     for (size_t n = start; n >= 1; --n) {

@@ -51,7 +51,7 @@ std::vector<PlotTick> logarithmic_ticks(const PlotAxisScale& scale) {
     return ticks;
 }
 
-// Rounding outwards keeps curves off the frame; x keeps the exact range of the data.
+// Rounding y outwards keeps curves inside the frame; x keeps the exact range of the data.
 void round_outwards(PlotAxisScale& scale, const PlotAxis& axis) {
     if (scale.kind == PlotScale::logarithmic) {
         if (!axis.max) scale.max = std::pow(10.0, std::ceil(std::log10(scale.max) - 1e-9));
@@ -89,7 +89,7 @@ PlotAxisScale resolve_axis(const PlotPanel& panel, const PlotAxis& axis,
     if (!(scale.min <= scale.max)) scale.min = logarithmic ? 0.1 : 0, scale.max = 1;  // nothing to show
     if (axis.min && scale.shows(*axis.min)) scale.min = *axis.min;
     if (axis.max && scale.shows(*axis.max)) scale.max = *axis.max;
-    if (!(scale.min < scale.max)) {  // one value: give it room
+    if (!(scale.min < scale.max)) {  // one value: widen the range
         if (logarithmic)
             scale.max = scale.min * 10;
         else
