@@ -55,6 +55,15 @@ struct LintReport {
 /// Reads the file; adds what its embedded convention and its sRGB flag say. Errors as read_image and above.
 [[nodiscard]] Result<LintReport> lint_file(const std::filesystem::path& path);
 
+/// The best explanation as a convention. Errors: nothing explains the picture; a form that no reader here
+/// takes (turned by 90 degrees, decoded twice).
+[[nodiscard]] Result<Convention> convention_of(const LintReport& report);
+
+/// Writes it as FILE.json, so that read_table takes the file; returns that name. Error: also a file that has
+/// a convention.
+[[nodiscard]] Result<std::filesystem::path> write_sidecar(const std::filesystem::path& path,
+                                                          const LintReport& report);
+
 /// "ring from -90 to 90 degrees, GPU Gems 3 ..., sRGB, ..." on one line.
 [[nodiscard]] std::string describe(const LintHypothesis& hypothesis);
 

@@ -93,6 +93,24 @@ Figure kernel_figure() {
                                    {"blur_passes", "0"}})}}}};
 }
 
+// The source blurs farther where the skin is thin, so that light passes through a backlit ear.
+Figure ear_figure() {
+    FigureRow row = with_and_without(cell("without the kernel map", "without", {{"kernel_growth", "0"}}),
+                                     cell("with it", "with", {{"kernel_growth", "1.5"}}), 4);
+    for (FigureCell& one : row.cells) {
+        one.view = "diffuse";
+        one.camera = "target_mm=68,-8,-5 yaw_deg=55 pitch_deg=0 distance_mm=420 fov_deg=16";
+        one.light = "yaw_deg=186 pitch_deg=5 intensity=14";
+    }
+    return {.id = "kernel_ear",
+            .title = "An ear lit from behind, with and without the kernel map",
+            .source = kSource + "2.8.5",
+            .note = "kernel_growth=1.5 is the source's ratio of its largest to its smallest kernel.",
+            .scene = "bust",
+            .only_in_its_scene = true,
+            .rows = {row}};
+}
+
 Figure dilation_figure() {
     const Settings wide = {{"light_map_size", "512"}, {"blur", "set"},      {"space", "texels"},
                            {"detail", "map"},         {"blur_passes", "2"}, {"blur_bias", "6"}};
@@ -165,8 +183,9 @@ Figure millimetres_figure() {
 }  // namespace
 
 std::vector<Figure> texture_space_figures() {
-    return {blur_figure(),     light_map_figure(), shadow_map_figure(), translucent_figure(), kernel_figure(),
-            dilation_figure(), specular_figure(),  cull_figure(),       millimetres_figure()};
+    return {blur_figure(),   light_map_figure(),  shadow_map_figure(), translucent_figure(),
+            kernel_figure(), ear_figure(),        dilation_figure(),   specular_figure(),
+            cull_figure(),   millimetres_figure()};
 }
 
 }  // namespace dermis

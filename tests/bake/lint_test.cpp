@@ -134,6 +134,37 @@ TEST(Lint, another_profile_over_radius_is_recognised) {
     EXPECT_LT(report.error_max, 0.01);
 }
 
+TEST(Lint, its_sidecar_lets_a_table_without_a_convention_be_read) {
+    const TemporaryDirectory dir;
+    const auto path = dir.path / "ring.png";
+    const Table table = baked("penner");
+    ASSERT_TRUE(
+        write_image(path, picture_of(table, PixelFormat::u8, [](float v) { return srgb_encode(v); })));
+    ASSERT_FALSE(read_table(path, {})) << "it has no convention";
+    const auto sidecar = write_sidecar(path, *lint_file(path));
+    ASSERT_TRUE(sidecar) << sidecar.error().message;
+    const auto read = read_table(path, {.kind = TableKind::diffuse,
+                                        .construction = Construction::half_ring,
+                                        .u_axis = "n_dot_l",
+                                        .v_axis = table.convention.axes[1].name,
+                                        .profile = "gpu_gems_3"});
+    ASSERT_TRUE(read) << read.error().message;
+    const TableAxis& axis = table.convention.axes[1];
+    for (const double t : {-0.4, 0.0, 0.3, 0.9})
+        for (const double s : {0.1, 0.5, 0.9}) {
+            const double v = axis.min + s * (axis.max - axis.min);
+            for (size_t c = 0; c < 3; ++c)
+                EXPECT_NEAR(lookup(*read, t, v)[c], lookup(table, t, v)[c], 0.01) << t << " " << v;
+        }
+    EXPECT_NE(write_sidecar(path, *lint_file(path)).error().message.find("has a convention already"),
+              std::string::npos);
+    const auto turned = dir.path / "turned.png";
+    ASSERT_TRUE(write_image(turned, transposed(picture_of(table, PixelFormat::u8, as_it_is))));
+    EXPECT_NE(write_sidecar(turned, *lint_file(turned)).error().message.find("turn it by 90 degrees"),
+              std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(sidecar_path(turned)));
+}
+
 TEST(Lint, what_is_no_table_is_called_so) {
     Image image(32, 32, 3);
     for (int y = 0; y < 32; ++y)

@@ -7,23 +7,36 @@
 namespace dermis::cli {
 namespace {
 
-Result<int> run(const std::string& path) {
+struct Options {
+    std::string path;
+    bool write_sidecar = false;
+};
+
+Result<int> run(const Options& options) {
+    const std::string& path = options.path;
     const Result<LintReport> report = lint_file(path);
     if (!report) return report.error();
     std::printf("%s\n", path.c_str());
     for (const std::string& line : report->findings) std::printf("  %s\n", line.c_str());
     for (const std::string& line : report->advice) std::printf("  -> %s\n", line.c_str());
+    if (options.write_sidecar) {
+        const auto sidecar = write_sidecar(path, *report);
+        if (!sidecar) return sidecar.error();
+        std::printf("%s\n", sidecar->string().c_str());
+    }
     return report->explained ? 0 : 1;
 }
 
 }  // namespace
 
 void add_lint_command(CommandLine& line) {
-    auto path = std::make_shared<std::string>();
+    auto options = std::make_shared<Options>();
     Command* command = line.add("lint", "Finds how a pre-integrated table was made, and its error",
-                                "dermis lint DiffuseScatteringOnRing.png");
-    command->add_option("file", *path, "PNG, EXR, DDS or KTX2")->required();
-    line.when_chosen(command, [path] { return run(*path); });
+                                "dermis lint DiffuseScatteringOnRing.png --write-sidecar");
+    command->add_option("file", options->path, "PNG, EXR, DDS or KTX2")->required();
+    command->add_flag("--write-sidecar", options->write_sidecar,
+                      "write what was found as FILE.json, so that diffuse_table takes the file");
+    line.when_chosen(command, [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli
