@@ -29,7 +29,7 @@ struct ComparisonSettings {
     /// The picture is made with this shadow map, so that a technique is not charged for the coarser one's
     /// bias; frames are timed with the renderer's own.
     int shadow_map_size = 4096;
-    int grid = 4;        ///< both sides take grid x grid points of a pixel
+    int grid = 6;        ///< both sides take grid x grid points of a pixel (docs/ground_truth.md: how many)
     double noise = 0.2;  ///< of the effect's RMS at which the truth is fine enough
     int samples = 2048;  ///< of the truth a pixel, at most
     /// Of the truth a sample. The bias of its quotient of two integrals falls as 1 / probes^2: with 16 a

@@ -96,7 +96,7 @@ Result<Json> images_of(const Scene& scene, const Comparison& comparison, const I
     add("effect", "ground truth", signed_uri(effect));
     for (const Compared& row : comparison.rows) add("effect", row.contestant.name(), signed_uri(row.effect));
     for (const Compared& row : comparison.rows)
-        add("error of the effect", row.contestant.name(), signed_uri(difference(row.effect, effect)));
+        add("what is left", row.contestant.name(), signed_uri(difference(row.effect, effect)));
     for (const Compared& row : comparison.rows)
         add("FLIP", row.contestant.name(), data_uri(heat_map(row.flip, scales.flip, skin)));
     for (const Compared& row : comparison.rows)
@@ -192,16 +192,17 @@ Json color_stops(Vec3 (*color)(float), float first) {
 
 Json scales_json(const Scales& scales) {
     const Json heat = color_stops(heat_color, 0), both = color_stops(signed_color, -1);
-    return Json::array(
-        {{{"label", "effect of scattering: darker or brighter than without, mean of the channels"},
-          {"stops", both},
-          {"from", -scales.effect},
-          {"to", scales.effect}},
-         {{"label", "FLIP"}, {"stops", heat}, {"from", 0}, {"to", scales.flip}},
-         {{"label", "linear error, largest channel"},
-          {"stops", heat},
-          {"from", 0},
-          {"to", scales.distance}}});
+    return Json::array({{{"label",
+                          "effect: darker or brighter than without scattering; what is left: than the ground "
+                          "truth; mean of the channels"},
+                         {"stops", both},
+                         {"from", -scales.effect},
+                         {"to", scales.effect}},
+                        {{"label", "FLIP"}, {"stops", heat}, {"from", 0}, {"to", scales.flip}},
+                        {{"label", "linear error, largest channel"},
+                         {"stops", heat},
+                         {"from", 0},
+                         {"to", scales.distance}}});
 }
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {

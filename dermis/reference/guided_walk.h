@@ -6,9 +6,10 @@
 // length in mean free paths. Collisions therefore choose the cosine w to the outward normal with density 1 /
 // (nu - w), and free paths the extinction (1 - w / nu) sigma_t: Krivanek, d'Eon 2014, A Zero-variance-based
 // Sampling Scheme for Monte Carlo Subsurface Scattering (Dwivedi 1982). Every step does so with a fixed
-// chance and else follows the medium, and is weighted by the density of both and of all channels together
-// (Wilkie et al. 2014), which bounds the weight of what runs elsewhere: through an ear, along a wrinkle. No
-// mean changes (tested against random_walk), whatever the shape.
+// chance and else follows the medium. One channel leads the whole walk, each as often, and the walk is
+// weighted by the mean density of all three (Wilkie et al. 2014): a walk that one channel would hardly take
+// weighs as in the channel that takes it. That bounds the weight of what runs elsewhere: through an ear,
+// along a wrinkle. No mean changes (tested against random_walk), whatever the shape.
 
 #include "dermis/reference/random_walk.h"
 
@@ -32,45 +33,54 @@ struct GuidedStep {
     float phase = 0;  ///< phase function of the direction over 1 / 4 pi; 0 when it was given
 };
 /// `turned`: a collision turns the path now, else `direction` stays.
-[[nodiscard]] GuidedStep sample_guided_step(const WalkMedium& medium, const WalkGuide& guide, Vec3 throughput,
+[[nodiscard]] GuidedStep sample_guided_step(const WalkMedium& medium, const WalkGuide& guide, int hero,
                                             Vec3 n_out, Vec3 direction, bool turned, Pcg32& random);
-/// Multiplies the throughput by what the step carries over the density with which it is drawn. `collides`: it
-/// ends in the medium, after `distance_mm`; else it reached the boundary there.
-[[nodiscard]] Vec3 guided_weight(const WalkMedium& medium, const WalkGuide& guide, Vec3 throughput,
-                                 const GuidedStep& step, float cosine_out, float distance_mm, bool collides);
+
+/// What a walk carries and how likely each channel is to have led it here.
+struct GuidedWeight {
+    Vec3 throughput = {1, 1, 1};
+    Vec3 led_by = {1.0f / 3, 1.0f / 3, 1.0f / 3};
+};
+/// After a step: the throughput times what the step carries over the density with which it is drawn.
+/// `collides`: it ends in the medium, after `distance_mm`; else it reached the boundary there.
+[[nodiscard]] GuidedWeight after_step(const WalkMedium& medium, const WalkGuide& guide,
+                                      const GuidedWeight& weight, const GuidedStep& step, float cosine_out,
+                                      float distance_mm, bool collides);
 
 /// Collisions after which a walk is no longer guided: the weights of every guided step multiply, and those of
 /// hundreds (a medium that hardly absorbs) would leave the light to a few rare paths.
 inline constexpr int kGuidedCollisions = 64;
 
-/// As random_walk; n_out: outward normal where the walk starts.
+/// As random_walk; n_out: outward normal where the walk starts; hero: the channel that leads it, 0..2, each a
+/// third of all walks.
 template <class Boundary>
 [[nodiscard]] WalkEnd guided_walk(const WalkMedium& medium, const WalkGuide& guide, Boundary&& boundary,
-                                  Vec3 p_mm, Vec3 n_out, Vec3 direction, Pcg32& random) {
-    WalkEnd path{.throughput = {1, 1, 1}, .p_mm = p_mm, .direction = direction};
+                                  Vec3 p_mm, Vec3 n_out, Vec3 direction, int hero, Pcg32& random) {
+    WalkEnd path{.p_mm = p_mm, .direction = direction};
+    GuidedWeight weight;
     const WalkEnd absorbed{};
     WalkGuide now = guide;
     bool turned = false;
     while (path.collisions < kMostCollisions) {
-        const GuidedStep step =
-            sample_guided_step(medium, now, path.throughput, n_out, path.direction, turned, random);
+        const GuidedStep step = sample_guided_step(medium, now, hero, n_out, path.direction, turned, random);
         path.direction = step.direction;
         const std::optional<BoundaryHit> hit = boundary(path.p_mm, path.direction, step.distance_mm);
         if (hit && dot(hit->n_out, path.direction) <= 0) return {.lost = true};
         const float distance_mm = hit ? hit->distance_mm : step.distance_mm;
-        path.throughput = guided_weight(medium, now, path.throughput, step, dot(path.direction, n_out),
-                                        distance_mm, !hit.has_value());
+        weight =
+            after_step(medium, now, weight, step, dot(path.direction, n_out), distance_mm, !hit.has_value());
         path.p_mm += path.direction * distance_mm;
         turned = !hit.has_value();
         if (turned) {
             if (++path.collisions == kGuidedCollisions) now.chance = 0;
-            if (!survives_roulette(path.throughput, random)) return absorbed;
+            if (!survives_roulette(weight.throughput, random)) return absorbed;
             continue;
         }
-        const auto reflected = hit->mirror
-                                   ? mirrored(path.direction, hit->n_out)
-                                   : internal_reflection(path.direction, hit->n_out, medium.eta, random);
-        if (!reflected) return path;
+        const auto reflected = reflected_at(*hit, path.direction, medium.eta, random);
+        if (!reflected) {
+            path.throughput = weight.throughput;
+            return path;
+        }
         path.direction = *reflected;
     }
     return absorbed;

@@ -76,11 +76,11 @@ bool survives_roulette(Vec3& throughput, Pcg32& random) {
     return true;
 }
 
-std::optional<Vec3> internal_reflection(Vec3 direction, Vec3 n_out, float eta, Pcg32& random) {
-    if (eta == 1) return std::nullopt;
-    const float cosine = dot(direction, n_out);
-    if (random.next_1d() >= fresnel_from_inside(cosine, eta)) return std::nullopt;
-    return mirrored(direction, n_out);
+std::optional<Vec3> reflected_at(const BoundaryHit& hit, Vec3 direction, float eta, Pcg32& random) {
+    const float cosine = dot(direction, hit.n_out);
+    if (!hit.mirror && (eta == 1 || random.next_1d() >= fresnel_from_inside(cosine, eta)))
+        return std::nullopt;
+    return normalize(direction - hit.n_out * (2 * cosine));
 }
 
 HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<Vec3> start, int walks,

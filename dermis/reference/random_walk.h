@@ -65,11 +65,10 @@ struct Flight {
 [[nodiscard]] Vec3 scatter_weight(const WalkMedium& medium, Vec3 throughput, float distance_mm);
 /// False when the path ends; else the throughput is raised by what ending ones lose.
 [[nodiscard]] bool survives_roulette(Vec3& throughput, Pcg32& random);
-[[nodiscard]] inline std::optional<Vec3> mirrored(Vec3 direction, Vec3 n) {
-    return normalize(direction - n * (2 * dot(direction, n)));
-}
-/// Where a smooth boundary sends a path that arrives with `direction`: out, or the reflected direction.
-[[nodiscard]] std::optional<Vec3> internal_reflection(Vec3 direction, Vec3 n_out, float eta, Pcg32& random);
+/// Where the boundary sends a path that arrives with `direction`: out (nothing), or back in, in this
+/// direction.
+[[nodiscard]] std::optional<Vec3> reflected_at(const BoundaryHit& hit, Vec3 direction, float eta,
+                                               Pcg32& random);
 
 /// Boundary: std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm); nothing
 /// means that the flight of max_mm stays inside, or for an infinite one that the line never leaves.
@@ -92,9 +91,7 @@ template <class Boundary>
         if (dot(hit->n_out, path.direction) <= 0) return {.lost = true};
         path.throughput = pass_weight(medium, path.throughput, hit->distance_mm);
         path.p_mm += path.direction * hit->distance_mm;
-        const auto reflected = hit->mirror
-                                   ? mirrored(path.direction, hit->n_out)
-                                   : internal_reflection(path.direction, hit->n_out, medium.eta, random);
+        const auto reflected = reflected_at(*hit, path.direction, medium.eta, random);
         if (!reflected) return path;
         path.direction = *reflected;
     }

@@ -55,11 +55,15 @@ class FleshBoundary {
 WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, Vec3 n_face, uint32_t seed) const {
     Result result;
     Vec3 sum;
+    // The channels lead in turn, the first by chance: each leads any walk as often.
+    const uint32_t first_hero = hash_u32(seed, uint32_t(settings_.walks)) % 3;
     for (int i = 0; i < settings_.walks; ++i) {
         FleshBoundary boundary(rays_);
         Pcg32 random(seed, uint32_t(i));
+        const auto hero = int((first_hero + uint32_t(i)) % 3);
         const Vec3 direction = sample_entry_direction(n_face, medium_.eta, random);
-        const WalkEnd end = guided_walk(medium_, guide_, boundary, point.p_mm, n_face, direction, random);
+        const WalkEnd end =
+            guided_walk(medium_, guide_, boundary, point.p_mm, n_face, direction, hero, random);
         result.lost += end.lost;
         if (end.lost || end.throughput == Vec3{}) continue;
         SurfaceAttributes surface = rays_.surface_at(boundary.last());

@@ -38,7 +38,7 @@ TEST(Report, names_version_compiler_system_device_and_driver) {
 }
 
 TEST(Report, names_the_packages_that_dpkg_has) {
-    if (std::system("command -v dpkg-query >/dev/null") != 0) GTEST_SKIP() << "no dpkg here";
+    if (!has_program("dpkg-query")) GTEST_SKIP() << "no dpkg here";
     const std::string line = line_of(report().out, "packages");
     EXPECT_THAT(line, MatchesRegex(".*libvulkan1 ([0-9]|\\(not installed\\)).*"));
     EXPECT_THAT(line, HasSubstr(", fonts-dejavu-core "));

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 namespace dermis {
@@ -32,6 +33,11 @@ inline ProgramResult run_shell(const std::string& line, const std::string& scrat
     result.out = slurp(out);
     result.err = slurp(err);
     return result;
+}
+
+/// Whether the shell finds the program.
+inline bool has_program(const std::string& name) {
+    return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
 }  // namespace dermis

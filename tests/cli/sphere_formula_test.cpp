@@ -15,8 +15,7 @@ namespace {
 class SphereFormula : public testing::Test {
   protected:
     void SetUp() override {
-        if (run_shell("python3 --version", directory_.path.string()).exit_code != 0)
-            GTEST_SKIP() << "python3 is needed to evaluate the formula";
+        if (!has_program("python3")) GTEST_SKIP() << "python3 is needed to evaluate the formula";
     }
 
     // The captured share of what `command` draws, by the formula.

@@ -2,8 +2,8 @@
 // without.
 
 #include <algorithm>
-#include <cstdlib>
 
+#include "cli/run_program.h"
 #include "dermis/base/file.h"
 #include "dermis/judge/report.h"
 #include "render/render_test.h"
@@ -17,17 +17,16 @@ namespace {
 
 class Page : public RenderTest {};
 
-std::string find_program(std::initializer_list<const char*> names) {
-    for (const char* name : names)
-        if (std::system(("command -v " + std::string(name) + " >/dev/null 2>&1").c_str()) == 0) return name;
-    return "";
+std::string first_program(std::initializer_list<const char*> names) {
+    const auto found = std::ranges::find_if(names, has_program);
+    return found == names.end() ? "" : *found;
 }
 
 }  // namespace
 
 TEST_F(Page, opens_in_a_browser_and_the_picture_follows_the_slider) {
-    const std::string chromium = find_program({"chromium", "chromium-browser", "google-chrome"});
-    const std::string node = find_program({"node", "nodejs"});
+    const std::string chromium = first_program({"chromium", "chromium-browser", "google-chrome"});
+    const std::string node = first_program({"node", "nodejs"});
     if (chromium.empty() || node.empty()) GTEST_SKIP() << "no chromium or no node here";
     const Scene scene = load("builtin:spheres");
     ComparisonSettings settings = comparison_settings(96, 96);
@@ -46,11 +45,12 @@ TEST_F(Page, opens_in_a_browser_and_the_picture_follows_the_slider) {
     const auto path = [&](const char* name) { return (directory.path / name).string(); };
     const auto check = [&](const std::string& text) {
         EXPECT_TRUE(write_text_file(path("report.html"), text));
-        return std::system((node + " " DERMIS_SOURCE_DIR "/tools/checks/page.mjs " + chromium + " " +
-                            path("report.html") + " " + path("page.png") + " 2>" + path("errors.txt"))
-                               .c_str());
+        return run_shell(node + " " DERMIS_SOURCE_DIR "/tools/checks/page.mjs " + chromium + " " +
+                             path("report.html") + " " + path("page.png"),
+                         directory.path.string());
     };
-    EXPECT_EQ(check(*page), 0) << *read_text_file(path("errors.txt"));
+    const ProgramResult good = check(*page);
+    EXPECT_EQ(good.exit_code, 0) << good.err;
     EXPECT_TRUE(std::filesystem::exists(path("page.png")));
 
     // What it cannot fail on is no check: a page whose pictures ignore the slider.
@@ -58,6 +58,7 @@ TEST_F(Page, opens_in_a_browser_and_the_picture_follows_the_slider) {
     const std::string line = "$(\"left\").style.clipPath";
     ASSERT_NE(broken.find(line), std::string::npos);
     broken.replace(broken.find(line), line.size(), "$(\"left\").style.order");
-    EXPECT_NE(check(broken), 0);
-    EXPECT_THAT(*read_text_file(path("errors.txt")), testing::HasSubstr("does not follow the slider"));
+    const ProgramResult bad = check(broken);
+    EXPECT_NE(bad.exit_code, 0);
+    EXPECT_THAT(bad.err, testing::HasSubstr("does not follow the slider"));
 }

@@ -159,6 +159,7 @@ TEST_F(Scoreboards, no_technique_captures_less_than_it_did) {
         const auto comparison = compare_techniques(device(), built_in_catalog(), load(name),
                                                    ratcheted_techniques(), small(64, noise));
         ASSERT_TRUE(comparison) << comparison.error().message;
+        EXPECT_EQ(comparison->rows[0].captured.all.share, 0) << name << ": lambert";
         for (ScoreRow& r : score_rows(name, *comparison)) made.push_back(std::move(r));
     }
     expect_no_less_than_recorded(made);
@@ -179,6 +180,8 @@ TEST_F(Scoreboards, unit_scenes_have_their_exact_answers_and_no_technique_captur
         const auto comparison =
             compare_techniques(device(), built_in_catalog(), one.scene, ratcheted_techniques(), settings);
         ASSERT_TRUE(comparison) << one.name << ": " << comparison.error().message;
+        EXPECT_EQ(comparison->rows[0].captured.all.share, 0) << one.name << ": lambert";
+        EXPECT_LT(comparison->rows[0].captured.all.error, 1e-9) << one.name << ": lambert";
         for (ScoreRow& r : score_rows(one.name, *comparison)) {
             if (r.technique != kExactId) {
                 made.push_back(std::move(r));

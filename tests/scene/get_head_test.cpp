@@ -11,6 +11,7 @@
 #include <map>
 #include <regex>
 
+#include "cli/run_program.h"
 #include "dermis/base/file.h"
 #include "dermis/scene/scene_paths.h"
 #include "support/temporary_directory.h"
@@ -69,16 +70,12 @@ size_t files_in(const fs::path& directory) {
     return size_t(std::distance(fs::recursive_directory_iterator(directory), {}));
 }
 
-bool have(const char* tool) {
-    return std::system(("command -v " + std::string(tool) + " >/dev/null").c_str()) == 0;
-}
-
 constexpr const char* kMissing = "python3 and curl or wget are needed";
 
 }  // namespace
 
 TEST(GetHead, a_file_with_another_content_is_refused_and_nothing_of_it_stays) {
-    if (!have("python3") || !(have("curl") || have("wget"))) GTEST_SKIP() << kMissing;
+    if (!has_program("python3") || !(has_program("curl") || has_program("wget"))) GTEST_SKIP() << kMissing;
     const TemporaryDirectory source, target;
     ASSERT_TRUE(write_text_file(source.path / "color_2048.jpg", "not the scan"));
     const FileServer server(source.path);
@@ -98,7 +95,7 @@ TEST(GetHead, a_file_with_another_content_is_refused_and_nothing_of_it_stays) {
 }
 
 TEST(GetHead, fetches_checks_and_credits_and_does_not_fetch_twice) {
-    if (!have("python3") || !(have("curl") || have("wget"))) GTEST_SKIP() << kMissing;
+    if (!has_program("python3") || !(has_program("curl") || has_program("wget"))) GTEST_SKIP() << kMissing;
     const Result<fs::path> asset = resolve_path("assets:lee_perry_smith/head_quads.obj", "");
     if (!asset) GTEST_SKIP() << asset.error().message;
     const TemporaryDirectory target;
@@ -119,7 +116,7 @@ TEST(GetHead, fetches_checks_and_credits_and_does_not_fetch_twice) {
 }
 
 TEST(GetHead, a_second_address_is_tried_when_the_first_lacks_the_file_or_sends_another) {
-    if (!have("python3") || !(have("curl") || have("wget"))) GTEST_SKIP() << kMissing;
+    if (!has_program("python3") || !(has_program("curl") || has_program("wget"))) GTEST_SKIP() << kMissing;
     const Result<fs::path> asset = resolve_path("assets:lee_perry_smith/head_quads.obj", "");
     if (!asset) GTEST_SKIP() << asset.error().message;
     const TemporaryDirectory first, target;

@@ -176,7 +176,7 @@ TEST_F(ViewWindow, a_view_is_pasted) {
 
 // Everything else here feeds events past the window library; this comes in through the display.
 TEST_F(ViewWindow, real_mouse_and_keys_do_what_the_scripted_ones_do) {
-    if (shell("command -v xdotool").exit_code != 0) GTEST_SKIP() << "no xdotool; apt-get install xdotool";
+    if (!has_program("xdotool")) GTEST_SKIP() << "no xdotool; apt-get install xdotool";
     const std::string arguments = "view " + kSmall + "--validate -t lambert ";
     const std::string hands =
         "timeout 60 xdotool search --sync --name 'spheres - Dermis' "
