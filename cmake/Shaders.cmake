@@ -43,3 +43,28 @@ ${table}    };
     set_property(SOURCE ${out_dir}/table.cpp APPEND PROPERTY OBJECT_DEPENDS "${outputs}")
     target_sources(${target} PRIVATE ${out_dir}/table.cpp)
 endfunction()
+
+# dermis_embed_skin_sources(target): the text of shaders/include/skin/*.glsl, which `dermis export` prints in other languages
+# (defines dermis::built_in_skin_sources, see catalog/catalog.h).
+function(dermis_embed_skin_sources target)
+    file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/shaders/include/skin/*.glsl)
+    set(table "")
+    foreach(source ${sources})
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${source})
+        file(READ ${PROJECT_SOURCE_DIR}/${source} text)
+        string(APPEND table "        {\"${source}\", R\"dermis_skin(${text})dermis_skin\"},\n")
+    endforeach()
+    set(output ${PROJECT_BINARY_DIR}/catalog/skin_sources.cpp)
+    file(CONFIGURE OUTPUT ${output} @ONLY CONTENT
+"#include \"catalog/catalog.h\"
+
+#include <vector>
+
+std::span<const dermis::shading::Source> dermis::built_in_skin_sources() {
+    static const std::vector<shading::Source> kSources = {
+${table}    };
+    return kSources;
+}
+")
+    target_sources(${target} PRIVATE ${output})
+endfunction()

@@ -6,8 +6,8 @@
 #extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/include/constants.h"
+#include "shaders/include/skin/pi.glsl"
 
-const float kPi = 3.14159265359;
 const float kGoldenAngle = 2.39996323;
 
 layout(scalar) uniform Frame {

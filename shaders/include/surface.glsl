@@ -46,11 +46,11 @@ struct Surface {
     float occlusion;              // of the vertices or the map, the darker one
     float occlusion_vertex;
     vec3 occlusion_blurred;       // of the vertices, over the surface, by variances of kOcclusionVariance0Mm2, 1, 2
-    mat3 curvature_tensor_per_mm;  // dermis/mesh/mesh.h
+    vec3 curvature_diagonal_per_mm, curvature_mixed_per_mm;  // the tensor: dermis/mesh/mesh.h
 };
 
 float mean_curvature_per_mm(Surface s) {
-    return 0.5 * (s.curvature_tensor_per_mm[0][0] + s.curvature_tensor_per_mm[1][1] + s.curvature_tensor_per_mm[2][2]);
+    return 0.5 * dot(s.curvature_diagonal_per_mm, vec3(1.0));
 }
 
 // Levels that a map is magnified by, 0 when it is not. A bias adds to the level before it is clamped to 0, so
@@ -85,8 +85,8 @@ Surface load_surface() {
     s.occlusion = min(occlusion_in, texture(sampler2D(occlusion_map, trilinear_repeat), uv_in).r);
     s.occlusion_vertex = occlusion_in;
     s.occlusion_blurred = occlusion_blurred_in;
-    vec3 d = curvature_diagonal_per_mm_in, m = curvature_mixed_per_mm_in;
-    s.curvature_tensor_per_mm = mat3(d.x, m.z, m.y, m.z, d.y, m.x, m.y, m.x, d.z);
+    s.curvature_diagonal_per_mm = curvature_diagonal_per_mm_in;
+    s.curvature_mixed_per_mm = curvature_mixed_per_mm_in;
     return s;
 }
 

@@ -66,7 +66,7 @@ TEST(PreintegratedInstructions, of_the_closed_form_are_fewer_than_of_the_hand_ma
     const Count closed = compiled("techniques/preintegrated/closed_form.glsl",
                                   "closed_form(read_closed_form(table, table_sampler, "
                                   "(clamp(k, 0.0, 1.0) * 256.0 + 0.5) / 257.0), t)"),
-                curves = compiled("techniques/preintegrated/curve_2015.glsl", "curve_2015_direct(t, k)");
+                curves = compiled("shaders/include/skin/curve_2015.glsl", "curve_2015_direct(t.x, k)");
     RecordProperty("closed_form", closed.alu);
     RecordProperty("curve_2015", curves.alu);
     EXPECT_GE(closed.alu, 8) << "counted nothing?";

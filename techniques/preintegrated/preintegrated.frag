@@ -24,10 +24,11 @@ layout(constant_id = 3) const int shadow = kShadowScattered;
 #define DERMIS_OWN_VIEW
 #define DERMIS_TRANSMISSION
 #include "shaders/include/forward.glsl"
-#include "shaders/include/texel_centres.glsl"
+#include "shaders/include/skin/curvature.glsl"
+#include "shaders/include/skin/curve_2015.glsl"
+#include "shaders/include/skin/normals.glsl"
+#include "shaders/include/skin/table.glsl"
 #include "techniques/preintegrated/closed_form.glsl"
-#include "techniques/preintegrated/curvature.glsl"
-#include "techniques/preintegrated/curve_2015.glsl"
 #include "techniques/preintegrated/transmission.glsl"
 #include "techniques/preintegrated/zonal.glsl"
 
@@ -42,48 +43,38 @@ uniform texture2D skin_lut;           // N.L * .5 + .5, curvature
 uniform texture2D skin_zonal;         // curvature, order 0 to 2
 uniform texture2D skin_shadow;        // visibility, under shadow_width_mm
 uniform texture2D skin_closed_form;   // curvature, rows of coefficients
-uniform texture2D skin_gaussians;     // a texel a term: weights, variance in mm^2
+uniform texture2D skin_gaussians;     // a column a term: weights, variances in mm^2
 uniform texture2D skin_normal_blend;  // log2 of a texel in mm: weights, levels
 uniform texture2D skin_beckmann;      // sqrt(1 - N.H), sqrt(alpha): tenth root
 uniform texture2D skin_transmission;  // distance
 
 // Set by prepare_surface(); the same for every light.
-mat3 skin_tensor_per_mm;
+vec3 skin_diagonal_per_mm, skin_mixed_per_mm;  // the curvature tensor
 float curvature_around_per_mm;
 vec3 n_smooth_world;
 vec3 smooth_weight;    // of the light that n_smooth_world gets; the sharp normal's has the rest
 float smooth_levels;   // mip levels from the sharp normal to the smooth one
 
-float beckmann(float n_dot_h, float alpha) {
-    float root = textureLod(sampler2D(skin_beckmann, linear_clamp), vec2(sqrt(1.0 - n_dot_h), sqrt(alpha)), 0.0).r;
-    float root2 = root * root, root4 = root2 * root2;
-    return root4 * root4 * root2;
+float beckmann_distribution(float n_dot_h, float alpha) {
+    vec2 uv = beckmann_coordinate(n_dot_h, alpha);
+    return beckmann_from_root(textureLod(sampler2D(skin_beckmann, linear_clamp), uv, 0.0).r);
 }
 
-// Similar triangles (Penner 2011): how fast the normal turns over how fast the point moves. It sees the mesh's facets
-// and the camera's distance; the other two sources do not.
-float derivative_curvature(Surface s) {
-    return clamp(length(fwidth(s.n_geometry_world)), 0.0, 1.0) / (length(fwidth(s.p_world_mm)) * tune_curvature);
-}
-
-mat3 chosen_tensor_per_mm(Surface s) {
-    if (curvature == kCurvatureVertex) return curvature_gain * s.curvature_tensor_per_mm;
+void choose_curvature(Surface s) {
+    skin_diagonal_per_mm = curvature_gain * s.curvature_diagonal_per_mm;
+    skin_mixed_per_mm = curvature_gain * s.curvature_mixed_per_mm;
+    if (curvature == kCurvatureVertex) return;
     float k = curvature == kCurvatureDerivative
-                  ? derivative_curvature(s)
+                  ? curvature_from_derivatives(fwidth(s.n_geometry_world), fwidth(s.p_world_mm)) / tune_curvature
                   : curvature_scale_per_mm *
                         (texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r - curvature_mid);
-    return isotropic_curvature(curvature_gain * k, s.n_geometry_world);
+    skin_diagonal_per_mm = sphere_diagonal(curvature_gain * k, s.n_geometry_world);
+    skin_mixed_per_mm = sphere_mixed(curvature_gain * k, s.n_geometry_world);
 }
 
-// The size of a texel of the normal map on the skin, along the atlas axis that is stretched more: the derivative of the
-// position by the texel, from the derivatives of both by the pixel.
 float normal_texel_mm(Surface s) {
     vec2 map_size = vec2(textureSize(sampler2D(normal_map, trilinear_repeat), 0));
-    vec2 texel_dx = dFdx(s.uv) * map_size, texel_dy = dFdy(s.uv) * map_size;
-    vec3 p_dx = dFdx(s.p_world_mm), p_dy = dFdy(s.p_world_mm);
-    float area = texel_dx.x * texel_dy.y - texel_dx.y * texel_dy.x;
-    vec3 p_du = p_dx * texel_dy.y - p_dy * texel_dx.y, p_dv = p_dy * texel_dx.x - p_dx * texel_dy.x;
-    return sqrt(max(dot(p_du, p_du), dot(p_dv, p_dv))) / max(abs(area), 1e-8);
+    return texel_mm(dFdx(s.p_world_mm), dFdy(s.p_world_mm), dFdx(s.uv) * map_size, dFdy(s.uv) * map_size);
 }
 
 // techniques/preintegrated/normal_blend.h: weights of the smoother normal, and how many levels up it is.
@@ -100,8 +91,8 @@ void blend_normals(Surface s) {
 void prepare_surface(inout Surface s) {
     s.f0 *= oiliness;
     s.roughness = clamp(s.roughness * roughness_scale, 0.03, 1.0);
-    skin_tensor_per_mm = chosen_tensor_per_mm(s);
-    curvature_around_per_mm = curvature_around(skin_tensor_per_mm);
+    choose_curvature(s);
+    curvature_around_per_mm = min(curvature_around(skin_diagonal_per_mm, skin_mixed_per_mm), kMaxCurvaturePerMm);
     if (normals == kNormalsSharp) return;
     smooth_weight = vec3(1.0);
     smooth_levels = normal_lod_bias;
@@ -111,14 +102,14 @@ void prepare_surface(inout Surface s) {
 }
 
 vec3 falloff(float n_dot_l, float k) {
-    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(vec3(n_dot_l), k);
+    if (diffuse == kDiffuseCurve2015) return curve_2015_direct(n_dot_l, k);
     if (diffuse == kDiffuseClosedForm) {
         float size = float(textureSize(sampler2D(skin_closed_form, linear_clamp), 0).x);
         return closed_form(
             read_closed_form(skin_closed_form, linear_clamp, texel_centres(k / kMaxCurvaturePerMm, size)),
             vec3(n_dot_l));
     }
-    vec2 uv = vec2(n_dot_l * 0.5 + 0.5, k / kMaxCurvaturePerMm);
+    vec2 uv = diffuse_coordinate(n_dot_l, k, kMaxCurvaturePerMm);
     return textureLod(sampler2D(skin_lut, linear_clamp), uv, 0.0).rgb;
 }
 
@@ -127,21 +118,18 @@ vec3 falloff_of_channels(vec3 n_dot_l, float k) {
     return vec3(falloff(n_dot_l.r, k).r, falloff(n_dot_l.g, k).g, falloff(n_dot_l.b, k).b);
 }
 
-// Penner 2011 mixes the normals themselves, in each channel.
-vec3 lerped_normal(Surface s, float weight) { return normalize(mix(s.n_world, n_smooth_world, weight)); }
-
-// The light of both normals is mixed, not the normals, because light scatters: a bump's lit side still counts where the
-// mean normal has turned away, and the table is read twice instead of three times.
+// Blended, the table is read twice instead of three times.
 vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
-    float k = curvature_towards(skin_tensor_per_mm, s.n_geometry_world, to_light_world);
+    float k = min(curvature_towards(skin_diagonal_per_mm, skin_mixed_per_mm, s.n_geometry_world, to_light_world),
+                  kMaxCurvaturePerMm);
     if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world), k);
     if (normals == kNormalsLerp)
-        return falloff_of_channels(vec3(dot(lerped_normal(s, smooth_weight.r), to_light_world),
-                                        dot(lerped_normal(s, smooth_weight.g), to_light_world),
-                                        dot(lerped_normal(s, smooth_weight.b), to_light_world)), k);
+        return falloff_of_channels(vec3(dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.r), to_light_world),
+                                        dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.g), to_light_world),
+                                        dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.b), to_light_world)), k);
     vec3 sharp = falloff(dot(s.n_world, to_light_world), k);
     if (normals == kNormalsSharp) return sharp;
-    return mix(sharp, falloff(dot(n_smooth_world, to_light_world), k), smooth_weight);
+    return blended_light(sharp, falloff(dot(n_smooth_world, to_light_world), k), smooth_weight);
 }
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
@@ -164,7 +152,9 @@ vec3 transmitted_response(Surface s, vec3 to_light_world, float visibility) {
 void ambient_bands(out vec3 band[3]) {
     vec3 zh[3];
     if (ambient == kAmbientCurve2015) {
-        curve_2015_zonal(curvature_around_per_mm, zh);
+        zh[0] = curve_2015_zonal_0(curvature_around_per_mm);
+        zh[1] = curve_2015_zonal_1(curvature_around_per_mm);
+        zh[2] = vec3(0.495416);
     } else if (ambient == kAmbientExact) {
         exact_zonal(skin_gaussians, nearest_clamp, curvature_around_per_mm, zh);
     } else {
@@ -195,9 +185,9 @@ vec3 ambient_response(Surface s) {
     vec3 arriving = environment_convolved(s.n_world, band[0], band[1], band[2]);
     if (normals == kNormalsLerp) {
         for (int c = 0; c < 3; ++c)
-            arriving[c] = environment_convolved(lerped_normal(s, smooth_weight[c]), band[0], band[1], band[2])[c];
+            arriving[c] = environment_convolved(lerped_normal(s.n_world, n_smooth_world, smooth_weight[c]), band[0], band[1], band[2])[c];
     } else if (normals != kNormalsSharp) {
-        arriving = mix(arriving, environment_convolved(n_smooth_world, band[0], band[1], band[2]), smooth_weight);
+        arriving = blended_light(arriving, environment_convolved(n_smooth_world, band[0], band[1], band[2]), smooth_weight);
     }
     return arriving * scattered_occlusion(s);
 }

@@ -7,6 +7,7 @@
 #include "dermis/bake/lut.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
+#include "dermis/optics/gaussian_channels.h"
 #include "techniques/preintegrated/normal_blend.h"
 #include "techniques/preintegrated/shadow_ramp.h"
 
@@ -100,13 +101,14 @@ Result<TableImage> shadow_table(const TableSettings& settings, const SkinContext
     return table_image("skin_shadow", 1, rgba);
 }
 
-// The profile itself, one texel per term: weights in red, green, blue, variance in alpha.
+// The profile itself: a row of weights and one of variances in mm^2, red, green, blue; one column a term.
 Result<TableImage> gaussian_table(const TableSettings&, const SkinContext& skin) {
     std::vector<float> rgba;
-    for (const GaussianTerm& term : skin.gaussians.terms)
-        rgba.insert(rgba.end(), {float(term.weight[0]), float(term.weight[1]), float(term.weight[2]),
-                                 float(term.variance_mm2)});
-    return table_image("skin_gaussians", 1, rgba);
+    const std::vector<ChannelGaussians> terms = by_channel(skin.gaussians);
+    for (const Rgb ChannelGaussians::*row : {&ChannelGaussians::weight, &ChannelGaussians::variance_mm2})
+        for (const ChannelGaussians& term : terms)
+            rgba.insert(rgba.end(), {float((term.*row)[0]), float((term.*row)[1]), float((term.*row)[2]), 1});
+    return table_image("skin_gaussians", 2, rgba);
 }
 
 // Weights of the smoother normal, and in alpha its mip level above the sharp one's, over the logarithm of a

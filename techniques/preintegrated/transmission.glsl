@@ -6,7 +6,7 @@
 #define DERMIS_TRANSMISSION_GLSL
 
 #include "shaders/include/shadow.glsl"
-#include "shaders/include/texel_centres.glsl"
+#include "shaders/include/skin/table.glsl"
 #include "techniques/preintegrated/constants.h"
 
 const float kWidestRingMm = 6.0;

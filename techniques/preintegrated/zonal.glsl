@@ -1,33 +1,22 @@
-// Zonal harmonics of pre-integrated skin on a closed sphere, in closed form: zh_0 = sqrt(pi) / 2, zh_1 = sqrt(pi / 3) sum
-// w rho_1(kappa), zh_2 = sqrt(5 pi) / 8 sum w rho_2(kappa), kappa = r^2 / v, rho_1 = coth kappa - 1 / kappa, rho_2 = 1 - 3
-// rho_1 / kappa, w the Gaussians' weights times 1 - exp(-2 kappa), summing to 1 (docs/preintegration.md).
+// Zonal harmonics of pre-integrated skin, summed over the Gaussians of its profile (shaders/include/skin/zonal.glsl): zh_0 =
+// sqrt(pi) / 2, zh_1 = sqrt(pi / 3) mean rho_1, zh_2 = sqrt(5 pi) / 8 mean rho_2.
 #ifndef DERMIS_ZONAL_GLSL
 #define DERMIS_ZONAL_GLSL
 
-// rho_1 and rho_2; both differences of near numbers at small kappa, where their series take over (error 1e-5).
-vec2 lobe_bands(float kappa) {
-    float k2 = kappa * kappa;
-    if (kappa < 0.5)
-        return vec2(kappa * (1.0 / 3.0 - k2 * (1.0 / 45.0 - k2 * (2.0 / 945.0))),
-                    k2 * (1.0 / 15.0 - k2 * (2.0 / 315.0 - k2 / 1575.0)));
-    float e = exp(-2.0 * kappa);
-    float rho_1 = (1.0 + e) / (1.0 - e) - 1.0 / kappa;
-    return vec2(rho_1, 1.0 - 3.0 * rho_1 / kappa);
-}
+#include "shaders/include/skin/zonal.glsl"
 
-// `gaussians` holds a term a texel: weights, and the variance in mm^2 in alpha.
+// `gaussians` holds a term a column: weights, below them variances in mm^2.
 void exact_zonal(texture2D gaussians, sampler nearest_sampler, float curvature_per_mm, out vec3 zh[3]) {
-    float r_mm = 1.0 / max(curvature_per_mm, 1e-4);
     vec3 total = vec3(0.0), sum_1 = vec3(0.0), sum_2 = vec3(0.0);
     int count = textureSize(sampler2D(gaussians, nearest_sampler), 0).x;
     for (int i = 0; i < count; ++i) {
-        vec4 term = texelFetch(sampler2D(gaussians, nearest_sampler), ivec2(i, 0), 0);
-        float kappa = r_mm * r_mm / term.a;
-        vec3 weight = term.rgb * (1.0 - exp(-2.0 * kappa));
-        vec2 rho = lobe_bands(kappa);
+        vec3 weight = texelFetch(sampler2D(gaussians, nearest_sampler), ivec2(i, 0), 0).rgb;
+        vec3 variance_mm2 = texelFetch(sampler2D(gaussians, nearest_sampler), ivec2(i, 1), 0).rgb;
+        vec3 kappa = lobe_kappa(curvature_per_mm, variance_mm2);
+        weight *= lobe_part(kappa);
         total += weight;
-        sum_1 += weight * rho.x;
-        sum_2 += weight * rho.y;
+        sum_1 += weight * lobe_band_1(kappa);
+        sum_2 += weight * lobe_band_2(kappa);
     }
     zh[0] = vec3(0.886226925);
     zh[1] = 1.023326708 * sum_1 / total;

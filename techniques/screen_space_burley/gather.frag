@@ -4,7 +4,7 @@
 // channels' radial densities, and weighted by each channel's own at the true distance between the points on the skin
 // (bilateral filtering). The part of the profile within the pixel itself is computed, not sampled, and is
 // the centre's weight, so that a profile far narrower than a pixel changes nothing.
-#include "shaders/include/texel_centres.glsl"
+#include "shaders/include/skin/table.glsl"
 #include "shaders/screen/rays.glsl"
 
 uniform texture2D light;

@@ -5,7 +5,7 @@
 // function at the ends of the cell, so that Gaussians much narrower than a pixel keep their whole weight. Distances
 // are those of the points on the skin, not of the pixels: a cell on a slope is longer than its projection, and a tap
 // behind a gap is too far away to count.
-#include "shaders/include/texel_centres.glsl"
+#include "shaders/include/skin/table.glsl"
 #include "shaders/screen/rays.glsl"
 #include "techniques/screen_space_separable/constants.h"
 

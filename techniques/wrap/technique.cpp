@@ -2,9 +2,7 @@
 // McAuley 2010. How far light reaches past the terminator follows from the skin's profile and the curvature,
 // for each colour, or is set by eye as Green has it, with a colour shift at the terminator.
 
-#include <algorithm>
-#include <cmath>
-
+#include "dermis/optics/wrap_reach.h"
 #include "dermis/technique/forward.h"
 #include "techniques/wrap/constants.h"
 
@@ -37,37 +35,17 @@ ParameterTable parameters() {
         .build();
 }
 
-// For one colour, the reach at curvature k is second_moment k^2 / (1 + bend k^2), times kReachScale.
-struct Reach {
-    double second_moment_mm2 = 0, bend_mm2 = 0;
-};
-
-// On a sphere of curvature k the profile damps the cosine's part of the light (its zonal harmonic of order 1)
-// by d(k) = sum w exp(-v k^2), and 1 - d is second_moment k^2 for small k. The bend is set so that 1 - d is
-// also right at 1/2 per mm.
-Reach reach_of(const GaussianSum& profile, size_t c) {
-    constexpr double kSharpest = 0.25;  // (1/2 per mm)^2
-    double total = 0, second_moment = 0, damped = 0;
-    for (const GaussianTerm& term : profile.terms) {
-        total += term.weight[c];
-        second_moment += term.weight[c] * term.variance_mm2;
-        damped += term.weight[c] * std::exp(-term.variance_mm2 * kSharpest);
-    }
-    if (!(second_moment > 0)) return {};
-    second_moment /= total;
-    const double lost = 1 - damped / total;
-    return {second_moment, std::max(second_moment / lost - 1 / kSharpest, 0.0)};
+Vec3 to_vec3(const Rgb& rgb) {
+    return {float(rgb[0]), float(rgb[1]), float(rgb[2])};
 }
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const auto params = values.as<Params>();
-    const Reach r = reach_of(frame.skin_gaussians, 0), g = reach_of(frame.skin_gaussians, 1),
-                b = reach_of(frame.skin_gaussians, 2);
+    const WrapReach reach = wrap_reach(frame.skin_gaussians);
     Pass skin = forward_skin_pass("wrap/wrap.frag", params.specular, frame);
     skin.constants.emplace_back("width", int32_t(params.width));
-    skin.values = {{"second_moment_mm2",
-                    Vec3{float(r.second_moment_mm2), float(g.second_moment_mm2), float(b.second_moment_mm2)}},
-                   {"bend_mm2", Vec3{float(r.bend_mm2), float(g.bend_mm2), float(b.bend_mm2)}}};
+    skin.values = {{"second_moment_mm2", to_vec3(reach.second_moment_mm2)},
+                   {"bend_mm2", to_vec3(reach.bend_mm2)}};
     return {.passes = {std::move(skin)}};
 }
 

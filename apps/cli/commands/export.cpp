@@ -1,0 +1,73 @@
+// dermis export: the shading functions with a skin's coefficients, in the language of an engine.
+
+#include <cstdio>
+#include <memory>
+
+#include "catalog/catalog.h"
+#include "command.h"
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/export/profile_source.h"
+#include "dermis/optics/presets.h"
+
+namespace dermis::cli {
+namespace {
+
+struct Options {
+    std::string language, profile = "gpu_gems_3", output;
+};
+
+constexpr const char* kAllLanguages = "all";
+
+Result<std::vector<shading::Language>> chosen_languages(const std::string& name) {
+    std::vector<shading::Language> languages;
+    std::vector<std::string> names = shading::language_names();
+    for (const std::string& known : names) {
+        const Result<shading::Language> language = shading::find_language(known);
+        if (language && (name == known || name == kAllLanguages)) languages.push_back(*language);
+    }
+    if (!languages.empty()) return languages;
+    names.emplace_back(kAllLanguages);
+    return Error{unknown_name("language", name, names)};
+}
+
+Result<int> run(const Options& options) {
+    const Result<std::vector<shading::Language>> languages = chosen_languages(options.language);
+    if (!languages) return languages.error();
+    const Result<Profile> profile = find_profile(options.profile);
+    if (!profile) return profile.error();
+    std::vector<std::string> paths, texts;
+    for (const shading::Language language : *languages) {
+        Result<std::string> text = skin_text(*profile, built_in_skin_sources(), language);
+        if (!text) return text.error();
+        const bool folder = options.language == kAllLanguages;
+        const std::string file = "skin" + std::string(shading::file_extension(language));
+        paths.push_back(folder ? (std::filesystem::path(options.output) / file).string() : options.output);
+        texts.push_back(std::move(*text));
+    }
+    std::vector<FileContent> files;
+    for (size_t i = 0; i < paths.size(); ++i) files.push_back({paths[i], as_bytes(texts[i])});
+    if (const Result<void> written = write_files(files); !written) return written.error();
+    for (const std::string& path : paths) std::printf("%s\n", path.c_str());
+    return 0;
+}
+
+}  // namespace
+
+void add_export_command(CommandLine& line) {
+    auto options = std::make_shared<Options>();
+    Command* command = line.add("export", "The shading functions for a skin as source text for an engine",
+                                "dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl\n"
+                                "  dermis export --language all -o shaders/");
+    command
+        ->add_option("--language", options->language,
+                     join(shading::language_names(), ", ") + ", or all: a file of each in a folder")
+        ->required();
+    command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B")
+        ->capture_default_str();
+    command->add_option("-o,--output", options->output, "file to write; with --language all a folder")
+        ->required();
+    line.when_chosen(command, [options] { return run(*options); });
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,139 @@
+#include "dermis/export/profile_source.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "dermis/base/text.h"
+#include "dermis/optics/gaussian_channels.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/wrap_reach.h"
+
+namespace dermis {
+namespace {
+
+// A float literal of six digits: "1.0", "0.000310047".
+std::string literal(double value) {
+    std::array<char, 32> digits{};
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 6).ptr;
+    std::string text(digits.data(), end);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text;
+}
+
+std::string vec3_literal(const Rgb& rgb) {
+    return "vec3(" + literal(rgb[0]) + ", " + literal(rgb[1]) + ", " + literal(rgb[2]) + ")";
+}
+
+std::string vec3_constant(const std::string& name, const Rgb& value) {
+    return "const vec3 " + name + " = " + vec3_literal(value) + ";\n";
+}
+
+// "0.31 %"
+std::string percent(double part) {
+    const double rounded = double(int(part * 1e4 + 0.5)) / 100;
+    return to_text(float(rounded)) + " %";
+}
+
+std::string heading(const Profile& profile, const GaussianFit& fit) {
+    const double error = std::ranges::max(fit.max_error);
+    std::string text = "// Skin: " + printable_line(profile.name) +
+                       ".\n// Source: " + printable_line(profile.source) +
+                       ".\n// Coefficients are for linear Rec. 709 red, green, blue.\n";
+    if (error > 0)
+        text += "// The profile is replaced by Gaussians: up to " + percent(error) +
+                " of the light is at a wrong distance.\n";
+    return text;
+}
+
+std::string gaussian_constants(const std::vector<ChannelGaussians>& terms) {
+    std::string text = "// Gaussians of the profile, red, green, blue: weights, and variances in mm^2.\n";
+    for (size_t i = 0; i < terms.size(); ++i) {
+        text += vec3_constant("kSkinWeight" + std::to_string(i), terms[i].weight);
+        text += vec3_constant("kSkinVariance" + std::to_string(i) + "Mm2", terms[i].variance_mm2);
+    }
+    return text;
+}
+
+// "part_0 + part_1", or "part_0 * lobe_band_1(kappa_0) + ...".
+std::string sum_of(size_t count, const std::string& behind, const std::string& end) {
+    std::string text;
+    for (size_t i = 0; i < count; ++i) {
+        const std::string index = std::to_string(i);
+        text += (i ? " + part_" : "part_") + index + (behind.empty() ? "" : behind + index + end);
+    }
+    return text;
+}
+
+std::string ambient_band(const std::string& comment, int band, const std::string& of_flat_skin,
+                         size_t count) {
+    std::string text =
+        comment + "vec3 skin_ambient_band_" + std::to_string(band) + "(float curvature_per_mm) {\n";
+    for (size_t i = 0; i < count; ++i) {
+        const std::string index = std::to_string(i);
+        text +=
+            "    vec3 kappa_" + index + " = lobe_kappa(curvature_per_mm, kSkinVariance" + index + "Mm2);\n";
+        text += "    vec3 part_" + index + " = kSkinWeight" + index + " * lobe_part(kappa_" + index + ");\n";
+    }
+    text += "    vec3 total = " + sum_of(count, "", "") + ";\n";
+    return text + "    return " + of_flat_skin + " * (" +
+           sum_of(count, " * lobe_band_" + std::to_string(band) + "(kappa_", ")") + ") / total;\n}\n";
+}
+
+std::string ambient_functions(size_t count) {
+    return ambient_band(
+               "// Light from all around: what the bands of order 1 and 2 of the environment's spherical "
+               "harmonics (of radiance) are\n// multiplied with, in place of Lambert's 2 pi / 3 and pi / 4; "
+               "order 0 "
+               "keeps pi. curvature_per_mm is 0 upwards.\n",
+               1, "2.0 * kPi / 3.0", count) +
+           "\n" + ambient_band("", 2, "kPi / 4.0", count);
+}
+
+std::string wrap_function(const WrapReach& reach) {
+    return "// Wrapped diffuse, without a table: radiant exitance over irradiance at normal incidence, 0 to "
+           "1. "
+           "n_dot_l from -1 to 1,\n// curvature_per_mm the mean curvature of the surface.\n" +
+           vec3_constant("kSkinSecondMomentMm2", reach.second_moment_mm2) +
+           vec3_constant("kSkinBendMm2", reach.bend_mm2) +
+           "\nvec3 skin_wrap(float n_dot_l, float curvature_per_mm) {\n"
+           "    return wrapped_cosine(n_dot_l, wrap_reach(curvature_per_mm, kSkinSecondMomentMm2, "
+           "kSkinBendMm2));\n"
+           "}\n";
+}
+
+}  // namespace
+
+Result<shading::Source> profile_source(const Profile& profile) {
+    const GaussianFit fit = to_gaussian_sum(profile);
+    if (const Result<void> good = check_preintegrable(fit.sum); !good) return good.error();
+    const std::vector<ChannelGaussians> terms = by_channel(fit.sum);
+    std::string text = heading(profile, fit);
+    for (const char* file : {"pi", "wrap", "zonal"})
+        text += "#include \"shaders/include/skin/" + std::string(file) + ".glsl\"\n";
+    text += "\n" + gaussian_constants(terms) + "\n" + ambient_functions(terms.size()) + "\n" +
+            wrap_function(wrap_reach(fit.sum));
+    return shading::Source{"profile " + printable_line(profile.name), text};
+}
+
+Result<std::string> skin_text(const Profile& profile, std::span<const shading::Source> functions,
+                              shading::Language language) {
+    Result<shading::Source> own = profile_source(profile);
+    if (!own) return own.error();
+    std::vector<shading::Source> sources(functions.begin(), functions.end());
+    sources.push_back(std::move(*own));
+    const Result<std::vector<shading::Unit>> units = shading::read_sources(sources);
+    if (!units) return units.error();
+    const std::vector<std::string> heading = {
+        "Shading functions for skin: " + printable_line(profile.name) +
+            ". Printed by `dermis export`; change its source, not this file.",
+        "SPDX-License-Identifier: MIT, Copyright (c) 2026 The Dermis authors", "",
+        "Units: lengths in mm, curvature in 1/mm, colours linear. Directions are normalised and point away "
+        "from the surface.",
+        "Pure functions: fetch textures and derivatives yourself and pass them. Needs 32-bit floats "
+        "(highp)."};
+    return shading::print(*units, language, heading);
+}
+
+}  // namespace dermis

@@ -1,0 +1,63 @@
+// Files in the order in which they include each other.
+
+#include <algorithm>
+
+#include "dermis/shading/check.h"
+#include "dermis/shading/parser.h"
+#include "dermis/shading/shading.h"
+
+namespace dermis::shading {
+namespace {
+
+enum class Visit { none, open, done };
+
+class Order {
+  public:
+    explicit Order(std::vector<Unit>& units) : units_(units), visits_(units.size(), Visit::none) {}
+
+    Result<std::vector<Unit>> run() {
+        for (size_t i = 0; i < units_.size(); ++i)
+            if (const Result<void> visited = visit(i); !visited) return visited.error();
+        return std::move(ordered_);
+    }
+
+  private:
+    Result<void> visit(size_t index) {
+        if (visits_[index] == Visit::done) return {};
+        if (visits_[index] == Visit::open)
+            return Error{units_[index].path +
+                         ": includes itself through another file; move what both need to a third"};
+        visits_[index] = Visit::open;
+        for (const std::string& include : units_[index].includes) {
+            const auto found = std::ranges::find(units_, include, &Unit::path);
+            if (found == units_.end())
+                return Error{units_[index].path + ": includes " + include +
+                             ", which is none of the shading functions' files; move what it needs there"};
+            if (const Result<void> visited = visit(size_t(found - units_.begin())); !visited) return visited;
+        }
+        visits_[index] = Visit::done;
+        ordered_.push_back(units_[index]);
+        return {};
+    }
+
+    std::vector<Unit>& units_;
+    std::vector<Visit> visits_;
+    std::vector<Unit> ordered_;
+};
+
+}  // namespace
+
+Result<std::vector<Unit>> read_sources(std::span<const Source> sources) {
+    std::vector<Unit> units;
+    for (const Source& source : sources) {
+        Result<Unit> unit = parse(source.path, source.text);
+        if (!unit) return unit.error();
+        units.push_back(std::move(*unit));
+    }
+    Result<std::vector<Unit>> ordered = Order(units).run();
+    if (!ordered) return ordered.error();
+    if (const Result<void> good = check(*ordered); !good) return good.error();
+    return ordered;
+}
+
+}  // namespace dermis::shading

@@ -1,0 +1,122 @@
+// Each language's text gives the same numbers as the source that the renderer uses: random arguments over the
+// whole domain of each function, evaluated by g++ and by lavapipe. MSL is compiled as C++, over a header with
+// Metal's vectors and functions: that is its arithmetic only. gdshader is compiled as GLSL.
+
+#include "catalog/catalog.h"
+#include "dermis/export/profile_source.h"
+#include "dermis/optics/presets.h"
+#include "shading/evaluate.h"
+#include "support/gpu_fixture.h"
+
+namespace dermis::shading {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+class Agreement : public gpu::GpuTest {
+  protected:
+    static void SetUpTestSuite() {
+        GpuTest::SetUpTestSuite();
+        const auto profile = find_profile("openpbr_skin_5");
+        ASSERT_TRUE(profile);
+        std::vector<Source> sources(built_in_skin_sources().begin(), built_in_skin_sources().end());
+        const auto own = profile_source(*profile);
+        ASSERT_TRUE(own) << own.error().message;
+        sources.push_back(*own);
+        const auto units = read_sources(sources);
+        ASSERT_TRUE(units) << units.error().message;
+        units_ = *units;
+        auto sampled = sample_functions(units_);
+        ASSERT_TRUE(sampled) << sampled.error().message;
+        functions_ = std::move(*sampled);
+        const auto reference = evaluate(Language::cpp);
+        ASSERT_TRUE(reference) << reference.error().message;
+        reference_ = *reference;
+    }
+
+    // The text, with a mistake if one is given.
+    static std::string text_of(Language language, const std::string& wrong = {},
+                               const std::string& with = {}) {
+        std::string text = print(units_, language, {});
+        if (!wrong.empty()) {
+            const size_t at = text.find(wrong);
+            EXPECT_NE(at, std::string::npos) << wrong;
+            if (at != std::string::npos) text.replace(at, wrong.size(), with);
+        }
+        return text;
+    }
+
+    static Result<Outputs> evaluate(Language language, const std::string& wrong = {},
+                                    const std::string& with = {}) {
+        const std::string text = text_of(language, wrong, with);
+        if (language == Language::cpp || language == Language::msl)
+            return evaluate_on_cpu(text, language, functions_);
+        return evaluate_on_gpu(device(), text, language, functions_);
+    }
+
+    // The functions whose results differ from the reference by more than their bounds.
+    static std::vector<std::string> differing(const Result<Outputs>& outputs) {
+        EXPECT_TRUE(outputs) << outputs.error().message;
+        std::vector<std::string> names;
+        for (size_t i = 0; outputs && i < functions_.size(); ++i) {
+            const double worst = worst_difference(functions_[i], reference_[i], (*outputs)[i]);
+            RecordProperty(functions_[i].name, std::to_string(worst));
+            if (!(worst <= 1)) names.push_back(functions_[i].name);
+        }
+        return names;
+    }
+
+    static std::string find_program(std::initializer_list<const char*> names) {
+        for (const char* name : names)
+            if (std::system(("command -v " + std::string(name) + " >/dev/null 2>&1").c_str()) == 0)
+                return name;
+        return "";
+    }
+
+    inline static std::vector<Unit> units_;
+    inline static std::vector<Sampled> functions_;
+    inline static Outputs reference_;
+};
+
+TEST_F(Agreement, of_every_language_with_cpp) {
+    EXPECT_GT(functions_.size(), 25u);
+    for (const Language language :
+         {Language::glsl, Language::essl, Language::hlsl, Language::gdshader, Language::msl})
+        EXPECT_THAT(differing(evaluate(language)), IsEmpty()) << language_name(language);
+}
+
+// A mistake in one place of one language is found, and only there.
+TEST_F(Agreement, finds_a_mistake_in_each_language) {
+    EXPECT_THAT(differing(evaluate(Language::glsl, "mix(dark, lit,", "mix(lit, dark,")),
+                ElementsAre("curve_2015_direct"));
+    EXPECT_THAT(differing(evaluate(Language::hlsl, "lerp(dark, lit,", "lerp(lit, dark,")),
+                ElementsAre("curve_2015_direct"));
+    EXPECT_THAT(differing(evaluate(Language::essl, "return kPi * (2.0 - w)", "return kPi * (2.001 - w)")),
+                ElementsAre("wrapped_band_1"));
+    EXPECT_THAT(differing(evaluate(Language::gdshader, "m.z * d.y + m.y", "m.z * d.y - m.y")),
+                ElementsAre("tensor_times", "curvature_towards"));
+    EXPECT_THAT(differing(evaluate(Language::msl, "saturate(length(fwidth_n))", "length(fwidth_n)")),
+                ElementsAre("curvature_from_derivatives"));
+    EXPECT_THAT(differing(evaluate(Language::cpp, "max(4.0f * h_dot_v", "max(4.01f * h_dot_v")),
+                ElementsAre("kelemen_szirmay_kalos"));
+}
+
+// WGSL has no other compiler here; ESSL 3.00 is compiled as what it is. Fewer samples, see kBrowserSamples.
+TEST_F(Agreement, of_wgsl_and_essl_in_a_browser) {
+    const std::string chromium = find_program({"chromium", "chromium-browser", "google-chrome"});
+    if (chromium.empty() || find_program({"node"}).empty()) GTEST_SKIP() << "no chromium or no node here";
+    for (const Language language : {Language::wgsl, Language::essl}) {
+        const Result<Outputs> outputs =
+            evaluate_in_browser(chromium, text_of(language), language, functions_);
+        if (!outputs && outputs.error().message.starts_with(kBrowserLacks))
+            GTEST_SKIP() << outputs.error().message;
+        EXPECT_THAT(differing(outputs), IsEmpty()) << language_name(language);
+    }
+    const std::string wrong = text_of(Language::wgsl, "step(kappa, vec3f(0.5))", "step(vec3f(0.5), kappa)");
+    EXPECT_THAT(differing(evaluate_in_browser(chromium, wrong, Language::wgsl, functions_)),
+                testing::Contains("lobe_band_1"));
+}
+
+}  // namespace
+}  // namespace dermis::shading

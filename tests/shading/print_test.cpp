@@ -1,0 +1,116 @@
+// The text in each language: what differs between them, and that comments and layout stay.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "catalog/catalog.h"
+#include "dermis/base/text.h"
+#include "dermis/export/profile_source.h"
+#include "dermis/optics/presets.h"
+
+using namespace dermis;
+using namespace dermis::shading;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+std::string printed(const std::string& text, Language language) {
+    const auto units = read_sources(std::vector<Source>{{"skin.glsl", text}});
+    EXPECT_TRUE(units) << units.error().message;
+    return units ? print(*units, language, {}) : "";
+}
+
+const std::string kSample =
+    "// Half, 0 to 1.\n"
+    "const float kHalf = 0.5;\n\n"
+    "// Two lines of text.\n"
+    "vec3 f(vec3 a, float t) {\n"
+    "    vec3 b = clamp(mix(a, vec3(t), kHalf), 0.0, 1.0);\n\n"
+    "    // Why.\n"
+    "    vec3 c = b, d = max(b, t);  // behind\n"
+    "    c.x = fract(t);\n"
+    "    for (int i = 0; i < 3; ++i) c += d;\n"
+    "    if (t < 0.0) return vec3(c.xy, 1.0);\n"
+    "    return t > 1.0 ? b : c;\n"
+    "}\n";
+
+TEST(Print, glsl_is_what_was_read) {
+    EXPECT_EQ(
+        printed(kSample, Language::glsl),
+        "#ifndef DERMIS_SKIN\n#define DERMIS_SKIN\n\n// Half, 0 to 1.\n" + kSample.substr(17) + "\n#endif\n");
+}
+
+TEST(Print, hlsl_has_casts_lerp_and_saturate) {
+    const std::string text = printed(kSample, Language::hlsl);
+    EXPECT_THAT(text, HasSubstr("static const float kHalf = 0.5;\n"));
+    EXPECT_THAT(
+        text,
+        HasSubstr("float3 f(float3 a, float t) {\n    float3 b = saturate(lerp(a, (float3)t, kHalf));\n"));
+    EXPECT_THAT(text, HasSubstr("    float3 c = b, d = max(b, t);  // behind\n    c.x = frac(t);\n"));
+}
+
+TEST(Print, wgsl_has_types_behind_names_and_select) {
+    EXPECT_EQ(printed(kSample, Language::wgsl),
+              "\n// Half, 0 to 1.\nconst kHalf: f32 = 0.5;\n\n"
+              "// Two lines of text.\n"
+              "fn f(a: vec3f, t: f32) -> vec3f {\n"
+              "    let b = saturate(mix(a, vec3f(t), kHalf));\n\n"
+              "    // Why.\n"
+              "    var c = b;\n"
+              "    let d = max(b, vec3f(t));  // behind\n"
+              "    c.x = fract(t);\n"
+              "    for (var i = 0; i < 3; i++) {\n"
+              "        c += d;\n"
+              "    }\n"
+              "    if (t < 0.0) {\n"
+              "        return vec3f(c.xy, 1.0);\n"
+              "    }\n"
+              "    return select(c, b, t > 1.0);\n"
+              "}\n");
+}
+
+TEST(Print, metal_and_cpp_have_their_own) {
+    const std::string metal = printed(kSample, Language::msl), cpp = printed(kSample, Language::cpp);
+    EXPECT_THAT(metal, HasSubstr("constant float kHalf = 0.5;\n"));
+    EXPECT_THAT(metal, HasSubstr("inline float3 f(float3 a, float t) {\n    float3 b = saturate(mix(a, "
+                                 "float3(t), float3(kHalf)));\n"));
+    EXPECT_THAT(cpp, HasSubstr("constexpr float kHalf = 0.5f;\n"));
+    EXPECT_THAT(cpp, HasSubstr("return float3(float2(c.x, c.y), 1.0f);\n"));
+    EXPECT_THAT(cpp, HasSubstr("    return t > 1.0f ? b : c;\n"));
+}
+
+TEST(Print, long_lines_are_broken_at_the_outermost_place) {
+    const std::string sum = "aaaaaaaaaaaaaaaaaaaaaaaa * (bbbbbbbbbbbbbbbbbbbbbbbbbbbb + 1.0)";
+    const std::string text =
+        printed("float f(float aaaaaaaaaaaaaaaaaaaaaaaa, float bbbbbbbbbbbbbbbbbbbbbbbbbbbb) {\n    return " +
+                    sum + " + " + sum + ";\n}\n",
+                Language::glsl);
+    EXPECT_THAT(text, HasSubstr("    return " + sum + " +\n            " + sum + ";\n"));
+}
+
+// What is handed over: every language, a measured and an OpenPBR skin.
+TEST(Print, the_skin_is_printed_in_every_language_the_same_every_time) {
+    for (const char* name : {"gpu_gems_3", "openpbr_skin_5", "jensen_skin1"}) {
+        const auto profile = find_profile(name);
+        ASSERT_TRUE(profile);
+        for (const std::string& language : language_names()) {
+            const auto text = skin_text(*profile, built_in_skin_sources(), *find_language(language));
+            ASSERT_TRUE(text) << text.error().message;
+            EXPECT_EQ(*text, *skin_text(*profile, built_in_skin_sources(), *find_language(language)));
+            EXPECT_THAT(*text, HasSubstr(name));
+            for (const char* function :
+                 {"ggx(", "kelemen_szirmay_kalos(", "skin_wrap(", "skin_ambient_band_1("})
+                EXPECT_THAT(*text, HasSubstr(function)) << language;
+            EXPECT_THAT(*text, Not(HasSubstr("shaders/include"))) << language;
+            for (const std::string_view line : split(*text, '\n')) {
+                EXPECT_TRUE(line.size() <= (language == "cpp" ? 130u : 120u) ||
+                            line.starts_with("// Source: "))
+                    << language << ": " << line;
+                EXPECT_EQ(line.find_first_of("\t\x80"), std::string_view::npos) << line;
+            }
+        }
+    }
+}
+
+}  // namespace
