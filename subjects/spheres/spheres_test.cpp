@@ -29,7 +29,7 @@ std::vector<Ball> balls(const Scene& scene) {
 
 }  // namespace
 
-TEST(Spheres, are_four_of_radius_2_4_8_16_resting_on_one_line) {
+TEST(Spheres, are_four_of_radius_2_4_8_16_that_touch_one_plane) {
     const Result<Scene> scene = load_built_in_scene("builtin:spheres");
     ASSERT_TRUE(scene);
     const std::vector<Ball> all = balls(*scene);

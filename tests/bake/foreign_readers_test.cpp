@@ -1,4 +1,4 @@
-// KTX2 and DDS tables through readers that are not ours: the npm package ktx-parse, and NVIDIA Texture Tools.
+// KTX2 and DDS tables read by other programs: the npm package ktx-parse, and NVIDIA Texture Tools.
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST(ForeignReader, nvidia_texture_tools_read_the_header_of_a_dds_table) {
     EXPECT_NE(info.find("Width: 24"), std::string::npos);
     EXPECT_NE(info.find("Height: 10"), std::string::npos);
 
-    // That reader decodes no float texels; by its header they follow at once, rows top down, red first.
+    // That reader does not decode float texels; they follow its header, rows top to bottom, red first.
     const std::vector<std::byte> file = *read_file(path);
     constexpr size_t kHeader = 4 + 124 + 20;
     ASSERT_EQ(file.size(), kHeader + 24 * 10 * 8);

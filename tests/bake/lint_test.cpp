@@ -1,4 +1,4 @@
-// Tables baked by each convention, turned, mis-encoded and stored as people store them, and recognised again.
+// Tables of each convention are recognised after they were rotated, wrongly encoded and stored as files.
 
 #include "dermis/bake/lint.h"
 
@@ -26,7 +26,7 @@ Table baked(std::string_view convention, int width = 64, int height = 32) {
     return *bake_lut(lut);
 }
 
-// As a tool without conventions would save the decoded values.
+// Saved as by a tool without conventions, with `change` applied to the decoded values.
 template <class Change>
 Image picture_of(const Table& table, PixelFormat format, Change change) {
     Image image(table.width, table.height, 3);
@@ -165,7 +165,7 @@ TEST(Lint, its_sidecar_lets_a_table_without_a_convention_be_read) {
     EXPECT_FALSE(std::filesystem::exists(sidecar_path(turned)));
 }
 
-TEST(Lint, what_is_no_table_is_called_so) {
+TEST(Lint, a_picture_that_is_not_a_table_is_reported) {
     Image image(32, 32, 3);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x)

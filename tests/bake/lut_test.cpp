@@ -90,7 +90,7 @@ TEST(Lut, every_preset_bakes_and_is_lambert_where_flat) {
     }
 }
 
-// The published loop spelled out once more, in its own variables.
+// The published loop, written again with its own variables.
 TEST(Lut, unity_2011_is_the_published_loop) {
     const int n = 24;
     const Table table = *bake_lut(options("unity_2011", n, n));
@@ -113,7 +113,7 @@ TEST(Lut, unity_2011_is_the_published_loop) {
         }
 }
 
-TEST(Lut, published_taps_come_near_the_integral_they_stand_for) {
+TEST(Lut, published_taps_come_near_their_integral) {
     // Measured: a step of 0.05 rad misses the narrowest Gaussian by up to 0.016 at r = 16 mm.
     LutOptions taps = options("unity_2011", 64, 8), exact = taps;
     exact.convention.integration = Integration::exact;

@@ -20,7 +20,7 @@ Profile skin() {
     return *find_profile("gpu_gems_3");
 }
 
-// The edge blurred by taps, as the definition reads.
+// The edge blurred by taps, straight from the definition.
 double blurred_by_taps(double position, double sigma, double sharpening) {
     double sum = 0, weights = 0;
     for (int i = -4000; i <= 4000; ++i) {
@@ -130,7 +130,7 @@ TEST(TableReport, the_error_of_a_lookup_falls_with_the_size) {
     }
 }
 
-TEST(TableReport, plots_have_a_panel_a_channel_and_one_for_the_error) {
+TEST(TableReport, plots_have_a_panel_for_each_channel_and_one_for_the_error) {
     const Profile profile = skin();
     const Table shadow = *bake_shadow({.profile = profile, .width = 16, .height = 8});
     const Plot plot = *table_plot(shadow, profile, TableStorage::f16);

@@ -1,4 +1,4 @@
-// The tests' cache is their own: results of an earlier build must not pass for this one's.
+// The tests have a cache of their own, so that results of an earlier build are not used.
 
 #include <gtest/gtest.h>
 

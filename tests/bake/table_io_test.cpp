@@ -88,7 +88,7 @@ TEST(TableFile, files_carry_their_convention_inside) {
     }
 }
 
-TEST(TableFile, csv_has_the_documented_header_and_a_row_a_texel) {
+TEST(TableFile, csv_has_the_documented_header_and_a_row_for_each_texel) {
     const std::string csv = table_csv(small_lut());
     EXPECT_TRUE(csv.starts_with("n_dot_l,curvature_per_mm,r,g,b\n-0.8888889,0.05,"));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 9 * 5);
@@ -158,7 +158,7 @@ TEST(TableFile, every_prefix_of_a_csv_and_of_a_convention_fails_cleanly) {
     const std::string csv = table_csv(table), json = convention_json(table.convention, 9, 5);
     const ParsedConvention parsed = *parse_convention(json, "a.json");
     ASSERT_TRUE(parse_table_csv(csv, parsed, "a.csv"));
-    // The last characters of the last number and the newline may go.
+    // The last digits of the last number and the newline may be missing.
     const size_t needed = csv.rfind(',') + 2;
     for (size_t i = 0; i < needed; ++i) EXPECT_FALSE(parse_table_csv(csv.substr(0, i), parsed, "a.csv")) << i;
     for (size_t i = 0; i < json.size(); ++i) EXPECT_FALSE(parse_convention(json.substr(0, i), "a.json")) << i;

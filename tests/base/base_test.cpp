@@ -65,7 +65,7 @@ TEST(Text, an_unknown_name_proposes_the_closest) {
     EXPECT_EQ(closest_name("exposure", keys), "exposure_ev");
 }
 
-TEST(Text, what_is_printed_is_one_line_whatever_it_quotes) {
+TEST(Text, a_printable_line_is_one_line_for_any_quoted_text) {
     struct Case {
         std::string_view text, printed;
     };
@@ -112,7 +112,7 @@ TEST(File, reading_what_is_no_file_names_the_path) {
     EXPECT_NE(read_file(dir.path / "none").error().message.find("none: cannot open"), std::string::npos);
 }
 
-TEST(File, writing_replaces_whole_and_leaves_nothing_beside) {
+TEST(File, writing_replaces_the_whole_file_and_leaves_no_temporary_one) {
     const TemporaryDirectory dir;
     const fs::path path = dir.path / "new" / "a.txt";
     ASSERT_TRUE(write_text_file(path, "one"));
@@ -135,7 +135,7 @@ TEST(File, a_failed_write_keeps_the_old_file_and_removes_the_new) {
     EXPECT_EQ(dir.file_count(), 1u);
 }
 
-TEST(File, an_interrupt_while_writing_leaves_the_old_file_and_nothing_beside) {
+TEST(File, an_interrupt_while_writing_leaves_the_old_file_and_no_temporary_one) {
     const TemporaryDirectory dir;
     const fs::path path = dir.path / "a.txt";
     ASSERT_TRUE(write_text_file(path, "old"));
@@ -230,7 +230,7 @@ TEST(ParallelFor, visits_every_item_once_for_any_thread_count) {
     parallel_for(0, 1, [](size_t, size_t) { FAIL(); });
 }
 
-TEST(ParallelFor, throws_again_what_a_body_throws) {
+TEST(ParallelFor, passes_on_exceptions_of_its_body) {
     for (unsigned threads : {1u, 3u}) {
         set_thread_limit(threads);
         EXPECT_THROW(parallel_for(1000, 1,

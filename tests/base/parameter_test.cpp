@@ -89,7 +89,7 @@ TEST(Parameters, wrong_values_are_named_with_what_would_be_right) {
 
 namespace {
 
-// A part that several techniques share, and one that has it with another default.
+// A part that several techniques share, and a technique with another default for it.
 struct Shared {
     int32_t size = 64;
     bool on = true;

@@ -1,4 +1,4 @@
-// What is measured on the triangles against what the field says, by differences of its own.
+// Curvature and thickness measured on the triangles, compared with those of the field.
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 
 namespace dermis {
 
-/// By way of a cache of its own, which the test of the cache looks into; the folder goes with the program.
+/// A cache folder of its own, which the test of the cache reads; it is removed when the program ends.
 class TestCache {
   public:
     TestCache() { std::filesystem::remove_all(folder()), setenv("DERMIS_CACHE", folder().c_str(), 1); }

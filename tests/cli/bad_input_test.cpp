@@ -1,4 +1,4 @@
-// Whatever is wrong: one line that names it, a non-zero exit, nothing half-written, no crash.
+// Every error is one line that names the cause, with a non-zero exit, nothing half-written and no crash.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ TEST_F(BadInput, ground_truths_that_cannot_be_made_leave_nothing) {
     expect_error("reference builtin:spheres --noise 2" + to, "noise is 2");
     expect_error("reference builtin:spheres --size 0x8" + to, "0");
     expect_error("reference builtin:spheres --profile jensen" + to, "jensen");
-    // A picture that would take hours is not begun when it cannot be kept.
+    // A picture that would take hours is not begun when it cannot be written.
     const std::string hours = "reference builtin:spheres --samples 65536 --size 1024x1024 ";
     expect_error(hours + "-o /proc/truth.exr", "/proc/truth.exr: cannot write");
     expect_error(hours + "--preview " + path("truth.gif") + to, "--preview");
@@ -144,7 +144,7 @@ TEST_F(BadInput, maps_that_cannot_be_read_are_named) {
     EXPECT_FALSE(fs::exists(path("a.png")));
 }
 
-TEST_F(BadInput, places_that_cannot_be_written_keep_what_is_there) {
+TEST_F(BadInput, outputs_that_cannot_be_written_keep_the_old_file) {
     fs::create_directory(path("folder.png"));
     expect_error(kQuick + path("folder.png"), "folder.png: is a directory");
     const std::string plain = file("plain", "x");
@@ -158,7 +158,7 @@ TEST_F(BadInput, places_that_cannot_be_written_keep_what_is_there) {
         EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
 }
 
-TEST_F(BadInput, what_standard_output_does_not_take_is_an_error) {
+TEST_F(BadInput, a_closed_or_full_standard_output_is_an_error) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     for (const char* command : {"techniques", "--help", "profile list", "info builtin:spheres --json"})
         expect_error(std::string(command) + " > /dev/full", "standard output: cannot write");

@@ -56,7 +56,7 @@ std::set<std::string> anchors_of(const std::string& page) {
     return anchors;
 }
 
-// What is wrong with a link of a page; empty when nothing is.
+// The fault of a link of a page; empty when there is none.
 std::string wrong_link(const fs::path& page, const std::string& link) {
     if (link.find("://") != std::string::npos) return {};
     const size_t hash = link.find('#');
@@ -108,7 +108,7 @@ const Parameters& all_parameters() {
     return kParameters;
 }
 
-// What is wrong with "shadow=scattered|plain"; empty when nothing is, or when it is no setting.
+// The fault of "shadow=scattered|plain"; empty when there is none, or when it is not a setting.
 std::string wrong_setting(const std::string& code) {
     static const std::regex setting("([a-z][a-z0-9_]*)=([a-z0-9_.|\\\\]*)");
     std::smatch match;

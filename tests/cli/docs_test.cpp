@@ -59,7 +59,7 @@ const Commands& all_commands() {
     return kCommands;
 }
 
-// What is wrong with the calls of dermis in one line of code; empty when nothing is.
+// The fault of the calls of dermis in one line of code; empty when there is none.
 std::string wrong_call(const std::string& code, const Commands& commands) {
     static const std::regex call("(?:^|[ |;(])(?:dermis|\\./run)((?: +[a-z][a-z0-9_-]*)*)(?= |$)");
     std::smatch match;

@@ -1,5 +1,4 @@
-// Pages and messages use the terms of docs/terminology.md: these metaphors and vague words have come back
-// before.
+// Pages and messages use the terms of docs/terminology.md, and none of these metaphors and vague words.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +28,7 @@ constexpr Avoided kAvoided[] = {
     {"as (it|they) (is|are) told", "as set"},
 };
 
-// What is to be written instead of a word of this text; empty when nothing is.
+// The first word of the text that is to be avoided, with its replacement; empty when there is none.
 std::string wrong_word(const std::string& text) {
     for (const Avoided& avoided : kAvoided) {
         const std::regex word("\\b" + std::string(avoided.pattern) + "\\b", std::regex::icase);

@@ -1,4 +1,4 @@
-// dermis report, as it is pasted into a fault report.
+// dermis report: the text for a fault report.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What dermis draws against a formula that none of its code computes: sphere_formula.py, plain Python.
+// Pictures of dermis compared with a formula in sphere_formula.py, plain Python without code of dermis.
 
 #include <gtest/gtest.h>
 

@@ -67,7 +67,7 @@ TEST_F(Turntable, a_film_needs_ffmpeg_and_leaves_no_frames) {
     const ProgramResult without = turn("turn.mp4", own_path);
     EXPECT_EQ(without.exit_code, 1);
     EXPECT_THAT(without.err, HasSubstr("apt-get install ffmpeg"));
-    // Stands in for ffmpeg: writes its last argument.
+    // Replaces ffmpeg: writes its last argument.
     ASSERT_TRUE(
         write_text_file(path("bin/ffmpeg"), "#!/bin/sh\nfor last; do :; done\necho film > \"$last\"\n"));
     std::filesystem::permissions(path("bin/ffmpeg"), std::filesystem::perms::owner_all);

@@ -1,4 +1,4 @@
-// What an engine's build does: bakes the table of a preset with its own size and axis.
+// As the build of an engine: bakes the table of a preset with its own size and axis.
 #include <cstdio>
 
 #include "dermis/bake/lut.h"

@@ -1,4 +1,4 @@
-// Figures drawn small: what cells show, what stands beneath them, and what is said of wrong ones.
+// Small figures: the pictures of cells, the numbers below them, and the errors of wrong figures.
 
 #include "dermis/figures/figures.h"
 
@@ -55,7 +55,7 @@ FigureCell grey(std::string label, float value) {
 
 }  // namespace
 
-TEST_F(Figures, put_the_difference_of_two_cells_beneath) {
+TEST_F(Figures, put_the_difference_of_two_cells_below) {
     FigureCell again = sphere("again", "lambert"), skin = sphere("skin", "preintegrated");
     again.compare_to = skin.compare_to = "first";
     const Result<FigureResult> result = draw(figure_of({sphere("first", "lambert"), again, skin}));

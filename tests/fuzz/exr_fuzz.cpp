@@ -1,4 +1,4 @@
-// OpenEXR, behind the look at the header that keeps it from allocating what a file claims.
+// OpenEXR, after the check of the header that prevents allocations of the size that a file states.
 // Dictionary: dermis/image/codec/exr_header.cpp dermis/image/codec/exr_read.cpp
 
 #include "dermis/image/codec/codec.h"

@@ -1,4 +1,4 @@
-// glTF as JSON or GLB, by its first bytes. Buffers beside it are the input itself.
+// glTF as JSON or GLB, by its first bytes. Its external buffers are the input itself.
 // Dictionary: dermis/mesh/gltf/*.cpp
 
 #include <cstdint>

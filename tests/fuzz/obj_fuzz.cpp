@@ -1,5 +1,4 @@
-// OBJ, with the input's second half served as its MTL. Whatever loads must survive all that is done with
-// meshes.
+// OBJ, with the input's second half as its MTL. A mesh that loads must pass through all functions on meshes.
 // Dictionary: dermis/mesh/obj.cpp dermis/mesh/mtl.cpp
 
 #include <cstdint>

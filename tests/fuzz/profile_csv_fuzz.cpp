@@ -1,4 +1,4 @@
-// Any text is a profile that answers every question, or one line that says why not.
+// Any text gives a profile whose functions all return, or an error of one line.
 // Dictionary: dermis/optics/profile_file.cpp dermis/optics/tabulated_profile.cpp dermis/optics/tool_rows.cpp
 
 #include <cmath>

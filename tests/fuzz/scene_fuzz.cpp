@@ -1,5 +1,5 @@
-// Scene files from anywhere: parsing is a scene or one line that starts with the file's name; it never
-// crashes, and touches no file. Views as texts, the other thing people type, ride along.
+// Scene files: parsing gives a scene or one line that starts with the file's name; it never crashes and opens
+// no file. The short texts of cameras and lights are tested too.
 // Dictionary: dermis/scene/scene_tables.cpp dermis/scene/scene_words.cpp dermis/scene/scene_file.cpp
 // subjects/*/params.cpp subjects/*/subject.cpp
 

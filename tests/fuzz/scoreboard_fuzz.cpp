@@ -1,5 +1,5 @@
-// A scoreboard that a person may have edited: rows, or one line that names the line; what was read can be
-// written, tabled and plotted.
+// A scoreboard that may have been edited by hand: rows, or an error that names the line; rows can be written
+// as a table and plotted.
 // Dictionary: dermis/judge/scores_csv.cpp
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The convention's JSON and the CSV it describes: the JSON up to the first blank line, the rest is the table.
-// What is accepted must come back from being written again.
+// An accepted table must be the same after it is written and read again.
 // Dictionary: dermis/bake/convention_json.cpp dermis/bake/table_text.cpp dermis/bake/convention.cpp
 
 #include <cstddef>

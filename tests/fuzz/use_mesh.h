@@ -1,6 +1,5 @@
 #pragma once
-// What follows a successful load: what read_mesh.h states holds, and nothing computed from the mesh
-// crashes.
+// After a successful load: the guarantees of read_mesh.h hold, and no function on the mesh crashes.
 
 #include <cmath>
 #include <cstdlib>

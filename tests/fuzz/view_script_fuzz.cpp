@@ -1,5 +1,4 @@
-// Scripts of dermis view from anywhere: commands or one line with the script's name; input commands become
-// events.
+// Scripts of dermis view: commands, or an error with the script's name; input commands become events.
 // Dictionary: dermis/view/script.cpp dermis/view/script_commands.cpp
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What dermis view reads as text: a line from the clipboard, its small memory, a scene file it changes.
+// The texts that dermis view reads: a line from the clipboard, its state file, a scene file that it changes.
 // Dictionary: dermis/view/view_line.cpp dermis/view/state_file.cpp dermis/scene/scene_tables.cpp
 
 #include <cstddef>
@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const Result<void> taken = apply_view_line(model, text);
     const std::string after = view_line(model, file, kSize);
     if (!taken) expect(after == before && taken.error().message.find('\n') == std::string::npos);
-    // What was written is read again, and then says the same.
+    // The written text is read again and gives the same.
     expect(apply_view_line(model, after).ok());
     const std::string rounded = view_line(model, file, kSize);
     expect(apply_view_line(model, rounded).ok() && view_line(model, file, kSize) == rounded);

@@ -85,7 +85,7 @@ TEST_F(RasterTest, the_nearer_depth_wins) {
     EXPECT_EQ(depth.at(1, 1, 0), 0.25f);
 }
 
-// The mask of texture-space passes: depth is laid down by the geometry, full-screen passes test EQUAL.
+// The mask of texture-space passes: the geometry writes depth, full-screen passes test EQUAL.
 TEST_F(RasterTest, an_equal_mask_stops_what_it_does_not_cover) {
     const std::string at_quarter = kHead + R"(
 void main() {
@@ -120,7 +120,7 @@ void main() { color = texture(sampler2D(depth, nearest_clamp), uv); })";
     Executor executor = make_executor(basic_shaders({{"show_depth.frag", show_depth}}));
     const Geometry mesh = clip_mesh(device(), square(0.5f, 0.25f));
     Pass lay{.name = "lay", .kind = PassKind::geometry_screen, .depth = DepthTarget{.image = "depth"}};
-    // Full-screen triangles have z = 0, which passes everywhere: what is seen is what was sampled.
+    // Full-screen triangles have z = 0, which passes everywhere: the result is the sampled depth.
     Pass show{.name = "show",
               .shader = "show_depth.frag",
               .reads = {"depth"},

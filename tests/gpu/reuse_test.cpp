@@ -1,4 +1,4 @@
-// What is kept from run to run, what is not, and that neither piles up.
+// What is kept from run to run and what is not; memory does not grow.
 
 #include "test_shaders.h"
 

@@ -80,7 +80,7 @@ TEST_F(ShaderSourceTest, a_file_that_is_not_there_is_an_error) {
     EXPECT_THAT(words.error().message, HasSubstr("'demo/none.frag' is neither in"));
 }
 
-TEST_F(ShaderSourceTest, words_that_are_no_spirv_are_an_error) {
+TEST_F(ShaderSourceTest, words_that_are_not_spirv_are_an_error) {
     const ShaderSource junk = [](std::string_view) -> Result<std::vector<uint32_t>> {
         return std::vector<uint32_t>{0x07230203, 1, 2, 3, 4, 5, 6, 7};
     };

@@ -58,7 +58,7 @@ void main() { color = vec4(ivec2(gl_FragCoord.xy) == ivec2(3) ? 64 : 0); })";
 
 TEST_F(TransferTest, resolve_averages_the_samples_of_an_edge) {
     Executor executor = make_executor(basic_shaders());
-    // The right edge stands in the middle of the second pixel.
+    // The right edge is in the middle of the second pixel.
     const Geometry mesh = clip_mesh(device(), {-1, -1, 0.5f, -1, 1, 0.5f, -0.25f, -1, 0.5f,  //
                                                -1, 1, 0.5f, -0.25f, 1, 0.5f, -0.25f, -1, 0.5f});
     const PassList list{

@@ -1,4 +1,4 @@
-// That GpuTest expects no messages is a test only if the layers report errors.
+// GpuTest expects no messages from the layers: this shows that they do report errors.
 
 #include "dermis/gpu/device_state.h"
 #include "support/gpu_fixture.h"

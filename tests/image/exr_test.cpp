@@ -52,7 +52,7 @@ TEST(Exr, float_channels_stay_float_and_the_data_window_may_lie_anywhere) {
     for (int c = 0; c < 4; ++c) expect_pattern(loaded->image, c, 3 - c, 0);
 }
 
-TEST(Exr, luminance_and_single_channels_and_single_layers_are_plain_enough) {
+TEST(Exr, luminance_single_channels_and_single_layers_are_read_as_an_image) {
     for (const std::vector<std::string>& channels :
          {std::vector<std::string>{"Y"}, {"curvature"}, {"thickness.Z"}}) {
         const Result<LoadedImage> loaded = decode(make_exr(8, 8, {.channels = channels}));
@@ -137,7 +137,7 @@ FileBytes with_window_end(FileBytes file, int32_t x, int32_t y) {
 
 }  // namespace
 
-TEST(Exr, a_header_that_claims_too_much_is_refused_before_openexr_allocates) {
+TEST(Exr, a_header_with_an_impossible_size_is_refused_before_openexr_allocates) {
     const auto message = [](int compression, int32_t x, int32_t y) {
         const FileBytes file = make_exr(8, 8, {.compression = compression, .channels = {"R"}});
         const Result<LoadedImage> loaded = decode(with_window_end(file, x, y));

@@ -173,7 +173,7 @@ TEST(Flip, is_symmetric_and_grows_with_the_difference) {
     }
 }
 
-TEST(Flip, fine_dither_vanishes_from_afar) {
+TEST(Flip, fine_dither_is_invisible_from_a_distance) {
     const Image flat = filled(64, 64, 0.5f);
     Image dithered = flat;
     for (int y = 0; y < 64; ++y)

@@ -1,5 +1,5 @@
-// Files as other programs write them, beside the common ones: each is read as its format says, or refused by
-// a line that names what is not read.
+// Less common files of other programs: each is read as its format says, or refused by a line that names what
+// is not supported.
 
 #include <gtest/gtest.h>
 #include <png.h>

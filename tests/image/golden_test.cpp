@@ -1,4 +1,4 @@
-// The comparator of golden pictures, before anything relies on it.
+// Tests of the comparator of golden pictures itself.
 
 #include "support/golden.h"
 

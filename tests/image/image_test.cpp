@@ -13,7 +13,7 @@
 
 using namespace dermis;
 
-TEST(Half, every_code_survives_the_way_to_float_and_back) {
+TEST(Half, every_code_round_trips_through_float) {
     for (uint32_t code = 0; code <= 0xffff; ++code) {
         const float value = from_half(uint16_t(code));
         if (std::isnan(value)) {
@@ -44,13 +44,13 @@ TEST(Half, finite_values_saturate_and_infinity_stays) {
     EXPECT_EQ(from_half(to_half(HUGE_VALF)), HUGE_VALF);
 }
 
-TEST(Image, every_8_bit_srgb_code_survives_linear_light) {
+TEST(Image, every_8_bit_srgb_code_round_trips_through_linear_light) {
     Image codes(256, 1, 3, PixelFormat::u8, Encoding::srgb);
     for (size_t i = 0; i < codes.bytes.size(); ++i) codes.bytes[i] = std::byte(i / 3);
     EXPECT_EQ(convert(to_linear_float(codes), PixelFormat::u8, Encoding::srgb).bytes, codes.bytes);
 }
 
-TEST(Image, every_16_bit_code_survives_both_encodings) {
+TEST(Image, every_16_bit_code_round_trips_in_both_encodings) {
     for (const Encoding encoding : {Encoding::linear, Encoding::srgb}) {
         Image codes(256, 256, 1, PixelFormat::u16, encoding);
         for (size_t i = 0; i < 65536; ++i) codes.values<uint16_t>()[i] = uint16_t(i);
@@ -100,7 +100,7 @@ TEST(Image, a_new_image_is_zero_and_an_empty_one_converts_to_an_empty_one) {
     EXPECT_TRUE(convert(Image(), PixelFormat::u8, Encoding::srgb).empty());
 }
 
-TEST(Image, sizes_from_outside_are_refused_beyond_the_limits) {
+TEST(Image, sizes_beyond_the_limits_are_refused) {
     EXPECT_TRUE(check_image_size(16384, 16384, 2));
     EXPECT_TRUE(check_image_size(1, 1, 1));
     EXPECT_FALSE(check_image_size(0, 5, 3));

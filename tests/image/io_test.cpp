@@ -20,7 +20,7 @@ bool is_one_line_about(const Error& error, std::string_view name) {
            error.message.size() > name.size() + 3;
 }
 
-// A small file of each format, and of each coding within it that truncation could hide in.
+// A small file of each format and of each coding in which a truncation might not be noticed.
 std::vector<std::pair<std::string, FileBytes>> one_of_each() {
     const Image image = test_pattern(19, 11, 3);
     const Image codes = convert(image, PixelFormat::u8, Encoding::srgb);
@@ -87,7 +87,7 @@ TEST(ReadImage, the_content_decides_not_the_extension) {
     EXPECT_EQ(read_image(dir.path / "really.jpg", ImageUse::color)->image.bytes, image.bytes);
 }
 
-TEST(ReadImage, what_is_no_image_says_so) {
+TEST(ReadImage, a_file_that_is_not_an_image_is_reported) {
     const TemporaryDirectory dir;
     ASSERT_TRUE(write_text_file(dir.path / "a.png", "not a picture"));
     ASSERT_TRUE(write_text_file(dir.path / "empty.png", ""));

@@ -43,7 +43,7 @@ TEST(Jpeg, cmyk_is_refused_by_name) {
     EXPECT_EQ(loaded.error().message, "print.jpg: CMYK JPEG; dermis reads grey and RGB");
 }
 
-TEST(Jpeg, a_small_file_that_claims_a_huge_picture_is_refused_before_decoding) {
+TEST(Jpeg, a_small_file_that_states_a_huge_size_is_refused_before_decoding) {
     FileBytes file = make_jpeg(smooth(3), 90, false);
     // The frame header FF C0 holds the height two bytes after its length and precision.
     for (size_t i = 0; i + 9 < file.size(); ++i)

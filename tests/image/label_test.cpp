@@ -77,7 +77,7 @@ TEST(Label, is_clipped_at_the_edges) {
         EXPECT_LT(drawn(font, "clipped label", x, y).count, drawn(font, "clipped label").count);
 }
 
-TEST(Label, knows_utf_8_and_survives_what_is_none) {
+TEST(Label, reads_utf_8_and_replaces_invalid_bytes) {
     const Font font = load();
     EXPECT_LT(font.width_px("·", 14), font.width_px("W", 14)) << "one character, not two bytes";
     EXPECT_NE(font.width_px("Δ", 14), font.width_px("\xFF", 14));
@@ -93,7 +93,7 @@ TEST(Label, is_wrapped_at_spaces) {
     EXPECT_EQ(font.wrap("unbreakable", 14, 5), std::vector<std::string>{"unbreakable"});
 }
 
-TEST(Label, of_a_file_that_is_no_font_says_so) {
+TEST(Label, of_a_file_that_is_not_a_font_is_an_error) {
     const TemporaryDirectory directory;
     const auto path = directory.path / "no.ttf";
     ASSERT_TRUE(write_text_file(path, "not a font"));

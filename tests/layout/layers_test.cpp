@@ -19,7 +19,7 @@ namespace {
 
 const fs::path kRoot = DERMIS_SOURCE_DIR;
 
-// layers.txt has one line a folder, written by dermis_library: "bake: base image optics plot".
+// layers.txt has one line per folder, written by dermis_library: "bake: base image optics plot".
 Layers declared_layers() {
     Layers layers;
     std::ifstream file(DERMIS_BINARY_DIR "/layers.txt");

@@ -1,4 +1,4 @@
-// What dpkg says of the installed packages, and which files the CMake packages among them require.
+// dpkg's data on the installed packages, and the files that the CMake packages among them require.
 
 #include <array>
 #include <cstdio>

@@ -1,5 +1,5 @@
 #pragma once
-// What shows that a Debian package is used, and what dpkg says of installed ones.
+// Whether a Debian package is used, and dpkg's data on installed ones.
 
 #include <filesystem>
 #include <map>
@@ -11,7 +11,7 @@ namespace dermis {
 
 /// Texts of a repository, each in one string.
 struct PackageUse {
-    std::string lists;    ///< tools/packages*.txt: a name a line, '#' begins a comment
+    std::string lists;    ///< tools/packages*.txt: one name per line, '#' begins a comment
     std::string readme;   ///< the table below "## Dependencies"
     std::string cmake;    ///< every CMake file
     std::string sources;  ///< every .cpp and .h

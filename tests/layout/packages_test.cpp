@@ -36,7 +36,7 @@ std::string texts_under(const std::vector<std::string>& trees, const std::set<st
         if (!fs::is_directory(kRoot / tree)) continue;
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree)) {
             const fs::path name = entry.path().filename();
-            // What this test itself names is no evidence.
+            // Names in this test do not count as use.
             if (!entry.is_regular_file() || name.string().starts_with("packages_")) continue;
             if (extensions.contains(name.extension()) || extensions.contains(name)) all += read(entry.path());
         }
@@ -76,7 +76,7 @@ TEST(Packages, lists_and_cmake_and_includes_and_readme_agree) {
     for (const std::string& text : disagreements(use)) ADD_FAILURE() << text;
 }
 
-TEST(Packages, a_small_repository_that_agrees_is_passed) {
+TEST(Packages, a_small_repository_without_differences_has_no_findings) {
     EXPECT_THAT(disagreements(agreeing()), IsEmpty());
 }
 

@@ -1,5 +1,5 @@
-// ./run, tools/setup, tools/new_technique and tools/fresh_machine, with programs in place of apt-get, cmake
-// and the like that only say how they were called.
+// ./run, tools/setup, tools/new_technique and tools/fresh_machine, with stubs for apt-get, cmake and the like
+// that only print how they were called.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -156,7 +156,7 @@ TEST_F(Setup, fresh_machine_removes_its_folder_when_it_fails_and_when_it_is_ende
     EXPECT_EQ(folders_left(), 0u);
 }
 
-// The tests that it has record are those of the repository, and of both kinds.
+// The tests that it runs to record exist in the repository, of both kinds (goldens and scores).
 TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
     write("root/tools/packages_checks.txt", "");
     program("cmake", "exit 0");

@@ -97,7 +97,7 @@ TEST(ShaderIncludes, of_the_wrong_folder_are_found) {
     EXPECT_NE(objection("techniques/wrap", "include/frame.glsl"), "");
 }
 
-// They would be ignored: bindings are found by name.
+// Numbers would be ignored: bindings are found by name.
 TEST(Shaders, do_not_number_their_bindings) {
     for (const ShaderFile& file : shader_files()) EXPECT_FALSE(file.numbers_bindings) << file.folder;
     EXPECT_TRUE(numbers_bindings("layout(set = 0, binding = 3) uniform texture2D a;"));

@@ -1,5 +1,5 @@
 // Unnamed namespaces of one library must not define the same name: the compiler is given eight of its files
-// at a time (cmake/Dermis.cmake), and which eight depends on the list of files. Names are read off the text,
+// at a time (cmake/Dermis.cmake), and which eight depends on the list of files. Names are read from the text,
 // which clang-format keeps in one shape: what an unnamed namespace defines begins at the left edge.
 
 #include <gmock/gmock.h>

@@ -24,7 +24,7 @@ TEST(BlurOverSurface, damps_a_wave_on_a_plane_by_the_gaussians_factor) {
     }
 }
 
-TEST(BlurOverSurface, keeps_a_constant_and_knows_of_no_uv_seams) {
+TEST(BlurOverSurface, keeps_a_constant_and_ignores_uv_seams) {
     const Mesh mesh = make_sphere(10, 48);
     std::vector<float> height;
     for (const Vec3 p : mesh.positions_mm) height.push_back(p.x > 0 ? 1.0f : 0.0f);

@@ -40,13 +40,13 @@ TEST(Curvature, of_a_sphere_needs_no_fine_tessellation) {
     EXPECT_LT(worst_relative_error(mesh, compute_curvature(mesh)), 0.002);
 }
 
-TEST(Curvature, does_not_depend_on_where_the_normals_lean) {
+TEST(Curvature, does_not_depend_on_the_vertex_normals) {
     Mesh mesh = make_sphere(10, 96);
     for (Vec3& n : mesh.normals) n = normalize(n + Vec3{0.3f, 0.2f, -0.1f});
     EXPECT_LT(worst_relative_error(mesh, compute_curvature(mesh)), 0.005);
 }
 
-TEST(Curvature, of_one_side_of_a_thin_fold_does_not_see_the_other) {
+TEST(Curvature, of_one_side_of_a_thin_fold_does_not_include_the_other) {
     // A strip bent back onto itself, 1 mm thick; 3 mm from the bend its sides are flat.
     Mesh mesh = make_plane(20, 10, 40);
     for (Vec3& p : mesh.positions_mm)

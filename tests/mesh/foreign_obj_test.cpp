@@ -1,4 +1,4 @@
-// OBJ and MTL files as other programs write them: what the renderer can use is read, the rest is named.
+// OBJ and MTL files of other programs: what the renderer can use is read, the rest is named in warnings.
 
 #include <gtest/gtest.h>
 
@@ -24,18 +24,9 @@ LoadedMesh with_mtl(const std::string& lines) {
     return load("mtllib m.mtl\n" + kTriangle, {{"m.mtl", "newmtl skin\n" + lines}});
 }
 
-double area_mm2(const Mesh& mesh) {
-    double sum = 0;
-    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const auto p = [&](size_t k) { return mesh.positions_mm[mesh.indices[i + k]]; };
-        sum += length(cross(p(1) - p(0), p(2) - p(0))) / 2;
-    }
-    return sum;
-}
-
 }  // namespace
 
-TEST(ForeignObj, a_byte_order_mark_hides_no_line) {
+TEST(ForeignObj, a_byte_order_mark_is_skipped) {
     const std::string mark = "\xEF\xBB\xBF";
     EXPECT_EQ(load(mark + kTriangle).mesh.positions_mm.size(), 3u);
     const LoadedMesh loaded =
@@ -73,7 +64,7 @@ TEST(ForeignObj, a_polygon_with_holes_keeps_them_open) {
     for (const Case& c : cases) EXPECT_NEAR(area_mm2(load(c.text).mesh), c.area, 1e-5) << c.name;
 }
 
-TEST(ForeignObj, several_libraries_may_stand_on_one_line_and_have_blanks_in_their_names) {
+TEST(ForeignObj, several_libraries_may_be_on_one_line_and_have_blanks_in_their_names) {
     struct Case {
         std::string line;
         std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// What glTF files of heads use beyond positions and one texture; and what is refused or named instead.
+// Features of glTF files of heads beyond positions and one texture; others are refused or named in warnings.
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST(GltfSkin, vertices_follow_their_joints_and_not_the_node_of_the_mesh) {
     expect_near(mesh.positions_mm[0], {0, 0, 5000});
     // (1, 0, 0) is (1, -1, 0) for joint 1; turned (1, 1, 0); then (0, 1, 0) and (0, 0, 5).
     expect_near(mesh.positions_mm[1], {1000, 2000, 5000});
-    // (0, 1, 0) is where joint 1 sits: both joints agree.
+    // (0, 1, 0) is the position of joint 1: both joints agree.
     expect_near(mesh.positions_mm[2], {0, 1000, 5000});
 }
 

@@ -134,7 +134,7 @@ TEST(Gltf, strips_and_fans_become_triangles) {
 }
 
 TEST(Gltf, interleaved_and_normalised_attributes_are_read) {
-    // Position (float3) and UV (u16 normalised), 16 bytes a vertex.
+    // Position (float3) and UV (u16 normalised), 16 bytes per vertex.
     Binary binary;
     for (const auto& [x, y, u] : {std::tuple{0.f, 0.f, 0}, {1.f, 0.f, 65535}, {0.f, 1.f, 32768}})
         binary.add<float>({x, y, 0}).add<uint16_t>({uint16_t(u), 65535});

@@ -19,7 +19,16 @@ inline std::span<const std::byte> bytes_of(const std::string& text) {
     return std::as_bytes(std::span(text));
 }
 
-/// The files that stand beside a mesh, by relative path.
+inline double area_mm2(const Mesh& mesh) {
+    double sum = 0;
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const auto p = [&](size_t k) { return mesh.positions_mm[mesh.indices[i + k]]; };
+        sum += length(cross(p(1) - p(0), p(2) - p(0))) / 2;
+    }
+    return sum;
+}
+
+/// The files beside a mesh, by relative path.
 inline ReadSibling siblings(std::map<std::string, std::string> files) {
     return [files = std::move(files)](const std::string& path) -> Result<std::vector<std::byte>> {
         const auto found = files.find(path);

@@ -14,15 +14,6 @@ std::string error_of(const std::string& text) {
     return loaded ? "" : loaded.error().message;
 }
 
-double area(const Mesh& mesh) {
-    double sum = 0;
-    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const auto p = [&](size_t k) { return mesh.positions_mm[mesh.indices[i + k]]; };
-        sum += length(cross(p(1) - p(0), p(2) - p(0))) / 2;
-    }
-    return sum;
-}
-
 }  // namespace
 
 TEST(Obj, a_cube_of_quads_becomes_twelve_triangles) {
@@ -30,7 +21,7 @@ TEST(Obj, a_cube_of_quads_becomes_twelve_triangles) {
     ASSERT_TRUE(loaded) << loaded.error().message;
     expect_sound(loaded->mesh);
     EXPECT_EQ(loaded->mesh.triangle_count(), 12u);
-    EXPECT_NEAR(area(loaded->mesh), 24, 1e-5);
+    EXPECT_NEAR(area_mm2(loaded->mesh), 24, 1e-5);
 }
 
 TEST(Obj, uv_origin_becomes_top_left) {
@@ -55,10 +46,10 @@ TEST(Obj, a_concave_polygon_keeps_its_area) {
         parse_obj_text("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n");
     ASSERT_TRUE(l_shape);
     EXPECT_EQ(l_shape->mesh.triangle_count(), 4u);
-    EXPECT_NEAR(area(l_shape->mesh), 3, 1e-6);
+    EXPECT_NEAR(area_mm2(l_shape->mesh), 3, 1e-6);
     const auto arrow = parse_obj_text("v 0 0 0\nv 2 -1 0\nv 0.5 0 0\nv 2 1 0\nf 1 2 3 4\n");
     ASSERT_TRUE(arrow);
-    EXPECT_NEAR(area(arrow->mesh), 0.5, 1e-6);
+    EXPECT_NEAR(area_mm2(arrow->mesh), 0.5, 1e-6);
 }
 
 TEST(Obj, forms_of_corners_comments_continuations_and_carriage_returns_are_read) {

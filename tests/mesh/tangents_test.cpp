@@ -143,7 +143,7 @@ TEST(Tangents, do_not_depend_on_the_order_of_vertices_and_triangles) {
     }
 }
 
-TEST(Tangents, triangles_without_uv_area_borrow_their_neighbours_frame) {
+TEST(Tangents, triangles_without_uv_area_take_their_neighbours_frame) {
     Mesh mesh = wavy_grid(6, {1, 0}, {0, -1});
     // One cell's UVs collapse onto a line; its corners elsewhere keep their frames.
     for (const uint32_t corner : {0u, 1u, 2u}) mesh.uvs[mesh.indices[corner]].y = 0;
@@ -163,7 +163,7 @@ TEST(Tangents, uvs_that_are_all_one_point_or_absent_still_give_frames) {
     }
 }
 
-TEST(Tangents, unbelievable_uvs_and_slivers_never_give_nan) {
+TEST(Tangents, extreme_uvs_and_slivers_never_give_nan) {
     std::mt19937 random(7);
     const std::vector<float> values = {0, 1e-38f, -1e-30f, 1e-7f, 1, -1, 1e7f, 3e38f, -3e38f};
     std::uniform_int_distribution<size_t> pick(0, values.size() - 1), pick_position(0, 6);
@@ -178,7 +178,7 @@ TEST(Tangents, unbelievable_uvs_and_slivers_never_give_nan) {
     }
 }
 
-TEST(Tangents, given_ones_are_straightened_and_the_others_computed) {
+TEST(Tangents, given_ones_are_made_orthogonal_and_the_others_computed) {
     Mesh mesh = wavy_grid(2, {1, 0}, {0, -1});
     mesh.tangents.assign(mesh.positions_mm.size(), Vec4{2, 0, 0.5f, -0.3f});
     complete_tangents(mesh);

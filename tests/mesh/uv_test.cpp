@@ -113,7 +113,8 @@ TEST(UvReport, counts_overlap_as_a_share_of_what_is_covered) {
 }
 
 TEST(UvReport, of_thousands_of_triangles_over_the_whole_tile_ends) {
-    // Two triangles a copy, every copy over the others: a step a texel and triangle would be 4e10.
+    // Two triangles per copy, every copy over the others: one step per texel and triangle would be 4e10
+    // steps.
     Mesh mesh;
     constexpr uint32_t kCopies = 20000;
     for (uint32_t copy = 0; copy < kCopies; ++copy) {
@@ -158,7 +159,7 @@ TEST(UvReport, sees_mirrored_and_outlying_parts) {
     EXPECT_NEAR(report.coverage, 0.5, 0.002) << "five sixths of one tile and a sixth of another";
 }
 
-TEST(UvReport, knows_tiles_by_their_number) {
+TEST(UvReport, names_tiles_by_their_number) {
     EXPECT_EQ(udim_tile({0.5f, 0.5f}), 1001);
     EXPECT_EQ(udim_tile({1.5f, 0.5f}), 1002);
     EXPECT_EQ(udim_tile({0.5f, -0.5f}), 1011) << "the second row is above the first";
@@ -168,7 +169,7 @@ TEST(UvReport, knows_tiles_by_their_number) {
     EXPECT_EQ(udim_tile({3e38f, -3e38f}), 0);
 }
 
-TEST(UvReport, survives_enormous_uvs) {
+TEST(UvReport, is_finite_for_enormous_uvs) {
     Mesh mesh = make_plane(1, 1, 2);
     for (size_t i = 0; i < mesh.uvs.size(); i += 2) mesh.uvs[i] = mesh.uvs[i] * 3e38f;
     const UvReport report = analyze_uvs(mesh);

@@ -1,6 +1,6 @@
 #pragma once
-// The tests' own integrator, as dull as possible: adaptive Simpson over the definition, none of the library's
-// closed forms, series or expansions.
+// The tests' own integrator, as simple as possible: adaptive Simpson over the definition, without the
+// library's closed forms, series or expansions.
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// Conversions: every tool there and back, the published numbers, and what a wrong number is told.
+// Conversions: every tool to {A, d} and back, the published numbers, and the errors of wrong numbers.
 
 #include "dermis/optics/conversions.h"
 
@@ -55,7 +55,7 @@ TEST(Conversions, settings_lie_within_the_ranges_their_tool_states) {
         }
 }
 
-TEST(Conversions, published_settings_mean_the_published_d) {
+TEST(Conversions, published_settings_give_the_published_d) {
     const auto d_of = [](ToolId tool) { return to_canonical(default_settings(tool))->d_mm; };
     EXPECT_NEAR(d_of(ToolId::unreal)[0], .180, 5.1e-4);
     EXPECT_NEAR(d_of(ToolId::unreal)[1], .068, 5.1e-4);

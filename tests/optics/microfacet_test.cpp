@@ -1,4 +1,4 @@
-// Fresnel and microfacets: normalisation, furnaces, reciprocity and limits, all by quadrature of our own.
+// Fresnel and microfacets: normalisation, furnaces, reciprocity and limits, by the tests' own quadrature.
 
 #include "dermis/optics/microfacet.h"
 
@@ -80,7 +80,7 @@ TEST(Fresnel, schlick_stays_within_its_stated_error_for_skin) {
     EXPECT_GT(largest, 0.04) << "the documented error is no longer true";
 }
 
-TEST(Fresnel, diffuse_reflectance_is_the_integral_it_stands_for) {
+TEST(Fresnel, diffuse_reflectance_is_its_integral) {
     for (const double eta : {1.2, 1.3, 1.4, 1.5, 1.6}) {
         double inside = 0;
         constexpr int kSteps = 20000;
@@ -104,7 +104,7 @@ TEST(Microfacet, distributions_are_normalised) {
     }
 }
 
-TEST(Microfacet, visible_facets_cover_what_the_surface_covers) {
+TEST(Microfacet, visible_facets_have_the_projected_area_of_the_surface) {
     // Heitz 2014, equation 16: the integral of G1(v) max(0, v.h) D(h) is n.v.
     for (const double alpha : {0.2, 0.6})
         for (const double theta : {0.0, 0.6, 1.2, 1.45}) {
@@ -138,7 +138,7 @@ TEST(Microfacet, kelemen_is_cook_torrance_without_shadowing_at_normal_incidence)
     EXPECT_EQ(kelemen_szirmay_kalos_brdf(d, 0.028, 0), 0);
 }
 
-TEST(Microfacet, both_ways_are_alike_and_below_the_horizon_is_dark) {
+TEST(Microfacet, is_reciprocal_and_zero_below_the_horizon) {
     EXPECT_DOUBLE_EQ(ggx_smith_g(0.3, 0.8, 0.5), ggx_smith_g(0.8, 0.3, 0.5));
     EXPECT_DOUBLE_EQ(beckmann_smith_g(0.3, 0.8, 0.5), beckmann_smith_g(0.8, 0.3, 0.5));
     EXPECT_EQ(beckmann_smith_g1(1, 0.5), 1);

@@ -1,5 +1,5 @@
 // The pre-integrated functions against the published vectors, against an independent integrator, and against
-// the physics they have to keep.
+// physical laws.
 
 #include "dermis/optics/preintegration.h"
 

@@ -1,5 +1,4 @@
-// Profile CSVs: what is read back, what is refused and in which words, and that no prefix of a file
-// surprises.
+// Profile CSVs: round trips, refusals with their messages, and every prefix of a file.
 
 #include "dermis/optics/profile_file.h"
 

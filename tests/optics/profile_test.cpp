@@ -1,4 +1,4 @@
-// The physics that every profile owes, whatever its model, and the published numbers of each.
+// Physical laws that every model of a profile keeps, and the published numbers of each.
 
 #include "dermis/optics/profile.h"
 

@@ -42,7 +42,8 @@ ScatteringMedium skin(double eta, double g = 0) {
     return medium;
 }
 
-// What light is measured by: all of it, what leaves far away, what leaves on the other side. Nine numbers.
+// Measured light: all of it, the part that leaves far away, the part that leaves on the other side. Nine
+// numbers.
 struct Measured {
     double sum[9] = {}, squares[9] = {};
     int groups = 0;
@@ -89,7 +90,7 @@ Measured measure(const ScatteringMedium& medium, const Boundary& boundary, bool 
     return measured;
 }
 
-// The plain walk is the judge.
+// Compared with the plain walk.
 template <class Boundary>
 void expect_the_same_means(const ScatteringMedium& medium, const Boundary& boundary) {
     constexpr int kWalks = 80'000;

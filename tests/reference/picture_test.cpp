@@ -219,8 +219,7 @@ TEST(ReferencePicture, the_stated_variance_is_the_one_that_seeds_show) {
         seen += (squares[i] - sum[i] * sum[i] / kRuns) / (kRuns - 1);
         said += stated[i];
     }
-    // Stratified places within the pixel make the truth a little better than what independent ones would
-    // show.
+    // Stratified positions within the pixel make the result slightly better than independent ones would.
     EXPECT_LT(seen, said * 1.25);
     EXPECT_GT(seen, said * 0.3);
 }
@@ -284,7 +283,7 @@ TEST(ReferencePicture, light_of_a_point_falls_with_the_square_of_the_distance_in
     EXPECT_LT(between, 6);
 }
 
-TEST(ReferencePicture, a_penumbra_is_as_wide_as_it_is_told) {
+TEST(ReferencePicture, a_penumbra_is_as_wide_as_it_is_set) {
     Scene scene = white_sphere();
     Mesh floor = test::plane(100, 0),
          lid = test::grid(1, 1, [](float u, float v) {

@@ -146,7 +146,7 @@ TEST(RandomWalk, a_medium_made_for_a_profile_blurs_as_the_profile_does) {
     }
 }
 
-TEST(RandomWalk, a_dipole_walks_its_own_medium_and_a_pure_blur_one_of_middling_albedo) {
+TEST(RandomWalk, a_dipole_has_its_own_medium_and_a_pure_blur_one_of_medium_albedo) {
     const ScatteringMedium skin = walk_medium_of(*find_profile("jensen_skin1"));
     EXPECT_DOUBLE_EQ(skin.eta, 1.3);
     EXPECT_DOUBLE_EQ(skin.sigma_a_per_mm[0], 0.032);

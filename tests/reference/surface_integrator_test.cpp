@@ -103,7 +103,7 @@ TEST_P(SphereRadius, burley_agrees_with_the_exact_sphere_integral) {
 
 INSTANTIATE_TEST_SUITE_P(Spheres, SphereRadius, testing::Values(2.0f, 4.0f, 8.0f, 16.0f));
 
-TEST(SurfaceIntegrator, even_light_comes_back_without_any_noise) {
+TEST(SurfaceIntegrator, constant_light_is_returned_without_noise) {
     const Stage stage(test::plane(200, 0, 20), {0, 0, 1});
     const SurfaceIntegrator integrator = stage.integrator(*find_profile("gpu_gems_3"), {.probes = 4});
     for (uint32_t seed = 0; seed < 20; ++seed) {

@@ -111,7 +111,7 @@ TEST_F(AtlasMm, twice_the_scene_with_twice_the_millimetres_is_the_same_picture) 
     }
 }
 
-TEST_F(AtlasMm, even_light_stays_even_up_to_the_chart_borders) {
+TEST_F(AtlasMm, constant_light_stays_constant_up_to_the_chart_borders) {
     const Scene scene = evenly_lit_spheres();
     Renderer renderer = make_renderer(scene);
     const DrawSettings diffuse = {.width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 256};

@@ -44,7 +44,7 @@ TEST_F(Goldens, of_the_views_of_the_spheres) {
 }
 
 // The mesh behind this picture comes from 10^7 evaluations of a field: a last digit that another libm rounds
-// differently may turn a triangle's diagonal, so an edge more may move than on the spheres.
+// differently may flip a triangle's diagonal, so more edges may differ than on the spheres.
 TEST_F(Goldens, of_the_bust_with_every_technique) {
     const Scene scene = load("bust");
     Renderer renderer = make_renderer(scene);

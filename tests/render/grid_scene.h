@@ -28,8 +28,8 @@ inline Vec3 grid_normal(int x) {
     return {t, std::sqrt(1 - t * t), 0};
 }
 
-/// Tiles of 1 mm that face the camera, one a pixel of a kGrid x kGrid picture. White, and lit with irradiance
-/// pi, so that radiance is the diffuse term itself. No environment.
+/// Tiles of 1 mm that face the camera, one per pixel of a kGrid x kGrid picture. White, and lit with
+/// irradiance pi, so that radiance is the diffuse term itself. No environment.
 inline Scene make_grid_scene() {
     Scene scene{.name = "grid"};
     SceneObject object{.name = "grid", .classes = {MaterialClass::skin}};

@@ -1,4 +1,4 @@
-// The colour bar of a debug view and the words beneath it.
+// The colour bar of a debug view and the text below it.
 
 #include "dermis/render/legend.h"
 
@@ -43,7 +43,7 @@ TEST_F(Legend, is_drawn_at_the_bottom_of_the_curvature_view_alone) {
         return *renderer.display();
     };
     const Image curvature = picture("curvature"), albedo = picture("albedo");
-    // Where the bar begins, is in the middle and ends: concave blue, flat grey, convex red.
+    // Begin, middle and end of the bar: concave blue, flat grey, convex red.
     const int y = 200 - 48 + 10, left = 40 + 24;
     EXPECT_GT(curvature.at(left + 3, y, 2), 0.6f);
     EXPECT_LT(curvature.at(left + 3, y, 0), 0.3f);

@@ -1,5 +1,5 @@
-// What reaches a surface of each light, in every technique and on what is not skin: a plane under a plate or
-// a tinted sheet that covers the half where x > 0.
+// The part of each light that reaches a surface, in every technique and on surfaces other than skin: a plane
+// under an opaque or tinted cover over the half where x > 0.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Blurs on the picture: what users of other engines complain of. Every scene has a known answer.
+// Blurs on the picture: the faults that users of other engines report. Every scene has a known answer.
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ TEST_F(ScreenSpace, a_shadows_edge_is_the_profiles_at_any_distance_and_slant) {
         EXPECT_LT(separable("25"), 0.03);
         EXPECT_LT(separable("17"), 0.05);
         EXPECT_LT(separable("11"), 0.08);
-        // Its weights follow slopes that change, such as a sphere's, better than those that do not.
+        // Its weights fit surfaces whose slope changes, such as spheres, better than planes.
         EXPECT_LT(edge_error(draw(slanted_plane(distance_mm), "screen_space_burley", {{"samples", "512"}}),
                              distance_mm),
                   0.045);
@@ -120,7 +120,7 @@ TEST_F(ScreenSpace, light_does_not_cross_a_gap_in_depth) {
     EXPECT_GT(bled.at(kSize / 2 + 3, kSize / 2, 0), 0.02) << "the scene would not show it";
 }
 
-TEST_F(ScreenSpace, even_light_stays_even_at_silhouettes_with_and_without_multisampling) {
+TEST_F(ScreenSpace, constant_light_stays_constant_at_silhouettes_with_and_without_multisampling) {
     const Scene scene = evenly_lit_spheres();
     for (const int samples : {1, 4})
         for (const char* id : kTechniques)

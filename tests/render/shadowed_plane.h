@@ -1,6 +1,6 @@
 #pragma once
-// For the tests: a plane whose right half is in shadow, with a choice of unwraps. What a blur in millimetres
-// makes of the shadow's edge is known.
+// For the tests: a plane whose right half is in shadow, with a choice of UV layouts. The exact result of a
+// blur in millimetres at the shadow's edge is known.
 
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/primitives.h"
@@ -12,7 +12,7 @@ namespace dermis {
 
 constexpr float kSideMm = 40, kEdgeMm = 1;  // the plane's; where its shadow begins, in x
 
-// Where a corner of the plane lies in the atlas.
+// The position in the atlas of a corner of the plane.
 using Unwrap = Vec2 (*)(Vec3 p_mm, bool right);
 
 inline Vec2 one_chart(Vec3 p, bool) {

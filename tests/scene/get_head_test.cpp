@@ -133,7 +133,7 @@ TEST(GetHead, a_second_address_is_tried_when_the_first_lacks_the_file_or_sends_a
     EXPECT_EQ(files_in(target.path), 8u) << "seven files and their directory";
 }
 
-// The table of the script: every file has an address that names a fixed version, and scenes want no other
+// The table of the script: every file has an address that names a fixed version, and scenes need no other
 // file.
 TEST(GetHead, every_file_of_the_head_that_a_scene_uses_has_an_address) {
     const std::string script = *read_text_file(DERMIS_SOURCE_DIR "/tools/get_head");

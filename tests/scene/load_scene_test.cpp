@@ -253,13 +253,13 @@ TEST(LoadScene, a_scene_that_lacks_an_asset_draws_the_one_it_names_and_says_so) 
         << scene->warnings[0];
     EXPECT_NE(scene->warnings[0].find("drawing scene 'plain' instead"), std::string::npos);
 
-    // Any other mistake is its own error, and so is a stand-in that fails as well.
+    // Any other mistake is its own error, and so is a replacement scene that fails too.
     EXPECT_NE(dir.error(head + kMesh + "[skin]\nior = 9\n").find("ior"), std::string::npos);
     EXPECT_NE(dir.error("without_assets = \"nothing\"\n" + kMesh + maps).find("nobody/normal.jpg"),
               std::string::npos);
 }
 
-TEST(LoadScene, point_and_spot_lights_stand_where_the_file_says) {
+TEST(LoadScene, point_and_spot_lights_are_where_the_file_says) {
     const SceneDirectory dir;
     const Result<Scene> scene = dir.load(
         kMesh +
@@ -280,7 +280,7 @@ TEST(LoadScene, a_camera_without_a_distance_frames_the_scene) {
     EXPECT_GT(scene->camera.eye_mm.x, scene->bounds_center_mm.x + 100);
 }
 
-TEST(LoadScene, a_bare_mesh_stands_in_the_studio_in_the_unit_asked_for) {
+TEST(LoadScene, a_bare_mesh_is_placed_in_the_studio_in_the_unit_asked_for) {
     const SceneDirectory dir;
     const Result<Scene> scene = load_scene(dir.file("two.obj"), {.mesh_unit_mm = 10});
     ASSERT_TRUE(scene) << scene.error().message;

@@ -146,7 +146,7 @@ TEST(SceneFile, a_syntax_error_names_its_line) {
     EXPECT_EQ(error_of("name = 1\nname = 2\n").rfind("s.toml:2: not TOML: ", 0), 0u);
 }
 
-TEST(SceneFile, what_trips_the_parser_itself_is_an_error_with_its_line) {
+TEST(SceneFile, input_that_makes_the_parser_assert_is_an_error_with_its_line) {
     EXPECT_EQ(error_of("name = \"a\"\n\n[ = 3\n" + kMesh),
               "s.toml:3: not TOML: a name in brackets or a key is malformed");
     EXPECT_EQ(error_of("[ ="), "s.toml:1: not TOML: a name in brackets or a key is malformed");
@@ -155,7 +155,7 @@ TEST(SceneFile, what_trips_the_parser_itself_is_an_error_with_its_line) {
     EXPECT_EQ(error_of("\nname = \"\xC3(\"\n"), "s.toml:2: not TOML: bytes that are not UTF-8");
 }
 
-TEST(SceneFile, characters_beyond_ascii_stand_in_strings_and_comments) {
+TEST(SceneFile, characters_beyond_ascii_are_allowed_in_strings_and_comments) {
     const Result<SceneDescription> scene = parse(
         "\xEF\xBB\xBFname = \"caf\u00e9 \\\" ~41 \u00e9\" # \u00e9\ncredit = '''\n\u00e9\'\n'''\n" + kMesh);
     ASSERT_TRUE(scene) << scene.error().message;

@@ -1,4 +1,4 @@
-// Keys of the scene file outside of a file: what a file can say, a word can say, with the same errors.
+// --scene words set every key of the scene file, with the same errors.
 
 #include "dermis/scene/scene_words.h"
 
@@ -45,7 +45,7 @@ TEST(SceneWords, every_key_of_a_loaded_scene_reads_back_what_it_was_set_to) {
         if (word.key == "skin.profile") word.value = "jensen_skin1";
         if (word.key == "light.key.key" || word.key == "light.key.outer_angle_deg" ||
             word.key == "light.key.kind" || word.key == "environment.kind")
-            continue;  // changed alone they make a scene that is none, or changes other keys too
+            continue;  // changed alone they make an invalid scene, or change other keys too
         Scene other = scene;
         ASSERT_EQ(error_of(other, {word}), "") << word.key;
         EXPECT_EQ(words_of(other)[i].value, word.value) << word.key;

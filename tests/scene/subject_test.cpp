@@ -79,7 +79,7 @@ TEST(Subject, that_states_nothing_is_framed_in_the_studio) {
     EXPECT_EQ(scene->environment.kind, EnvironmentKind::studio);
 }
 
-TEST(Subject, gives_way_to_what_the_scene_file_says) {
+TEST(Subject, is_overridden_by_the_scene_file) {
     const Result<Scene> scene = load_file(
         kMesh +
         "[camera]\neye_mm = [0, 0, 50]\n[[light]]\nname = \"mine\"\n[environment]\nkind = \"studio\"\n");

@@ -1,5 +1,5 @@
 #pragma once
-// Golden pictures: EXPECT_TRUE(matches_golden(picture, "sphere_lambert")) holds a picture against
+// Golden pictures: EXPECT_TRUE(matches_golden(picture, "sphere_lambert")) compares a picture with
 // tests/golden/sphere_lambert.png. Where it does not match, the new picture, the old one and their difference
 // (eight times as bright) are written below the build directory and the message names them.
 // DERMIS_UPDATE_GOLDENS=1 writes the new picture over the golden instead, DERMIS_UPDATE_GOLDENS=missing only

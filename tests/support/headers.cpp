@@ -1,2 +1,2 @@
-// Carries the precompiled GoogleTest headers that every test program reuses.
+// Holds the precompiled GoogleTest headers that every test program reuses.
 int main() {}

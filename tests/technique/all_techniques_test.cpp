@@ -1,4 +1,4 @@
-// What holds for every technique, whatever it does; none of this needs a GPU.
+// Rules for every technique; none of these tests needs a GPU.
 
 #include <gtest/gtest.h>
 

@@ -40,7 +40,7 @@ TEST(PassList, reading_before_writing_is_found) {
     EXPECT_THAT(problems(list, {"input"}), IsEmpty());
 }
 
-TEST(PassList, reading_what_one_writes_is_found) {
+TEST(PassList, a_pass_that_reads_its_own_target_is_found) {
     PassList list = ping_pong();
     list.passes[1] = fullscreen("second", {"a"}, "a");
     EXPECT_THAT(problems(list, {"input"}), ElementsAre("pass 'second' reads and writes 'a'"));

@@ -1,6 +1,6 @@
 #pragma once
-// A display of our own (Xvfb), so that windows open on a machine that has none, and never on somebody's
-// screen; and a window manager (twm) for what only one can do.
+// A virtual display (Xvfb), so that windows open on a machine without a display and never on the user's
+// screen; and a window manager (twm) for the tests that need one.
 
 #include <signal.h>
 #include <spawn.h>

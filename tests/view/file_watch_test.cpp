@@ -22,7 +22,7 @@ class FileWatchTest : public ::testing::Test {
     FileWatch watch_;
 };
 
-TEST_F(FileWatchTest, tells_what_changed_came_and_went_once) {
+TEST_F(FileWatchTest, reports_each_changed_new_and_removed_file_once) {
     const auto a = write("a", "1"), missing = directory_.path / "b";
     watch_.watch({a, missing});
     EXPECT_THAT(watch_.changed(), IsEmpty());

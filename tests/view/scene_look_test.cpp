@@ -1,4 +1,4 @@
-// What stays of the user's changes when a scene's files are read again.
+// The user's changes that are kept when a scene's files are read again.
 
 #include "dermis/view/scene_look.h"
 #include "support/built_in.h"

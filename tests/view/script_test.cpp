@@ -26,7 +26,7 @@ TEST(Script, commands_come_out_with_their_words_and_lines) {
     EXPECT_EQ((*script)[2].kind, CommandKind::quit);
 }
 
-TEST(Script, a_drag_presses_moves_and_releases_one_event_a_frame) {
+TEST(Script, a_drag_presses_moves_and_releases_one_event_per_frame) {
     const auto script = parse_script("drag right 10 20 50 40 ctrl", "s.txt");
     ASSERT_TRUE(script) << script.error().message;
     const auto frames = input_frames(script->front());
@@ -39,7 +39,7 @@ TEST(Script, a_drag_presses_moves_and_releases_one_event_a_frame) {
     EXPECT_EQ(frames.back()[0].position_px, (Vec2{50, 40}));
 }
 
-TEST(Script, what_is_wrong_is_told_with_its_line_and_what_would_be_right) {
+TEST(Script, errors_name_their_line_and_the_correction) {
     EXPECT_THAT(error_of("quit\ntechniqe x"),
                 HasSubstr("s.txt:2: unknown command 'techniqe'; did you mean 'technique'?"));
     EXPECT_THAT(error_of("drag left 1 2 3"), HasSubstr("drag left 300 300 420 280"));

@@ -1,4 +1,4 @@
-// What the window writes and reads as text: changed scene files, views as command lines, its small memory.
+// The window's texts: changed scene files, views as command lines, its state file.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(SceneText, a_saved_built_in_reads_back_as_what_was_seen) {
     EXPECT_EQ(again->technique, built_in_catalog().techniques.front().id);
 }
 
-TEST(SceneText, comments_stay_and_paths_stay_true_elsewhere) {
+TEST(SceneText, comments_are_kept_and_paths_are_valid_from_another_folder) {
     const TemporaryDirectory directory;
     const auto file = directory.path / "scene.toml";
     ASSERT_TRUE(write_text_file(directory.path / "quad.obj", "v 0 0 0\nv 90 0 0\nv 0 90 0\nf 1 2 3\n"));
@@ -145,7 +145,8 @@ TEST(ViewLine, what_is_wrong_changes_nothing) {
     }
     const std::string told = apply_view_line(viewed.model, "--camera 'yaw_deg=\n4x0'").error().message;
     EXPECT_EQ(told.find('\n'), told.npos);
-    EXPECT_TRUE(apply_view_line(viewed.model, "--camera 'pitch_deg=2\n yaw_deg=20'"));  // broken by a mail
+    EXPECT_TRUE(apply_view_line(
+        viewed.model, "--camera 'pitch_deg=2\n yaw_deg=20'"));  // line breaks added by a mail program
     EXPECT_TRUE(apply_view_line(viewed.model, "yaw_deg=10 pitch_deg=1"));
     EXPECT_THAT(view_line(viewed.model, file, kSize), HasSubstr("yaw_deg=10 pitch_deg=1"));
 }

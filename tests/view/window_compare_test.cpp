@@ -14,7 +14,7 @@ using ::testing::Not;
 
 }  // namespace
 
-TEST_F(ViewWindow, two_techniques_and_a_picture_stand_beside_each_other) {
+TEST_F(ViewWindow, two_techniques_and_a_picture_are_shown_side_by_side) {
     const ProgramResult result = view(square() + " --size 560x320 --samples 1 -t lambert", R"(
         screenshot DIR/left.png
         key C
@@ -40,7 +40,7 @@ TEST_F(ViewWindow, two_techniques_and_a_picture_stand_beside_each_other) {
     )");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const Image wipe = image("wipe.png"), wiped = image("wiped.png"), off = image("off.png");
-    EXPECT_NEAR(wipe.at(140, 5, 0), 0.85, 0.01);  // the line stands in the middle of the picture
+    EXPECT_NEAR(wipe.at(140, 5, 0), 0.85, 0.01);  // the line is in the middle of the picture
     EXPECT_NEAR(wiped.at(60, 5, 0), 0.85, 0.01);  // and where it was dragged
     EXPECT_LT(off.at(140, 5, 0), 0.5);
     EXPECT_THAT(value_of(result, "right"), HasSubstr("left.png"));
@@ -69,7 +69,7 @@ TEST_F(ViewWindow, the_ground_truth_comes_beside_the_picture_and_can_be_stopped)
     EXPECT_EQ(value_of(result, "right"), "ground truth");
     const std::string first = result.out.substr(0, result.out.rfind("technique "));
     EXPECT_THAT(first, Not(HasSubstr("stale truth")));
-    EXPECT_THAT(last_state(result), HasSubstr("stale truth"));  // stopped: the one of the old view stands
+    EXPECT_THAT(last_state(result), HasSubstr("stale truth"));  // stopped: the one of the old view is kept
     EXPECT_THAT(result.out, Not(HasSubstr("notice ")));
     // The right half shows the same spheres with more light from bounces and less from approximations.
     const Image picture = image("picture.png"), beside = image("beside.png");

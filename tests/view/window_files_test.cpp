@@ -23,7 +23,7 @@ Image plain(int width, int height, Vec3 color) {
 
 }  // namespace
 
-TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_what_is_none_is_a_notice) {
+TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_other_files_make_a_notice) {
     const Result<LoadedMesh> mesh = read_mesh(square());
     ASSERT_TRUE(mesh) << mesh.error().message;
     ASSERT_TRUE(write_glb(path("square.glb"), mesh->mesh));
@@ -42,7 +42,7 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_what_is_none_is_a_no
     EXPECT_EQ(result.out.find("notice "), result.out.find("notice " + path("broken.toml")));
     EXPECT_THAT(result.out, HasSubstr("broken.toml:2: mesh.file"));
     EXPECT_THAT(result.out, HasSubstr("nowhere.hdr"));
-    EXPECT_THAT(last_state(result), Not(HasSubstr("notice")));  // escape sent it away
+    EXPECT_THAT(last_state(result), Not(HasSubstr("notice")));  // escape closed it
     EXPECT_THAT(last_state(result), HasSubstr("environment studio\n"));
 }
 
@@ -84,7 +84,7 @@ TEST_F(ViewWindow, a_broken_shader_is_reported_and_the_last_good_one_stays_until
                   .exit_code,
               0);
     ASSERT_TRUE(write_text_file(path("broken.frag"), "#version 460\nvoid main() { colour = 1; }\n"));
-    // Compiles, and does not fit its pass.
+    // Compiles, but does not fit its pass.
     ASSERT_TRUE(write_text_file(path("alien.frag"),
                                 "#version 460\nlayout(location = 0) in vec4 nobody;\n"
                                 "layout(location = 0) out vec4 c;\nvoid main() { c = nobody; }\n"));

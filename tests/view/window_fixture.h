@@ -34,11 +34,11 @@ class ViewWindow : public ::testing::Test {
         EXPECT_TRUE(write_text_file(path("script.txt"), script));
         return shell(program(*display_) + " view " + arguments + layers + " --script " + path("script.txt"));
     }
-    /// The program on a display, remembering what it remembers here.
+    /// The program on a display, with its state file in the test's folder.
     std::string program(const VirtualDisplay& display) {
         return "DISPLAY=" + display.name() + " XDG_STATE_HOME=" + path("state") + " " + DERMIS_PROGRAM;
     }
-    /// A file with one square: what is quickly drawn.
+    /// A mesh file with one square, which is drawn quickly.
     std::string square() {
         EXPECT_TRUE(write_text_file(path("square.obj"),
                                     "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\n"

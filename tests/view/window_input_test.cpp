@@ -1,4 +1,4 @@
-// Hands on the window: mouse, keys, widgets, views as text.
+// Input of the window: mouse, keys, widgets, views as text.
 
 #include <gmock/gmock.h>
 
@@ -36,7 +36,7 @@ TEST_F(ViewWindow, a_view_found_with_the_mouse_is_the_picture_that_render_draws)
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const Image again = image("render.png");
     ASSERT_EQ(again.bytes.size() / again.channels, seen.bytes.size() / seen.channels);
-    // Angles travel rounded to 1e-4 degrees, which may tip single pixels of an edge.
+    // Angles are rounded to 1e-4 degrees in the text, which may change single pixels of an edge.
     int differing = 0;
     for (int y = 0; y < seen.height; ++y)
         for (int x = 0; x < seen.width; ++x)
@@ -174,7 +174,7 @@ TEST_F(ViewWindow, a_view_is_pasted) {
     EXPECT_THAT(last, HasSubstr("/nowhere.hdr"));
 }
 
-// Everything else here feeds events past the window library; this comes in through the display.
+// The other tests here bypass the window library; these events come through the display.
 TEST_F(ViewWindow, real_mouse_and_keys_do_what_the_scripted_ones_do) {
     if (!has_program("xdotool")) GTEST_SKIP() << "no xdotool; apt-get install xdotool";
     const std::string arguments = "view " + kSmall + "--validate -t lambert ";

@@ -1,4 +1,4 @@
-// What a window lives through: sizes, a lost device, hours of switching, a bad start.
+// A window's sizes, a lost device, long switching, failed starts.
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@ using ::testing::Not;
 
 }  // namespace
 
-TEST_F(ViewWindow, twenty_sizes_pass_and_the_window_has_the_last) {
+TEST_F(ViewWindow, after_twenty_sizes_the_window_has_the_last) {
     std::string script;
     for (int i = 0; i < 20; ++i)
         script +=
