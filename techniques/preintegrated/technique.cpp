@@ -87,7 +87,9 @@ ParameterTable parameters() {
         .build();
 }
 
-bool reads_tables(const Params& params) { return params.diffuse == Diffuse::lut; }
+bool reads_tables(const Params& params) {
+    return params.diffuse == Diffuse::lut;
+}
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
@@ -101,7 +103,8 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                                  {"normals", int32_t(params.normals)},
                                                  {"ambient", int32_t(params.ambient)}});
     if (tables) {
-        for (const char* table : {"skin_lut", "skin_zonal", "skin_shadow", "skin_normal_blend", "skin_beckmann"})
+        for (const char* table :
+             {"skin_lut", "skin_zonal", "skin_shadow", "skin_normal_blend", "skin_beckmann"})
             pass.reads.push_back(table);
         read_transmission(pass, params.transmission);
     } else {
