@@ -37,6 +37,13 @@ vec3 own_view(Surface s);
 // what faces as the point itself does, which at grazing light the shadow map's texels are too coarse for.
 const float kOwnSide = 0.15;
 float part_not_counted(Surface s, LitPoint lit) { return smoothstep(0.0, kOwnSide, turned_away(s, lit)); }
+
+// With DERMIS_OWN_BODY defined: the light's way through the body that the technique's own model has light through.
+#ifdef DERMIS_OWN_BODY
+float own_way_mm(Surface s, vec3 to_light_world);
+#else
+float own_way_mm(Surface s, vec3 to_light_world) { return 0.0; }
+#endif
 #endif
 
 // Radiant exitance over irradiance at normal incidence for light from one direction: n_dot_l for Lambert. Includes
@@ -67,8 +74,8 @@ void main() {
         vec3 direct = light.irradiance_linear * direct_response(s, light.to_light_world, visibility);
 #ifdef DERMIS_TRANSMISSION
         // Both are estimates of the same integral; each misses light where the other is right.
-        float n_dot_l = max(dot(s.n_geometry_world, light.to_light_world), 0.0);
-        direct = max(direct, transmitted_exitance(s, i, light, n_dot_l * visibility));
+        float n_dot_l = dot(s.n_geometry_world, light.to_light_world), way_mm = own_way_mm(s, light.to_light_world);
+        direct = max(direct, transmitted_exitance(s, i, light, n_dot_l, visibility, way_mm));
 #endif
         exitance += direct;
         specular_radiance += light.irradiance_linear * visibility *

@@ -33,6 +33,7 @@ float shadow_filter_mm(vec3 n_world, vec3 to_light_world) {
 #define DERMIS_PREPARE_SURFACE
 #define DERMIS_OWN_VIEW
 #define DERMIS_TRANSMISSION
+#define DERMIS_OWN_BODY
 #ifdef DERMIS_TABLES
 #define DERMIS_BECKMANN_TABLE
 #else
@@ -131,6 +132,12 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
     if (shadow == kShadowPlain) return scattered * visibility;
     return scattered *
            mix(vec3(visibility), profile_edge(visibility), scattered_shadow_part(s.n_geometry_world, to_light_world));
+}
+
+// The chord of the sphere that is integrated.
+float own_way_mm(Surface s, vec3 to_light_world) {
+    float k = curvature_towards(skin_diagonal_per_mm, skin_mixed_per_mm, s.n_geometry_world, to_light_world);
+    return 2.0 * max(-dot(s.n_geometry_world, to_light_world), 0.0) / max(k, 1e-4);
 }
 
 // sqrt(4 pi / (2 l + 1)) zh_l in place of the cosine lobe's bands (Ramamoorthi, Hanrahan 2001).

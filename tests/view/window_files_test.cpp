@@ -24,8 +24,9 @@ Image plain(int width, int height, Vec3 color) {
 }  // namespace
 
 TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_other_files_make_a_notice) {
-    const Result<LoadedMesh> mesh = read_mesh(square());
+    Result<LoadedMesh> mesh = read_mesh(square());
     ASSERT_TRUE(mesh) << mesh.error().message;
+    mesh->mesh.materials[0].base_color_map = {};
     ASSERT_TRUE(write_glb(path("square.glb"), mesh->mesh));
     ASSERT_TRUE(write_text_file(path("scene.toml"), "[[mesh]]\nfile = \"square.obj\"\n"));
     ASSERT_TRUE(write_text_file(path("broken.toml"), "[[mesh]]\nfile = 3\n"));
@@ -39,7 +40,10 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_other_files_make_a_n
     ASSERT_EQ(result.exit_code, 0) << result.err;
     for (const char* name : {"square.obj", "square.glb", "scene.toml"})
         EXPECT_THAT(result.out, HasSubstr("scene " + path(name) + "\n"));
-    EXPECT_EQ(result.out.find("notice "), result.out.find("notice " + path("broken.toml")));
+    EXPECT_THAT(result.out, HasSubstr("notice " + path("square.glb") + ": no map of colour"));
+    EXPECT_THAT(result.out, HasSubstr("notice " + path("broken.toml")));
+    EXPECT_THAT(result.out, Not(HasSubstr("notice " + path("scene.toml"))));
+    EXPECT_THAT(result.out, Not(HasSubstr("notice " + path("square.obj"))));
     EXPECT_THAT(result.out, HasSubstr("broken.toml:2: mesh.file"));
     EXPECT_THAT(result.out, HasSubstr("nowhere.hdr"));
     EXPECT_THAT(last_state(result), Not(HasSubstr("notice")));  // escape closed it

@@ -38,11 +38,18 @@ class ViewWindow : public ::testing::Test {
     std::string program(const VirtualDisplay& display) {
         return "DISPLAY=" + display.name() + " XDG_STATE_HOME=" + path("state") + " " + DERMIS_PROGRAM;
     }
-    /// A mesh file with one square, which is drawn quickly.
+    /// A mesh file with one square, which is drawn quickly, and a white map, for want of which there is a
+    /// notice.
     std::string square() {
-        EXPECT_TRUE(write_text_file(path("square.obj"),
-                                    "v -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\n"
-                                    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"));
+        Image white(2, 2, 3);
+        for (int i = 0; i < 4; ++i)
+            for (int c = 0; c < 3; ++c) white.set(i % 2, i / 2, c, 1);
+        EXPECT_TRUE(write_image(path("white.png"), white));
+        EXPECT_TRUE(write_text_file(path("square.mtl"), "newmtl skin\nmap_Kd white.png\n"));
+        EXPECT_TRUE(write_text_file(
+            path("square.obj"),
+            "mtllib square.mtl\nusemtl skin\nv -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\n"
+            "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"));
         return path("square.obj");
     }
 
