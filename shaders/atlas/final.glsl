@@ -57,7 +57,7 @@ vec3 transmitted_past(Surface s, int i, LightSample light, vec3 passing) {
     float n_dot_l = max(dot(s.n_world, light.to_light_world), 0.0), visibility = passing.r;
     if (tinted_shadows != 0 && n_dot_l > 0.0)
         visibility = light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm).visibility;
-    return transmitted_exitance(s, i, light, n_dot_l, visibility, 0.0);
+    return transmitted_exitance(s, i, light, n_dot_l, visibility, -1.0);
 }
 
 #endif

@@ -42,7 +42,7 @@ float part_not_counted(Surface s, LitPoint lit) { return smoothstep(0.0, kOwnSid
 #ifdef DERMIS_OWN_BODY
 float own_way_mm(Surface s, vec3 to_light_world);
 #else
-float own_way_mm(Surface s, vec3 to_light_world) { return 0.0; }
+float own_way_mm(Surface s, vec3 to_light_world) { return -1.0; }
 #endif
 #endif
 

@@ -135,7 +135,7 @@ vec3 gathered_light(Surface s, LightMap map, float reach_mm) {
 const float kOwnBody = 0.9, kOtherBody = 0.5;
 
 // Exitance over albedo. own_way_mm is the light's way through the body that the includer's own model has light through, as
-// far as the light is visible; 0 for none. Where no lit skin is near along the light, as on most of a head's dark side, one tap is all.
+// far as the light is visible; below 0 for none. Where no lit skin is near along the light, as on most of a head's dark side, one tap is all.
 vec3 transmitted_exitance(Surface s, int light, LightSample arriving, float n_dot_l, float visibility, float own_way_mm) {
     float lit = max(n_dot_l, 0.0) * visibility;
     if (transmission == kTransmissionNone || lit > kDark || lights[light].shadow_map_index < 0)
@@ -146,7 +146,10 @@ vec3 transmitted_exitance(Surface s, int light, LightSample arriving, float n_do
     float depth_mm = (map.here.z - lit_z(map.index, map.here.xy)) * map.mm_per_z;
     float part = smoothstep(kThinnest * reach_mm, 4.0 * kThinnest * reach_mm, depth_mm) *
                  (1.0 - smoothstep(kFadeStart * reach_mm, reach_mm, depth_mm)) * (1.0 - smoothstep(0.0, kDark, lit));
-    if (own_way_mm > 0.0) part *= 1.0 - visibility * smoothstep(kOtherBody * own_way_mm, kOwnBody * own_way_mm, depth_mm);
+    if (own_way_mm >= 0.0) {
+        float own = (depth_mm - kOtherBody * own_way_mm) / max((kOwnBody - kOtherBody) * own_way_mm, 1e-4);
+        part *= 1.0 - visibility * clamp(own, 0.0, 1.0);
+    }
     if (part == 0.0) return vec3(0.0);
     return part * arriving.irradiance_linear * gathered_light(s, map, reach_mm);
 }

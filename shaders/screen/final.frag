@@ -78,7 +78,7 @@ void main() {
             arriving *= through.visibility * through.tint;
             visibility = through.visibility;
         }
-        exitance += transmitted_exitance(s, i, light, dot(s.n_world, light.to_light_world), visibility, 0.0);
+        exitance += transmitted_exitance(s, i, light, dot(s.n_world, light.to_light_world), visibility, -1.0);
         specular_radiance += arriving *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
