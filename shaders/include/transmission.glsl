@@ -22,7 +22,7 @@ layout(constant_id = 31) const int transmission = kTransmissionNone;
 // R per mm^2 over its integral, and in alpha the reach in mm. With DERMIS_TRANSMISSION_EXPRESSION the includer defines it.
 vec4 transmission_row(float distance_over_reach);
 
-const int kTransmissionTaps = 20;
+const int kTransmissionTaps = 48;
 const float kWidestRing = 0.7;  // of the reach
 // Profiles that reach farther than the table would end at an edge.
 const float kFadeStart = 0.7;
