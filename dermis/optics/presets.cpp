@@ -5,12 +5,11 @@
 
 #include "dermis/base/text.h"
 #include "dermis/optics/burley_scaling.h"
+#include "dermis/optics/preintegration.h"
 #include "dermis/optics/profile_file.h"
 
 namespace dermis {
 namespace {
-
-using Rgb = std::array<double, 3>;
 
 Profile gpu_gems_3() {
     return {"gpu_gems_3", "d'Eon, Luebke 2007, GPU Gems 3, section 14.4", gpu_gems_3_skin()};

@@ -8,13 +8,13 @@
 #include <numbers>
 
 #include "dermis/optics/burley_scaling.h"
+#include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
 
 namespace dermis {
 namespace {
 
 using std::numbers::pi;
-using Rgb = std::array<double, 3>;
 using Values = ToolValues;
 using LengthPerD = double (*)(double albedo);
 
