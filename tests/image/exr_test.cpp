@@ -9,6 +9,7 @@
 #include "image/test_files.h"
 #include "image/test_images.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 
@@ -152,6 +153,16 @@ TEST(Exr, a_header_with_an_impossible_size_is_refused_before_openexr_allocates) 
     EXPECT_EQ(message(Imf::PIZ_COMPRESSION, 7, 16383),
               "test.exr: corrupt EXR: the file is too short for its size");
     EXPECT_NE(message(Imf::ZIP_COMPRESSION, 16383, 127).find("too short a file"), std::string::npos);
+}
+
+// OpenEXR would read the value in the size of its type, and then a size of 1.7 GB from what is no attribute.
+TEST(Exr, an_attribute_of_another_size_than_its_type_has_is_refused) {
+    const auto bytes = read_file(DERMIS_SOURCE_DIR "/tests/fuzz/corpus/exr/wrong_attribute_size");
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    const auto image = codec::decode_exr(*bytes, ImageUse::data);
+    ASSERT_FALSE(image);
+    EXPECT_NE(image.error().message.find("has 0 bytes, its type 8"), std::string::npos)
+        << image.error().message;
 }
 
 TEST(Exr, a_channel_name_with_line_breaks_stays_on_the_line_of_the_error) {

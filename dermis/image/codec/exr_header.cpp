@@ -76,14 +76,36 @@ Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
     return {};
 }
 
+// OpenEXR reads a value of these types in its own size, whatever size the attribute states: what follows
+// would then be read at another place than here. 0: a type without a fixed size.
+uint32_t fixed_size_of(std::string_view type) {
+    struct Size {
+        std::string_view type;
+        uint32_t bytes;
+    };
+    constexpr Size kSizes[] = {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+                               {"compression", 1}, {"double", 8},   {"envmap", 1},
+                               {"float", 4},       {"int", 4},      {"keycode", 28},
+                               {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+                               {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+                               {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
+                               {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+                               {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}};
+    const auto* found = std::ranges::find(kSizes, type, &Size::type);
+    return found == std::end(kSizes) ? 0 : found->bytes;
+}
+
 // OpenEXR takes the last of several attributes of one name or the first, so a repeated one is refused.
 Result<Part> read_part(ByteReader& in, std::string_view first_name) {
     Part part;
     std::vector<std::string> seen;
     for (std::string_view name = first_name; !name.empty(); name = in.text()) {
-        (void)in.text();  // the type's name
+        const uint32_t fixed_size = fixed_size_of(in.text());
         const Bytes value = in.take(in.u32());
         if (!in.ok()) break;
+        if (fixed_size != 0 && value.size() != fixed_size)
+            return Error{"corrupt EXR: the attribute '" + std::string(name.substr(0, 40)) + "' has " +
+                         std::to_string(value.size()) + " bytes, its type " + std::to_string(fixed_size)};
         if (std::ranges::find(seen, name) != seen.end())
             return Error{"corrupt EXR: the attribute '" + std::string(name.substr(0, 40)) +
                          "' is there twice"};
