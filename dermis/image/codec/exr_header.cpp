@@ -38,14 +38,16 @@ bool ratio_is_bounded(uint8_t compression) {
     return compression != kPiz && compression != kDwaa && compression != kDwab;
 }
 
-// Entries of a channel list: name, type (0 uint, 1 half, 2 float), linearity, x and y sampling.
-void read_channels(Bytes value, Part& part) {
+// Entries of a channel list: name, type (0 uint, 1 half, 2 float), linearity, x and y sampling. OpenEXR reads
+// up to the empty name, wherever the value ends: false when that is not the value's end.
+bool read_channels(Bytes value, Part& part) {
     ByteReader in(value);
     while (in.ok() && !in.text().empty()) {
         part.bytes_per_texel += in.u32() == 1 ? 2 : 4;
         in.take(12);
         ++part.channels;
     }
+    return in.ok() && in.position() == value.size();
 }
 
 Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
@@ -67,7 +69,8 @@ Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
         part.tile_height = in.u32();
         if (part.tile_width == 0 || part.tile_height == 0) return Error{"corrupt EXR: tiles without texels"};
     } else if (name == "channels") {
-        read_channels(value, part);
+        if (!read_channels(value, part))
+            return Error{"corrupt EXR: the list of channels does not end with its attribute"};
     } else if (name == "type") {
         const std::string_view type(reinterpret_cast<const char*>(value.data()), value.size());
         part.deep = type.starts_with("deep");
