@@ -9,7 +9,8 @@ using namespace dermis;
 
 namespace {
 
-const DrawSettings kSmall = {.width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 512};
+const DrawSettings kTextureSpaceSmall = {
+    .width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 512};
 
 class TextureSpace : public RenderTest {
   protected:
@@ -34,7 +35,7 @@ class TextureSpace : public RenderTest {
         return to_linear_float(*renderer.read(image));
     }
     static Image draw(Renderer& renderer, const ParameterValues& values) {
-        return radiance(renderer, built_in_technique("texture_space"), values, kSmall);
+        return radiance(renderer, built_in_technique("texture_space"), values, kTextureSpaceSmall);
     }
     static double mean_difference(const Image& a, const Image& b) {
         double sum = 0, count = 0;
@@ -50,7 +51,7 @@ class TextureSpace : public RenderTest {
 TEST_F(TextureSpace, without_blur_it_is_lambert) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Image lambert = radiance(renderer, built_in_technique("lambert"), kSmall);
+    const Image lambert = radiance(renderer, built_in_technique("lambert"), kTextureSpaceSmall);
     const Image unblurred = draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "2048"}}));
     EXPECT_LT(mean_difference(lambert, unblurred), 2e-3);
     const Image blurred = draw(renderer, texels("8", "8", {{"light_map_size", "512"}}));
@@ -60,7 +61,7 @@ TEST_F(TextureSpace, without_blur_it_is_lambert) {
 TEST_F(TextureSpace, every_filter_keeps_constant_light_constant_up_to_the_chart_borders) {
     const Scene scene = evenly_lit_spheres();
     Renderer renderer = make_renderer(scene);
-    const Image lambert = radiance(renderer, built_in_technique("lambert"), kSmall);
+    const Image lambert = radiance(renderer, built_in_technique("lambert"), kTextureSpaceSmall);
     for (const char* filter : {"poisson", "gaussian", "box", "kawase"}) {
         const Image image = draw(renderer, texels("4", "6", {{"filter", filter}}));
         EXPECT_LT(relative_difference(lambert, image, 1), 1e-3) << filter;
