@@ -6,7 +6,8 @@
 
 namespace dermis {
 
-/// Changes with every change, but of a comment, to base, mesh or rays. Made by the build (cmake/SourceVersion.cmake).
+/// Changes with every change, but of a comment, to base, mesh or rays. Made by the build
+/// (cmake/SourceVersion.cmake).
 [[nodiscard]] std::string_view rays_version();
 
 }  // namespace dermis
