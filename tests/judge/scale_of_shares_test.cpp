@@ -7,8 +7,7 @@
 #include <filesystem>
 
 #include "dermis/base/file.h"
-#include "dermis/judge/comparison.h"
-#include "dermis/judge/exact_effect.h"
+#include "judge/exact_shares.h"
 #include "render/render_test.h"
 #include "test_paths.h"
 
@@ -20,15 +19,6 @@ constexpr int kSide = 6, kGrid = 2;
 
 class ScaleOfShares : public RenderTest {
   protected:
-    static SubjectCase unit_case(const std::string& name) {
-        const auto unit = find_subject(built_in_catalog().subjects, "unit");
-        auto cases = make_cases(**unit);
-        EXPECT_TRUE(cases) << cases.error().message;
-        const auto found = std::ranges::find(*cases, "unit/" + name, &SubjectCase::name);
-        EXPECT_NE(found, cases->end()) << name;
-        return std::move(*found);
-    }
-
     static EffectTruth truth_of(const Scene& scene, double noise, uint32_t seed) {
         EffectTruthSettings settings{
             .reference = comparison_settings(kSide, kSide).reference, .noise = noise, .samples = 4096};
