@@ -12,8 +12,8 @@
 #include "dermis/optics/curvature_expressions.h"
 #include "dermis/optics/curve_2015.h"
 #include "dermis/optics/gaussian_fit.h"
-#include "dermis/optics/presets.h"
 #include "dermis/optics/preintegration.h"
+#include "dermis/optics/presets.h"
 #include "test_paths.h"
 
 using namespace dermis;
@@ -36,7 +36,8 @@ class SourcesPage : public testing::Test {
         for (size_t i = 0; i < computed.size(); ++i) {
             const std::string stated = match[i + 1];
             const size_t point = stated.find('.');
-            const double unit = point == std::string::npos ? 1 : std::pow(10, double(point + 1) - double(stated.size()));
+            const double unit =
+                point == std::string::npos ? 1 : std::pow(10, double(point + 1) - double(stated.size()));
             EXPECT_NEAR(std::stod(stated), computed[i], 0.5 * unit + 1e-9) << pattern;
         }
     }
@@ -64,9 +65,9 @@ double difference_at_2_mm(const Light& red) {
 
 TEST_F(SourcesPage, states_how_far_published_constructions_are_from_the_sphere) {
     const Preintegration script = {.construction = Construction::half_ring, .variance_scale = 1.414};
-    expect_stated("differs from the sphere by up to ([0-9.]+) at r = 2 mm in red", {difference_at_2_mm([&](double t) {
-                      return preintegrated_diffuse(skin(), t, 2, script)[0];
-                  })});
+    expect_stated(
+        "differs from the sphere by up to ([0-9.]+) at r = 2 mm in red",
+        {difference_at_2_mm([&](double t) { return preintegrated_diffuse(skin(), t, 2, script)[0]; })});
     expect_stated("Error against the sphere: ([0-9.]+) at r = 2 mm",
                   {difference_at_2_mm([](double t) { return curve_2015_direct(t, 0.5)[0]; })});
 }
@@ -83,8 +84,10 @@ TEST_F(SourcesPage, states_the_error_of_the_closed_form) {
             if (name == "gpu_gems_3") of_gems = std::max(of_gems, form->max_error);
         }
     }
-    expect_stated("Error at most ([0-9.]+), below one 8-bit code, for r ≥ 1 mm and every preset \\(([0-9.]+) for GPU Gems 3\\)",
-                  {largest, of_gems});
+    expect_stated(
+        "Error at most ([0-9.]+), below one 8-bit code, for r ≥ 1 mm and every preset \\(([0-9.]+) for GPU "
+        "Gems 3\\)",
+        {largest, of_gems});
     EXPECT_LT(largest, 1.0 / 255);
 }
 
@@ -92,8 +95,10 @@ TEST_F(SourcesPage, states_the_mean_light_of_every_construction) {
     const auto zh_0 = [](const Preintegration& how) {
         return preintegrated_zonal_harmonics(skin(), 2, how)[0][0];
     };
-    expect_stated("zh_0 of ([0-9.]+) in red at r = 2 mm; .* half ring .* has ([0-9.]+), the full ring ([0-9.]+), a sphere of any radius ([0-9.]+)",
-                  {curve_2015_zonal(0.5)[0][0], zh_0(kHalfRing), zh_0({.construction = Construction::ring}), zh_0({})});
+    expect_stated(
+        "zh_0 of ([0-9.]+) in red at r = 2 mm; .* half ring .* has ([0-9.]+), the full ring ([0-9.]+), a "
+        "sphere of any radius ([0-9.]+)",
+        {curve_2015_zonal(0.5)[0][0], zh_0(kHalfRing), zh_0({.construction = Construction::ring}), zh_0({})});
 }
 
 // Towards N.H = 1 a table over N.H has no texel, and the highlight's peak is cut.
