@@ -1,12 +1,15 @@
-// The numbers of docs/sources.md are what the code computes, within half a unit of their last digit.
+// The numbers of docs/sources.md, and the errors on the page of preintegrated, are what the code computes,
+// within half a unit of their last digit.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <regex>
 
 #include "dermis/bake/beckmann_table.h"
+#include "dermis/bake/fit_errors.h"
 #include "dermis/bake/table.h"
 #include "dermis/base/file.h"
 #include "dermis/optics/curvature_expressions.h"
@@ -19,6 +22,13 @@
 using namespace dermis;
 
 namespace {
+
+// Half a unit of the last digit of "0.29".
+double half_a_digit(const std::string& number) {
+    const size_t point = number.find('.');
+    const int decimals = point == std::string::npos ? 0 : int(number.size() - point) - 1;
+    return 0.5 * std::pow(10, -decimals) + 1e-9;
+}
 
 class SourcesPage : public testing::Test {
   protected:
@@ -35,10 +45,7 @@ class SourcesPage : public testing::Test {
         ASSERT_EQ(match.size(), computed.size() + 1);
         for (size_t i = 0; i < computed.size(); ++i) {
             const std::string stated = match[i + 1];
-            const size_t point = stated.find('.');
-            const double unit =
-                point == std::string::npos ? 1 : std::pow(10, double(point + 1) - double(stated.size()));
-            EXPECT_NEAR(std::stod(stated), computed[i], 0.5 * unit + 1e-9) << pattern;
+            EXPECT_NEAR(std::stod(stated), computed[i], half_a_digit(stated)) << pattern;
         }
     }
 
@@ -99,6 +106,25 @@ TEST_F(SourcesPage, states_the_mean_light_of_every_construction) {
         "zh_0 of ([0-9.]+) in red at r = 2 mm; .* half ring .* has ([0-9.]+), the full ring ([0-9.]+), a "
         "sphere of any radius ([0-9.]+)",
         {curve_2015_zonal(0.5)[0][0], zh_0(kHalfRing), zh_0({.construction = Construction::ring}), zh_0({})});
+}
+
+// Rows of four numbers: radius in mm, closed form, curve of 2015, the same against its ring.
+TEST(PreintegratedPage, states_the_errors_of_closed_form_and_curves) {
+    const Result<std::string> page = read_text_file(DERMIS_SOURCE_DIR "/techniques/preintegrated/README.md");
+    ASSERT_TRUE(page);
+    const Result<ClosedForm> form = fit_closed_form(skin(), 1, 257);
+    ASSERT_TRUE(form);
+    static const std::regex row("\n\\| ([0-9.]+) \\| (0\\.[0-9]+) \\| (0\\.[0-9]+) \\| (0\\.[0-9]+) \\|");
+    int rows = 0;
+    for (std::sregex_iterator it(page->begin(), page->end(), row), end; it != end; ++it, ++rows) {
+        const double radius_mm = std::stod((*it)[1]);
+        const FitErrors e = measure_fit_errors(*form, skin(), std::array{radius_mm})[0];
+        const Rgb* computed[] = {&e.closed_form, &e.curve_sphere, &e.curve_ring};
+        for (size_t i = 0; i < 3; ++i)
+            EXPECT_NEAR(std::stod((*it)[i + 2]), std::ranges::max(*computed[i]), half_a_digit((*it)[i + 2]))
+                << radius_mm << " mm";
+    }
+    EXPECT_EQ(rows, 8);
 }
 
 // Towards N.H = 1 a table over N.H has no texel, and the highlight's peak is cut.
