@@ -34,8 +34,8 @@ class ScoreboardProgram : public testing::Test {
         int status = 0;
     };
 
-    /// The board of two scenes at the smallest size, with a cache of its own. A line that holds `stop_at` stops it by
-    /// SIGTERM.
+    /// The board of two scenes at the smallest size, with a cache of its own. A line that holds `stop_at`
+    /// stops it by SIGTERM.
     [[nodiscard]] Run run(const std::string& stop_at = "") const {
         int ends[2];
         EXPECT_EQ(::pipe(ends), 0);

@@ -1,6 +1,6 @@
-// What counts across a gap, on two spheres that touch or nearly touch. `surface` counts the straight distance to all skin,
-// through flesh or through space; `walk` counts paths through flesh alone: light that has left does not enter
-// again. What is not skin counts in neither.
+// What counts across a gap, on two spheres that touch or nearly touch. `surface` counts the straight distance
+// to all skin, through flesh or through space; `walk` counts paths through flesh alone: light that has left
+// does not enter again. What is not skin counts in neither.
 
 #include <gtest/gtest.h>
 
@@ -28,9 +28,10 @@ Scene two_spheres(float gap_mm, float right_radius_mm, MaterialClass right, Vec3
     scene.objects.push_back({.name = "left",
                              .mesh = moved(test::sphere(kRadiusMm, 5), {-kRadiusMm, 0, 0}),
                              .classes = {MaterialClass::skin}});
-    scene.objects.push_back({.name = "right",
-                             .mesh = moved(test::sphere(right_radius_mm, 5), {gap_mm + right_radius_mm, 0, 0}),
-                             .classes = {right}});
+    scene.objects.push_back(
+        {.name = "right",
+         .mesh = moved(test::sphere(right_radius_mm, 5), {gap_mm + right_radius_mm, 0, 0}),
+         .classes = {right}});
     scene.lights.push_back({.intensity = 1, .to_light_world = to_light, .is_key = true});
     scene.camera = {.eye_mm = {0, 0, 80}, .vertical_fov_rad = 0.15f, .near_mm = 1, .far_mm = 200};
     scene.environment.kind = EnvironmentKind::none;
@@ -49,8 +50,8 @@ Estimate estimate_at(const Scene& scene, Vec3 p_mm, Vec3 n) {
     return estimate_exitance(integrator, {p_mm, n}, 400, 3);
 }
 
-// The integral as a plain sum over the triangles of skin. Light from above reaches the upper half of each sphere, as
-// neither is over the other.
+// The integral as a plain sum over the triangles of skin. Light from above reaches the upper half of each
+// sphere, as neither is over the other.
 double sum_over_triangles(const Scene& scene, Vec3 p_mm) {
     double above = 0, below = 0;
     for (const SceneObject& object : scene.objects) {
