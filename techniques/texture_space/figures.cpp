@@ -148,9 +148,7 @@ Figure specular_figure() {
         .id = "specular_shadow",
         .title = "With and without shadowing the specular term",
         .source = kSource + "2.8.7",
-        .note =
-            "Mouth and nose, lit from behind: without shadows lips, nostrils and cheek reflect a light that "
-            "the head hides.",
+        .note = "Lit from behind: without shadows nose, lips and cheek reflect a light that the head hides.",
         .rows = {row}};
 }
 

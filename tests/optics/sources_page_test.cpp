@@ -108,6 +108,23 @@ TEST_F(SourcesPage, states_the_mean_light_of_every_construction) {
         {curve_2015_zonal(0.5)[0][0], zh_0(kHalfRing), zh_0({.construction = Construction::ring}), zh_0({})});
 }
 
+TEST(PreintegratedPage, states_the_error_of_the_zonal_harmonics) {
+    const Result<std::string> page = read_text_file(DERMIS_SOURCE_DIR "/techniques/preintegrated/README.md");
+    ASSERT_TRUE(page);
+    std::smatch stated;
+    ASSERT_TRUE(std::regex_search(
+        *page, stated, std::regex("zonal harmonics \\| polynomials of curvature \\| ([0-9.]+) of")));
+    double largest = 0;
+    for (const std::string& name : profile_names()) {
+        const GaussianSum profile = to_gaussian_sum(*find_profile(name)).sum;
+        if (!check_preintegrable(profile)) continue;
+        for (const Construction construction : {Construction::sphere, Construction::half_ring})
+            largest = std::max(
+                largest, fit_curvature_expressions(profile, {.construction = construction})->max_zonal_error);
+    }
+    EXPECT_NEAR(std::stod(stated[1]), largest, half_a_digit(stated[1]));
+}
+
 // Rows of four numbers: radius in mm, closed form, curve of 2015, the same against its ring.
 TEST(PreintegratedPage, states_the_errors_of_closed_form_and_curves) {
     const Result<std::string> page = read_text_file(DERMIS_SOURCE_DIR "/techniques/preintegrated/README.md");
