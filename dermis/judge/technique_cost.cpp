@@ -42,7 +42,8 @@ Result<void> measure_bytes(const Scene& scene, const Contestant& contestant, int
     if (!profile) return profile.error();
     const auto tables = technique.tables(contestant.values, {.profile = *profile,
                                                              .gaussians = to_gaussian_sum(*profile).sum,
-                                                             .diffuse_table = scene.skin.diffuse_table});
+                                                             .diffuse_table = scene.skin.diffuse_table,
+                                                             .zonal_table = scene.skin.zonal_table});
     if (!tables) return tables.error();
     for (const TableImage& table : *tables) cost.table_bytes += table.bytes.size();
     return {};

@@ -36,7 +36,7 @@ gpu::Values parameter_block(const ParameterValues& values) {
 
 std::string settings_key(const Technique& technique, const ParameterValues& values, const SkinContext& skin) {
     Hasher hasher;
-    hasher.add(technique.id).add(skin.profile.name).add(skin.diffuse_table);
+    hasher.add(technique.id).add(skin.profile.name).add(skin.diffuse_table).add(skin.zonal_table);
     for (const Parameter& parameter : values.table().parameters) hasher.add(values.text(parameter));
     for (const GaussianTerm& term : skin.gaussians.terms)
         hasher.add(term.variance_mm2).add(term.weight[0]).add(term.weight[1]).add(term.weight[2]);
@@ -153,6 +153,7 @@ Result<const SkinContext*> Renderer::skin_context() {
         skin_->profile.name = scene_->skin.profile;
     }
     skin_->diffuse_table = scene_->skin.diffuse_table;
+    skin_->zonal_table = scene_->skin.zonal_table;
     return &*skin_;
 }
 

@@ -223,11 +223,12 @@ Result<Scene> build_scene(const SceneDescription& description, std::span<const S
     if (!description.lights.empty()) stated.lights.clear();
     if (description.environment) stated.environment.reset();
     apply_statements(stated, scene);
-    if (!scene.skin.diffuse_table.empty()) {
-        const Result<fs::path> table = resolve_path(scene.skin.diffuse_table, description.file);
-        if (!table)
-            return Error{description.file.string() + ": skin.diffuse_table: " + table.error().message};
-        scene.skin.diffuse_table = table->string();
+    for (const auto& [key, path] : {std::pair{"skin.diffuse_table: ", &scene.skin.diffuse_table},
+                                    std::pair{"skin.zonal_table: ", &scene.skin.zonal_table}}) {
+        if (path->empty()) continue;
+        const Result<fs::path> table = resolve_path(*path, description.file);
+        if (!table) return Error{description.file.string() + ": " + key + table.error().message};
+        *path = table->string();
     }
     scene.credit = head.credit;
     scene.technique = head.technique;

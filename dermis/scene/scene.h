@@ -76,6 +76,7 @@ struct Skin {
     float specular = 1;                   ///< scales F0
     Vec3 albedo_tint_linear = {1, 1, 1};  ///< multiplies the materials' base colour
     std::string diffuse_table;  ///< a file of `dermis bake lut` for techniques that read one; empty: baked
+    std::string zonal_table;    ///< the same of `dermis bake zh`
 };
 
 /// One mesh with its transform applied. A material is skin, other, or translucent (shadow-casting glass).

@@ -35,7 +35,8 @@ std::vector<fs::path> files_of(const Scene& scene) {
             for (const auto map : kMaps)
                 if (is_on_disk(material.*map)) files.emplace_back((material.*map).name);
     if (scene.environment.kind == EnvironmentKind::file) files.push_back(scene.environment.file);
-    if (!scene.skin.diffuse_table.empty()) files.emplace_back(scene.skin.diffuse_table);
+    for (const std::string& table : {scene.skin.diffuse_table, scene.skin.zonal_table})
+        if (!table.empty()) files.emplace_back(table);
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
     return files;

@@ -218,6 +218,10 @@ const KeyTable<Skin>& skin_keys() {
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})
+            .text(&Skin::zonal_table,
+                  {.name = "zonal_table",
+                   .doc = "path of a table of `dermis bake zh`, with all orders or remapped, read instead of "
+                          "baking one"})
             .number(&Skin::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 2})
             .number(&Skin::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
             .number(&Skin::specular,

@@ -42,6 +42,7 @@ struct SkinContext {
     Profile profile;
     GaussianSum gaussians;           ///< the profile itself, or its fit
     std::string diffuse_table = {};  ///< a file to read instead of baking (bake/table_io.h); empty: none
+    std::string zonal_table = {};    ///< the same for light from the environment
 };
 
 /// A table for the GPU: rows top to bottom, texels tightly packed in `format`.

@@ -77,16 +77,17 @@ Figure curvature_figure() {
     FigureRow shades = {"Diffuse light",
                         {shaded("from the vertices", "vertex"), shaded("from derivatives", "derivative")}};
     shades.cells[1].compare_to = "vertex";
-    shades.cells.push_back({.label = "difference times 8",
+    shades.cells.push_back({.label = "difference times 32",
                             .kind = CellKind::difference,
                             .subject = "derivative",
-                            .compare_to = "vertex"});
+                            .compare_to = "vertex",
+                            .gain = 32});
     return {.id = "curvature",
             .title = "Curvature",
             .source = std::string(kSource) + ": the curvature of the model",
             .note =
                 "Derivatives of the interpolated normal are constant within a facet, so the facets are "
-                "visible; the estimate at the vertices is smoothed over 3 mm of skin.",
+                "visible; the estimate at the vertices is smoothed over 1.8 mm of skin.",
             .rows = {shown, shades}};
 }
 

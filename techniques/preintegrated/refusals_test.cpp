@@ -5,8 +5,10 @@
 
 #include "dermis/bake/lut.h"
 #include "dermis/bake/table_io.h"
+#include "dermis/bake/zonal_table.h"
 #include "dermis/base/file.h"
 #include "dermis/image/io.h"
+#include "dermis/optics/presets.h"
 #include "render/grid_scene.h"
 #include "support/built_in.h"
 #include "support/temporary_directory.h"
@@ -60,6 +62,33 @@ TEST_F(PreintegratedRefusals, a_fitting_table_is_read_instead_of_baking_one) {
     const Image own = draw_grid(scene, settings);
     EXPECT_LT(relative_difference(own, baked_here, 1), 0.04) << "half floats, fewer texels";
     EXPECT_NE(own.bytes, baked_here.bytes) << "it was read at all";
+}
+
+// Light from all around with the 8-bit table, whose steps are 0.0012, and with one that holds other numbers.
+TEST_F(PreintegratedRefusals, a_zonal_table_of_8_bits_is_read_instead_of_baking_one) {
+    Scene scene = load("builtin:spheres");
+    scene.lights.clear();
+    const DrawSettings small = {.width = 64, .height = 64, .view = "diffuse"};
+    const auto drawn = [&] {
+        Renderer renderer = make_renderer(scene);
+        return radiance(renderer, technique(), values_of({}), small);
+    };
+    const Image baked_here = drawn();
+    Table table = *bake_zonal_harmonics({.profile = *find_profile("gpu_gems_3"),
+                                         .curvature = curvature_axis(0, 1),
+                                         .layout = ZonalLayout::two_rows_remapped_8});
+    scene.skin.zonal_table = path("zh.png");
+    ASSERT_TRUE(write_table(path("zh.png"), table, TableStorage::u8));
+    EXPECT_LT(relative_difference(drawn(), baked_here, 1), 0.004);
+    for (float& value : table.data) value *= 0.95f;
+    scene.skin.zonal_table = path("darker.png");
+    ASSERT_TRUE(write_table(path("darker.png"), table, TableStorage::u8));
+    EXPECT_GT(relative_difference(drawn(), baked_here, 1), 0.04);
+    scene.skin.zonal_table = baked("diffuse.exr", [](LutOptions&) {});
+    Renderer renderer = make_renderer(scene);
+    const auto refused = renderer.draw(technique(), values_of({}), small);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("this use needs 'zonal_harmonics'"));
 }
 
 TEST_F(PreintegratedRefusals, tables_for_another_skin_or_integral) {

@@ -18,18 +18,25 @@ constexpr int kLutWidth = 512, kLutHeight = 256, kRows = 257;
 constexpr int kBeckmannWidth = 256, kBeckmannHeight = 256;
 constexpr int kBlendTexels = 97;
 
-// A table from a file, resampled at this technique's texels: its size, range and warp are those of its
-// convention. Kind, construction, axes and profile must be the same.
-Result<TableImage> own_diffuse_table(const TableSettings& settings, const SkinContext& skin) {
-    const Result<Table> table = read_table(skin.diffuse_table, {.kind = TableKind::diffuse,
-                                                                .construction = settings.construction,
-                                                                .u_axis = "n_dot_l",
-                                                                .v_axis = "curvature_per_mm",
-                                                                .profile = skin.profile.name});
+// A table from a file, which is resampled at this technique's texels: its size, range, warp and encoding are
+// those of its convention. Kind, construction, axes and profile must be the same.
+Result<Table> own_table(const std::string& file, TableUse use, const TableSettings& settings,
+                        const SkinContext& skin) {
+    use.construction = settings.construction;
+    use.profile = skin.profile.name;
+    Result<Table> table = read_table(file, use);
     if (!table) return table.error();
-    const TableAxis& curvature = table->convention.axes[1];
-    if (curvature.unit != "1/mm")
-        return Error{skin.diffuse_table + ": curvature is in " + curvature.unit + ", this use needs 1/mm"};
+    for (const TableAxis& axis : table->convention.axes)
+        if (axis.name == "curvature_per_mm" && axis.unit != "1/mm")
+            return Error{file + ": curvature is in " + axis.unit + ", this use needs 1/mm"};
+    return table;
+}
+
+Result<TableImage> own_diffuse_table(const TableSettings& settings, const SkinContext& skin) {
+    const Result<Table> table = own_table(
+        skin.diffuse_table, {.kind = TableKind::diffuse, .u_axis = "n_dot_l", .v_axis = "curvature_per_mm"},
+        settings, skin);
+    if (!table) return table.error();
     std::vector<float> rgba;
     for (int y = 0; y < kLutHeight; ++y)
         for (int x = 0; x < kLutWidth; ++x) {
@@ -60,13 +67,24 @@ Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContex
     return table_image("skin_lut", kLutHeight, rgba);
 }
 
-// Rows at even steps of curvature, both ends included.
+// Rows at even steps of curvature, both ends included. A file replaces the orders that it has: a remapped one
+// lacks the second, which scattering changes least.
 Result<TableImage> zonal_table(const TableSettings& settings, const SkinContext& skin) {
+    Table own;
+    if (!skin.zonal_table.empty()) {
+        Result<Table> table =
+            own_table(skin.zonal_table,
+                      {.kind = TableKind::zonal_harmonics, .u_axis = "curvature_per_mm", .v_axis = "order"},
+                      settings, skin);
+        if (!table) return table.error();
+        own = std::move(*table);
+    }
     std::vector<float> rgba(size_t(kRows) * 3 * 4, 1.0f);
     for (int i = 0; i < kRows; ++i) {
         const double curvature = std::max(double(kMaxCurvaturePerMm) * i / (kRows - 1), 1e-6);
-        const auto zh = preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature,
-                                                      {.construction = settings.construction});
+        auto zh = preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature,
+                                                {.construction = settings.construction});
+        for (size_t l = 0; l < size_t(own.height); ++l) zh[l] = lookup(own, curvature, double(l));
         for (size_t l = 0; l < 3; ++l)
             for (size_t c = 0; c < 3; ++c) rgba[(l * kRows + size_t(i)) * 4 + c] = float(zh[l][c]);
     }
@@ -97,7 +115,8 @@ Result<TableImage> normal_blend_table(const TableSettings& settings, const SkinC
 }
 
 // The tenth root of Beckmann's distribution over u = sqrt(1 - N.H) and v = sqrt(alpha), which is smooth
-// enough to be interpolated; a table over N.H and alpha, as published, loses 11 % of an oily highlight.
+// enough to be interpolated; a table over N.H and alpha, as published, loses 8 % of a highlight's peak at
+// roughness 0.45.
 Result<TableImage> beckmann_table(const TableSettings& settings, const SkinContext&) {
     if (!settings.needs_beckmann)
         return table_image("skin_beckmann", 1, std::vector{0.0f}, ImageFormat::r32f);

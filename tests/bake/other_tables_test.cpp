@@ -8,9 +8,13 @@
 
 #include "dermis/bake/beckmann_table.h"
 #include "dermis/bake/shadow_table.h"
+#include "dermis/bake/table_io.h"
 #include "dermis/bake/table_report.h"
 #include "dermis/bake/zonal_table.h"
+#include "dermis/base/file.h"
+#include "dermis/image/io.h"
 #include "dermis/optics/presets.h"
+#include "support/temporary_directory.h"
 
 using namespace dermis;
 
@@ -56,6 +60,44 @@ TEST(ZonalTable, the_remapped_layout_keeps_8_bit_values_within_half_a_step) {
     for (size_t i = 0; i < table.data.size(); ++i)
         EXPECT_NEAR(stored.data[i], table.data[i], 0.5 * (1.05 - 0.75) / 255 + 1e-6);
     EXPECT_NEAR(encode_value(table.convention, 0.9, 0), 0.5, 1e-12);
+}
+
+// The file itself, byte by byte, and what a reader gets from it.
+TEST(ZonalTable, the_remapped_png_reads_back_as_what_it_should_hold) {
+    const Profile profile = skin();
+    const Preintegration how = {.construction = Construction::half_ring};
+    const Table table = *bake_zonal_harmonics(
+        {.profile = profile, .width = 32, .how = how, .layout = ZonalLayout::two_rows_remapped_8});
+    const TemporaryDirectory directory;
+    const auto path = directory.path / "zh.png";
+    ASSERT_TRUE(write_table(path, table, TableStorage::u8));
+
+    const Image codes = read_image(path, ImageUse::data)->image;
+    ASSERT_EQ(codes.format, PixelFormat::u8);
+    ASSERT_EQ(std::pair(codes.width, codes.height), std::pair(32, 2));
+    EXPECT_FALSE(png_is_flagged_srgb(*read_file(path)));
+    const auto read = read_table(path, {.kind = TableKind::zonal_harmonics,
+                                        .construction = Construction::half_ring,
+                                        .u_axis = "curvature_per_mm",
+                                        .v_axis = "order",
+                                        .profile = profile.name});
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->convention.encoding, TableEncoding::range);
+    EXPECT_EQ(std::pair(read->convention.encoded_min, read->convention.encoded_max), std::pair(0.75, 1.05));
+    int different_codes = 0;
+    for (int x = 0; x < 32; ++x) {
+        const double curvature = 0.5 * (x + 0.5) / 32;
+        const auto exact = preintegrated_zonal_harmonics(gpu_gems_3_skin(), 1 / curvature, how);
+        for (int l = 0; l < 2; ++l)
+            for (int c = 0; c < 3; ++c) {
+                const double value = exact[size_t(l)][size_t(c)];
+                const double code = std::round((value - 0.75) / (1.05 - 0.75) * 255);
+                EXPECT_EQ(std::round(codes.at(x, l, c) * 255), code) << x << ", " << l;
+                EXPECT_NEAR(read->at(x, l, c), value, 0.5 * (1.05 - 0.75) / 255 + 1e-6);
+                different_codes += code != std::round((exact[size_t(l)][1] - 0.75) / 0.3 * 255);
+            }
+    }
+    EXPECT_GT(different_codes, 32) << "red is another curve than green";
 }
 
 TEST(Beckmann, is_a_normalised_distribution) {

@@ -1,4 +1,5 @@
-// The documentation names files, headings, parameters of techniques and benchmarks: each of them exists.
+// The documentation names files, headings, parameters of techniques, benchmarks and tests: each of them
+// exists.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -123,6 +124,29 @@ std::string wrong_setting(const std::string& code) {
     return {};
 }
 
+// Every test as "folder.Suite.name", with the folder of tests/, techniques/ or subjects/ that has it.
+const std::set<std::string>& all_tests() {
+    static const std::set<std::string> kTests = [] {
+        static const std::regex head("TEST(?:_F|_P)?\\((\\w+),\\s*(\\w+)\\)");
+        std::set<std::string> tests;
+        for (const std::string& file : source_files()) {
+            const fs::path path = file;
+            if (!path.stem().string().ends_with("_test")) continue;
+            const std::string text = read(kRoot / file.substr(1)),
+                              folder = path.parent_path().filename().string();
+            for (std::sregex_iterator it(text.begin(), text.end(), head), end; it != end; ++it)
+                tests.insert(folder + "." + (*it)[1].str() + "." + (*it)[2].str());
+        }
+        return tests;
+    }();
+    return kTests;
+}
+
+std::vector<std::string> tests_named_in(const std::string& text) {
+    static const std::regex name("`([a-z0-9_]+\\.[A-Z]\\w*\\.\\w+)`");
+    return matches(text, name, 1);
+}
+
 }  // namespace
 
 TEST(Docs, every_file_and_heading_that_a_page_links_exists) {
@@ -183,11 +207,40 @@ TEST(Docs, every_setting_that_a_page_on_techniques_names_is_one_of_a_technique) 
     }
 }
 
+TEST(Docs, every_test_that_a_page_names_exists) {
+    size_t found = 0;
+    for (const fs::path& page : pages())
+        for (const std::string& name : tests_named_in(read(page))) {
+            EXPECT_TRUE(all_tests().contains(name)) << page << ": " << name;
+            ++found;
+        }
+    EXPECT_GT(found, 80u);
+}
+
+// A part without a test says so by a dash, or refers to another table.
+TEST(Docs, every_part_of_a_source_names_its_tests) {
+    size_t rows = 0;
+    std::istringstream lines(read(kRoot / "docs/sources.md"));
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("| ") || line.ends_with("tests |")) continue;
+        const size_t bar = line.rfind(" | ");
+        ASSERT_NE(bar, std::string::npos) << line;
+        const std::string tests = line.substr(bar);
+        EXPECT_TRUE(!tests_named_in(tests).empty() || tests == " | — |" || tests.ends_with("below |"))
+            << line;
+        ++rows;
+    }
+    EXPECT_GT(rows, 45u);
+}
+
 TEST(Docs, unknown_files_headings_and_settings_are_found) {
     EXPECT_FALSE(exists("dermis/render/no_such_file"));
     EXPECT_TRUE(exists("dermis/render/renderer"));
     EXPECT_FALSE(is_source("no_such_test.cpp"));
     EXPECT_TRUE(is_source("docs_names_test.cpp"));
+    EXPECT_EQ(tests_named_in("see `cli.Docs.no_such` and `docs_names_test.cpp`"),
+              std::vector<std::string>{"cli.Docs.no_such"});
+    EXPECT_FALSE(all_tests().contains("cli.Docs.no_such"));
     const fs::path page = kRoot / "docs/terminology.md";
     EXPECT_EQ(wrong_link(page, "profiles.md#no-such-heading"), "no heading #no-such-heading");
     EXPECT_EQ(wrong_link(page, "profiles.md#sums-of-gaussians"), "");

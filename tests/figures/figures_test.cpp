@@ -149,6 +149,20 @@ TEST_F(Figures, of_every_technique_can_be_drawn) {
     }
 }
 
+// A figure of with and without whose pictures agree shows nothing.
+TEST_F(Figures, of_texture_space_show_what_they_are_about) {
+    for (const char* id : {"kernel_ear", "specular_shadow", "translucent_shadow", "blur", "dilation"}) {
+        const auto figures = figures_of(built_in_technique("texture_space"), id);
+        ASSERT_TRUE(figures);
+        const Result<FigureResult> result = draw_figure(renderer_, font_, figures->front(), 64);
+        ASSERT_TRUE(result) << result.error().message;
+        for (const CellReport& cell : result->cells)
+            if (!cell.compared_to.empty()) {
+                EXPECT_GT(cell.difference.flip, 0.013) << id << ", " << cell.label;
+            }
+    }
+}
+
 TEST(FiguresOf, a_technique_are_found_by_id) {
     EXPECT_EQ(figures_of(built_in_technique("lambert")).error().message,
               "technique 'lambert' has no figures");

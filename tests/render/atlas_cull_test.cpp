@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "render/render_test.h"
@@ -118,6 +119,39 @@ TEST_F(AtlasCull, an_exempt_region_is_kept) {
                                                    {"exempt_1_radius", "0.04"}}))
                                   .second;
     EXPECT_GT(with_ear, without);
+}
+
+// From the front, where the backs of the ears face away.
+TEST_F(AtlasCull, the_ears_of_the_scene_with_glasses_are_exempt) {
+    const Scene scene = load("glasses");
+    Renderer renderer = make_renderer(scene);
+    ParameterValues exempt =
+        with({{"light_map_size", "256"}, {"blur_passes", "0"}, {"space", "texels"}, {"cull_frustum", "off"}});
+    for (const auto& [name, text] : scene.settings) ASSERT_TRUE(exempt.set(name, text)) << name;
+    ParameterValues culled = exempt, whole = exempt;
+    for (const char* name : {"exempt_1_radius", "exempt_2_radius"}) ASSERT_TRUE(culled.set(name, "0"));
+    ASSERT_TRUE(whole.set("cull_back_face", "off"));
+    // Written texels around the middle of the first ear, and the sum of their kernel's size.
+    double kernel = 0;
+    const auto lit = [&](const ParameterValues& values) {
+        draw(renderer, values);
+        const Image map = to_linear_float(*renderer.read("light_map_a"));
+        const auto number = [&](const char* name) { return std::stod(scene.settings.at(name)); };
+        const double u = number("exempt_1_u"), v = number("exempt_1_v"), radius = number("exempt_1_radius");
+        int count = 0;
+        kernel = 0;
+        for (int y = 0; y < map.height; ++y)
+            for (int x = 0; x < map.width; ++x)
+                if (std::hypot((x + 0.5) / map.width - u, (y + 0.5) / map.height - v) < radius &&
+                    map.at(x, y, 3) < 0.999f)
+                    ++count, kernel += map.at(x, y, 3);
+        return count;
+    };
+    const int all = lit(whole);
+    EXPECT_GT(all, 1000);
+    EXPECT_GT(kernel / all, 0.3) << "an ear is thin";
+    EXPECT_EQ(lit(exempt), all);
+    EXPECT_LT(lit(culled), all);
 }
 
 TEST_F(AtlasCull, far_away_the_last_light_map_is_used_and_looks_the_same) {

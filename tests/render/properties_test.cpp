@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "dermis/image/io.h"
 #include "dermis/scene/brdf_table.h"
@@ -37,6 +36,22 @@ void scale_lengths(Scene& scene, float factor) {
 Scene key_light_only(Scene scene) {
     std::erase_if(scene.lights, [](const Light& light) { return !light.is_key; });
     scene.environment.kind = EnvironmentKind::none;
+    scene.background_linear = {};
+    return scene;
+}
+
+// One sphere that sees radiance 1 from everywhere.
+Scene sphere_in_furnace(Scene scene, const TemporaryDirectory& directory, float albedo) {
+    scene.lights.clear();
+    scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 3);
+    Mesh& mesh = scene.objects[0].mesh;
+    mesh.materials[0].base_color_linear = {albedo, albedo, albedo};
+    mesh.occlusions.assign(mesh.positions_mm.size(), 1.0f);
+    Image white(64, 32, 3);
+    std::ranges::fill(white.floats(), 1.0f);
+    const auto panorama = directory.path / "white.exr";
+    EXPECT_TRUE(write_image(panorama, white));
+    scene.environment = {.kind = EnvironmentKind::file, .file = panorama, .intensity = 1};
     scene.background_linear = {};
     return scene;
 }
@@ -108,19 +123,8 @@ TEST_F(Properties, without_a_specular_model_nothing_is_reflected) {
 TEST_F(Properties, no_technique_adds_energy_in_a_white_furnace) {
     // The diffuse light of a white sphere under an environment of constant radiance is 1, with any
     // scattering.
-    Scene scene = load("builtin:spheres");
-    scene.lights.clear();
-    scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 3);
-    for (SceneObject& object : scene.objects) {
-        object.mesh.materials[0].base_color_linear = {1, 1, 1};
-        object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1.0f);
-    }
-    const auto panorama = std::filesystem::temp_directory_path() / "dermis-furnace.exr";
-    Image white(64, 32, 3);
-    std::ranges::fill(white.floats(), 1.0f);
-    ASSERT_TRUE(write_image(panorama, white));
-    scene.environment = {.kind = EnvironmentKind::file, .file = panorama, .intensity = 1};
-    scene.background_linear = {};
+    const TemporaryDirectory directory;
+    const Scene scene = sphere_in_furnace(load("builtin:spheres"), directory, 1);
     Renderer renderer = make_renderer(scene);
     for (const Technique& technique : built_in_catalog().techniques) {
         DrawSettings diffuse = kSmall;
@@ -137,7 +141,25 @@ TEST_F(Properties, no_technique_adds_energy_in_a_white_furnace) {
         }
         EXPECT_LT(largest_value(image), 1.02) << technique.id;
     }
-    std::filesystem::remove(panorama);
+}
+
+// The diffuse light is not reduced by what is reflected: an albedo of fair skin leaves room for both.
+TEST_F(Properties, skin_and_its_reflection_return_less_light_than_arrives) {
+    const TemporaryDirectory directory;
+    const Scene scene = sphere_in_furnace(load("builtin:spheres"), directory, 0.75f);
+    Renderer renderer = make_renderer(scene);
+    for (const Technique& technique : built_in_catalog().techniques) {
+        const Image image = radiance(renderer, technique, kSmall);
+        double sum = 0;
+        int count = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                if (image.at(x, y, 3) == 1) sum += image.at(x, y, 0), ++count;
+        EXPECT_LT(largest_value(image), 1) << technique.id;
+        if (technique.id != "oren_nayar") {
+            EXPECT_NEAR(sum / count, 0.75 + 0.047, 0.002) << technique.id;
+        }
+    }
 }
 
 TEST_F(Properties, the_vertices_occlusion_and_the_maps_are_counted_once) {
@@ -163,19 +185,11 @@ TEST_F(Properties, the_vertices_occlusion_and_the_maps_are_counted_once) {
 }
 
 TEST_F(Properties, reflections_of_a_white_furnace_are_the_split_sum) {
-    Scene scene = load("builtin:spheres");
-    scene.lights.clear();
-    scene.objects.erase(scene.objects.begin(), scene.objects.begin() + 3);
-    SceneObject& sphere = scene.objects[0];
-    sphere.mesh.materials[0].ior = 1.5f;
-    sphere.mesh.materials[0].roughness = 0.3f;
-    sphere.mesh.occlusions.assign(sphere.mesh.positions_mm.size(), 1.0f);
     const TemporaryDirectory directory;
-    Image white(64, 32, 3);
-    std::ranges::fill(white.floats(), 1.0f);
-    ASSERT_TRUE(write_image(directory.path / "white.exr", white));
-    scene.environment = {.kind = EnvironmentKind::file, .file = directory.path / "white.exr", .intensity = 1};
-    scene.background_linear = {};
+    Scene scene = sphere_in_furnace(load("builtin:spheres"), directory, 1);
+    Material& skin = scene.objects[0].mesh.materials[0];
+    skin.ior = 1.5f;
+    skin.roughness = 0.3f;
     Renderer renderer = make_renderer(scene);
     DrawSettings settings = kSmall;
     settings.view = "specular";
