@@ -1,7 +1,8 @@
 // All techniques against the ground truth, as docs/scoreboard.csv, .md and .svg. Run it by tools/scoreboard.
 //
-//     build/bench/scoreboard_bench DIRECTORY [SIZE] [SCENE...]
+//     build/bench/scoreboard_bench DIRECTORY [SIZE] [SCENE...] [--techniques LIST]
 //
+// --techniques takes a list as `dermis compare` does; a scene then has rows of these alone.
 // A missing scene is skipped with a message and its old rows are kept. The rows of a scene are cached under a
 // hash of this program, the scene and the settings: a run that was stopped continues with the scene it was
 // at, and with its ground truth.
@@ -56,17 +57,18 @@ int fail(const std::string& message) {
 }
 
 Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& name, const Scene& scene,
+                                      const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings) {
     Progress line("ground truth of " + name, 0);
     std::optional<Progress> techniques;
-    const Result<Comparison> comparison = compare_techniques(
-        device, built_in_catalog(), scene, scoreboard_contestants(built_in_catalog().techniques), settings,
-        {.reference = [&](double done) { line.set(done); },
-         .techniques =
-             [&](double done, const std::string& technique) {
-                 if (!techniques) techniques.emplace(name, 0);
-                 techniques->set(done, name + ": " + technique);
-             }});
+    const Result<Comparison> comparison =
+        compare_techniques(device, built_in_catalog(), scene, contestants, settings,
+                           {.reference = [&](double done) { line.set(done); },
+                            .techniques =
+                                [&](double done, const std::string& technique) {
+                                    if (!techniques) techniques.emplace(name, 0);
+                                    techniques->set(done, name + ": " + technique);
+                                }});
     if (!comparison) return comparison.error();
     const EffectTruth& truth = comparison->truth;
     std::printf("%s: ground truth of %d samples a pixel in %.0f s%s, noise %.2f of the effect%s\n",
@@ -78,7 +80,8 @@ Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& na
 
 // Everything that a scene's rows depend on: this program with its shaders and techniques, the scene, the
 // settings.
-Result<std::string> rows_hash(const Scene& scene, const ComparisonSettings& settings) {
+Result<std::string> rows_hash(const Scene& scene, const std::vector<Contestant>& contestants,
+                              const ComparisonSettings& settings) {
     const Result<std::vector<std::byte>> program = read_file("/proc/self/exe");
     if (!program) return program.error();
     ReferenceSettings reference = settings.reference;
@@ -86,8 +89,9 @@ Result<std::string> rows_hash(const Scene& scene, const ComparisonSettings& sett
     reference.height = settings.height;
     const Result<std::string> truth = reference_hash(scene, reference);
     if (!truth) return truth.error();
-    return Hasher()
-        .add(std::span(*program))
+    Hasher hasher;
+    for (const Contestant& contestant : contestants) hasher.add(std::string_view(contestant.name()));
+    return hasher.add(std::span(*program))
         .add(std::string_view(*truth))
         .add(settings.grid)
         .add(settings.noise)
@@ -128,21 +132,29 @@ Result<SubjectCase> scene_of(Job& job) {
     return std::move(*job.made);
 }
 
+struct MadeRows {
+    std::vector<ScoreRow> rows;
+    bool from_cache = false;
+};
+
 // From the cache, or computed and stored there.
-Result<std::vector<ScoreRow>> rows_of(gpu::Device& device, const std::string& name, const Scene& scene,
-                                      const ComparisonSettings& settings) {
-    const Result<std::string> hash = rows_hash(scene, settings);
+Result<MadeRows> rows_of(gpu::Device& device, const std::string& name, const Scene& scene,
+                         const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
+    const Result<std::string> hash = rows_hash(scene, contestants, settings);
     if (!hash) return hash.error();
     if (const auto bytes = cache_load("scoreboard", *hash)) {
         std::printf("%s: was made before\n", name.c_str());
-        return parse_scores({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+        Result<std::vector<ScoreRow>> rows =
+            parse_scores({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+        if (!rows) return rows.error();
+        return MadeRows{std::move(*rows), true};
     }
-    Result<std::vector<ScoreRow>> rows = compare(device, name, scene, settings);
+    Result<std::vector<ScoreRow>> rows = compare(device, name, scene, contestants, settings);
     if (!rows) return rows.error();
     const std::string text = scores_csv(*rows);
     const auto bytes = std::as_bytes(std::span(text));
     cache_store("scoreboard", *hash, {bytes.begin(), bytes.end()});
-    return rows;
+    return MadeRows{std::move(*rows), false};
 }
 
 Result<std::vector<ScoreRow>> kept_rows(const std::filesystem::path& csv) {
@@ -162,45 +174,78 @@ Result<void> write(const std::filesystem::path& directory, const std::vector<Sco
     return write_text_file(directory / "scoreboard.md", heading + scoreboard_markdown(rows));
 }
 
-}  // namespace
+using Clock = std::chrono::steady_clock;
 
-int main(int argc, char** argv) {
-    if (argc < 2) return fail("name the directory for scoreboard.csv, .md and .svg");
-    const std::filesystem::path directory = argv[1];
-    const int size = argc > 2 ? std::atoi(argv[2]) : 256;
-    if (size < 16 || size > 4096) return fail("a size of 16 to 4096");
-    std::vector<std::string> names(argv + std::min(argc, 3), argv + argc);
-    if (names.empty()) names.assign(std::begin(kScenes), std::end(kScenes));
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Scenes that were in the cache say nothing of how long the others take.
+void print_what_is_left(size_t left, size_t all, double made_s, size_t made) {
+    if (left == 0) return;
+    std::printf("%zu of %zu scenes are left", left, all);
+    if (made > 0)
+        std::printf(", about %.0f min if they take as long", made_s / double(made) * double(left) / 60);
+    std::printf("\n");
+}
+
+Result<void> make_board(gpu::Device& device, const std::filesystem::path& directory, int size,
+                        std::vector<Job> jobs, const std::vector<Contestant>& contestants) {
     Result<std::vector<ScoreRow>> rows = kept_rows(directory / "scoreboard.csv");
-    if (!rows) return fail(rows.error().message);
-    Result<gpu::Device> device = gpu::Device::create({});
-    if (!device) return fail(device.error().message);
+    if (!rows) return rows.error();
     ComparisonSettings settings = comparison_settings(size, size);
     settings.frames = 2;
-    std::setvbuf(stdout, nullptr, _IOLBF, 0);
-    Result<std::vector<Job>> jobs = jobs_of(names);
-    if (!jobs) return fail(jobs.error().message);
-    const auto start = std::chrono::steady_clock::now();
-    for (size_t i = 0; i < jobs->size(); ++i) {
-        Job& job = (*jobs)[i];
+    double made_s = 0;
+    size_t made = 0;
+    for (size_t i = 0; i < jobs.size(); ++i) {
         ComparisonSettings own = settings;
-        if (job.made) own.width = own.height = std::min(size, kCaseSize);
-        const Result<SubjectCase> one = scene_of(job);
+        if (jobs[i].made) own.width = own.height = std::min(size, kCaseSize);
+        const Clock::time_point start = Clock::now();
+        const Result<SubjectCase> one = scene_of(jobs[i]);
         if (!one) {
-            std::printf("%s is passed over, its rows stay: %s\n", job.name.c_str(),
+            std::printf("%s is passed over, its rows stay: %s\n", jobs[i].name.c_str(),
                         one.error().message.c_str());
             continue;
         }
         own.exact = one->exact;
-        const Result<std::vector<ScoreRow>> made = rows_of(*device, one->name, one->scene, own);
-        if (!made) return fail(one->name + ": " + made.error().message);
-        rows = merged(std::move(*rows), *made);
-        if (auto written = write(directory, *rows, device->info().name, size); !written)
-            return fail(written.error().message);
-        const double done_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        const size_t left = jobs->size() - i - 1;
-        if (left > 0)
-            std::printf("%zu of %zu scenes are left, about %.0f min if they take as long\n", left,
-                        jobs->size(), done_s / double(i + 1) * double(left) / 60);
+        const Result<MadeRows> now = rows_of(device, one->name, one->scene, contestants, own);
+        if (!now) return Error{one->name + ": " + now.error().message};
+        rows = merged(std::move(*rows), now->rows);
+        if (Result<void> written = write(directory, *rows, device.info().name, size); !written)
+            return written;
+        if (!now->from_cache) {
+            made_s += seconds_since(start);
+            ++made;
+        }
+        print_what_is_left(jobs.size() - i - 1, jobs.size(), made_s, made);
     }
+    return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    std::vector<Contestant> contestants = scoreboard_contestants(built_in_catalog().techniques);
+    if (const auto flag = std::ranges::find(words, "--techniques"); flag != words.end()) {
+        if (flag + 1 == words.end()) return fail("--techniques needs a list");
+        Result<std::vector<Contestant>> list =
+            parse_technique_list(built_in_catalog().techniques, *(flag + 1));
+        if (!list) return fail(list.error().message);
+        contestants = std::move(*list);
+        words.erase(flag, flag + 2);
+    }
+    if (words.empty()) return fail("name the directory for scoreboard.csv, .md and .svg");
+    const int size = words.size() > 1 ? std::atoi(words[1].c_str()) : 256;
+    if (size < 16 || size > 4096) return fail("a size of 16 to 4096");
+    std::vector<std::string> names(words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2),
+                                   words.end());
+    if (names.empty()) names.assign(std::begin(kScenes), std::end(kScenes));
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    Result<gpu::Device> device = gpu::Device::create({});
+    if (!device) return fail(device.error().message);
+    Result<std::vector<Job>> jobs = jobs_of(names);
+    if (!jobs) return fail(jobs.error().message);
+    const Result<void> done = make_board(*device, words[0], size, std::move(*jobs), contestants);
+    return done ? 0 : fail(done.error().message);
 }

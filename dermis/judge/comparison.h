@@ -32,8 +32,7 @@ struct ComparisonSettings {
     int grid = 6;        ///< both sides take grid x grid points of a pixel (docs/ground_truth.md: how many)
     double noise = 0.2;  ///< of the effect's RMS at which the truth is fine enough
     int samples = 2048;  ///< of the truth a pixel, at most
-    /// Of the truth a sample. The bias of its quotient of two integrals falls as 1 / probes^2: with 16 a
-    /// twentieth of the effect on spheres of 2 and 8 mm was missing, with 64 it is below the noise.
+    /// Of the truth a sample. The bias of its quotient of two integrals is below a hundredth of the effect.
     int probes = 64;
     int frames = 5;  ///< timed ones, after one that compiles; 0: none are
     /// Integrator, lighting and seed of the truth. Its size is the comparison's. The defaults are

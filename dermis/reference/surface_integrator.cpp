@@ -28,10 +28,13 @@ Vec3 quotient(Vec3 a, Vec3 b) {
     return {quotient(a.x, b.x), quotient(a.y, b.y), quotient(a.z, b.z)};
 }
 
-// The quotient of both halves together, less its bias, which is twice as large in each half alone. Where all
-// probes of a half missed, the plain quotient is used.
+// The quotient of all probes, less its bias. The bias is as the variance of the sums, which falls as n^-1.2
+// to n^-1.3 with these points, not as 1/n (measured on spheres of 2 mm, 8 to 64 probes): in a half it is 2.3
+// to 2.45 times that of the whole. Where all probes of a half missed, the plain quotient is used.
+constexpr float kOfTheDifference = 1 / (2.33f - 1);
 float jackknife(float all, float first, float second, float first_weight, float second_weight) {
-    return first_weight > 0 && second_weight > 0 ? 2 * all - 0.5f * (first + second) : all;
+    if (first_weight <= 0 || second_weight <= 0) return all;
+    return all + kOfTheDifference * (all - 0.5f * (first + second));
 }
 
 // First the axis of the disk, then the two directions that span it.
@@ -92,8 +95,10 @@ void SurfaceIntegrator::probe(const DiffusePoint& point, const LocalFrame& frame
 Vec3 SurfaceIntegrator::exitance(const DiffusePoint& point, uint32_t seed) const {
     const LocalFrame frame = frame_of(point.n_geometry);
     Sums half[2];
-    // Neighbours in the sequence go to different halves, so that both cover the domain evenly.
-    for (int i = 0; i < settings_.probes; ++i) probe(point, frame, seed, uint32_t(i), half[i & 1]);
+    // Each half is a run of the sequence, as evenly spread as the whole. Every second probe is not: as their
+    // order is shuffled, it is a random half, whose bias is more than twice that of the whole.
+    for (int i = 0; i < settings_.probes; ++i)
+        probe(point, frame, seed, uint32_t(i), half[2 * i >= settings_.probes]);
     const Sums all{half[0].irradiance + half[1].irradiance, half[0].reflectance + half[1].reflectance};
     if (settings_.normalisation == Normalisation::none)
         return all.irradiance * (1.0f / float(settings_.probes));

@@ -11,8 +11,7 @@
 // Estimated by probes (King, Kulla, Conty, Fajardo 2013, BSSRDF Importance Sampling): a disk around x takes a
 // radius from the profile, a segment through it finds the surface, and the three axes the disk may have are
 // combined by their densities. Both integrals use the same probes, so that an even irradiance has no noise at
-// all; the bias of such a quotient, which falls as 1 / probes, is removed to first order by the jackknife
-// (Quenouille 1956).
+// all; most of the bias of such a quotient is removed by the jackknife (Quenouille 1956).
 
 #include "dermis/rays/sampling.h"
 #include "dermis/reference/lighting.h"

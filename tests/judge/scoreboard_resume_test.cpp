@@ -1,0 +1,96 @@
+// tools/scoreboard's program, stopped in the middle: the next run goes on where it was.
+
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "dermis/base/file.h"
+#include "dermis/judge/scoreboard.h"
+#include "test_paths.h"
+
+using namespace dermis;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+constexpr const char* kProgram = DERMIS_BINARY_DIR "/bench/scoreboard_bench";
+
+class ScoreboardProgram : public testing::Test {
+  protected:
+    const std::filesystem::path directory_ =
+        std::filesystem::temp_directory_path() / ("dermis_scoreboard_" + std::to_string(::getpid()));
+
+    void SetUp() override { std::filesystem::create_directories(directory_); }
+    void TearDown() override { std::filesystem::remove_all(directory_); }
+
+    struct Run {
+        std::string output;
+        int status = 0;
+    };
+
+    /// The board of two scenes at the smallest size, with a cache of its own. A line that holds `stop_at`
+    /// stops it by SIGTERM.
+    [[nodiscard]] Run run(const std::string& stop_at = "") const {
+        int ends[2];
+        EXPECT_EQ(::pipe(ends), 0);
+        const pid_t child = ::fork();
+        if (child == 0) {
+            ::dup2(ends[1], STDOUT_FILENO);
+            ::close(ends[0]);
+            ::setenv("DERMIS_CACHE", (directory_ / "cache").c_str(), 1);
+            ::execl(kProgram, kProgram, directory_.c_str(), "16", "spheres", "backlit", "--techniques",
+                    "lambert,wrap", nullptr);
+            ::_exit(127);
+        }
+        ::close(ends[1]);
+        Run result;
+        FILE* lines = ::fdopen(ends[0], "r");
+        char line[1024];
+        while (std::fgets(line, sizeof line, lines)) {
+            result.output += line;
+            if (!stop_at.empty() && std::string_view(line).find(stop_at) != std::string_view::npos)
+                ::kill(child, SIGTERM);
+        }
+        std::fclose(lines);
+        ::waitpid(child, &result.status, 0);
+        return result;
+    }
+
+    [[nodiscard]] size_t rows_of(const std::string& scene) const {
+        const auto text = read_text_file(directory_ / "scoreboard.csv");
+        if (!text) return 0;
+        const auto rows = parse_scores(*text);
+        EXPECT_TRUE(rows) << rows.error().message;
+        return size_t(std::ranges::count(*rows, scene, &ScoreRow::scene));
+    }
+};
+
+}  // namespace
+
+TEST_F(ScoreboardProgram, goes_on_where_it_was_stopped) {
+    if (!std::filesystem::exists(kProgram)) GTEST_SKIP() << "built without benchmarks";
+    const Run first = run("1 of 2 scenes are left");
+    EXPECT_TRUE(WIFSIGNALED(first.status)) << first.output;
+    EXPECT_THAT(first.output, HasSubstr("spheres: ground truth of"));
+    EXPECT_THAT(first.output, HasSubstr("1 of 2 scenes are left, about"));
+    EXPECT_EQ(rows_of("spheres"), 2u);
+    EXPECT_EQ(rows_of("backlit"), 0u);
+
+    const Run second = run();
+    EXPECT_EQ(second.status, 0);
+    EXPECT_THAT(second.output, HasSubstr("spheres: was made before"));
+    EXPECT_THAT(second.output, Not(HasSubstr("spheres: ground truth of")));
+    EXPECT_THAT(second.output, HasSubstr("1 of 2 scenes are left\n")) << "the cache is no measure of time";
+    EXPECT_THAT(second.output, HasSubstr("backlit: ground truth of"));
+    EXPECT_EQ(rows_of("spheres"), 2u);
+    EXPECT_EQ(rows_of("backlit"), 2u);
+
+    const Run third = run();
+    EXPECT_THAT(third.output, HasSubstr("backlit: was made before"));
+}
