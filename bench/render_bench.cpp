@@ -48,17 +48,20 @@ Run run_of(const std::string& id, const std::string& parameter = "", const std::
     return run;
 }
 
-// Lambert, then every technique (or one), and the settings of preintegrated whose costs its README states.
+// Lambert, then every technique (or one), those that have transmission without it too, and the settings of
+// preintegrated whose costs its README states.
 std::vector<Run> runs(const std::string& only) {
     std::vector<Run> all = {run_of("lambert")};
     for (const Technique& technique : built_in_catalog().techniques) {
         if (technique.id == "lambert" || (!only.empty() && technique.id != only)) continue;
         all.push_back(run_of(technique.id));
+        Run without = run_of(technique.id);
+        without.name += " transmission=none";
+        if (without.values.set("transmission", "none")) all.push_back(std::move(without));
         if (technique.id != "preintegrated") continue;
         all.push_back(run_of(technique.id, "diffuse", "closed_form"));
         all.push_back(run_of(technique.id, "normals", "sharp"));
         all.push_back(run_of(technique.id, "shadow", "plain"));
-        all.push_back(run_of(technique.id, "transmission", "shadow_map"));
     }
     return all;
 }

@@ -29,6 +29,7 @@ void read_shadows(Pass& pass, int shadow_map_count, bool has_translucent) {
                                 exists && has_translucent ? shadow_image("shadow_tint", i) : "no_image");
     }
     pass.constants.emplace_back("tinted_shadows", int32_t(has_translucent));
+    pass.constants.emplace_back("shadow_map_count", int32_t(shadow_map_count));
 }
 
 Pass forward_skin_pass(std::string shader, SpecularModel specular, const FrameContext& frame,

@@ -7,7 +7,6 @@ namespace dermis {
 namespace {
 
 constexpr const char* kTable = "skin_transmission";
-constexpr int kTexels = 257;
 constexpr double kPartReached = 0.9999;
 
 }  // namespace
@@ -33,8 +32,9 @@ double transmission_reach_mm(const Profile& profile) {
 TableImage transmission_table(const SkinContext& skin) {
     const double reach = transmission_reach_mm(skin.profile);
     std::vector<float> rgba;
-    for (int i = 0; i < kTexels; ++i) {
-        const double distance_mm = reach * std::max(double(i) / (kTexels - 1), kTransmissionNearest);
+    for (int i = 0; i < kTransmissionTexels; ++i) {
+        const double distance_mm =
+            reach * std::max(double(i) / (kTransmissionTexels - 1), kTransmissionNearest);
         for (int c = 0; c < 3; ++c) {
             const double albedo = diffuse_albedo(skin.profile, c);
             rgba.push_back(albedo > 0 ? float(reflectance_per_mm2(skin.profile, c, distance_mm) / albedo)

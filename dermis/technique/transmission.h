@@ -20,8 +20,8 @@ inline constexpr const char* kTransmissionHelp =
 void read_transmission(Pass& pass, Transmission transmission);
 
 /// "skin_transmission", which shadow_map reads: the profile's R per mm^2 over its integral, as the albedo map
-/// holds the albedo, at even steps of distance from 0 to reach_mm(), both ends included, and the reach in
-/// alpha.
+/// holds the albedo, at even steps of distance from 0 to transmission_reach_mm(), both ends included, and the
+/// reach in alpha.
 [[nodiscard]] TableImage transmission_table(const SkinContext& skin);
 
 /// The table as a technique's tables; none where nothing is transmitted.

@@ -22,6 +22,7 @@ const int kSpecularNone = 0, kSpecularBlinnPhong = 1, kSpecularGgx = 2, kSpecula
 
 // Specialisation constant transmission.
 const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
+const int kTransmissionTexels = 1025;  // of the table skin_transmission
 
 // Specialisation constant view. Own: the technique's own debug view.
 const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;

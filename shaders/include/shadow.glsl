@@ -11,6 +11,8 @@ uniform texture2D shadow_map, shadow_map_1, shadow_map_2;
 uniform texture2D shadow_tint, shadow_tint_1, shadow_tint_2;
 
 layout(constant_id = 30) const int tinted_shadows = 0;
+// Where it is known to be 1, nothing is compiled that looks for another map: a software device takes every branch.
+layout(constant_id = 32) const int shadow_map_count = kMaxShadowMaps;
 
 const int kShadowTaps = 24;
 const int kTintTaps = 12;
@@ -115,7 +117,7 @@ LightThrough light_through(int light, vec3 p_world_mm, vec3 n_geometry_world, ve
     ShadowDisk disk = shadow_disk(lights[light].light_view_projection, p_world_mm, n_geometry_world, to_light_world,
                                   filter_radius_mm(width_mm));
     if (outside_shadow_map(disk.center)) return LightThrough(1.0, vec3(1.0));
-    if (index == 0) return disk_through(shadow_map, shadow_tint, disk);
+    if (shadow_map_count == 1 || index == 0) return disk_through(shadow_map, shadow_tint, disk);
     if (index == 1) return disk_through(shadow_map_1, shadow_tint_1, disk);
     return disk_through(shadow_map_2, shadow_tint_2, disk);
 }

@@ -1,6 +1,6 @@
 // Light that enters the skin elsewhere and leaves here, gathered from the shadow maps (Dachsbacher and Stamminger 2003,
-// "Translucent Shadow Maps"): every texel holds a lit point of the skin, and whatever way that faces, the light it takes in
-// is what falls on the texel's own area. So int E R(|x - y|) dA over the lit side is a sum over texels without normals.
+// "Translucent Shadow Maps"): every texel holds a lit point of the skin, and whatever way that faces, the light it takes
+// in is what falls on the texel's own area. So int E R(|x - y|) dA over the lit side is a sum over texels without normals.
 //
 // The light that leaves at x is that integral over the one of R alone, which is 1 on flat skin and more where there is
 // skin behind x too: how much more is summed over the lit points off its tangent plane.
@@ -19,15 +19,22 @@
 
 layout(constant_id = 31) const int transmission = kTransmissionNone;
 
-// R per mm^2 over its integral, and in alpha the reach in mm. With DERMIS_TRANSMISSION_EXPRESSION the includer defines it.
-vec4 transmission_row(float distance_over_reach);
+// R per mm^2 over its integral, at a part of the reach. With DERMIS_TRANSMISSION_EXPRESSION the includer defines both.
+vec3 transmission_profile(float distance_over_reach);
+float transmission_reach();
 
-const int kTransmissionTaps = 48;
+// Of a quad of 2 x 2 pixels together: each that is drawn takes its part of them, and all get the sum.
+const int kTransmissionTaps = 64;
+// Pixels farther apart than this part of the reach do not share; each takes half of the taps.
+const float kSharedStep = 0.1;
 const float kWidestRing = 0.7;  // of the reach
 // Profiles that reach farther than the table would end at an edge.
 const float kFadeStart = 0.7;
 // Of the reach. Dark skin with less before it is at the terminator, or the back of a mesh that is open.
 const float kThinnest = 0.004;
+// Texels from the middle of one to the farthest point that reads it, and the steepest slope that this is done for. Past
+// the terminator there is skin before the point, unless the mesh is open there: the slope counts less.
+const float kTexelRise = 0.7, kSteepest = 12.0, kSlopesAway = 4.0;
 // Where a surface takes in more of the light than this, what comes through the skin is not added.
 const float kDark = 0.3;
 
@@ -37,19 +44,32 @@ struct LightMap {
     vec3 to_light_world, x_world, y_world;
     vec3 here;            // the point in the map
     vec2 axis_x, axis_y;  // a millimetre along x_world and y_world in the map
+    vec2 texels;
+    vec2 slope_x, slope_y;  // of a surface along x_world and y_world, for a difference between two texels of the map
     float mm_per_z;
+    bool valid;  // false behind a light, and beside the triangle where a driver loads nothing for such pixels
 };
 
 // Cosine to the normal from which on a lit point is of another wall.
 const float kOtherWall = 0.5;
 
 struct LitPoint {
-    vec3 p_world_mm;
-    vec2 map_uv;
-    LightMap map;
+    vec3 p_world_mm, n_world;
 };
 
 float part_not_counted(Surface s, LitPoint lit);
+
+vec2 map_texels(int map_index) {
+    if (shadow_map_count == 1 || map_index == 0) return vec2(textureSize(sampler2D(shadow_map, nearest_clamp), 0));
+    if (map_index == 1) return vec2(textureSize(sampler2D(shadow_map_1, nearest_clamp), 0));
+    return vec2(textureSize(sampler2D(shadow_map_2, nearest_clamp), 0));
+}
+
+// A millimetre along `axis_world` from the point whose place in the map is `here`, by the map's derivative.
+vec3 in_light_map(mat4 light_from_world, vec4 here_clip, vec3 axis_world) {
+    vec4 d = light_from_world * vec4(axis_world, 0.0);
+    return (d.xyz - here_clip.xyz * (d.w / here_clip.w)) / here_clip.w * vec3(0.5, 0.5, 1.0);
+}
 
 LightMap light_map_around(int light, vec3 p_mm, vec3 to_light_world) {
     vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
@@ -59,99 +79,138 @@ LightMap light_map_around(int light, vec3 p_mm, vec3 to_light_world) {
     map.to_light_world = to_light_world;
     map.x_world = normalize(cross(up, to_light_world));
     map.y_world = cross(to_light_world, map.x_world);
-    map.here = shadow_map_position(light_from_world, p_mm);
-    map.axis_x = shadow_map_position(light_from_world, p_mm + map.x_world).xy - map.here.xy;
-    map.axis_y = shadow_map_position(light_from_world, p_mm + map.y_world).xy - map.here.xy;
-    map.mm_per_z = 1.0 / (map.here.z - shadow_map_position(light_from_world, p_mm + to_light_world).z);
+    vec4 here_clip = light_from_world * vec4(p_mm, 1.0);
+    map.valid = here_clip.w > 0.0;
+    if (!map.valid) here_clip = vec4(0.0, 0.0, 0.0, 1.0);
+    map.here = here_clip.xyz / here_clip.w * vec3(0.5, 0.5, 1.0) + vec3(0.5, 0.5, 0.0);
+    map.axis_x = in_light_map(light_from_world, here_clip, map.x_world).xy;
+    map.axis_y = in_light_map(light_from_world, here_clip, map.y_world).xy;
+    map.mm_per_z = -1.0 / in_light_map(light_from_world, here_clip, to_light_world).z;
+    map.texels = map_texels(map.index);
+    map.slope_x = 0.5 * map.mm_per_z * map.texels * map.axis_x;
+    map.slope_y = 0.5 * map.mm_per_z * map.texels * map.axis_y;
     return map;
 }
 
 float lit_z(int map_index, vec2 map_uv) {
-    if (map_index == 0) return textureLod(sampler2D(shadow_map, nearest_clamp), map_uv, 0.0).r;
+    if (shadow_map_count == 1 || map_index == 0) return textureLod(sampler2D(shadow_map, nearest_clamp), map_uv, 0.0).r;
     if (map_index == 1) return textureLod(sampler2D(shadow_map_1, nearest_clamp), map_uv, 0.0).r;
     return textureLod(sampler2D(shadow_map_2, nearest_clamp), map_uv, 0.0).r;
 }
 
+// Of the four texels around: below left, below right, above right, above left.
+vec4 lit_z4(int map_index, vec2 map_uv) {
+    if (shadow_map_count == 1 || map_index == 0) return textureGather(sampler2D(shadow_map, nearest_clamp), map_uv);
+    if (map_index == 1) return textureGather(sampler2D(shadow_map_1, nearest_clamp), map_uv);
+    return textureGather(sampler2D(shadow_map_2, nearest_clamp), map_uv);
+}
+
+// The depth of the nearest of the four, without reading it again.
+float nearest_of(LightMap map, vec2 map_uv, vec4 z) {
+    vec2 f = fract(map_uv * map.texels - 0.5);
+    return f.x < 0.5 ? (f.y < 0.5 ? z.w : z.x) : (f.y < 0.5 ? z.z : z.y);
+}
+
 // From the depths of the four texels around it.
-vec3 lit_normal_world(LitPoint lit) {
-    vec4 z;  // below left, below right, above right, above left
-    vec2 size;
-    if (lit.map.index == 0) {
-        z = textureGather(sampler2D(shadow_map, nearest_clamp), lit.map_uv);
-        size = vec2(textureSize(sampler2D(shadow_map, nearest_clamp), 0));
-    } else if (lit.map.index == 1) {
-        z = textureGather(sampler2D(shadow_map_1, nearest_clamp), lit.map_uv);
-        size = vec2(textureSize(sampler2D(shadow_map_1, nearest_clamp), 0));
-    } else {
-        z = textureGather(sampler2D(shadow_map_2, nearest_clamp), lit.map_uv);
-        size = vec2(textureSize(sampler2D(shadow_map_2, nearest_clamp), 0));
-    }
-    vec2 slope = 0.5 * lit.map.mm_per_z * size * vec2(z.y - z.x + z.z - z.w, z.x - z.w + z.y - z.z);
-    return normalize(lit.map.to_light_world + dot(slope, lit.map.axis_x) * lit.map.x_world +
-                     dot(slope, lit.map.axis_y) * lit.map.y_world);
+vec3 lit_normal_world(LightMap map, vec4 z) {
+    vec2 across = vec2(z.y - z.x + z.z - z.w, z.x - z.w + z.y - z.z);
+    return normalize(map.to_light_world + dot(across, map.slope_x) * map.x_world +
+                     dot(across, map.slope_y) * map.y_world);
 }
 
 // 0 where the lit point faces as the point that it shines on does, 1 where it faces the other way, as an opposite wall.
-float turned_away(Surface s, LitPoint lit) { return 0.5 - 0.5 * dot(s.n_geometry_world, lit_normal_world(lit)); }
+float turned_away(Surface s, LitPoint lit) { return 0.5 - 0.5 * dot(s.n_geometry_world, lit.n_world); }
 
 #ifndef DERMIS_TRANSMISSION_EXPRESSION
-uniform texture2D skin_transmission;  // distance from 0 to the reach
+uniform texture2D skin_transmission;  // distance from 0 to the reach, read without interpolation; the reach in alpha
 
-vec4 transmission_row(float distance_over_reach) {
-    float size = float(textureSize(sampler2D(skin_transmission, linear_clamp), 0).x);
-    return textureLod(sampler2D(skin_transmission, linear_clamp), vec2(texel_centres(distance_over_reach, size), 0.5), 0.0);
+vec4 transmission_texel(float distance_over_reach) {
+    int texel = int(distance_over_reach * float(kTransmissionTexels - 1) + 0.5);
+    return texelFetch(sampler2D(skin_transmission, nearest_clamp), ivec2(min(texel, kTransmissionTexels - 1), 0), 0);
 }
+vec3 transmission_profile(float distance_over_reach) { return transmission_texel(distance_over_reach).rgb; }
+float transmission_reach() { return transmission_texel(0.0).a; }
 #endif
 
-// Taps are in rings at even steps of radius, which is closer than even cover where R is large; each counts for its ring's
-// area, and they are turned from pixel to pixel: noise instead of bands. What of it lies off the tangent plane adds to the integral of R.
-vec3 gathered_light(Surface s, LightMap map, float reach_mm) {
-    float step_mm = kWidestRing * reach_mm / float(kTransmissionTaps);
-    float turn = pixel_turn(gl_FragCoord.xy);
+// Sum over the four pixels of a quad. All four must come here together.
+vec4 sum_of_quad(vec4 v) {
+    vec2 side = 1.0 - 2.0 * mod(floor(gl_FragCoord.xy), 2.0);
+    vec4 pair = 2.0 * v + side.x * dFdxFine(v);
+    return 2.0 * pair + side.y * dFdyFine(pair);
+}
+
+// Taps are in rings at even steps of radius, which is closer than even cover where R is large; each counts for its
+// ring's area, and they are turned from quad to quad: noise instead of bands. What of it lies off the tangent plane adds
+// to the integral of R.
+vec3 gathered_light(Surface s, LightMap map, float reach_mm, bool needed) {
+    // One decision for all four pixels of a quad. Those beside the triangle are no part of the picture: they take none.
+    bool together = length(dFdxCoarse(s.p_world_mm)) + length(dFdyCoarse(s.p_world_mm)) < 2.0 * kSharedStep * reach_mm;
+    ivec2 in_quad = ivec2(gl_FragCoord.xy) & 1;
+    int lane = in_quad.x + 2 * in_quad.y;
+    vec4 drawn = vec4(equal(ivec4(lane), ivec4(0, 1, 2, 3))) * float(map.valid);
+    bool any_needs = sum_of_quad(vec4(needed && map.valid)).x > 0.5;
+    drawn = sum_of_quad(drawn);
+    float stride = together ? dot(drawn, vec4(1.0)) : 2.0;
+    float first = together ? dot(drawn, vec4(lessThan(ivec4(0, 1, 2, 3), ivec4(lane)))) : 0.0;
+    float end = any_needs && map.valid ? float(kTransmissionTaps) : 0.0;
+    float ring_mm = kWidestRing * reach_mm / float(kTransmissionTaps);
+    float turn = pixel_turn(together ? floor(0.5 * gl_FragCoord.xy) : gl_FragCoord.xy) + first * kGoldenAngle;
+    float step_angle = stride * kGoldenAngle;
+    vec2 direction = vec2(cos(turn), sin(turn)), step = vec2(cos(step_angle), sin(step_angle));
     vec3 light = vec3(0.0), behind = vec3(0.0);
-    for (int i = 0; i < kTransmissionTaps; ++i) {
-        float radius_mm = (float(i) + 0.5) * step_mm, angle = turn + float(i) * kGoldenAngle;
-        vec2 across_mm = radius_mm * vec2(cos(angle), sin(angle));
-        LitPoint lit;
-        lit.map = map;
-        lit.map_uv = map.here.xy + across_mm.x * map.axis_x + across_mm.y * map.axis_y;
-        float z = lit_z(map.index, lit.map_uv);
-        if (z == 1.0) continue;  // no skin
+    for (float i = first; i < end; i += stride) {
+        float radius_mm = (i + 0.5) * ring_mm;
+        vec2 across_mm = radius_mm * direction;
+        direction = vec2(direction.x * step.x - direction.y * step.y, direction.x * step.y + direction.y * step.x);
+        vec2 map_uv = map.here.xy + across_mm.x * map.axis_x + across_mm.y * map.axis_y;
+        vec4 z4 = lit_z4(map.index, map_uv);
+        float z = nearest_of(map, map_uv, z4);
         vec3 offset_mm = across_mm.x * map.x_world + across_mm.y * map.y_world +
                          (map.here.z - z) * map.mm_per_z * map.to_light_world;
         float distance_mm = length(offset_mm);
-        lit.p_world_mm = s.p_world_mm + offset_mm;
-        vec3 r = radius_mm * transmission_row(distance_mm / reach_mm).rgb * part_not_counted(s, lit);
+        LitPoint lit = LitPoint(s.p_world_mm + offset_mm, lit_normal_world(map, z4));
+        float weight = z == 1.0 ? 0.0 : radius_mm * part_not_counted(s, lit);  // 1: no skin
+        vec3 r = weight * transmission_profile(distance_mm / reach_mm);
         light += r;
         behind += r * smoothstep(0.0, kOtherWall, abs(dot(s.n_geometry_world, offset_mm)) / max(distance_mm, 1e-6));
     }
-    float ring = 2.0 * kPi * step_mm;
+    float ring = 2.0 * kPi * ring_mm * (together ? 1.0 : stride);
+    if (together) {
+        light = sum_of_quad(vec4(light, 0.0)).rgb;
+        behind = sum_of_quad(vec4(behind, 0.0)).rgb;
+    }
     // In a crease, between lips or lids, there is more skin around a point than flat skin has. It is unlit, so that the
     // taps do not find it: the occlusion says how much.
     return s.occlusion * light * ring / (1.0 + behind * ring);
 }
 
-// Of the light's way through the body that the includer's own model takes the skin for: past the first nothing is gathered.
+// Of the light's way through the body that the includer's own model takes the skin for: past the first nothing is
+// gathered.
 const float kOwnBody = 0.9, kOtherBody = 0.5;
 
-// Exitance over albedo. own_way_mm is the light's way through the body that the includer's own model has light through, as
-// far as the light is visible; below 0 for none. Where no lit skin is near along the light, as on most of a head's dark side, one tap is all.
-vec3 transmitted_exitance(Surface s, int light, LightSample arriving, float n_dot_l, float visibility, float own_way_mm) {
+// Exitance over albedo. own_way_mm is the light's way through the body that the includer's own model has light through,
+// as far as the light is visible; below 0 for none. Where no lit skin is near along the light, as on most of a head's
+// dark side, one tap is all.
+vec3 transmitted_exitance(Surface s, int light, LightSample arriving, float n_dot_l, float visibility,
+                          float own_way_mm) {
+    if (transmission == kTransmissionNone) return vec3(0.0);
     float lit = max(n_dot_l, 0.0) * visibility;
-    if (transmission == kTransmissionNone || lit > kDark || lights[light].shadow_map_index < 0)
-        return vec3(0.0);
     LightMap map = light_map_around(light, s.p_world_mm, arriving.to_light_world);
-    if (outside_shadow_map(map.here)) return vec3(0.0);
-    float reach_mm = transmission_row(0.0).a;
+    float reach_mm = transmission_reach();
     float depth_mm = (map.here.z - lit_z(map.index, map.here.xy)) * map.mm_per_z;
-    float part = smoothstep(kThinnest * reach_mm, 4.0 * kThinnest * reach_mm, depth_mm) *
+    // The map's texel may be of the point's own surface: where that slopes, nearer to the light by its rise.
+    float cosine = dot(s.n_geometry_world, arriving.to_light_world);
+    float slope = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(max(cosine, -kSlopesAway * cosine), 1e-3);
+    float rise_mm = kTexelRise * shadow_texel_mm * min(slope, kSteepest);
+    float part = smoothstep(kThinnest * reach_mm, 4.0 * kThinnest * reach_mm, depth_mm - rise_mm) *
                  (1.0 - smoothstep(kFadeStart * reach_mm, reach_mm, depth_mm)) * (1.0 - smoothstep(0.0, kDark, lit));
     if (own_way_mm >= 0.0) {
         float own = (depth_mm - kOtherBody * own_way_mm) / max((kOwnBody - kOtherBody) * own_way_mm, 1e-4);
         part *= 1.0 - visibility * clamp(own, 0.0, 1.0);
     }
-    if (part == 0.0) return vec3(0.0);
-    return part * arriving.irradiance_linear * gathered_light(s, map, reach_mm);
+    if (!map.valid || map.index < 0 || outside_shadow_map(map.here)) part = 0.0;
+    // No return before it: it is for all pixels of a quad, or none.
+    return part * arriving.irradiance_linear * gathered_light(s, map, reach_mm, part > 0.0);
 }
 
 #endif

@@ -54,7 +54,7 @@ float part_not_counted(Surface s, LitPoint lit) {
     // Past the border of the picture the blur takes the light to go on as it is inside.
     float hidden = z_mm == 0.0 ? float(!outside) : smoothstep(margin_mm, 2.0 * margin_mm, p_clip.w - z_mm);
     if (hidden == 1.0) return 1.0;
-    float away = dot(lit_normal_world(lit), normalize(lit.p_world_mm - eye_world_mm));
+    float away = dot(lit.n_world, normalize(lit.p_world_mm - eye_world_mm));
     return max(hidden, smoothstep(0.0, kFacesAway, away));
 }
 

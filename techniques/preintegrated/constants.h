@@ -20,6 +20,10 @@ const float kMaxCurvaturePerMm = 1.0;
 // Skin can have.
 const int kPolynomialTerms = 6, kMaxGaussians = 24;
 
+// That transmission takes the profile for without tables: a loop whose length is known costs a fraction of
+// one that asks.
+const int kTransmissionGaussians = 6;
+
 // skin_normal_blend: log2 of a texel of the normal map in mm, 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
 

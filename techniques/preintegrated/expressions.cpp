@@ -1,5 +1,10 @@
 #include "techniques/preintegrated/expressions.h"
 
+#include <algorithm>
+#include <functional>
+#include <numbers>
+#include <numeric>
+
 #include "dermis/optics/curvature_expressions.h"
 #include "dermis/optics/edge_expression.h"
 #include "dermis/technique/transmission.h"
@@ -41,6 +46,41 @@ void add_expressions(std::vector<NamedValue>& values, const CurvatureExpressions
     values.emplace_back("curvature_knee", float(kCurvatureKnee));
     add_array(values, "edge", edge.weight);
     add_array(values, "edge_width2", squares(edge.width));
+}
+
+// The two narrowest become one, of their mean variance, until few enough are left: light that comes through
+// skin is of the wide ones.
+std::vector<GaussianTerm> few_gaussians(std::vector<GaussianTerm> terms) {
+    std::ranges::sort(terms, std::greater(), &GaussianTerm::variance_mm2);
+    while (terms.size() > size_t(kTransmissionGaussians)) {
+        const GaussianTerm narrow = terms.back();
+        terms.pop_back();
+        GaussianTerm& both = terms.back();
+        const double a = std::accumulate(narrow.weight.begin(), narrow.weight.end(), 0.0);
+        const double b = std::accumulate(both.weight.begin(), both.weight.end(), 0.0);
+        if (a + b > 0) both.variance_mm2 = (a * narrow.variance_mm2 + b * both.variance_mm2) / (a + b);
+        for (size_t c = 0; c < 3; ++c) both.weight[c] += narrow.weight[c];
+    }
+    return terms;
+}
+
+void add_transmission_gaussians(std::vector<NamedValue>& values, const GaussianSum& sum) {
+    const std::vector<GaussianTerm> terms = few_gaussians(sum.terms);
+    Rgb total = {};
+    for (const GaussianTerm& term : terms)
+        for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
+    for (size_t i = 0; i < size_t(kTransmissionGaussians); ++i) {
+        Vec4 value = {};
+        if (i < terms.size()) {
+            const double v = terms[i].variance_mm2;
+            const auto height = [&](size_t c) {
+                return total[c] > 0 ? float(terms[i].weight[c] / total[c] / (2 * std::numbers::pi * v))
+                                    : 0.0f;
+            };
+            value = {height(0), height(1), height(2), float(-0.5 / v * std::numbers::log2e)};
+        }
+        values.emplace_back("transmission_gaussians[" + std::to_string(i) + "]", value);
+    }
 }
 
 void add_gaussians(std::vector<NamedValue>& values, const GaussianSum& sum) {
@@ -86,6 +126,7 @@ Result<std::vector<NamedValue>> skin_values(const TableSettings& settings, const
     values.emplace_back("widest_blend_mm", float(widest_blend_mm(skin.gaussians)));
     values.emplace_back("transmission_reach_mm", float(transmission_reach_mm(skin.profile)));
     values.emplace_back("transmission_nearest", float(kTransmissionNearest));
+    add_transmission_gaussians(values, skin.gaussians);
     return values;
 }
 

@@ -24,14 +24,13 @@ vec4 normal_blend(float sharp_mm) {
 }
 
 // dermis/technique/transmission.h: R per mm^2 over its integral, and the reach; of the Gaussians, not of the profile itself.
-vec4 transmission_row(float distance_over_reach) {
+vec3 transmission_profile(float distance_over_reach) {
     float d = transmission_reach_mm * max(distance_over_reach, transmission_nearest);
     vec3 r = vec3(0.0);
-    for (int i = 0; i < gaussian_count; ++i) {
-        float v = gaussians[i].a;
-        r += gaussians[i].rgb * exp(-0.5 * d * d / v) / (2.0 * kPi * v);
-    }
-    return vec4(r, transmission_reach_mm);
+    for (int i = 0; i < kTransmissionGaussians; ++i)
+        r += transmission_gaussians[i].rgb * exp2(transmission_gaussians[i].a * d * d);
+    return r;
 }
+float transmission_reach() { return transmission_reach_mm; }
 
 #endif

@@ -19,6 +19,8 @@ layout(scalar) uniform Skin {
     int gaussian_count;
     float widest_blend_mm;  // normal_blend.h
     float transmission_reach_mm, transmission_nearest;  // dermis/technique/transmission.h
+    // Height at distance 0 per mm^2, and in alpha the exponent of 2 for a squared distance in mm^2.
+    vec4 transmission_gaussians[kTransmissionGaussians];
 };
 
 // Curvature from 0 to 1 per mm, as the polynomials take it.

@@ -131,17 +131,15 @@ TEST_F(ScreenSpace, constant_light_stays_constant_at_silhouettes_with_and_withou
 }
 
 TEST_F(ScreenSpace, a_light_that_goes_out_leaves_nothing_behind) {
-    Scene lit = half_shadowed(plane(one_chart));
+    const Scene lit = half_shadowed(plane(one_chart));
+    Scene dark = lit;
+    dark.lights[0].intensity = 0;
     for (const char* id : kTechniques) {
         Renderer renderer = make_renderer(lit);
         const Technique& technique = built_in_technique(id);
         const DrawSettings settings = {.width = kSize, .height = kSize, .view = "diffuse"};
         EXPECT_GT(radiance(renderer, technique, settings).at(10, kSize / 2, 0), 0.1f) << id;
-        Renderer dark_renderer = [&] {
-            Scene dark = lit;
-            dark.lights[0].intensity = 0;
-            return make_renderer(dark);
-        }();
+        Renderer dark_renderer = make_renderer(dark);
         EXPECT_EQ(radiance(dark_renderer, technique, settings).at(10, kSize / 2, 0), 0.0f) << id;
     }
 }
