@@ -75,6 +75,12 @@ function(dermis_test_folder folder)
     # Compiling is most of a test run's time: no heavy optimisation, and GoogleTest's headers parsed once for all.
     target_compile_options(test_${folder} PRIVATE ${DERMIS_WARNINGS} -O1)
     target_precompile_headers(test_${folder} REUSE_FROM test_headers)
+    if(DERMIS_UNITY)
+        set_target_properties(test_${folder} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+        # A batch includes its files: GCC takes them for headers, in which a class of an unnamed namespace is a mistake.
+        # GoogleTest's macros are safe after an `if`; GCC knows that of them in a file of its own only.
+        target_compile_options(test_${folder} PRIVATE -Wno-subobject-linkage -Wno-dangling-else)
+    endif()
     set_target_properties(test_${folder} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     set(properties TIMEOUT 300)
     # What Vulkan drivers and layers keep until the end is reported without a module, as they are unloaded by then:

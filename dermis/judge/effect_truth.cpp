@@ -12,8 +12,6 @@
 namespace dermis {
 namespace {
 
-// Raised when what is stored changes.
-constexpr std::string_view kEffectVersion = "effect 1";
 // Rounds over the grid in one batch at most: what a run that is stopped loses.
 constexpr int kMostRounds = 8;
 // Factor on the estimated number of passes, so that the wanted noise is not missed by a small amount.
@@ -48,7 +46,7 @@ Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& sett
     plain.samples = settings.grid * settings.grid;
     const Result<std::string> hash = reference_hash(scene, plain);
     if (!hash) return hash.error();
-    return Hasher().add(kEffectVersion).add(*hash).hex();
+    return Hasher().add(std::string_view("effect")).add(*hash).hex();
 }
 
 std::vector<std::byte> pack(State& state) {

@@ -5,14 +5,12 @@
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
+#include "dermis/judge/truth_version.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/scene_hash.h"
 
 namespace dermis {
 namespace {
-
-// Part of every hash: to be raised when the ground truth's algorithm changes its pictures.
-constexpr std::string_view kVersion = "reference 6";
 
 // What a profile is to the integrator: its values, whatever its model and name.
 void add(Hasher& hasher, const Profile& profile) {
@@ -91,7 +89,7 @@ std::optional<ReferencePicture> unpack(const std::vector<std::byte>& bytes,
 
 Result<std::string> reference_hash(const Scene& scene, const ReferenceSettings& settings) {
     Hasher hasher;
-    hasher.add(kVersion);
+    hasher.add(truth_version());
     const Result<std::string> content = hash_of(scene);
     if (!content) return content.error();
     hasher.add(*content);

@@ -11,13 +11,11 @@
 #include "dermis/mesh/weld.h"
 #include "dermis/rays/random.h"
 #include "dermis/rays/ray_scene.h"
+#include "dermis/rays/rays_version.h"
 #include "dermis/rays/sampling.h"
 
 namespace dermis {
 namespace {
-
-// Raised when the result changes, so that old cache entries are not taken for new ones.
-constexpr int kFleshVersion = 1;
 
 constexpr int kRays = 256;
 // Of kRays: what hidden parts grow over (2 %), and what a part enclosed by them may see at most (5 %).
@@ -240,7 +238,7 @@ Result<Flesh> make_flesh(const SceneObject& object, Cavities cavities) {
 std::string content_hash(const SceneObject& object, Cavities cavities) {
     const Mesh& mesh = object.mesh;
     Hasher hasher;
-    hasher.add(kFleshVersion).add(cavities);
+    hasher.add(rays_version()).add(cavities);
     hasher.add(std::as_bytes(std::span(mesh.positions_mm))).add(std::as_bytes(std::span(mesh.indices)));
     for (const Submesh& part : mesh.submeshes)
         hasher.add(part.first_index).add(part.index_count).add(part.material);

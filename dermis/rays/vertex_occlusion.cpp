@@ -9,13 +9,11 @@
 #include "dermis/base/parallel.h"
 #include "dermis/base/progress.h"
 #include "dermis/rays/random.h"
+#include "dermis/rays/rays_version.h"
 #include "dermis/rays/sampling.h"
 
 namespace dermis {
 namespace {
-
-// Raised when the algorithm changes, so that old cache entries are not taken for new ones.
-constexpr int kOcclusionVersion = 1;
 
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values) {
@@ -31,7 +29,7 @@ void add_mesh(Hasher& hasher, const Mesh& mesh, std::span<const MaterialClass> c
 
 std::string content_hash(std::span<const SceneObject> objects, const OcclusionSettings& settings) {
     Hasher hasher;
-    hasher.add(kOcclusionVersion).add(settings.rays).add(settings.max_mm);
+    hasher.add(rays_version()).add(settings.rays).add(settings.max_mm);
     for (const SceneObject& object : objects) add_mesh(hasher, object.mesh, object.classes);
     return hasher.hex();
 }

@@ -101,7 +101,8 @@ TEST_F(Commands, compare_of_the_unit_scenes_has_the_exact_answer_beside_the_tech
 TEST_F(Commands, a_signal_leaves_the_picture_so_far_and_says_how_noisy_it_is) {
     for (const auto& [signal, exit_code] : {std::pair{"INT", 130}, {"TERM", 143}}) {
         const std::string file = path(std::string(signal) + ".exr");
-        // The signal arrives when the command is at work: its whole time limit would be minutes.
+        // The signal arrives when the command is at work: its whole time limit would be minutes. `timeout`
+        // sends it twice, to the process and to its group; that must not end the program at once.
         const ProgramResult stopped =
             shell("timeout --preserve-status -s " + std::string(signal) + " 3 " + DERMIS_PROGRAM +
                   " reference builtin:spheres --size 32x32 --samples 60000 -o " + file);

@@ -23,7 +23,7 @@ namespace {
 
 using Flags = std::set<std::string>;
 /// By command: "render", "bake lut"; "" has the flags of the program itself.
-using Commands = std::map<std::string, Flags>;
+using KnownCommands = std::map<std::string, Flags>;
 
 Flags flags_in(const std::string& text) {
     static const std::regex flag("--[a-z][a-z0-9-]*");
@@ -32,7 +32,7 @@ Flags flags_in(const std::string& text) {
 }
 
 // Reads --help of the program, its commands and theirs.
-void add_command(const std::string& name, const std::string& scratch, Commands& commands) {
+void add_command(const std::string& name, const std::string& scratch, KnownCommands& commands) {
     const std::string help = run_shell(std::string(DERMIS_PROGRAM) + " " + name + " --help", scratch).out;
     Flags flags;
     std::istringstream lines(help);
@@ -49,10 +49,10 @@ void add_command(const std::string& name, const std::string& scratch, Commands& 
     commands[name] = flags;
 }
 
-const Commands& all_commands() {
-    static const Commands kCommands = [] {
+const KnownCommands& all_commands() {
+    static const KnownCommands kCommands = [] {
         TemporaryDirectory scratch;
-        Commands commands;
+        KnownCommands commands;
         add_command("", scratch.path.string(), commands);
         return commands;
     }();
@@ -60,7 +60,7 @@ const Commands& all_commands() {
 }
 
 // The fault of the calls of dermis in one line of code; empty when there is none.
-std::string wrong_call(const std::string& code, const Commands& commands) {
+std::string wrong_call(const std::string& code, const KnownCommands& commands) {
     static const std::regex call("(?:^|[ |;(])(?:dermis|\\./run)((?: +[a-z][a-z0-9_-]*)*)(?= |$)");
     std::smatch match;
     if (!std::regex_search(code, match, call)) return {};
@@ -116,7 +116,7 @@ TEST(Docs, every_flag_on_its_own_is_one_of_a_command_or_a_tool) {
 }
 
 TEST(Docs, an_unknown_command_and_flag_are_found) {
-    const Commands& commands = all_commands();
+    const KnownCommands& commands = all_commands();
     ASSERT_TRUE(commands.contains("bake lut"));
     EXPECT_EQ(wrong_call("dermis profiles", commands), "no command 'profiles'");
     EXPECT_EQ(wrong_call("./run bake lot -o x.exr", commands), "no command 'bake lot'");

@@ -15,7 +15,7 @@ using namespace dermis;
 
 namespace {
 
-Result<LoadedImage> decode(const FileBytes& file, ImageUse use = ImageUse::data) {
+Result<LoadedImage> decode_foreign(const FileBytes& file, ImageUse use = ImageUse::data) {
     return decode_image(file, "test", use);
 }
 
@@ -58,7 +58,7 @@ TEST(ForeignExr, channels_are_taken_by_their_names) {
                           {{"B", "G", "R", "X", "Y"}, {2, 1, 0}, {2, 1, 0}}};
     for (const Case& c : cases)
         for (const ImageUse use : {ImageUse::data, ImageUse::color}) {
-            const Result<LoadedImage> loaded = decode(make_exr(2, 2, {.channels = c.channels}), use);
+            const Result<LoadedImage> loaded = decode_foreign(make_exr(2, 2, {.channels = c.channels}), use);
             const std::vector<int>& expected = use == ImageUse::data ? c.data : c.color;
             EXPECT_EQ(loaded ? sources(loaded->image) : std::vector<int>{}, expected)
                 << c.channels[0] << ": " << message(loaded);
@@ -69,7 +69,7 @@ TEST(ForeignExr, the_picture_is_the_display_window) {
     // Four by four texels from (2, 1); channel R holds x / 64 + y / 4096 of the data window.
     const ExrSettings inside = {
         .float_channels = true, .offset_x = 2, .offset_y = 1, .display = {0, 0, 7, 5}, .channels = {"R"}};
-    const Result<LoadedImage> padded = decode(make_exr(4, 4, inside));
+    const Result<LoadedImage> padded = decode_foreign(make_exr(4, 4, inside));
     ASSERT_TRUE(padded) << padded.error().message;
     ASSERT_EQ(padded->image.width, 8);
     ASSERT_EQ(padded->image.height, 6);
@@ -81,12 +81,12 @@ TEST(ForeignExr, the_picture_is_the_display_window) {
     // Overscan: the display window is the middle of the data.
     const ExrSettings around = {
         .float_channels = true, .offset_x = -1, .offset_y = -1, .display = {0, 0, 1, 1}, .channels = {"R"}};
-    const Result<LoadedImage> cut = decode(make_exr(4, 4, around));
+    const Result<LoadedImage> cut = decode_foreign(make_exr(4, 4, around));
     ASSERT_TRUE(cut) << cut.error().message;
     ASSERT_EQ(cut->image.pixel_count(), 4u);
     EXPECT_EQ(cut->image.at(0, 0, 0), 1.0f / 64 + 1.0f / 4096);
     const ExrSettings beside = {.offset_x = 50, .display = {0, 0, 7, 5}, .channels = {"R"}};
-    EXPECT_EQ(message(decode(make_exr(4, 4, beside))),
+    EXPECT_EQ(message(decode_foreign(make_exr(4, 4, beside))),
               "test: EXR whose data window lies outside of its display window");
 }
 
@@ -97,12 +97,12 @@ TEST(ForeignJpeg, junk_between_header_markers_is_passed_over) {
     // After the start of the image and its first segment.
     const size_t segment = 4 + size_t(plain[4]) * 256 + size_t(plain[5]);
     junk.insert(junk.begin() + std::ptrdiff_t(segment), 5, std::byte{0x11});
-    const Result<LoadedImage> loaded = decode(junk);
+    const Result<LoadedImage> loaded = decode_foreign(junk);
     ASSERT_TRUE(loaded) << loaded.error().message;
-    EXPECT_EQ(loaded->image.bytes, decode(plain)->image.bytes);
+    EXPECT_EQ(loaded->image.bytes, decode_foreign(plain)->image.bytes);
     FileBytes cut = plain;
     cut.resize(cut.size() / 2);
-    EXPECT_FALSE(decode(cut)) << "a warning about missing texels stays an error";
+    EXPECT_FALSE(decode_foreign(cut)) << "a warning about missing texels stays an error";
 }
 
 TEST(ForeignPng, a_chunk_longer_than_the_file_is_refused_before_it_is_allocated) {
@@ -113,16 +113,19 @@ TEST(ForeignPng, a_chunk_longer_than_the_file_is_refused_before_it_is_allocated)
           3,    4,    5,    6,    7,        8,        9,        10,       11,       12, 13, 14})
         file.push_back(std::byte(byte));
     ASSERT_EQ(file.size(), 57u);
-    EXPECT_EQ(message(decode(file)),
+    EXPECT_EQ(message(decode_foreign(file)),
               "test: corrupt PNG: the file ends early: a chunk of 2147483647 bytes with 16 left");
 }
 
 TEST(ForeignPng, alpha_beside_linear_grey_stays_alpha) {
     PngSettings settings{.width = 1, .height = 1, .color_type = PNG_COLOR_TYPE_GRAY_ALPHA};
-    EXPECT_EQ(codes(decode(make_png(settings, {{9, 77}}), ImageUse::color)), (std::vector<int>{9, 77}));
-    EXPECT_EQ(codes(decode(make_png(settings, {{9, 77}}), ImageUse::data)), (std::vector<int>{9, 9, 9, 77}));
+    EXPECT_EQ(codes(decode_foreign(make_png(settings, {{9, 77}}), ImageUse::color)),
+              (std::vector<int>{9, 77}));
+    EXPECT_EQ(codes(decode_foreign(make_png(settings, {{9, 77}}), ImageUse::data)),
+              (std::vector<int>{9, 9, 9, 77}));
     settings.gamma = 1;
-    EXPECT_EQ(codes(decode(make_png(settings, {{9, 77}}), ImageUse::color)), (std::vector<int>{9, 9, 9, 77}));
+    EXPECT_EQ(codes(decode_foreign(make_png(settings, {{9, 77}}), ImageUse::color)),
+              (std::vector<int>{9, 9, 9, 77}));
 }
 
 TEST(ForeignRadiance, repeats_of_the_oldest_coding_count_in_bytes_of_which_the_lower_may_be_zero) {
@@ -132,7 +135,7 @@ TEST(ForeignRadiance, repeats_of_the_oldest_coding_count_in_bytes_of_which_the_l
     // One texel and 256 = 0 + 1 * 256 repeats; a second row like the end of the first.
     for (const int byte : {128, 0, 0, 129, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1})
         file.push_back(std::byte(byte));
-    const Result<LoadedImage> loaded = decode(file);
+    const Result<LoadedImage> loaded = decode_foreign(file);
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(loaded->image.at(256, 0, 0), 1.0f);
     EXPECT_EQ(loaded->image.at(0, 1, 0), 1.0f);
@@ -160,7 +163,7 @@ TEST(ForeignKtx2, channels_come_in_the_order_that_format_and_swizzle_say) {
     for (const Case& c : cases) {
         Ktx2Settings settings{.vulkan = c.vulkan};
         if (*c.swizzle) settings.pairs = {{"KTXswizzle", c.swizzle}};
-        const Result<LoadedImage> loaded = decode(make_ktx2(settings, c.stored));
+        const Result<LoadedImage> loaded = decode_foreign(make_ktx2(settings, c.stored));
         EXPECT_EQ(codes(loaded), c.read) << c.vulkan << " " << c.swizzle << ": " << message(loaded);
         if (loaded) {
             EXPECT_TRUE(loaded->text.empty());
@@ -170,7 +173,7 @@ TEST(ForeignKtx2, channels_come_in_the_order_that_format_and_swizzle_say) {
 
 TEST(ForeignKtx2, rows_and_columns_come_in_the_order_that_the_orientation_says) {
     const auto read = [](const char* orientation) {
-        return codes(decode(
+        return codes(decode_foreign(
             make_ktx2({.vulkan = 9, .width = 2, .height = 2, .pairs = {{"KTXorientation", orientation}}},
                       {1, 2, 3, 4})));
     };
@@ -182,7 +185,8 @@ TEST(ForeignKtx2, rows_and_columns_come_in_the_order_that_the_orientation_says) 
 
 TEST(ForeignKtx2, what_is_not_read_is_named) {
     const auto refusal = [](uint32_t vulkan, std::pair<std::string, std::string> pair = {"a", "b"}) {
-        return message(decode(make_ktx2({.vulkan = vulkan, .pairs = {std::move(pair)}}, {1, 2, 3, 4})));
+        return message(
+            decode_foreign(make_ktx2({.vulkan = vulkan, .pairs = {std::move(pair)}}, {1, 2, 3, 4})));
     };
     EXPECT_NE(refusal(145).find("block-compressed KTX2 (VkFormat 145)"), std::string::npos);
     EXPECT_NE(refusal(5).find("KTX2 of VkFormat 5; dermis reads uncompressed 1 to 4 channels"),
@@ -216,7 +220,7 @@ TEST(ForeignDds, channels_come_in_the_order_that_format_or_masks_say) {
     };
     for (const Case& c : cases)
         for (const ImageUse use : {ImageUse::data, ImageUse::color}) {
-            const Result<LoadedImage> loaded = decode(make_dds(c.settings, c.stored), use);
+            const Result<LoadedImage> loaded = decode_foreign(make_dds(c.settings, c.stored), use);
             EXPECT_EQ(codes(loaded), c.read)
                 << c.settings.dxgi << " " << c.settings.bits << ": " << message(loaded);
             if (loaded && c.settings.dxgi == 0) {
@@ -227,7 +231,7 @@ TEST(ForeignDds, channels_come_in_the_order_that_format_or_masks_say) {
 
 TEST(ForeignDds, what_is_not_read_is_named) {
     const auto refusal = [](const DdsSettings& settings) {
-        return message(decode(make_dds(settings, std::vector<uint8_t>(16))));
+        return message(decode_foreign(make_dds(settings, std::vector<uint8_t>(16))));
     };
     EXPECT_NE(refusal({.dxgi = 98}).find("block-compressed DDS (DXGI format 98)"), std::string::npos);
     EXPECT_NE(refusal({.dxgi = 85}).find("DDS of DXGI format 85; dermis reads uncompressed"),

@@ -22,7 +22,7 @@ void set_word(FileBytes& file, size_t offset, uint32_t value) {
     std::memcpy(file.data() + offset, &value, 4);
 }
 
-Result<LoadedImage> decode(const FileBytes& file) {
+Result<LoadedImage> decode_container(const FileBytes& file) {
     return decode_image(file, "table", ImageUse::data);
 }
 
@@ -32,7 +32,7 @@ const Image kTable = convert(test_pattern(6, 3, 4), PixelFormat::f16, Encoding::
 
 TEST(GpuContainer, half_rgba_reads_back_exactly_from_both) {
     for (const char* extension : {".dds", ".ktx2"}) {
-        const Result<LoadedImage> loaded = decode(*encode_image(extension, kTable));
+        const Result<LoadedImage> loaded = decode_container(*encode_image(extension, kTable));
         ASSERT_TRUE(loaded) << loaded.error().message;
         EXPECT_EQ(loaded->image.bytes, kTable.bytes) << extension;
         EXPECT_EQ(loaded->image.format, PixelFormat::f16);
@@ -47,10 +47,10 @@ TEST(GpuContainer, missing_channels_are_filled_in) {
     const auto texel = [](const Image& i) {
         return Vec4{i.at(0, 0, 0), i.at(0, 0, 1), i.at(0, 0, 2), i.at(0, 0, 3)};
     };
-    EXPECT_EQ(texel(decode(*encode_image(".dds", grey))->image), (Vec4{0.5f, 0.5f, 0.5f, 1}));
-    EXPECT_EQ(texel(decode(*encode_image(".ktx2", two))->image), (Vec4{0, 0.25f, 0, 1}));
+    EXPECT_EQ(texel(decode_container(*encode_image(".dds", grey))->image), (Vec4{0.5f, 0.5f, 0.5f, 1}));
+    EXPECT_EQ(texel(decode_container(*encode_image(".ktx2", two))->image), (Vec4{0, 0.25f, 0, 1}));
     two.encoding = Encoding::srgb;  // grey and alpha
-    EXPECT_EQ(texel(decode(*encode_image(".ktx2", two))->image), (Vec4{0, 0, 0, 0.25f}));
+    EXPECT_EQ(texel(decode_container(*encode_image(".ktx2", two))->image), (Vec4{0, 0, 0, 0.25f}));
 }
 
 TEST(GpuContainer, the_dds_header_has_the_fields_at_the_documented_offsets) {
@@ -99,7 +99,7 @@ TEST(GpuContainer, the_ktx2_header_index_and_descriptor_follow_the_specification
 
 TEST(GpuContainer, ktx2_carries_text) {
     const ImageText text = {{"dermis.sidecar", "{\"v\": 1}"}, {"a", ""}, {"odd", "abc"}};
-    EXPECT_EQ(decode(*encode_image(".ktx2", kTable, text))->text, text);
+    EXPECT_EQ(decode_container(*encode_image(".ktx2", kTable, text))->text, text);
 }
 
 TEST(GpuContainer, other_uncompressed_formats_are_read) {
@@ -107,21 +107,21 @@ TEST(GpuContainer, other_uncompressed_formats_are_read) {
     FileBytes dds = *encode_image(".dds", kTable), ktx2 = *encode_image(".ktx2", kTable);
     set_word(dds, 128, 11);
     set_word(ktx2, 12, 91);
-    EXPECT_EQ(decode(dds)->image.format, PixelFormat::u16);
-    EXPECT_EQ(decode(ktx2)->image.format, PixelFormat::u16);
-    EXPECT_EQ(decode(dds)->image.bytes, kTable.bytes);
+    EXPECT_EQ(decode_container(dds)->image.format, PixelFormat::u16);
+    EXPECT_EQ(decode_container(ktx2)->image.format, PixelFormat::u16);
+    EXPECT_EQ(decode_container(dds)->image.bytes, kTable.bytes);
     // Twice as many texels of half the size.
     set_word(dds, 128, 29);
     set_word(dds, 16, 12);
-    EXPECT_EQ(decode(dds)->image.encoding, Encoding::srgb);
-    EXPECT_EQ(decode(dds)->image.width, 12);
+    EXPECT_EQ(decode_container(dds)->image.encoding, Encoding::srgb);
+    EXPECT_EQ(decode_container(dds)->image.width, 12);
 }
 
 TEST(GpuContainer, what_is_not_a_flat_plain_image_is_refused) {
     const FileBytes dds = *encode_image(".dds", kTable), ktx2 = *encode_image(".ktx2", kTable);
     const auto refused = [](FileBytes file, size_t offset, uint32_t value) {
         set_word(file, offset, value);
-        return !decode(file);
+        return !decode_container(file);
     };
     EXPECT_TRUE(refused(dds, 128, 98));         // BC7
     EXPECT_TRUE(refused(dds, 136, 4));          // cube map

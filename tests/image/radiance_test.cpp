@@ -15,7 +15,7 @@ FileBytes file_of(std::string_view header, const std::vector<int>& texels) {
     return file;
 }
 
-Result<LoadedImage> decode(const FileBytes& file) {
+Result<LoadedImage> decode_radiance(const FileBytes& file) {
     return decode_image(file, "test.hdr", ImageUse::color);
 }
 
@@ -25,7 +25,7 @@ constexpr std::string_view kHeader = "#?RADIANCE\n# a comment\nFORMAT=32-bit_rle
 
 TEST(Radiance, flat_texels_decode_mantissa_and_exponent) {
     const FileBytes file = file_of(std::string(kHeader) + "-Y 1 +X 2\n", {128, 64, 0, 129, 0, 0, 200, 136});
-    const Result<LoadedImage> loaded = decode(file);
+    const Result<LoadedImage> loaded = decode_radiance(file);
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(loaded->image.at(0, 0, 0), 1.0f);
     EXPECT_EQ(loaded->image.at(0, 0, 1), 0.5f);
@@ -34,17 +34,19 @@ TEST(Radiance, flat_texels_decode_mantissa_and_exponent) {
 
 TEST(Radiance, the_oldest_repeat_code_repeats_the_texel_before) {
     const FileBytes file = file_of(std::string(kHeader) + "-Y 1 +X 4\n", {128, 0, 0, 129, 1, 1, 1, 3});
-    const Result<LoadedImage> loaded = decode(file);
+    const Result<LoadedImage> loaded = decode_radiance(file);
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(loaded->image.at(3, 0, 0), 1.0f);
-    EXPECT_FALSE(decode(file_of(std::string(kHeader) + "-Y 1 +X 4\n", {128, 0, 0, 129, 1, 1, 1, 4})));
-    EXPECT_FALSE(decode(file_of(std::string(kHeader) + "-Y 1 +X 4\n", {1, 1, 1, 4})));
+    EXPECT_FALSE(
+        decode_radiance(file_of(std::string(kHeader) + "-Y 1 +X 4\n", {128, 0, 0, 129, 1, 1, 1, 4})));
+    EXPECT_FALSE(decode_radiance(file_of(std::string(kHeader) + "-Y 1 +X 4\n", {1, 1, 1, 4})));
 }
 
 TEST(Radiance, signs_of_the_resolution_line_flip) {
     const std::vector<int> texels = {128, 0, 0, 129, 0, 128, 0, 129, 0, 0, 128, 129, 0, 0, 0, 0};
-    const Result<LoadedImage> plain = decode(file_of(std::string(kHeader) + "-Y 2 +X 2\n", texels));
-    const Result<LoadedImage> flipped = decode(file_of(std::string(kHeader) + "+Y 2 -X 2\n", texels));
+    const Result<LoadedImage> plain = decode_radiance(file_of(std::string(kHeader) + "-Y 2 +X 2\n", texels));
+    const Result<LoadedImage> flipped =
+        decode_radiance(file_of(std::string(kHeader) + "+Y 2 -X 2\n", texels));
     ASSERT_TRUE(plain);
     ASSERT_TRUE(flipped);
     for (int y = 0; y < 2; ++y)
@@ -59,7 +61,7 @@ TEST(Radiance, what_is_written_reads_back_within_the_shared_exponent) {
         for (int x = 0; x < width; ++x)
             for (int c = 0; c < 3; ++c) image.set(x, 4, c, 250.0f);  // runs
         const Result<FileBytes> file = encode_image(".hdr", image);
-        const Result<LoadedImage> loaded = decode(*file);
+        const Result<LoadedImage> loaded = decode_radiance(*file);
         ASSERT_TRUE(loaded) << loaded.error().message;
         for (int y = 0; y < 9; ++y)
             for (int x = 0; x < width; ++x)
@@ -73,7 +75,7 @@ TEST(Radiance, values_that_rgbe_has_no_code_for_are_written_as_the_nearest) {
     image.set(0, 0, 0, -1.0f);
     image.set(0, 0, 1, NAN);
     image.set(0, 0, 2, HUGE_VALF);
-    const Image back = decode(*encode_image(".hdr", image))->image;
+    const Image back = decode_radiance(*encode_image(".hdr", image))->image;
     EXPECT_EQ(back.at(0, 0, 0), 0.0f);
     EXPECT_EQ(back.at(0, 0, 1), 0.0f);
     EXPECT_GT(back.at(0, 0, 2), 1e38f);
@@ -83,9 +85,9 @@ TEST(Radiance, wrong_headers_are_named) {
     for (const char* line :
          {"+X 2 -Y 2\n", "-Y 0 +X 2\n", "-Y 2.5 +X 2\n", "-Y 2 +X 99999\n", "-Y nan +X 2\n", "\n"}) {
         const Result<LoadedImage> loaded =
-            decode(file_of(std::string(kHeader) + line, std::vector<int>(16, 0)));
+            decode_radiance(file_of(std::string(kHeader) + line, std::vector<int>(16, 0)));
         EXPECT_FALSE(loaded) << line;
     }
-    EXPECT_FALSE(decode(file_of("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n", {0, 0, 0, 0})));
-    EXPECT_FALSE(decode(file_of("#?RADIANCE\n\n-Y 1 +X 1\n", {0, 0, 0, 0})));
+    EXPECT_FALSE(decode_radiance(file_of("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n", {0, 0, 0, 0})));
+    EXPECT_FALSE(decode_radiance(file_of("#?RADIANCE\n\n-Y 1 +X 1\n", {0, 0, 0, 0})));
 }

@@ -12,15 +12,15 @@ using testing::HasSubstr;
 
 namespace {
 
-constexpr int kSide = 96;
+constexpr int kEffectSide = 96;
 
 // An effect as skin has it: red far above green and blue, dark on one side of an edge and bright on the
 // other.
 Image effect() {
-    Image image(kSide, kSide, 3);
+    Image image(kEffectSide, kEffectSide, 3);
     constexpr float kStrength[3] = {0.012f, 0.0015f, 0.0007f};
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x)
+    for (int y = 0; y < kEffectSide; ++y)
+        for (int x = 0; x < kEffectSide; ++x)
             for (int c = 0; c < 3; ++c)
                 image.set(x, y, c, kStrength[c] * std::sin(0.3f * float(x)) * std::exp(-0.02f * float(y)));
     return image;
@@ -44,7 +44,7 @@ Image scaled(Image image, float by) {
 }
 
 Image everywhere() {
-    Image mask(kSide, kSide, 1);
+    Image mask(kEffectSide, kEffectSide, 1);
     for (float& v : mask.floats()) v = 1;
     return mask;
 }
@@ -61,11 +61,11 @@ const float kNoise = 0.2f * 0.0045f;
 }  // namespace
 
 TEST(Captured, a_technique_without_effect_has_exactly_0) {
-    const Captured none = share(Image(kSide, kSide, 3), halves(effect(), kNoise, 1));
+    const Captured none = share(Image(kEffectSide, kEffectSide, 3), halves(effect(), kNoise, 1));
     EXPECT_EQ(none.all.share, 0);
     for (const CapturedShare& channel : none.channels) EXPECT_EQ(channel.share, 0);
     EXPECT_LT(none.all.error, 1e-12);
-    EXPECT_EQ(none.pixels, size_t(kSide * kSide));
+    EXPECT_EQ(none.pixels, size_t(kEffectSide * kEffectSide));
 }
 
 TEST(Captured, an_effect_scaled_by_nine_tenths_has_nine_tenths_whatever_the_noise) {
@@ -95,7 +95,7 @@ TEST(Captured, effect_and_noise_are_what_was_put_in) {
     const Image clean = effect();
     for (const float v : clean.floats()) squares += double(v) * v;
     const double rms = std::sqrt(squares / double(clean.floats().size()));
-    const Captured none = share(Image(kSide, kSide, 3), truth);
+    const Captured none = share(Image(kEffectSide, kEffectSide, 3), truth);
     EXPECT_NEAR(none.all.effect_rms, rms, 0.01 * rms);
     // Of the mean of two halves.
     EXPECT_NEAR(none.all.truth_noise, kNoise / std::sqrt(2.0), 0.02 * kNoise);
@@ -123,27 +123,28 @@ TEST(Captured, a_share_of_a_truth_that_is_too_noisy_is_not_printed) {
     const Captured noisy = share(scaled(effect(), 0.5f), halves(effect(), 60 * kNoise, 1));
     EXPECT_FALSE(noisy.all.known());
     // Nothing scatters: there is nothing to have a share of.
-    const Captured nothing = share(effect(), {Image(kSide, kSide, 3), Image(kSide, kSide, 3)});
+    const Captured nothing =
+        share(effect(), {Image(kEffectSide, kEffectSide, 3), Image(kEffectSide, kEffectSide, 3)});
     EXPECT_FALSE(nothing.all.known());
 }
 
 TEST(Captured, only_the_mask_counts) {
     Image technique = effect();
     Image mask = everywhere();
-    for (int x = 0; x < kSide; ++x) {
+    for (int x = 0; x < kEffectSide; ++x) {
         technique.set(x, 3, 0, 100);
         mask.set(x, 3, 0, 0);
     }
     const auto result = captured(technique, {effect(), effect()}, mask);
     ASSERT_TRUE(result);
     EXPECT_EQ(result->all.share, 1);
-    EXPECT_EQ(result->pixels, size_t(kSide * (kSide - 1)));
+    EXPECT_EQ(result->pixels, size_t(kEffectSide * (kEffectSide - 1)));
 }
 
 TEST(Captured, what_cannot_be_measured_is_refused) {
     const EffectHalves truth = {effect(), effect()};
     EXPECT_THAT(captured(Image(8, 8, 3), truth, everywhere()).error().message, HasSubstr("differ in size"));
-    EXPECT_THAT(captured(effect(), truth, Image(kSide, kSide, 1)).error().message,
+    EXPECT_THAT(captured(effect(), truth, Image(kEffectSide, kEffectSide, 1)).error().message,
                 HasSubstr("mask is empty"));
     Image broken = effect();
     broken.set(1, 1, 1, std::numeric_limits<float>::quiet_NaN());

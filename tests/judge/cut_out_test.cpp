@@ -11,7 +11,7 @@ using namespace dermis;
 
 namespace {
 
-constexpr int kSide = 64;
+constexpr int kPictureSide = 64;
 constexpr Vec3 kCardColor = {1, 0, 0}, kSkinColor = {1, 1, 1};
 
 // Sixteen texels side by side, eight of each; a card's u grows with x.
@@ -55,11 +55,14 @@ class CutOut : public RenderTest {
     static Pictures pictures(Scene scene) {
         EXPECT_TRUE(complete_scene(scene));
         Renderer renderer = make_renderer(scene);
-        Image drawn =
-            radiance(renderer, built_in_technique("lambert"),
-                     {.width = kSide, .height = kSide, .samples = 1, .view = "diffuse", .penumbra_mm = 0.1f});
+        Image drawn = radiance(renderer, built_in_technique("lambert"),
+                               {.width = kPictureSide,
+                                .height = kPictureSide,
+                                .samples = 1,
+                                .view = "diffuse",
+                                .penumbra_mm = 0.1f});
         ReferenceSettings settings{
-            .integrator = Integrator::lambert, .width = kSide, .height = kSide, .samples = 4};
+            .integrator = Integrator::lambert, .width = kPictureSide, .height = kPictureSide, .samples = 4};
         settings.filter = PixelFilter::center;
         settings.lighting = {.ambient = AmbientModel::renderer, .specular = SpecularReflection::none};
         auto truth = render_reference(scene, settings);
@@ -73,8 +76,8 @@ class CutOut : public RenderTest {
         const auto row = [&](size_t r) {
             return m[r] * p_mm.x + m[r + 4] * p_mm.y + m[r + 8] * p_mm.z + m[r + 12];
         };
-        const int x = int((row(0) / row(3) * 0.5f + 0.5f) * kSide),
-                  y = int((row(1) / row(3) * 0.5f + 0.5f) * kSide);
+        const int x = int((row(0) / row(3) * 0.5f + 0.5f) * kPictureSide),
+                  y = int((row(1) / row(3) * 0.5f + 0.5f) * kPictureSide);
         for (const Image* image : {&pictures.drawn, &pictures.truth})
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(image->at(x, y, c), (&expected.x)[c], 0.01f)

@@ -13,10 +13,10 @@ using testing::HasSubstr;
 
 namespace {
 
-constexpr int kSide = 16;
+constexpr int kScoredSide = 16;
 
 Image even(float value, int channels) {
-    Image image(kSide, kSide, channels);
+    Image image(kScoredSide, kScoredSide, channels);
     for (float& v : image.floats()) v = value;
     return image;
 }
@@ -28,13 +28,13 @@ void set_pixel(Image& image, int x, int y, int channel, float value) {
 // Skin everywhere but in the first row; n.l falls from 1 to -1 from left to right; a shadow's edge in the
 // fourth column.
 SkinMasks masks() {
-    Image light(kSide, kSide, 4), drawn = even(1, 1), skin = even(1, 1);
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            set_pixel(light, x, y, 2, 1 - 2 * float(x) / (kSide - 1));
+    Image light(kScoredSide, kScoredSide, 4), drawn = even(1, 1), skin = even(1, 1);
+    for (int y = 0; y < kScoredSide; ++y)
+        for (int x = 0; x < kScoredSide; ++x) {
+            set_pixel(light, x, y, 2, 1 - 2 * float(x) / (kScoredSide - 1));
             set_pixel(light, x, y, 3, x == 3 || x == 8 ? 0.5f : 1.0f);
         }
-    for (int x = 0; x < kSide; ++x) set_pixel(skin, x, 0, 0, 0);
+    for (int x = 0; x < kScoredSide; ++x) set_pixel(skin, x, 0, 0, 0);
     return make_masks(light, drawn, skin);
 }
 
@@ -48,11 +48,11 @@ double sum(const Image& mask) {
 
 TEST(Scores, masks_are_the_skin_its_terminator_and_the_edges_of_shadows) {
     const SkinMasks m = masks();
-    EXPECT_EQ(sum(m.skin), kSide * (kSide - 1));
+    EXPECT_EQ(sum(m.skin), kScoredSide * (kScoredSide - 1));
     // |1 - 2x/15| < 0.3 holds for x = 6..9.
-    EXPECT_EQ(sum(m.terminator), 4 * (kSide - 1));
+    EXPECT_EQ(sum(m.terminator), 4 * (kScoredSide - 1));
     // Column 8 has a partial shadow too, but lies in the terminator.
-    EXPECT_EQ(sum(m.penumbra), kSide - 1);
+    EXPECT_EQ(sum(m.penumbra), kScoredSide - 1);
     EXPECT_EQ(m.penumbra.at(3, 5, 0), 1);
 }
 
@@ -64,15 +64,15 @@ TEST(Scores, pixels_that_only_one_renderer_calls_skin_do_not_count) {
     const SkinMasks m = make_masks(even(0, 4), drawn, skin);
     EXPECT_EQ(m.skin.at(2, 2, 0), 0);
     EXPECT_EQ(m.skin.at(3, 3, 0), 0);
-    EXPECT_EQ(sum(m.skin), kSide * kSide - 2);
+    EXPECT_EQ(sum(m.skin), kScoredSide * kScoredSide - 2);
 }
 
 TEST(Scores, an_error_counts_where_it_is_and_nowhere_else) {
     const Image reference = even(0.25f, 4);
     Image radiance = reference;
-    for (int y = 1; y < kSide; ++y)
+    for (int y = 1; y < kScoredSide; ++y)
         for (int c = 0; c < 3; ++c) set_pixel(radiance, 3, y, c, 0.35f);
-    for (int x = 0; x < kSide; ++x) set_pixel(radiance, x, 0, 0, 100);  // not skin
+    for (int x = 0; x < kScoredSide; ++x) set_pixel(radiance, x, 0, 0, 100);  // not skin
     const auto scores = score(radiance, reference, masks(), {});
     ASSERT_TRUE(scores) << scores.error().message;
     EXPECT_NEAR(*scores->penumbra_rmse, 0.1, 1e-6);

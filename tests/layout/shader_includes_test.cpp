@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kRoot = DERMIS_SOURCE_DIR;
+const fs::path kShaderRoot = DERMIS_SOURCE_DIR;
 
 struct ShaderFile {
     std::string folder;                 // "shaders/atlas", "techniques/wrap"
@@ -38,11 +38,11 @@ std::vector<ShaderFile> shader_files() {
     static const std::set<fs::path> kExtensions = {".glsl", ".vert", ".frag", ".comp"};
     std::vector<ShaderFile> files;
     for (const char* tree : {"shaders", "techniques"})
-        for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree)) {
+        for (const auto& entry : fs::recursive_directory_iterator(kShaderRoot / tree)) {
             if (!kExtensions.contains(entry.path().extension())) continue;
             std::ifstream file(entry.path());
             const std::string text = {std::istreambuf_iterator<char>(file), {}};
-            files.push_back({fs::relative(entry.path().parent_path(), kRoot).generic_string(),
+            files.push_back({fs::relative(entry.path().parent_path(), kShaderRoot).generic_string(),
                              includes_of(text), numbers_bindings(text)});
         }
     return files;
@@ -50,7 +50,7 @@ std::vector<ShaderFile> shader_files() {
 
 // Why a shader of `folder` must not include this; empty when it may.
 std::string objection(const std::string& folder, const std::string& include) {
-    if (!fs::is_regular_file(kRoot / include))
+    if (!fs::is_regular_file(kShaderRoot / include))
         return "there is no such file, seen from the repository's root";
     const std::string from = fs::path(include).parent_path().generic_string();
     if (from == folder || from == "shaders/include/skin") return "";

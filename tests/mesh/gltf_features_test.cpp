@@ -47,7 +47,7 @@ GltfBuilder triangle() {
     return GltfBuilder().accessor<float>(5126, "VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0});
 }
 
-LoadedMesh load(const std::string& text, const MeshOptions& options = {}) {
+LoadedMesh load_gltf(const std::string& text, const MeshOptions& options = {}) {
     auto loaded = parse_gltf_text(text, {}, options);
     EXPECT_TRUE(loaded) << loaded.error().message;
     if (!loaded) return {};
@@ -55,7 +55,7 @@ LoadedMesh load(const std::string& text, const MeshOptions& options = {}) {
     return std::move(*loaded);
 }
 
-std::string error_of(const std::string& text, const MeshOptions& options = {}) {
+std::string features_error_of(const std::string& text, const MeshOptions& options = {}) {
     const auto loaded = parse_gltf_text(text, {}, options);
     return loaded ? "" : loaded.error().message;
 }
@@ -89,7 +89,7 @@ TEST(GltfSkin, vertices_follow_their_joints_and_not_the_node_of_the_mesh) {
         R"({"translation":[0,1,0],"rotation":[0,0,0.70710678,0.70710678]})";
     const std::string text =
         skinned_triangle({2, 0, 0, 0, 0, 2, 0, 0, 1, 1, 0, 0}).file(kSkinned, nodes, kSkin);
-    const Mesh mesh = load(text).mesh;
+    const Mesh mesh = load_gltf(text).mesh;
     expect_near(mesh.positions_mm[0], {0, 0, 5000});
     // (1, 0, 0) is (1, -1, 0) for joint 1; turned (1, 1, 0); then (0, 1, 0) and (0, 0, 5).
     expect_near(mesh.positions_mm[1], {1000, 2000, 5000});
@@ -101,7 +101,7 @@ TEST(GltfSkin, a_vertex_without_weights_and_a_skin_without_bind_matrices_are_rea
     const std::string nodes = R"({"mesh":0,"skin":0},{"scale":[2,2,2]},{})";
     const std::string text = skinned_triangle({1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0})
                                  .file(kSkinned, nodes, R"(,"skins":[{"joints":[1,2]}])");
-    const Mesh mesh = load(text).mesh;
+    const Mesh mesh = load_gltf(text).mesh;
     expect_near(mesh.positions_mm[1], {2000, 0, 0});
     expect_near(mesh.positions_mm[2], {0, 1000, 0});
 }
@@ -115,7 +115,7 @@ TEST(GltfSkin, normals_and_mirrored_joints_are_right) {
             .accessor<float>(5126, "VEC3", 3, {0.6f, 0, 0.8f, 0.6f, 0, 0.8f, 0.6f, 0, 0.8f})
             .file(R"({"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2,"NORMAL":3}})",
                   R"({"mesh":0,"skin":0},{"scale":[-1,1,1]})", R"(,"skins":[{"joints":[1]}])");
-    const LoadedMesh loaded = load(text);
+    const LoadedMesh loaded = load_gltf(text);
     EXPECT_NEAR(loaded.mesh.normals[0].x, -0.6, 1e-6);
     EXPECT_NEAR(loaded.mesh.normals[0].z, 0.8, 1e-6);
     EXPECT_FALSE(any_contains(loaded.warnings, "face against their normals"));
@@ -123,8 +123,9 @@ TEST(GltfSkin, normals_and_mirrored_joints_are_right) {
 
 TEST(GltfSkin, what_is_wrong_is_named) {
     const auto message = [](const std::string& skins, const std::string& attributes = kSkinned) {
-        return error_of(skinned_triangle({1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0})
-                            .file(attributes, R"({"mesh":0,"skin":0},{},{})", R"(,"skins":[)" + skins + "]"));
+        return features_error_of(
+            skinned_triangle({1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0})
+                .file(attributes, R"({"mesh":0,"skin":0},{},{})", R"(,"skins":[)" + skins + "]"));
     };
     EXPECT_NE(message(R"({"joints":[1]})").find("JOINTS_0: a joint is out of range (the skin has 1)"),
               std::string::npos);
@@ -141,10 +142,11 @@ TEST(GltfSkin, what_is_wrong_is_named) {
 TEST(GltfMorph, targets_count_by_the_weights_of_node_or_mesh) {
     const GltfBuilder builder = triangle().accessor<float>(5126, "VEC3", 3, {0, 0, 2, 0, 0, 2, 0, 0, 2});
     const std::string primitive = R"({"attributes":{"POSITION":0},"targets":[{"POSITION":1}]})";
-    EXPECT_EQ(load(builder.file(primitive)).mesh.positions_mm[0].z, 0);
-    EXPECT_EQ(load(builder.file(primitive, R"({"mesh":0,"weights":[0.5]})")).mesh.positions_mm[0].z, 1000);
+    EXPECT_EQ(load_gltf(builder.file(primitive)).mesh.positions_mm[0].z, 0);
+    EXPECT_EQ(load_gltf(builder.file(primitive, R"({"mesh":0,"weights":[0.5]})")).mesh.positions_mm[0].z,
+              1000);
     const std::string with_weights = primitive + R"(],"weights":[0.25],"extras":[0)";
-    EXPECT_EQ(load(builder.file(with_weights)).mesh.positions_mm[0].z, 500);
+    EXPECT_EQ(load_gltf(builder.file(with_weights)).mesh.positions_mm[0].z, 500);
 }
 
 TEST(GltfUv, each_materials_set_and_transform_change_its_primitives_uvs) {
@@ -171,7 +173,7 @@ TEST(GltfUv, each_materials_set_and_transform_change_its_primitives_uvs) {
         {transform(R"("texCoord":1)"), {Vec2{0.25f, 0.75f}, {0.25f, 0.75f}, {0.25f, 0.75f}}},
         {transform(R"("texCoord":0,"scale":[3,1])", R"(,"texCoord":1)"), {Vec2{0, 0}, {3, 0}, {0, 1}}}};
     for (const Case& c : cases) {
-        const LoadedMesh loaded = load(builder.file(
+        const LoadedMesh loaded = load_gltf(builder.file(
             R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":2},"material":0})", R"({"mesh":0})",
             R"(,"textures":[{"source":0}],"images":[{"uri":"a.png"}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":)" +
                 c.info + "}}]"));
@@ -185,11 +187,11 @@ TEST(GltfUv, wrap_modes_are_named_where_they_would_show) {
     const auto warned = [](const std::string& sampler, float side) {
         const GltfBuilder builder = triangle().accessor<float>(5126, "VEC2", 3, {0, 0, side, 0, 0, side});
         return any_contains(
-            load(builder.file(
-                     R"({"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0})", R"({"mesh":0})",
-                     R"(,"samplers":[)" + sampler +
-                         R"(],"textures":[{"source":0,"sampler":0}],"images":[{"uri":"a.png"}],)"
-                         R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])"))
+            load_gltf(builder.file(
+                          R"({"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0})", R"({"mesh":0})",
+                          R"(,"samplers":[)" + sampler +
+                              R"(],"textures":[{"source":0,"sampler":0}],"images":[{"uri":"a.png"}],)"
+                              R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])"))
                 .warnings,
             "leave their image");
     };
@@ -206,7 +208,7 @@ TEST(GltfUv, tangents_of_a_rotated_texture_are_computed_again) {
             .accessor<float>(5126, "VEC4", 3, {0.6f, 0.8f, 0, 1, 0.6f, 0.8f, 0, 1, 0.6f, 0.8f, 0, 1})
             .accessor<float>(5126, "VEC3", 3, {0, 0, 1, 0, 0, 1, 0, 0, 1});
     const auto tangent = [&](const std::string& transform) {
-        return load(
+        return load_gltf(
                    builder.file(
                        R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"TANGENT":2,"NORMAL":3},"material":0})",
                        R"({"mesh":0})",
@@ -239,16 +241,17 @@ TEST(GltfColors, of_three_and_four_numbers_of_every_type_are_read) {
              5123, "VEC4", 3, {65535, 13107, 0, 65535, 65535, 13107, 0, 65535, 65535, 13107, 0, 65535},
              normalized)}};
     for (const Case& c : cases) {
-        const Mesh mesh = load(c.builder.file(R"({"attributes":{"POSITION":0,"COLOR_0":1}})")).mesh;
+        const Mesh mesh = load_gltf(c.builder.file(R"({"attributes":{"POSITION":0,"COLOR_0":1}})")).mesh;
         ASSERT_EQ(mesh.colors_linear.size(), 3u) << c.component << c.type;
         EXPECT_NEAR(mesh.colors_linear[1].y, 0.2, 1e-6) << c.component << c.type;
         EXPECT_EQ(mesh.colors_linear[1].w, 1) << c.component << c.type;
     }
-    const Mesh two = load(cases[0].builder.file(
-                              R"({"attributes":{"POSITION":0}},{"attributes":{"POSITION":0,"COLOR_0":1}})"))
-                         .mesh;
+    const Mesh two =
+        load_gltf(cases[0].builder.file(
+                      R"({"attributes":{"POSITION":0}},{"attributes":{"POSITION":0,"COLOR_0":1}})"))
+            .mesh;
     EXPECT_EQ(two.colors_linear[0], (Vec4{1, 1, 1, 1})) << "a primitive without colours is white";
-    EXPECT_TRUE(load(triangle().file(R"({"attributes":{"POSITION":0}})")).mesh.colors_linear.empty());
+    EXPECT_TRUE(load_gltf(triangle().file(R"({"attributes":{"POSITION":0}})")).mesh.colors_linear.empty());
 }
 
 TEST(GltfIndices, the_largest_index_starts_a_new_primitive) {
@@ -260,8 +263,8 @@ TEST(GltfIndices, the_largest_index_starts_a_new_primitive) {
     for (const char* mode : {"4", "5", "6"})
         for (const char* indices : {"1", "2"}) {
             const LoadedMesh loaded =
-                load(builder.file(std::string(R"({"attributes":{"POSITION":0},"indices":)") + indices +
-                                  R"(,"mode":)" + mode + "}"));
+                load_gltf(builder.file(std::string(R"({"attributes":{"POSITION":0},"indices":)") + indices +
+                                       R"(,"mode":)" + mode + "}"));
             EXPECT_EQ(loaded.mesh.triangle_count(), 2u) << mode;
             EXPECT_TRUE(any_contains(loaded.warnings, "the largest index")) << mode;
         }
@@ -277,7 +280,7 @@ TEST(GltfTangents, those_that_are_given_stay_and_the_others_are_computed) {
             .accessor<float>(5126, "VEC3", 3, {0, 0, 1, 0, 0, 1, 0, 0, 1})
             .file(R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"TANGENT":2,"NORMAL":4}},)"
                   R"({"attributes":{"POSITION":3,"TEXCOORD_0":1,"NORMAL":4}})");
-    const Mesh mesh = load(text).mesh;
+    const Mesh mesh = load_gltf(text).mesh;
     ASSERT_EQ(mesh.positions_mm.size(), 6u);
     EXPECT_NEAR(mesh.tangents[0].y, 0.8, 1e-6);
     EXPECT_EQ(mesh.tangents[0].w, -1);
@@ -292,12 +295,12 @@ TEST(GltfExtensions, that_are_not_read_are_refused_when_required_and_named_once_
           "KHR_materials_transmission", "KHR_materials_anisotropy", "KHR_materials_iridescence",
           "KHR_materials_variants", "KHR_lights_punctual", "KHR_texture_basisu", "X_any"}) {
         const std::string list = std::string("[\"") + name + "\",\"" + name + "\"]";
-        EXPECT_NE(error_of(square_gltf("", R"(,"extensionsRequired":)" + list))
+        EXPECT_NE(features_error_of(square_gltf("", R"(,"extensionsRequired":)" + list))
                       .find("needs " + std::string(name) + ", which is not supported"),
                   std::string::npos)
             << name;
         const std::vector<std::string> warnings =
-            load(square_gltf("", R"(,"extensionsUsed":)" + list)).warnings;
+            load_gltf(square_gltf("", R"(,"extensionsUsed":)" + list)).warnings;
         EXPECT_EQ(
             std::ranges::count_if(warnings, [&](const std::string& w) { return w.find(name) != w.npos; }), 1)
             << name;
@@ -308,7 +311,7 @@ TEST(GltfExtensions, that_are_not_read_are_refused_when_required_and_named_once_
           "KHR_materials_emissive_strength"}) {
         const std::string list = std::string("[\"") + name + "\"]";
         EXPECT_FALSE(any_contains(
-            load(square_gltf("", R"(,"extensionsRequired":)" + list + R"(,"extensionsUsed":)" + list))
+            load_gltf(square_gltf("", R"(,"extensionsRequired":)" + list + R"(,"extensionsUsed":)" + list))
                 .warnings,
             name));
     }
@@ -320,11 +323,11 @@ TEST(GltfVersion, a_file_that_needs_a_later_one_is_refused) {
         const std::string from = R"({"version":"2.0"})";
         return text.replace(text.find(from), from.size(), asset);
     };
-    EXPECT_EQ(error_of(with_asset(R"({"version":"2.1"})")), "");
-    EXPECT_EQ(error_of(with_asset(R"({"version":"2.1","minVersion":"2.0"})")), "");
-    EXPECT_NE(error_of(with_asset(R"({"version":"2.1","minVersion":"2.1"})")).find("needs glTF 2.1"),
+    EXPECT_EQ(features_error_of(with_asset(R"({"version":"2.1"})")), "");
+    EXPECT_EQ(features_error_of(with_asset(R"({"version":"2.1","minVersion":"2.0"})")), "");
+    EXPECT_NE(features_error_of(with_asset(R"({"version":"2.1","minVersion":"2.1"})")).find("needs glTF 2.1"),
               std::string::npos);
-    EXPECT_NE(error_of(with_asset(R"({"version":"3.0"})")).find("only glTF 2.x"), std::string::npos);
+    EXPECT_NE(features_error_of(with_asset(R"({"version":"3.0"})")).find("only glTF 2.x"), std::string::npos);
 }
 
 TEST(GltfDataUri, may_be_percent_encoded) {
@@ -335,9 +338,10 @@ TEST(GltfDataUri, may_be_percent_encoded) {
         escaped += kDigits[uint8_t(c) >> 4];
         escaped += kDigits[uint8_t(c) & 15];
     }
-    EXPECT_EQ(load(square_gltf("", "", "", "data:application/octet-stream," + escaped)).mesh.triangle_count(),
-              2u);
-    EXPECT_NE(error_of(square_gltf("", "", "", "data:no comma")).find("malformed data URI"),
+    EXPECT_EQ(
+        load_gltf(square_gltf("", "", "", "data:application/octet-stream," + escaped)).mesh.triangle_count(),
+        2u);
+    EXPECT_NE(features_error_of(square_gltf("", "", "", "data:no comma")).find("malformed data URI"),
               std::string::npos);
 }
 
@@ -348,9 +352,10 @@ TEST(GltfLimits, of_nodes_and_vertices_are_checked_before_any_is_read) {
     std::string text = triangle().file(R"({"attributes":{"POSITION":0}})", nodes);
     const std::string from = R"("byteOffset":0)";
     text.replace(text.find(from), from.size(), R"("byteOffset":99999)");
-    EXPECT_NE(error_of(text, {.max_vertices = 302}).find("more vertices than dermis loads (302)"),
+    EXPECT_NE(features_error_of(text, {.max_vertices = 302}).find("more vertices than dermis loads (302)"),
               std::string::npos);
-    EXPECT_NE(error_of(text, {.max_nodes = 100}).find("nodes: are 101, more than the 100 that dermis loads"),
+    EXPECT_NE(features_error_of(text, {.max_nodes = 100})
+                  .find("nodes: are 101, more than the 100 that dermis loads"),
               std::string::npos);
-    EXPECT_NE(error_of(text).find("passes the end of its buffer"), std::string::npos);
+    EXPECT_NE(features_error_of(text).find("passes the end of its buffer"), std::string::npos);
 }

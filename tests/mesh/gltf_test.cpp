@@ -7,7 +7,7 @@ using namespace dermis::test;
 
 namespace {
 
-Mesh load(const std::string& text, const std::map<std::string, std::string>& files = {}) {
+Mesh read_gltf(const std::string& text, const std::map<std::string, std::string>& files = {}) {
     auto loaded = parse_gltf_text(text, files);
     EXPECT_TRUE(loaded) << loaded.error().message;
     if (!loaded) return {};
@@ -15,13 +15,13 @@ Mesh load(const std::string& text, const std::map<std::string, std::string>& fil
     return std::move(loaded->mesh);
 }
 
-std::string error_of(const std::string& text, const std::map<std::string, std::string>& files = {}) {
+std::string gltf_error_of(const std::string& text, const std::map<std::string, std::string>& files = {}) {
     const auto loaded = parse_gltf_text(text, files);
     return loaded ? "" : loaded.error().message;
 }
 
 bool fails_with(const std::string& text, const std::string& part) {
-    const std::string message = error_of(text);
+    const std::string message = gltf_error_of(text);
     EXPECT_NE(message.find(part), std::string::npos) << "got: " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
     return !message.empty();
@@ -45,7 +45,7 @@ std::string gltf_of(const std::string& primitive, const std::string& accessors, 
 }  // namespace
 
 TEST(Gltf, metres_become_millimetres) {
-    const Mesh mesh = load(square_gltf());
+    const Mesh mesh = read_gltf(square_gltf());
     EXPECT_EQ(mesh.positions_mm[2], (Vec3{1000, 1000, 0}));
     EXPECT_EQ(mesh.triangle_count(), 2u);
     EXPECT_EQ(mesh.submeshes[0].name, "square");
@@ -54,7 +54,7 @@ TEST(Gltf, metres_become_millimetres) {
 }
 
 TEST(Gltf, node_transforms_chain) {
-    const Mesh mesh = load(replaced(
+    const Mesh mesh = read_gltf(replaced(
         square_gltf(
             R"(,"translation":[1,2,3],"scale":[2,2,2],"children":[1]},{"mesh":0,"rotation":[0,0,0.70710678,0.70710678])"),
         R"("name":"square",)", ""));
@@ -67,7 +67,7 @@ TEST(Gltf, node_transforms_chain) {
 
 TEST(Gltf, a_mirrored_node_keeps_its_front_outside) {
     const std::string matrix = R"(,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1])";
-    const Mesh mesh = load(square_gltf(matrix));
+    const Mesh mesh = read_gltf(square_gltf(matrix));
     EXPECT_EQ(mesh.normals[0], (Vec3{0, 0, 1}));
     EXPECT_EQ(mesh.positions_mm[1], (Vec3{-1000, 0, 0}));
 }
@@ -82,7 +82,7 @@ TEST(Gltf, normals_of_a_mirrored_node_are_mirrored_and_not_turned_round) {
                 R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
                 R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"})",
                 R"({"buffer":0,"byteLength":72})", binary);
-    const Mesh mesh = load(replaced(text, R"({"mesh":0})", R"({"mesh":0,"scale":[-1,1,1]})"));
+    const Mesh mesh = read_gltf(replaced(text, R"({"mesh":0})", R"({"mesh":0,"scale":[-1,1,1]})"));
     EXPECT_NEAR(mesh.normals[0].x, -0.6, 1e-6);
     EXPECT_NEAR(mesh.normals[0].z, 0.8, 1e-6);
 }
@@ -95,7 +95,7 @@ TEST(Gltf, normals_follow_a_non_uniform_scale) {
                 R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
                 R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"})",
                 R"({"buffer":0,"byteLength":72})", binary);
-    const Mesh mesh = load(replaced(text, R"({"mesh":0})", R"({"mesh":0,"scale":[2,1,1]})"));
+    const Mesh mesh = read_gltf(replaced(text, R"({"mesh":0})", R"({"mesh":0,"scale":[2,1,1]})"));
     EXPECT_NEAR(mesh.normals[0].z / mesh.normals[0].x, 2, 1e-5);
 }
 
@@ -111,22 +111,23 @@ TEST(Gltf, indices_of_8_16_and_32_bits_and_none_agree) {
             positions + indices);
     };
     const std::vector<uint32_t> expected = {0, 1, 2};
-    EXPECT_EQ(load(file(Binary().add<uint8_t>({0, 1, 2}).bytes(), 5121)).indices, expected);
-    EXPECT_EQ(load(file(Binary().add<uint16_t>({0, 1, 2}).bytes(), 5123)).indices, expected);
-    EXPECT_EQ(load(file(Binary().add<uint32_t>({0, 1, 2}).bytes(), 5125)).indices, expected);
-    EXPECT_EQ(load(gltf_of(R"({"attributes":{"POSITION":0}})",
-                           R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"})",
-                           R"({"buffer":0,"byteLength":36})", positions))
+    EXPECT_EQ(read_gltf(file(Binary().add<uint8_t>({0, 1, 2}).bytes(), 5121)).indices, expected);
+    EXPECT_EQ(read_gltf(file(Binary().add<uint16_t>({0, 1, 2}).bytes(), 5123)).indices, expected);
+    EXPECT_EQ(read_gltf(file(Binary().add<uint32_t>({0, 1, 2}).bytes(), 5125)).indices, expected);
+    EXPECT_EQ(read_gltf(gltf_of(R"({"attributes":{"POSITION":0}})",
+                                R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"})",
+                                R"({"buffer":0,"byteLength":36})", positions))
                   .indices,
               expected);
 }
 
 TEST(Gltf, strips_and_fans_become_triangles) {
-    EXPECT_EQ(
-        load(replaced(square_gltf("", "", R"(,"mode":5)"), R"("count":6)", R"("count":3)")).triangle_count(),
-        1u);
-    const Mesh fan = load(replaced(square_gltf("", "", R"(,"mode":6)"), R"("componentType":5123,"count":6)",
-                                   R"("componentType":5123,"count":4)"));
+    EXPECT_EQ(read_gltf(replaced(square_gltf("", "", R"(,"mode":5)"), R"("count":6)", R"("count":3)"))
+                  .triangle_count(),
+              1u);
+    const Mesh fan =
+        read_gltf(replaced(square_gltf("", "", R"(,"mode":6)"), R"("componentType":5123,"count":6)",
+                           R"("componentType":5123,"count":4)"));
     EXPECT_EQ(fan.triangle_count(), 2u);
     const auto points = parse_gltf_text(square_gltf("", "", R"(,"mode":0)"));
     ASSERT_FALSE(points);
@@ -138,7 +139,7 @@ TEST(Gltf, interleaved_and_normalised_attributes_are_read) {
     Binary binary;
     for (const auto& [x, y, u] : {std::tuple{0.f, 0.f, 0}, {1.f, 0.f, 65535}, {0.f, 1.f, 32768}})
         binary.add<float>({x, y, 0}).add<uint16_t>({uint16_t(u), 65535});
-    const Mesh mesh = load(gltf_of(
+    const Mesh mesh = read_gltf(gltf_of(
         R"({"attributes":{"POSITION":0,"TEXCOORD_0":1}})",
         R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
         R"({"bufferView":0,"byteOffset":12,"componentType":5123,"normalized":true,"count":3,"type":"VEC2"})",
@@ -158,16 +159,16 @@ TEST(Gltf, sparse_accessors_replace_elements) {
     const std::string text = gltf_of(
         R"({"attributes":{"POSITION":0}})",
         R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)" + sparse + "}", views, binary);
-    EXPECT_EQ(load(text).positions_mm[2], (Vec3{5000, 6000, 7000}));
+    EXPECT_EQ(read_gltf(text).positions_mm[2], (Vec3{5000, 6000, 7000}));
     // Without a base the rest is zero.
-    EXPECT_EQ(load(replaced(text, R"("bufferView":0,"componentType":5126)", R"("componentType":5126)"))
+    EXPECT_EQ(read_gltf(replaced(text, R"("bufferView":0,"componentType":5126)", R"("componentType":5126)"))
                   .positions_mm[1],
               Vec3{});
     fails_with(replaced(text, R"("count":3)", R"("count":2)"), "index 2 is out of range");
 }
 
 TEST(Gltf, external_and_binary_chunk_buffers_are_found) {
-    EXPECT_EQ(load(square_gltf("", "", "", "sub/my%20data.bin"), {{"sub/my data.bin", kSquareBinary}})
+    EXPECT_EQ(read_gltf(square_gltf("", "", "", "sub/my%20data.bin"), {{"sub/my data.bin", kSquareBinary}})
                   .triangle_count(),
               2u);
     const std::string json = replaced(square_gltf("", "", "", "X"), R"(,"uri":"X")", "");
@@ -262,7 +263,7 @@ TEST(Gltf, instancing_cannot_unfold_without_bound) {
         rest += R"(,{"mesh":0})";
     }
     const std::string text = replaced(square_gltf(), R"({"mesh":0})", nodes + "]}" + rest);
-    EXPECT_EQ(load(text).positions_mm.size(), 404u);
+    EXPECT_EQ(read_gltf(text).positions_mm.size(), 404u);
     const auto refused = parse_gltf_text(text, {}, {.max_vertices = 400});
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("more vertices than dermis loads"), std::string::npos);

@@ -13,7 +13,7 @@ using namespace dermis;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 RadialProfile skin_by_distance() {
     const auto reflectance = [](double d) {
@@ -108,5 +108,5 @@ TEST(RadialPreintegration, a_flat_surface_is_lambertian) {
     const std::vector<Rgb> values = preintegrated_diffuse(burley_skin(), std::vector{-0.5, 0.5}, INFINITY);
     EXPECT_EQ(values[0][0], 0);
     EXPECT_EQ(values[1][2], 0.5);
-    EXPECT_NEAR(preintegrated_zonal_harmonics(burley_skin(), INFINITY)[2][0], std::sqrt(5 * kPi) / 8, 1e-15);
+    EXPECT_NEAR(preintegrated_zonal_harmonics(burley_skin(), INFINITY)[2][0], std::sqrt(5 * pi) / 8, 1e-15);
 }

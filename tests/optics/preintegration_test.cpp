@@ -15,7 +15,7 @@ using namespace dermis;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Construction kConstructions[] = {Construction::sphere, Construction::ring, Construction::half_ring};
 constexpr Preintegration kRing = {.construction = Construction::ring};
 constexpr Preintegration kHalfRing = {.construction = Construction::half_ring};
@@ -28,7 +28,7 @@ test::Channel channel_of(const GaussianSum& profile, size_t channel, RingWeights
         double sum = 0;
         for (const GaussianTerm& term : profile.terms) {
             const double v = term.variance_mm2;
-            const double norm = weights == RingWeights::area ? 2 * kPi * v : std::sqrt(2 * kPi * v);
+            const double norm = weights == RingWeights::area ? 2 * pi * v : std::sqrt(2 * pi * v);
             sum += term.weight[channel] * std::exp(-d * d / (2 * v)) / norm;
         }
         return sum;
@@ -42,7 +42,7 @@ double exact(const GaussianSum& profile, size_t channel, double t, double radius
         return test::sphere_integral(channel_of(profile, channel, RingWeights::area), kFinest_mm, t,
                                      radius_mm);
     return test::ring_integral(channel_of(profile, channel, how.ring_weights), kFinest_mm, t, radius_mm,
-                               how.construction == Construction::ring ? kPi : kPi / 2);
+                               how.construction == Construction::ring ? pi : pi / 2);
 }
 
 // Largest difference of the red channel between a construction and the sphere, over N.L.
@@ -152,7 +152,7 @@ TEST(Preintegration, a_sphere_conserves_energy) {
         for (double scale : {0.3, 1.0, 1.414}) {
             const Rgb zh_0 =
                 preintegrated_zonal_harmonics(gpu_gems_3_skin(), radius_mm, {.variance_scale = scale})[0];
-            for (double value : zh_0) EXPECT_NEAR(value, std::sqrt(kPi) / 2, 1e-9) << radius_mm;
+            for (double value : zh_0) EXPECT_NEAR(value, std::sqrt(pi) / 2, 1e-9) << radius_mm;
         }
 }
 
@@ -165,8 +165,8 @@ TEST(Preintegration, zonal_harmonics_of_a_sphere_have_their_closed_form) {
     for (double kappa : {0.5, 5.0, 63.0, 65.0, 4000.0}) {
         const double rho_1 = 1 / std::tanh(kappa) - 1 / kappa, rho_2 = 1 - 3 * rho_1 / kappa;
         const auto zonal = preintegrated_zonal_harmonics({"", {{1, {1, 1, 1}}}}, std::sqrt(kappa));
-        EXPECT_NEAR(zonal[1][0], std::sqrt(kPi / 3) * rho_1, 1e-12);
-        EXPECT_NEAR(zonal[2][0], std::sqrt(5 * kPi) / 8 * rho_2, 1e-10) << kappa;
+        EXPECT_NEAR(zonal[1][0], std::sqrt(pi / 3) * rho_1, 1e-12);
+        EXPECT_NEAR(zonal[2][0], std::sqrt(5 * pi) / 8 * rho_2, 1e-10) << kappa;
     }
 }
 
@@ -181,7 +181,7 @@ TEST(Preintegration, zonal_harmonics_of_every_construction_equal_their_integral)
             };
             const double integral =
                 test::integrate(integrand, -1, 0, 1e-9) + test::integrate(integrand, 0, 1, 1e-9);
-            EXPECT_NEAR(zonal[l][0], 2 * kPi * std::sqrt((2 * double(l) + 1) / (4 * kPi)) * integral, 1e-7)
+            EXPECT_NEAR(zonal[l][0], 2 * pi * std::sqrt((2 * double(l) + 1) / (4 * pi)) * integral, 1e-7)
                 << int(construction) << " " << l;
         }
     }
@@ -235,8 +235,8 @@ TEST(Preintegration, a_flat_or_barely_scattering_surface_is_lambertian) {
 TEST(Preintegration, a_lobe_that_spreads_everywhere_leaves_the_mean_light) {
     for (double t : {-1.0, -0.3, 0.0, 0.8}) {
         EXPECT_NEAR(blurred_cosine(Construction::sphere, t, 0), 0.25, 1e-15);
-        EXPECT_NEAR(blurred_cosine(Construction::ring, t, 0), 1 / kPi, 1e-15);
-        EXPECT_NEAR(blurred_cosine(Construction::half_ring, t, 0), (1 + t) / kPi, 1e-15);
+        EXPECT_NEAR(blurred_cosine(Construction::ring, t, 0), 1 / pi, 1e-15);
+        EXPECT_NEAR(blurred_cosine(Construction::half_ring, t, 0), (1 + t) / pi, 1e-15);
     }
 }
 

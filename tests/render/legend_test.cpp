@@ -37,7 +37,7 @@ TEST_F(Legend, is_drawn_at_the_bottom_of_the_curvature_view_alone) {
     Renderer renderer = make_renderer(scene);
     const Technique& technique = built_in_technique("lambert");
     const auto picture = [&](const std::string& view) {
-        const auto drawn = renderer.draw(technique, ParameterValues(technique.parameters),
+        const auto drawn = renderer.draw(technique, small_map_values(technique),
                                          {.width = 400, .height = 200, .view = view});
         EXPECT_TRUE(drawn) << drawn.error().message;
         return *renderer.display();

@@ -113,7 +113,7 @@ TEST_F(Properties, without_a_specular_model_nothing_is_reflected) {
     DrawSettings settings = kSmall;
     settings.view = "specular";
     for (const Technique& technique : built_in_catalog().techniques) {
-        ParameterValues values(technique.parameters);
+        ParameterValues values = small_map_values(technique);
         if (!values.set("specular", "none")) continue;
         const Image image = radiance(renderer, technique, values, settings);
         EXPECT_EQ(largest_value(image), 0) << technique.id;
@@ -268,7 +268,7 @@ TEST_F(Properties, every_view_of_every_technique_can_be_drawn) {
     for (const Technique& technique : built_in_catalog().techniques)
         for (const std::string& view : view_names(technique)) {
             DrawSettings settings = {.width = 32, .height = 32, .view = view, .shadow_map_size = 64};
-            const auto drawn = renderer.draw(technique, ParameterValues(technique.parameters), settings);
+            const auto drawn = renderer.draw(technique, small_map_values(technique), settings);
             EXPECT_TRUE(drawn) << technique.id << " " << view << ": " << drawn.error().message;
             EXPECT_TRUE(renderer.display()) << technique.id << " " << view;
         }

@@ -12,7 +12,7 @@ using namespace dermis;
 namespace {
 
 constexpr const char* kTechniques[] = {"screen_space_separable", "screen_space_burley"};
-constexpr int kSize = 96;
+constexpr int kPictureSize = 96;
 constexpr float kHalfHeightMm = 9;  // of the slanted plane's picture
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
@@ -26,8 +26,8 @@ class ScreenSpace : public RenderTest {
         ParameterValues values(technique.parameters);
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
         return radiance(renderer, technique, values,
-                        {.width = kSize,
-                         .height = kSize,
+                        {.width = kPictureSize,
+                         .height = kPictureSize,
                          .samples = samples,
                          .view = "diffuse",
                          .deep = true,
@@ -46,9 +46,9 @@ class ScreenSpace : public RenderTest {
     static double edge_error(const Image& image, float distance_mm) {
         const GaussianSum skin = gpu_gems_3_skin();
         double largest = 0;
-        for (int i = 0; i < kSize; ++i) {
+        for (int i = 0; i < kPictureSize; ++i) {
             // Forward (.8, 0, -.6), right (.6, 0, .8): where the pixel's ray meets z = 0.
-            const double t = kHalfHeightMm / distance_mm * (2 * (i + 0.5) / kSize - 1);
+            const double t = kHalfHeightMm / distance_mm * (2 * (i + 0.5) / kPictureSize - 1);
             const double dx = 0.8 + 0.6 * t, dz = -0.6 + 0.8 * t;
             const double x_mm = -0.8 * distance_mm - 0.6 * distance_mm * dx / dz;
             // Not at the pixels of the edge, which are narrower than one; nor where the profile reaches out
@@ -60,7 +60,8 @@ class ScreenSpace : public RenderTest {
                 for (const GaussianTerm& term : skin.terms)
                     lit += term.weight[size_t(c)] / 2 *
                            (1 + std::erf((kEdgeMm - x_mm) / std::sqrt(2 * term.variance_mm2)));
-                const double seen = (image.at(i, kSize / 2, c) + image.at(i, kSize / 2 - 1, c)) / 2;
+                const double seen =
+                    (image.at(i, kPictureSize / 2, c) + image.at(i, kPictureSize / 2 - 1, c)) / 2;
                 largest = std::max(largest, std::abs(seen * std::numbers::pi - lit));
             }
         }
@@ -108,16 +109,17 @@ TEST_F(ScreenSpace, light_does_not_cross_a_gap_in_depth) {
     for (const char* id : kTechniques) {
         const Image image = draw(two_walls(), id);
         size_t lit = 0, dark = 0;
-        for (int x = 0; x < kSize; ++x) {
-            const float red = image.at(x, kSize / 2, 0) * std::numbers::pi_v<float>;
+        for (int x = 0; x < kPictureSize; ++x) {
+            const float red = image.at(x, kPictureSize / 2, 0) * std::numbers::pi_v<float>;
             lit += std::abs(red - 1) < 2e-3, dark += red < 2e-3;
         }
-        EXPECT_GE(lit + dark, size_t(kSize) - 4) << id << ": all but two pixels on each side of the gap";
+        EXPECT_GE(lit + dark, size_t(kPictureSize) - 4)
+            << id << ": all but two pixels on each side of the gap";
         EXPECT_GT(lit, 40u) << id;
         EXPECT_GT(dark, 40u) << id;
     }
     const Image bled = draw(two_walls(), "screen_space_separable", {{"follow", "none"}});
-    EXPECT_GT(bled.at(kSize / 2 + 3, kSize / 2, 0), 0.02) << "the scene would not show it";
+    EXPECT_GT(bled.at(kPictureSize / 2 + 3, kPictureSize / 2, 0), 0.02) << "the scene would not show it";
 }
 
 TEST_F(ScreenSpace, constant_light_stays_constant_at_silhouettes_with_and_without_multisampling) {
@@ -137,9 +139,9 @@ TEST_F(ScreenSpace, a_light_that_goes_out_leaves_nothing_behind) {
     for (const char* id : kTechniques) {
         Renderer renderer = make_renderer(lit);
         const Technique& technique = built_in_technique(id);
-        const DrawSettings settings = {.width = kSize, .height = kSize, .view = "diffuse"};
-        EXPECT_GT(radiance(renderer, technique, settings).at(10, kSize / 2, 0), 0.1f) << id;
+        const DrawSettings settings = {.width = kPictureSize, .height = kPictureSize, .view = "diffuse"};
+        EXPECT_GT(radiance(renderer, technique, settings).at(10, kPictureSize / 2, 0), 0.1f) << id;
         Renderer dark_renderer = make_renderer(dark);
-        EXPECT_EQ(radiance(dark_renderer, technique, settings).at(10, kSize / 2, 0), 0.0f) << id;
+        EXPECT_EQ(radiance(dark_renderer, technique, settings).at(10, kPictureSize / 2, 0), 0.0f) << id;
     }
 }

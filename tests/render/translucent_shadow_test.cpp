@@ -14,7 +14,7 @@ using namespace dermis;
 namespace {
 
 constexpr float kIrradiance = 2;
-constexpr Vec3 kTint = {0.2f, 0.5f, 0.9f};
+constexpr Vec3 kGlassTint = {0.2f, 0.5f, 0.9f};
 
 SceneObject sheet(Vec3 color_linear, float height_mm, MaterialClass material_class) {
     // Over the half of the plane where x > 0.
@@ -65,32 +65,33 @@ class TranslucentShadow : public RenderTest {
 }  // namespace
 
 TEST_F(TranslucentShadow, is_the_tint_to_the_given_power_between_occluded_and_white) {
-    const Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    const Scene scene = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent)});
     Renderer renderer = make_renderer(scene);
     for (const char* lookup : {"disk", "single"}) {
         const Image plain = light_map(renderer, {{"shadow_lookup", lookup}});
         expect_near(at(plain, 12, 32), Vec3{1, 1, 1} * kIrradiance);
-        expect_near(at(plain, 48, 32), kTint * kIrradiance);
+        expect_near(at(plain, 48, 32), kGlassTint * kIrradiance);
         const Image dark = light_map(
             renderer, {{"shadow_lookup", lookup}, {"trans_shadow_alpha", "2"}, {"occluded", "0.25"}});
-        expect_near(at(dark, 48, 32), (kTint * kTint * 0.75f + Vec3{1, 1, 1} * 0.25f) * kIrradiance);
+        expect_near(at(dark, 48, 32),
+                    (kGlassTint * kGlassTint * 0.75f + Vec3{1, 1, 1} * 0.25f) * kIrradiance);
         const Image off = light_map(renderer, {{"shadow_lookup", lookup}, {"translucent_shadows", "off"}});
         expect_near(at(off, 48, 32), Vec3{1, 1, 1} * kIrradiance);
     }
 }
 
 TEST_F(TranslucentShadow, of_two_surfaces_is_the_product_of_their_tints) {
-    const Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent),
+    const Scene scene = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent),
                                      sheet({0.5f, 0.5f, 0.5f}, 30, MaterialClass::translucent)});
     Renderer renderer = make_renderer(scene);
-    expect_near(at(light_map(renderer, {}), 48, 32), kTint * 0.5f * kIrradiance);
+    expect_near(at(light_map(renderer, {}), 48, 32), kGlassTint * 0.5f * kIrradiance);
 }
 
 TEST_F(TranslucentShadow, takes_one_channel_when_asked) {
-    const Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    const Scene scene = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent)});
     Renderer renderer = make_renderer(scene);
     expect_near(at(light_map(renderer, {{"single_channel_opacity", "on"}}), 48, 32),
-                Vec3{1, 1, 1} * (kTint.x * kIrradiance));
+                Vec3{1, 1, 1} * (kGlassTint.x * kIrradiance));
 }
 
 TEST_F(TranslucentShadow, reads_the_colours_of_an_opacity_map) {
@@ -105,10 +106,10 @@ TEST_F(TranslucentShadow, reads_the_colours_of_an_opacity_map) {
 }
 
 TEST_F(TranslucentShadow, leaves_the_depth_in_alpha_and_ignores_surfaces_behind_opaque_ones) {
-    const Scene bare =
-        plane_under({sheet(kTint, 20, MaterialClass::other), sheet(kTint, 40, MaterialClass::other)});
-    const Scene tinted =
-        plane_under({sheet(kTint, 20, MaterialClass::translucent), sheet(kTint, 40, MaterialClass::other)});
+    const Scene bare = plane_under(
+        {sheet(kGlassTint, 20, MaterialClass::other), sheet(kGlassTint, 40, MaterialClass::other)});
+    const Scene tinted = plane_under(
+        {sheet(kGlassTint, 20, MaterialClass::translucent), sheet(kGlassTint, 40, MaterialClass::other)});
     Renderer without = make_renderer(bare), with = make_renderer(tinted);
     // The upper sheet is opaque: where it is, the lower one is hidden from the light.
     const Image dark = light_map(with, {});
@@ -124,7 +125,7 @@ TEST_F(TranslucentShadow, leaves_the_depth_in_alpha_and_ignores_surfaces_behind_
 }
 
 TEST_F(TranslucentShadow, does_not_write_depth) {
-    const Scene tinted = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    const Scene tinted = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent)});
     Renderer renderer = make_renderer(tinted);
     (void)light_map(renderer, {});
     const Image channels = to_linear_float(*renderer.read("shadow_channels"));
@@ -134,14 +135,14 @@ TEST_F(TranslucentShadow, does_not_write_depth) {
             nearest = std::min(nearest, channels.at(x, y, 3));
             thickest = std::max(thickest, channels.at(x, y, 0));
         }
-    EXPECT_NEAR(thickest, -std::log(kTint.x), 2e-3f);
+    EXPECT_NEAR(thickest, -std::log(kGlassTint.x), 2e-3f);
     // The plane, in the light's range of two bounding radii around the middle of the scene.
     const float plane = 0.5f + tinted.bounds_center_mm.z / (2 * tinted.bounds_radius_mm);
     EXPECT_NEAR(nearest, plane, 2e-3f);
 }
 
 TEST_F(TranslucentShadow, of_a_second_light_lies_in_the_channels_that_one_light_leaves_free) {
-    Scene scene = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    Scene scene = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent)});
     SceneObject blocker = sheet({}, 20, MaterialClass::other);
     for (Vec3& p : blocker.mesh.positions_mm) p = p + Vec3{-60, 0, 0};
     scene.objects.push_back(blocker);
@@ -158,16 +159,16 @@ TEST_F(TranslucentShadow, of_a_second_light_lies_in_the_channels_that_one_light_
     const Image on = light_map(renderer, {{"second_light_shadow", "on"}});
     const auto texel = [](float x_mm) { return int((x_mm + 50) / 100 * 64); };
     // At x = 30 the key light and the fill both come through the surface; one channel of opacity each.
-    EXPECT_NEAR(off.at(texel(30), 32, 1), kIrradiance * kTint.y + fill, 5e-3f);
-    EXPECT_NEAR(on.at(texel(30), 32, 1), (kIrradiance + fill) * kTint.x, 5e-3f);
+    EXPECT_NEAR(off.at(texel(30), 32, 1), kIrradiance * kGlassTint.y + fill, 5e-3f);
+    EXPECT_NEAR(on.at(texel(30), 32, 1), (kIrradiance + fill) * kGlassTint.x, 5e-3f);
     // At x = -7 the fill comes through the surface, at -35 it meets the blocker.
-    EXPECT_NEAR(on.at(texel(-7), 32, 0), fill * kTint.x, 5e-3f);
+    EXPECT_NEAR(on.at(texel(-7), 32, 0), fill * kGlassTint.x, 5e-3f);
     EXPECT_NEAR(on.at(texel(-35), 32, 0), 0, 5e-3f);
     EXPECT_NEAR(off.at(texel(-35), 32, 0), fill, 5e-3f);
 }
 
 TEST_F(TranslucentShadow, glass_is_drawn_over_the_picture_as_a_product) {
-    Scene bare = plane_under({}), glazed = plane_under({sheet(kTint, 20, MaterialClass::translucent)});
+    Scene bare = plane_under({}), glazed = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent)});
     // The light's own way through the glass is not what is measured here.
     bare.lights[0].casts_shadow = glazed.lights[0].casts_shadow = false;
     Scene same_view = bare;
@@ -181,7 +182,7 @@ TEST_F(TranslucentShadow, glass_is_drawn_over_the_picture_as_a_product) {
         for (int x = 0; x < a.width; ++x) {
             if (a.at(x, y, 3) < 1) continue;
             const float red = b.at(x, y, 0) / a.at(x, y, 0), blue = b.at(x, y, 2) / a.at(x, y, 2);
-            tinted += std::abs(red - kTint.x) < 0.06f && std::abs(blue - kTint.z) < 0.06f;
+            tinted += std::abs(red - kGlassTint.x) < 0.06f && std::abs(blue - kGlassTint.z) < 0.06f;
         }
     EXPECT_GT(tinted, 200u);
 }

@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 // Two triangles with two materials, named in the file alone.
 constexpr const char* kTwoMaterials =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
@@ -116,7 +114,9 @@ TEST(PlaceMesh, scales_then_turns_about_x_y_z_then_moves) {
               .curvatures_per_mm = {0.5f, 0.5f},
               // The second point bends along X alone.
               .curvature_tensors_per_mm = {isotropic_curvature(0.5f, {1, 0, 0}), {{1, 0, 0}, {}}}};
-    place_mesh(mesh, {.scale = 2, .rotation_rad = {kPi / 2, 0, kPi / 2}, .translation_mm = {10, 0, 0}});
+    place_mesh(mesh, {.scale = 2,
+                      .rotation_rad = {std::numbers::pi_v<float> / 2, 0, std::numbers::pi_v<float> / 2},
+                      .translation_mm = {10, 0, 0}});
     // +X stays under X, then turns to +Y about Z; +Z turns to -Y about X, then to +X about Z.
     EXPECT_LT(length(mesh.positions_mm[0] - Vec3{10, 2, 0}), 1e-5f);
     EXPECT_LT(length(mesh.positions_mm[1] - Vec3{12, 0, 0}), 1e-5f);
@@ -131,7 +131,7 @@ TEST(PlaceMesh, scales_then_turns_about_x_y_z_then_moves) {
 
 TEST(PlaceMesh, half_a_turn_about_y_takes_a_head_from_minus_z_to_plus_z) {
     Mesh mesh{.positions_mm = {{1, 2, -3}}, .tangents = {{1, 0, 0, -1}}};
-    place_mesh(mesh, {.rotation_rad = {0, kPi, 0}});
+    place_mesh(mesh, {.rotation_rad = {0, std::numbers::pi_v<float>, 0}});
     EXPECT_LT(length(mesh.positions_mm[0] - Vec3{-1, 2, 3}), 1e-5f);
     EXPECT_NEAR(mesh.tangents[0].x, -1, 1e-6);
     EXPECT_EQ(mesh.tangents[0].w, -1);
@@ -276,7 +276,8 @@ TEST(LoadScene, a_camera_without_a_distance_frames_the_scene) {
     const Result<Scene> scene = dir.load(kMesh + "[camera]\nyaw_deg = 90\nfov_deg = 20\n");
     ASSERT_TRUE(scene) << scene.error().message;
     const float distance_mm = length(scene->camera.eye_mm - scene->bounds_center_mm);
-    EXPECT_NEAR(distance_mm, 1.05f * scene->bounds_radius_mm / std::sin(10 * kPi / 180), 0.1f);
+    EXPECT_NEAR(distance_mm, 1.05f * scene->bounds_radius_mm / std::sin(10 * std::numbers::pi_v<float> / 180),
+                0.1f);
     EXPECT_GT(scene->camera.eye_mm.x, scene->bounds_center_mm.x + 100);
 }
 

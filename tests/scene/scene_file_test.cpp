@@ -81,7 +81,7 @@ std::string error_of(const std::string& toml) {
     return scene ? "" : scene.error().message;
 }
 
-const std::string kMesh = "[[mesh]]\nfile = \"builtin:spheres\"\n";
+const std::string kSpheresMesh = "[[mesh]]\nfile = \"builtin:spheres\"\n";
 
 }  // namespace
 
@@ -147,7 +147,7 @@ TEST(SceneFile, a_syntax_error_names_its_line) {
 }
 
 TEST(SceneFile, input_that_makes_the_parser_assert_is_an_error_with_its_line) {
-    EXPECT_EQ(error_of("name = \"a\"\n\n[ = 3\n" + kMesh),
+    EXPECT_EQ(error_of("name = \"a\"\n\n[ = 3\n" + kSpheresMesh),
               "s.toml:3: not TOML: a name in brackets or a key is malformed");
     EXPECT_EQ(error_of("[ ="), "s.toml:1: not TOML: a name in brackets or a key is malformed");
     EXPECT_EQ(error_of("# \u00e9 may stand here\nname = \u00e9\n"),
@@ -156,64 +156,66 @@ TEST(SceneFile, input_that_makes_the_parser_assert_is_an_error_with_its_line) {
 }
 
 TEST(SceneFile, characters_beyond_ascii_are_allowed_in_strings_and_comments) {
-    const Result<SceneDescription> scene = parse(
-        "\xEF\xBB\xBFname = \"caf\u00e9 \\\" ~41 \u00e9\" # \u00e9\ncredit = '''\n\u00e9\'\n'''\n" + kMesh);
+    const Result<SceneDescription> scene =
+        parse("\xEF\xBB\xBFname = \"caf\u00e9 \\\" ~41 \u00e9\" # \u00e9\ncredit = '''\n\u00e9\'\n'''\n" +
+              kSpheresMesh);
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->head.name, "caf\u00e9 \" ~41 \u00e9");
     EXPECT_EQ(scene->head.credit, "\u00e9\'\n");
 }
 
 TEST(SceneFile, an_unknown_key_proposes_the_one_that_was_meant) {
-    EXPECT_EQ(error_of(kMesh + "[skin]\nrougness = 0.4\n").substr(0, 85),
+    EXPECT_EQ(error_of(kSpheresMesh + "[skin]\nrougness = 0.4\n").substr(0, 85),
               "s.toml:4: unknown key in [skin]: 'rougness'; did you mean 'roughness'? Known: profile");
-    EXPECT_EQ(error_of("exposure = 1\n" + kMesh).substr(0, 72),
+    EXPECT_EQ(error_of("exposure = 1\n" + kSpheresMesh).substr(0, 72),
               "s.toml:1: unknown key 'exposure'; did you mean 'exposure_ev'? Known: cam");
-    EXPECT_EQ(error_of(kMesh + "[material.lips.maps]\nnormals = \"a.png\"\n").substr(0, 88),
+    EXPECT_EQ(error_of(kSpheresMesh + "[material.lips.maps]\nnormals = \"a.png\"\n").substr(0, 88),
               "s.toml:4: unknown key in [material.lips.maps]: 'normals'; did you mean 'normal'? Known: ");
 }
 
 TEST(SceneFile, a_value_out_of_range_says_the_range) {
-    EXPECT_EQ(error_of(kMesh + "[skin]\nroughness = 2\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[skin]\nroughness = 2\n"),
               "s.toml:4: skin.roughness = 2: roughness is a number from 0 to 1");
-    EXPECT_EQ(error_of(kMesh + "[skin]\nroughness = nan\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[skin]\nroughness = nan\n"),
               "s.toml:4: skin.roughness = nan: roughness is a number from 0 to 1");
-    EXPECT_EQ(error_of(kMesh + "subdivision = 9\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "subdivision = 9\n"),
               "s.toml:3: mesh.subdivision = 9: subdivision is an integer from 0 to 4 (levels)");
     EXPECT_EQ(
-        error_of(kMesh + "rotate_deg = [0, 361, 0]\n"),
+        error_of(kSpheresMesh + "rotate_deg = [0, 361, 0]\n"),
         "s.toml:3: mesh.rotate_deg = an array: rotate_deg is three numbers [x, y, z], each from -360 to 360 "
         "(degrees)");
 }
 
 TEST(SceneFile, a_wrong_type_says_which_is_right) {
-    EXPECT_EQ(error_of(kMesh + "[skin]\nroughness = \"low\"\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[skin]\nroughness = \"low\"\n"),
               "s.toml:4: skin.roughness = \"low\": roughness is a number from 0 to 1");
-    EXPECT_EQ(error_of(kMesh + "[skin]\nroughness = true\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[skin]\nroughness = true\n"),
               "s.toml:4: skin.roughness = true: roughness is a number from 0 to 1");
-    EXPECT_EQ(error_of(kMesh + "subdivision = 1.5\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "subdivision = 1.5\n"),
               "s.toml:3: mesh.subdivision = 1.5: subdivision is an integer from 0 to 4 (levels)");
-    EXPECT_EQ(error_of(kMesh + "[environment]\nvisible = 1\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[environment]\nvisible = 1\n"),
               "s.toml:4: environment.visible = 1: visible is true or false");
-    EXPECT_EQ(error_of(kMesh + "[camera]\neye_mm = [0, 1]\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[camera]\neye_mm = [0, 1]\n"),
               "s.toml:4: camera.eye_mm = an array: eye_mm is three numbers [x, y, z], each from -1e+06 to "
               "1e+06 (mm)");
-    EXPECT_EQ(error_of("name = 2021-01-01\n" + kMesh), "s.toml:1: name = a date or time: name is a string");
+    EXPECT_EQ(error_of("name = 2021-01-01\n" + kSpheresMesh),
+              "s.toml:1: name = a date or time: name is a string");
     EXPECT_EQ(error_of("[[mesh]]\nfile = \"\"\n"), "s.toml:2: mesh.file = \"\": file is a path in a string");
     EXPECT_EQ(
-        error_of("tone_map = \"filmic\"\n" + kMesh),
+        error_of("tone_map = \"filmic\"\n" + kSpheresMesh),
         "s.toml:1: tone_map = \"filmic\": tone_map is one of \"none\", \"hable\", \"aces\", \"pbr_neutral\"");
-    EXPECT_EQ(error_of(kMesh + "[settings]\nwrap = [1, 2]\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[settings]\nwrap = [1, 2]\n"),
               "s.toml:4: settings.wrap = an array: a setting is a number, true or false, a string, or three "
               "numbers");
 }
 
 TEST(SceneFile, a_section_that_is_no_table_says_how_to_write_it) {
     EXPECT_EQ(error_of("mesh = 3\n"), "s.toml:1: mesh is an integer, not a table; write [[mesh]]");
-    EXPECT_EQ(error_of("light = [1]\n" + kMesh),
+    EXPECT_EQ(error_of("light = [1]\n" + kSpheresMesh),
               "s.toml:1: light is an integer, not a table; write [[light]]");
-    EXPECT_EQ(error_of("camera = true\n" + kMesh),
+    EXPECT_EQ(error_of("camera = true\n" + kSpheresMesh),
               "s.toml:1: camera is true or false, not a table; write [camera]");
-    EXPECT_EQ(error_of(kMesh + "[material]\nskin = 1\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[material]\nskin = 1\n"),
               "s.toml:4: material.skin is an integer, not a table; write [material.skin]");
 }
 
@@ -225,51 +227,53 @@ TEST(SceneFile, a_scene_needs_a_mesh_and_a_mesh_needs_a_file) {
 }
 
 TEST(SceneFile, a_built_in_mesh_takes_no_unit_and_no_refinement) {
-    EXPECT_EQ(error_of(kMesh + "subdivision = 1\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "subdivision = 1\n"),
               "s.toml:1: mesh.subdivision: builtin:spheres is fine enough already; remove this key");
-    EXPECT_EQ(error_of(kMesh + "unit_mm = 10\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "unit_mm = 10\n"),
               "s.toml:1: mesh.unit_mm: builtin:spheres is in millimetres; use scale to resize it");
-    EXPECT_EQ(error_of(kMesh + "scale = 2\n"), "");
+    EXPECT_EQ(error_of(kSpheresMesh + "scale = 2\n"), "");
 }
 
 TEST(SceneFile, exactly_one_light_is_the_key_light) {
-    EXPECT_EQ(error_of(kMesh + "[[light]]\n[[light]]\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[[light]]\n[[light]]\n"),
               "s.toml:3: light.key: no light is the key light; give one of them key = true");
     EXPECT_EQ(
-        error_of(kMesh + "[[light]]\nkey = true\n[[light]]\nkey = true\n"),
+        error_of(kSpheresMesh + "[[light]]\nkey = true\n[[light]]\nkey = true\n"),
         "s.toml:5: light.key: the light of line 3 is the key light already; exactly one casts the shadow");
-    EXPECT_EQ(error_of(kMesh + "[[light]]\nkey = false\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[[light]]\nkey = false\n"),
               "s.toml:3: light.key: no light is the key light; give one of them key = true");
-    const Result<SceneDescription> single = parse(kMesh + "[[light]]\nyaw_deg = 3\n");
+    const Result<SceneDescription> single = parse(kSpheresMesh + "[[light]]\nyaw_deg = 3\n");
     ASSERT_TRUE(single);
     EXPECT_EQ(single->lights[0].key, true);
 }
 
 TEST(SceneFile, lights_and_cameras_are_placed_in_one_way_only) {
-    EXPECT_EQ(error_of(kMesh + "[[light]]\nposition_mm = [0, 0, 1]\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[[light]]\nposition_mm = [0, 0, 1]\n"),
               "s.toml:3: light.position_mm: a directional light has none; give yaw_deg and pitch_deg, or "
               "kind = \"point\"");
-    EXPECT_EQ(error_of(kMesh + "[[light]]\nkind = \"point\"\nposition_mm = [0, 0, 1]\nyaw_deg = 3\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[[light]]\nkind = \"point\"\nposition_mm = [0, 0, 1]\nyaw_deg = 3\n"),
               "s.toml:3: light.position_mm excludes yaw_deg, pitch_deg and distance_mm; remove it or those");
     EXPECT_EQ(
-        error_of(kMesh + "[[light]]\nkind = \"point\"\nyaw_deg = 3\n"),
+        error_of(kSpheresMesh + "[[light]]\nkind = \"point\"\nyaw_deg = 3\n"),
         "s.toml:3: light: a point or spot light needs position_mm, or yaw_deg, pitch_deg and distance_mm");
-    EXPECT_EQ(error_of(kMesh + "[[light]]\nkind = \"spot\"\ndistance_mm = 300\ninner_angle_deg = 40\n"),
-              "s.toml:3: light.inner_angle_deg must be smaller than outer_angle_deg");
-    EXPECT_EQ(error_of(kMesh + "[camera]\neye_mm = [0, 0, 1]\nyaw_deg = 3\n"),
+    EXPECT_EQ(
+        error_of(kSpheresMesh + "[[light]]\nkind = \"spot\"\ndistance_mm = 300\ninner_angle_deg = 40\n"),
+        "s.toml:3: light.inner_angle_deg must be smaller than outer_angle_deg");
+    EXPECT_EQ(error_of(kSpheresMesh + "[camera]\neye_mm = [0, 0, 1]\nyaw_deg = 3\n"),
               "s.toml:3: camera.eye_mm excludes yaw_deg, pitch_deg and distance_mm; remove it or those");
 }
 
 TEST(SceneFile, an_environment_of_kind_file_needs_one_and_no_other_kind_takes_one) {
-    EXPECT_EQ(error_of(kMesh + "[environment]\nkind = \"file\"\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[environment]\nkind = \"file\"\n"),
               "s.toml:3: environment.kind = \"file\" needs file = \"PANORAMA.hdr\"");
-    EXPECT_EQ(error_of(kMesh + "[environment]\nkind = \"none\"\nfile = \"a.hdr\"\n"),
+    EXPECT_EQ(error_of(kSpheresMesh + "[environment]\nkind = \"none\"\nfile = \"a.hdr\"\n"),
               "s.toml:5: environment.file: only for kind = \"file\"; remove kind or file");
 }
 
 TEST(SceneFile, control_characters_in_names_do_not_break_the_line) {
-    EXPECT_EQ(error_of("\"a\\nb\" = 1\n" + kMesh).find('\n'), std::string::npos);
-    EXPECT_EQ(error_of("name = \"a\\nb\"\ntone_map = \"x\\ny\"\n" + kMesh).find('\n'), std::string::npos);
+    EXPECT_EQ(error_of("\"a\\nb\" = 1\n" + kSpheresMesh).find('\n'), std::string::npos);
+    EXPECT_EQ(error_of("name = \"a\\nb\"\ntone_map = \"x\\ny\"\n" + kSpheresMesh).find('\n'),
+              std::string::npos);
 }
 
 TEST(SceneFile, a_huge_file_is_refused) {

@@ -40,7 +40,7 @@ Result<SubjectScene> make(const ParameterValues& values) {
     return scene;
 }
 
-const Subject kTriangle[] = {
+const Subject kTriangleSubject[] = {
     {.name = "triangle",
      .summary = "for tests",
      .parameters = ParameterTableBuilder<Params>()
@@ -50,17 +50,17 @@ const Subject kTriangle[] = {
      .make = make}};
 
 Result<Scene> load_file(const std::string& text) {
-    const Result<SceneDescription> description = parse_scene(text, "s.toml", kTriangle);
-    return description ? build_scene(*description, kTriangle) : description.error();
+    const Result<SceneDescription> description = parse_scene(text, "s.toml", kTriangleSubject);
+    return description ? build_scene(*description, kTriangleSubject) : description.error();
 }
 
-const std::string kMesh = "[[mesh]]\nfile = \"builtin:triangle\"\n";
+const std::string kTriangleMesh = "[[mesh]]\nfile = \"builtin:triangle\"\n";
 
 }  // namespace
 
 TEST(Subject, states_the_camera_the_lights_and_the_environment_of_its_scene) {
-    const Result<Scene> scenes[] = {load_scene("builtin:triangle", {.subjects = kTriangle}),
-                                    load_file(kMesh)};
+    const Result<Scene> scenes[] = {load_scene("builtin:triangle", {.subjects = kTriangleSubject}),
+                                    load_file(kTriangleMesh)};
     for (const Result<Scene>& scene : scenes) {
         ASSERT_TRUE(scene) << scene.error().message;
         EXPECT_EQ(scene->camera.eye_mm, (Vec3{1, 2, 30}));
@@ -72,7 +72,7 @@ TEST(Subject, states_the_camera_the_lights_and_the_environment_of_its_scene) {
 }
 
 TEST(Subject, that_states_nothing_is_framed_in_the_studio) {
-    const Result<Scene> scene = load_file(kMesh + "lit = false\n");
+    const Result<Scene> scene = load_file(kTriangleMesh + "lit = false\n");
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->camera.target_mm, scene->bounds_center_mm);
     EXPECT_EQ(scene->key_light().name, "key");
@@ -81,7 +81,7 @@ TEST(Subject, that_states_nothing_is_framed_in_the_studio) {
 
 TEST(Subject, is_overridden_by_the_scene_file) {
     const Result<Scene> scene = load_file(
-        kMesh +
+        kTriangleMesh +
         "[camera]\neye_mm = [0, 0, 50]\n[[light]]\nname = \"mine\"\n[environment]\nkind = \"studio\"\n");
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->camera.eye_mm, (Vec3{0, 0, 50}));
@@ -90,13 +90,14 @@ TEST(Subject, is_overridden_by_the_scene_file) {
 }
 
 TEST(Subject, is_made_with_the_parameters_beside_its_name) {
-    const Result<Scene> scene = load_file(kMesh + "size_mm = 4\n");
+    const Result<Scene> scene = load_file(kTriangleMesh + "size_mm = 4\n");
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->objects[0].mesh.positions_mm[1], (Vec3{4, 0, 0}));
-    EXPECT_EQ(load_file(kMesh + "size_mm = 13\n").error().message, "s.toml:2: mesh.file: 13 mm is not made");
-    EXPECT_EQ(load_file(kMesh + "size_mm = 21\n").error().message,
+    EXPECT_EQ(load_file(kTriangleMesh + "size_mm = 13\n").error().message,
+              "s.toml:2: mesh.file: 13 mm is not made");
+    EXPECT_EQ(load_file(kTriangleMesh + "size_mm = 21\n").error().message,
               "s.toml:3: mesh.size_mm = 21: size_mm is a number from 1 to 20 (mm)");
-    EXPECT_EQ(make_subject(kTriangle, "triangle", {{"size_mm", "21"}}).error().message,
+    EXPECT_EQ(make_subject(kTriangleSubject, "triangle", {{"size_mm", "21"}}).error().message,
               "triangle: parameter 'size_mm': '21' is not in its range, 1 to 20 mm");
 }
 

@@ -7,12 +7,12 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct BakeBeckmannOptions {
     std::string size = "256", layout = "linear";
     TableOutput output;
 };
 
-Result<int> run(const Options& options) {
+Result<int> run(const BakeBeckmannOptions& options) {
     const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
     BeckmannOptions beckmann{.width = size->width, .height = size->height};
@@ -34,7 +34,7 @@ Result<int> run(const Options& options) {
 }  // namespace
 
 void add_bake_beckmann_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeBeckmannOptions>();
     Command* command =
         line.add("beckmann", "Beckmann's distribution for Kelemen/Szirmay-Kalos specular light",
                  "dermis bake beckmann --storage float -o beckmann.exr\n"

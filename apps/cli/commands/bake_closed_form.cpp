@@ -13,7 +13,7 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct BakeClosedFormOptions {
     std::string profile = "gpu_gems_3", construction = "sphere", output, plot;
     double max_curvature_per_mm = 1;
     int rows = 257;
@@ -40,7 +40,7 @@ std::vector<double> plotted_radii(double least_mm) {
     return radii;
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const BakeClosedFormOptions& options) {
     const Result<Profile> profile = find_profile(options.profile);
     if (!profile) return profile.error();
     const Result<Construction> construction = find_construction(options.construction);
@@ -70,7 +70,7 @@ Result<int> run(const Options& options) {
 }  // namespace
 
 void add_bake_closed_form_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeClosedFormOptions>();
     Command* command = line.add(
         "closed_form", "Coefficients and errors of the closed form, which needs no table",
         "dermis bake closed_form --profile jensen_skin1 -o skin.csv --plot errors.svg", bake_group(line));

@@ -8,13 +8,13 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct BakeLutOptions {
     std::string convention = "dermis", construction, ring_weights, profile, size, axis, range, warp;
     double variance_scale = 0;
     TableOutput output;
 };
 
-Result<void> choose_axis(const Options& options, TableAxis& axis) {
+Result<void> choose_axis(const BakeLutOptions& options, TableAxis& axis) {
     if (!options.axis.empty()) {
         if (options.axis == "radius")
             axis = radius_axis(1, 32);
@@ -37,7 +37,7 @@ Result<void> choose_axis(const Options& options, TableAxis& axis) {
     return {};
 }
 
-Result<void> choose_construction(const Options& options, Convention& convention) {
+Result<void> choose_construction(const BakeLutOptions& options, Convention& convention) {
     if (!options.construction.empty()) {
         const Result<Construction> construction = find_construction(options.construction);
         if (!construction) return construction.error();
@@ -52,7 +52,7 @@ Result<void> choose_construction(const Options& options, Convention& convention)
     return {};
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const BakeLutOptions& options) {
     Result<LutOptions> lut = lut_options(options.convention);
     if (!lut) return lut.error();
     if (!options.profile.empty()) {
@@ -80,7 +80,7 @@ Result<int> run(const Options& options) {
 }  // namespace
 
 void add_bake_lut_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeLutOptions>();
     Command* command =
         line.add("lut", "Pre-integrated diffuse light over N.L and curvature",
                  "dermis bake lut --profile jensen_skin1 --size 256 -o skin.exr --plot skin.svg\n"

@@ -17,13 +17,13 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct BakeMapsOptions {
     std::string mesh, output, profile, material;
     float unit_mm = 0;
     BakeMapSettings settings;
 };
 
-Result<int> run(Options options) {
+Result<int> run(BakeMapsOptions options) {
     SceneOptions scene_options = {.subjects = built_in_catalog().subjects};
     if (options.unit_mm > 0) scene_options.mesh_unit_mm = options.unit_mm;
     const Result<Scene> scene = load_scene(options.mesh, scene_options);
@@ -57,7 +57,7 @@ Result<int> run(Options options) {
     return 0;
 }
 
-void add_common(Command* command, Options& options) {
+void add_common(Command* command, BakeMapsOptions& options) {
     BakeMapSettings& s = options.settings;
     command->add_option("mesh", options.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
     command
@@ -84,7 +84,7 @@ void add_rays(Command* command, BakeMapSettings& s) {
 
 void add_map(CommandLine& line, Command* group, MapKind kind, const std::string& summary,
              const std::string& example) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeMapsOptions>();
     BakeMapSettings& s = options->settings;
     s.kind = kind;
     const bool depth = kind == MapKind::thickness || kind == MapKind::kernel_size;

@@ -7,13 +7,13 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct BakeShadowOptions {
     std::string profile = "gpu_gems_3", size = "256x64", range = "1,40", warp = "linear";
     double sharpening = 3;
     TableOutput output;
 };
 
-Result<int> run(const Options& options) {
+Result<int> run(const BakeShadowOptions& options) {
     Result<Profile> profile = find_profile(options.profile);
     if (!profile) return profile.error();
     const Result<Size> size = parse_size(options.size);
@@ -40,7 +40,7 @@ Result<int> run(const Options& options) {
 }  // namespace
 
 void add_bake_shadow_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeShadowOptions>();
     Command* command = line.add(
         "shadow", "Light that scatters into a penumbra, over its position and width",
         "dermis bake shadow --range 1,40 --sharpening 3 -o shadow.exr --plot shadow.svg", bake_group(line));

@@ -9,13 +9,13 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct BakeZhOptions {
     std::string profile = "gpu_gems_3", construction = "sphere", axis = "curvature", range, layout = "float";
     int width = 256;
     TableOutput output;
 };
 
-Result<ZonalOptions> zonal_options(const Options& options) {
+Result<ZonalOptions> zonal_options(const BakeZhOptions& options) {
     Result<Profile> profile = find_profile(options.profile);
     if (!profile) return profile.error();
     const Result<Construction> construction = find_construction(options.construction);
@@ -39,7 +39,7 @@ Result<ZonalOptions> zonal_options(const Options& options) {
     return zonal;
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const BakeZhOptions& options) {
     const Result<ZonalOptions> zonal = zonal_options(options);
     if (!zonal) return zonal.error();
     const bool remapped = zonal->layout == ZonalLayout::two_rows_remapped_8;
@@ -58,7 +58,7 @@ Result<int> run(const Options& options) {
 }  // namespace
 
 void add_bake_zh_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeZhOptions>();
     Command* command = line.add("zh", "Zonal harmonics 0 to 2 of pre-integrated skin over curvature",
                                 "dermis bake zh --profile gpu_gems_3 -o skin_zh.exr\n"
                                 "  dermis bake zh --layout remapped --construction ring -o skin_zh.png",

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr int kMostGrid = 16;
 constexpr const char *kSize = "512x512", *kCaseSize = "96x96";
 
-struct Options {
+struct CompareOptions {
     SceneChoice scene;
     std::string techniques, output, size, device;  // empty: kSize, or kCaseSize of each of a set
     std::string integrator = "surface", ambient = "renderer";
@@ -37,7 +37,7 @@ struct Options {
     bool json = false;
 };
 
-Result<ComparisonSettings> settings_of(const Options& options, const char* default_size) {
+Result<ComparisonSettings> settings_of(const CompareOptions& options, const char* default_size) {
     const Result<Size> size = parse_size(options.size.empty() ? default_size : options.size);
     if (!size) return size.error();
     ComparisonSettings settings = comparison_settings(size->width, size->height);
@@ -110,13 +110,13 @@ std::vector<std::string> warnings_of(const Comparison& comparison, const Compari
 }
 
 // report.html in the directory; for a set, one per scene in a folder of its own.
-fs::path report_path(const Options& options, const ComparedScenes& scenes, const SubjectCase& one) {
+fs::path report_path(const CompareOptions& options, const ComparedScenes& scenes, const SubjectCase& one) {
     const fs::path directory(options.output);
     return scenes.is_set ? directory / fs::path(one.name).filename() / "report.html"
                          : directory / "report.html";
 }
 
-Result<std::vector<Comparison>> compare_all(const Options& options, const ComparedScenes& scenes,
+Result<std::vector<Comparison>> compare_all(const CompareOptions& options, const ComparedScenes& scenes,
                                             const std::vector<Contestant>& contestants,
                                             ComparisonSettings settings) {
     Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
@@ -138,7 +138,7 @@ Result<std::vector<Comparison>> compare_all(const Options& options, const Compar
     return comparisons;
 }
 
-Result<void> write_tables(const Options& options, const ComparedScenes& scenes,
+Result<void> write_tables(const CompareOptions& options, const ComparedScenes& scenes,
                           const std::vector<Comparison>& comparisons) {
     std::vector<ScoreRow> rows;
     std::string regions;
@@ -154,7 +154,7 @@ Result<void> write_tables(const Options& options, const ComparedScenes& scenes,
     return write_files(files);
 }
 
-void print_results(const Options& options, const ComparedScenes& scenes,
+void print_results(const CompareOptions& options, const ComparedScenes& scenes,
                    const std::vector<Comparison>& comparisons) {
     if (options.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -177,7 +177,7 @@ void print_results(const Options& options, const ComparedScenes& scenes,
         std::printf("%s\n", credit.c_str());
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const CompareOptions& options) {
     const bool is_set = set_of_scenes(options.scene.name) != nullptr;
     const Result<ComparisonSettings> settings = settings_of(options, is_set ? kCaseSize : kSize);
     if (!settings) return settings.error();
@@ -200,7 +200,7 @@ Result<int> run(const Options& options) {
 }  // namespace
 
 void add_compare_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareOptions>();
     Command* command =
         line.add("compare",
                  "Compares techniques with the ground truth: captured shares, errors, a report with pictures",

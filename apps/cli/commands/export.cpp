@@ -13,7 +13,7 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
     std::string language, profile = "gpu_gems_3", output;
 };
 
@@ -31,7 +31,7 @@ Result<std::vector<shading::Language>> chosen_languages(const std::string& name)
     return Error{unknown_name("language", name, names)};
 }
 
-Result<int> run(const Options& options) {
+Result<int> run(const ExportOptions& options) {
     const Result<std::vector<shading::Language>> languages = chosen_languages(options.language);
     if (!languages) return languages.error();
     const Result<Profile> profile = find_profile(options.profile);
@@ -55,7 +55,7 @@ Result<int> run(const Options& options) {
 }  // namespace
 
 void add_export_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ExportOptions>();
     Command* command = line.add("export", "The shading functions for a skin as source text for an engine",
                                 "dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl\n"
                                 "  dermis export --language all -o shaders/");

@@ -12,12 +12,12 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct ExportMeshOptions {
     std::string mesh = "builtin:bust", path, maps;
     std::map<std::string, std::optional<std::string>> parameters;
 };
 
-Result<int> run(const Options& options) {
+Result<int> run(const ExportMeshOptions& options) {
     const std::string name(subject_name(options.mesh).value_or(options.mesh));
     if (name != "bust") return Error{unknown_name("built-in mesh", name, std::vector<std::string>{"bust"})};
     ParameterValues values(bust_parameters());
@@ -44,7 +44,7 @@ std::string flag_of(std::string_view name) {
 }  // namespace
 
 void add_export_mesh_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ExportMeshOptions>();
     Command* command = line.add("export-mesh", "Writes the built-in head with its skin as GLB or OBJ",
                                 "dermis export-mesh builtin:bust -o bust.glb\n"
                                 "  dermis export-mesh builtin:bust --tone 5 --maps maps/ -o bust.obj");

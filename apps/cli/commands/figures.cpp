@@ -13,13 +13,13 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct FiguresOptions {
     SceneChoice scene;
     std::string technique, output = "out/figures", only, device;
     int size = 320, samples = 4;
 };
 
-Result<void> check(const Options& options) {
+Result<void> check(const FiguresOptions& options) {
     if (options.size < 16 || options.size > 2048)
         return Error{"--size " + std::to_string(options.size) +
                      ": the height of a cell in pixels, 16 to 2048"};
@@ -37,7 +37,7 @@ void print(const std::string& path, const FigureResult& result) {
                         cell.compared_to.c_str());
 }
 
-Result<int> make_figures(const Options& options) {
+Result<int> make_figures(const FiguresOptions& options) {
     if (Result<void> good = check(options); !good) return good.error();
     const Result<const Technique*> technique =
         find_technique(built_in_catalog().techniques, options.technique);
@@ -76,7 +76,7 @@ Result<int> make_figures(const Options& options) {
 }  // namespace
 
 void add_figures_command(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<FiguresOptions>();
     Command* command =
         line.add("figures", "Reproduces the figures of a technique's source, with differences in numbers",
                  "dermis figures preintegrated -o out/figures --size 400");

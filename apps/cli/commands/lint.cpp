@@ -7,12 +7,12 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct LintOptions {
     std::string path;
     bool write_sidecar = false;
 };
 
-Result<int> run(const Options& options) {
+Result<int> run(const LintOptions& options) {
     const std::string& path = options.path;
     const Result<LintReport> report = lint_file(path);
     if (!report) return report.error();
@@ -30,7 +30,7 @@ Result<int> run(const Options& options) {
 }  // namespace
 
 void add_lint_command(CommandLine& line) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<LintOptions>();
     Command* command = line.add("lint", "Finds how a pre-integrated table was made, and its error",
                                 "dermis lint DiffuseScatteringOnRing.png --write-sidecar");
     command->add_option("file", options->path, "PNG, EXR, DDS or KTX2")->required();

@@ -12,13 +12,13 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct PassesOptions {
     std::string technique, view = "final";
     std::vector<std::string> settings;
     int samples = 1;
 };
 
-Result<int> print_passes(const Options& options) {
+Result<int> print_passes(const PassesOptions& options) {
     const Result<const Technique*> technique =
         find_technique(built_in_catalog().techniques, options.technique);
     if (!technique) return technique.error();
@@ -36,7 +36,7 @@ Result<int> print_passes(const Options& options) {
 }  // namespace
 
 void add_passes_command(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PassesOptions>();
     Command* command = line.add("passes", "Prints the passes of a technique's frame, without a GPU",
                                 "dermis passes lambert --set specular=blinn_phong");
     command->add_option("id", options->technique, "id of the technique (dermis techniques lists them)")

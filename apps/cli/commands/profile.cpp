@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Rgb = std::array<double, 3>;
 
-struct Options {
+struct ProfileOptions {
     std::string name, plot, from, to, albedo;
     std::vector<std::string> assignments;
     int terms = 6;
@@ -43,7 +43,7 @@ void print_row(const std::string& what, const Rgb& value) {
 
 // ---- list ------------------------------------------------------------------------------------------------
 
-Result<int> list(const Options& options) {
+Result<int> list(const ProfileOptions& options) {
     std::vector<Profile> profiles;
     for (const std::string& name : profile_names()) profiles.push_back(*find_profile(name));
     Json all = Json::array();
@@ -113,7 +113,7 @@ void print_profile(const Profile& profile, const GaussianFit& fit) {
     for (const GaussianTerm& term : fit.sum.terms) print_row(number_text(term.variance_mm2), term.weight);
 }
 
-Result<int> show(const Options& options) {
+Result<int> show(const ProfileOptions& options) {
     const Result<Profile> profile = find_profile(options.name);
     if (!profile) return profile.error();
     if (options.terms < 1 || options.terms > kMaxGaussianFitTerms)
@@ -154,7 +154,7 @@ Result<void> assign(ToolSettings& settings, const std::string& assignment) {
     return set_value(settings, trim(std::string_view(assignment).substr(0, equals)), *numbers);
 }
 
-Result<BurleyProfile> source_of(const Options& options) {
+Result<BurleyProfile> source_of(const ProfileOptions& options) {
     if (options.name.empty() == options.from.empty())
         return Error{"convert needs either a profile's name or --from TOOL"};
     if (options.from.empty()) {
@@ -213,7 +213,7 @@ void print_settings(const ToolSettings& settings) {
     }
 }
 
-Result<int> convert(const Options& options) {
+Result<int> convert(const ProfileOptions& options) {
     const Result<BurleyProfile> stated = source_of(options);
     if (!stated) return stated.error();
     const Result<BurleyProfile> source = with_albedo(*stated, options.albedo);
@@ -258,7 +258,7 @@ void add_profile_command(CommandLine& line) {
         line.add("profile", "Diffusion profiles: published skins, and their parameters in other tools",
                  "dermis profile convert jensen_skin1 --to hdrp");
     profile->require_subcommand();
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ProfileOptions>();
     const char* name_help = "a preset's name, a CSV file, or burley:R,G,B (d in mm)";
 
     Command* list_command =

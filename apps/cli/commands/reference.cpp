@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -27,30 +29,42 @@ constexpr int kNoiseMissed = 3;
 
 // The signal of Ctrl-C or of a request to end, or 0. The picture so far is written, then the program ends; a
 // second signal ends it at once.
+using SignalHandler = void (*)(int);
+
 std::atomic<int> g_signal = 0;
 std::atomic<bool> g_stop = false;
+std::atomic<int64_t> g_stopped_ms = 0;
+SignalHandler g_interrupt_before = SIG_DFL, g_terminate_before = SIG_DFL;
 
+// The first signal ends the passes, one that comes later ends the program. `timeout`, make and shells send
+// the same signal twice, to the process and to its group: what comes within a second is the first one again.
 extern "C" void stop_on_signal(int signal) {
-    g_signal = signal;
-    g_stop = true;
-    std::signal(signal, SIG_DFL);
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const int64_t now_ms = int64_t(now.tv_sec) * 1000 + now.tv_nsec / 1'000'000;
+    if (!g_stop) {
+        g_signal = signal;
+        g_stopped_ms = now_ms;
+        g_stop = true;
+    } else if (now_ms > g_stopped_ms + 1000) {
+        std::signal(signal, signal == SIGINT ? g_interrupt_before : g_terminate_before);
+        std::raise(signal);
+    }
 }
 
-// While an object exists, the signals only set g_signal.
+// While an object exists, the first signal only sets g_stop.
 class StopOnSignals {
   public:
-    StopOnSignals()
-        : interrupt_(std::signal(SIGINT, stop_on_signal)), terminate_(std::signal(SIGTERM, stop_on_signal)) {}
+    StopOnSignals() {
+        g_interrupt_before = std::signal(SIGINT, stop_on_signal);
+        g_terminate_before = std::signal(SIGTERM, stop_on_signal);
+    }
     ~StopOnSignals() {
-        std::signal(SIGINT, interrupt_);
-        std::signal(SIGTERM, terminate_);
+        std::signal(SIGINT, g_interrupt_before);
+        std::signal(SIGTERM, g_terminate_before);
     }
     StopOnSignals(const StopOnSignals&) = delete;
     StopOnSignals& operator=(const StopOnSignals&) = delete;
-
-  private:
-    void (*interrupt_)(int);
-    void (*terminate_)(int);
 };
 
 // Before the work, not after it.
@@ -127,8 +141,8 @@ Result<int> run(const ReferenceOptions& options) {
     if (Result<void> tried = try_outputs(options); !tried) return tried.error();
     const Result<Scene> scene = scene_of(options);
     if (!scene) return scene.error();
+    const StopOnSignals stop;  // until the files are written
     Result<ReferencePicture> picture = [&] {
-        const StopOnSignals stop;
         constexpr double kSteps = 1000;
         Progress line("ground truth", size_t(kSteps));
         size_t shown = 0;

@@ -41,11 +41,11 @@ Result<int> list_techniques(const std::string& only, bool json) {
 }  // namespace
 
 void add_techniques_command(CommandLine& line) {
-    struct Options {
+    struct TechniquesOptions {
         std::string only;
         bool json = false;
     };
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<TechniquesOptions>();
     Command* command =
         line.add("techniques", "Lists the techniques with their parameters", "dermis techniques wrap");
     command->add_option("id", options->only, "list this technique only");

@@ -15,7 +15,7 @@
 namespace dermis::cli {
 namespace {
 
-struct Options {
+struct ViewOptions {
     RenderOptions render;
     Turntable turntable;
     std::string script, truth, shader_root;
@@ -24,7 +24,7 @@ struct Options {
 };
 
 // Without a window: the frames of one turn.
-Result<int> turn_scene(const Options& options) {
+Result<int> turn_scene(const ViewOptions& options) {
     Turntable turntable = options.turntable;
     turntable.render = options.render;
     turntable.frames = options.turn_frames;
@@ -53,7 +53,7 @@ std::string first_picture_text(const view::ViewerReport& report) {
     return text.data();
 }
 
-Result<int> view_scene(Options options) {
+Result<int> view_scene(ViewOptions options) {
     if (options.turn_frames != 0) return turn_scene(options);
     if (options.render.size.empty()) {
         const view::WindowState state = view::load_state();
@@ -92,7 +92,7 @@ Result<int> view_scene(Options options) {
 }  // namespace
 
 void add_view_command(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ViewOptions>();
     options->render.size = "";  // the size of the last window
     options->render.samples = 4;
     Command* command = line.add("view", "Shows a scene in a window, in real time; F1 lists the keys",

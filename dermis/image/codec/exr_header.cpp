@@ -38,18 +38,6 @@ bool ratio_is_bounded(uint8_t compression) {
     return compression != kPiz && compression != kDwaa && compression != kDwab;
 }
 
-// Entries of a channel list: name, type (0 uint, 1 half, 2 float), linearity, x and y sampling. OpenEXR reads
-// up to the empty name, wherever the value ends: false when that is not the value's end.
-bool read_channels(Bytes value, Part& part) {
-    ByteReader in(value);
-    while (in.ok() && !in.text().empty()) {
-        part.bytes_per_texel += in.u32() == 1 ? 2 : 4;
-        in.take(12);
-        ++part.channels;
-    }
-    return in.ok() && in.position() == value.size();
-}
-
 Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
     ByteReader in(value);
     if (name == "dataWindow" || name == "displayWindow") {
@@ -69,8 +57,12 @@ Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
         part.tile_height = in.u32();
         if (part.tile_width == 0 || part.tile_height == 0) return Error{"corrupt EXR: tiles without texels"};
     } else if (name == "channels") {
-        if (!read_channels(value, part))
-            return Error{"corrupt EXR: the list of channels does not end with its attribute"};
+        // Name, type (0 uint, 1 half, 2 float), linearity, x and y sampling; fills_its_value() saw the end.
+        while (!in.text().empty()) {
+            part.bytes_per_texel += in.u32() == 1 ? 2 : 4;
+            in.take(12);
+            ++part.channels;
+        }
     } else if (name == "type") {
         const std::string_view type(reinterpret_cast<const char*>(value.data()), value.size());
         part.deep = type.starts_with("deep");
@@ -79,8 +71,10 @@ Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
     return {};
 }
 
-// OpenEXR reads a value of these types in its own size, whatever size the attribute states: what follows
-// would then be read at another place than here. 0: a type without a fixed size.
+// OpenEXR reads names of up to 255 bytes; what is longer it reads in pieces.
+constexpr size_t kLongestName = 255;
+
+// The size of a value of a type that always has the same one; 0: of another type.
 uint32_t fixed_size_of(std::string_view type) {
     struct Size {
         std::string_view type;
@@ -98,17 +92,44 @@ uint32_t fixed_size_of(std::string_view type) {
     return found == std::end(kSizes) ? 0 : found->bytes;
 }
 
+// OpenEXR reads a value by its type, whatever size the attribute states; where the two differ, what follows
+// would be read at another place than here, and memory asked for by numbers that are none.
+bool fills_its_value(std::string_view type, Bytes value) {
+    ByteReader in(value);
+    if (type == "chlist") {
+        for (std::string_view name = in.text(); in.ok() && !name.empty(); name = in.text()) {
+            if (name.size() > kLongestName) return false;
+            in.take(16);
+        }
+    } else if (type == "preview") {  // width, height, 8-bit RGBA
+        const uint64_t width = in.u32(), height = in.u32();
+        if (width > kMaxImageSide || height > kMaxImageSide) return false;
+        in.take(size_t(4 * width * height));
+    } else if (type == "stringvector") {
+        while (in.ok() && in.position() < value.size()) in.take(in.u32());
+    } else if (type == "floatvector") {
+        return value.size() % sizeof(float) == 0;
+    } else {
+        const uint32_t fixed_size = fixed_size_of(type);
+        return fixed_size == 0 || value.size() == fixed_size;
+    }
+    return in.ok() && in.position() == value.size();
+}
+
 // OpenEXR takes the last of several attributes of one name or the first, so a repeated one is refused.
 Result<Part> read_part(ByteReader& in, std::string_view first_name) {
     Part part;
     std::vector<std::string> seen;
     for (std::string_view name = first_name; !name.empty(); name = in.text()) {
-        const uint32_t fixed_size = fixed_size_of(in.text());
+        const std::string_view type = in.text();
         const Bytes value = in.take(in.u32());
         if (!in.ok()) break;
-        if (fixed_size != 0 && value.size() != fixed_size)
+        if (name.size() > kLongestName || type.size() > kLongestName)
+            return Error{"corrupt EXR: a name of more than 255 bytes"};
+        if (!fills_its_value(type, value))
             return Error{"corrupt EXR: the attribute '" + std::string(name.substr(0, 40)) + "' has " +
-                         std::to_string(value.size()) + " bytes, its type " + std::to_string(fixed_size)};
+                         std::to_string(value.size()) + " bytes, not those of its type " +
+                         std::string(type.substr(0, 40))};
         if (std::ranges::find(seen, name) != seen.end())
             return Error{"corrupt EXR: the attribute '" + std::string(name.substr(0, 40)) +
                          "' is there twice"};
