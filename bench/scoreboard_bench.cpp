@@ -61,14 +61,17 @@ Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& na
                                       const ComparisonSettings& settings) {
     Progress line("ground truth of " + name, 0);
     std::optional<Progress> techniques;
-    const Result<Comparison> comparison =
-        compare_techniques(device, built_in_catalog(), scene, contestants, settings,
-                           {.reference = [&](double done) { line.set(done); },
-                            .techniques =
-                                [&](double done, const std::string& technique) {
-                                    if (!techniques) techniques.emplace(name, 0);
-                                    techniques->set(done, name + ": " + technique);
-                                }});
+    const Result<Comparison> comparison = compare_techniques(
+        device, built_in_catalog(), scene, contestants, settings,
+        {.reference =
+             [&](double done, bool first_samples) {
+                 line.set(done, "ground truth of " + name + (first_samples ? ", first samples" : ""));
+             },
+         .techniques =
+             [&](double done, const std::string& technique) {
+                 if (!techniques) techniques.emplace(name, 0);
+                 techniques->set(done, name + ": " + technique);
+             }});
     if (!comparison) return comparison.error();
     const EffectTruth& truth = comparison->truth;
     std::printf("%s: ground truth of %d samples a pixel in %.0f s%s, noise %.2f of the effect%s\n",

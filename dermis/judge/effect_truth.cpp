@@ -81,7 +81,7 @@ void add_weighted(Image& mean, const Image& value, float share) {
 
 // One batch of both widths goes to one half.
 Result<void> add_batch(const Scene& scene, ReferenceSettings settings, int half, State& state,
-                       const ReferenceDone& progress, const std::atomic<bool>* stop) {
+                       const ReferenceProgress& progress, const std::atomic<bool>* stop) {
     settings.seed = hash_u32(settings.seed, state.header.batches);
     // Width 0 takes a small part of the time.
     const Result<ReferencePicture> skin = render_reference(scene, settings, progress, stop);
@@ -163,10 +163,11 @@ Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSetti
         state.truth.from_cache = false;
         for (int half = 0; half < 2; ++half) {
             const auto done = [&](double share) {
+                if (!progress) return;
+                const bool first = state.header.passes == 0;
                 const double passes = state.header.passes + (half + share) / 2 * reference.samples;
-                const double wanted =
-                    state.header.passes > 0 ? passes_wanted(state, settings) : settings.samples / 2.0;
-                if (progress) progress(std::min(1.0, passes / std::max(wanted, 1.0)));
+                const double wanted = first ? reference.samples : passes_wanted(state, settings);
+                progress(std::min(1.0, passes / std::max(wanted, 1.0)), first);
             };
             if (Result<void> added = add_batch(scene, reference, half, state, done, stop); !added)
                 return added.error();

@@ -34,8 +34,9 @@ struct EffectTruth {
     [[nodiscard]] Image radiance() const;
 };
 
-/// What is done of what is left, 0 to 1; never falls by more than the estimate of what is left grows.
-using ReferenceDone = std::function<void(double done)>;
+/// How much is done, 0 to 1: of the first samples, whose noise says how many are needed, and then of all. The
+/// second never falls by more than the estimate of all grows.
+using ReferenceDone = std::function<void(double done, bool first_samples)>;
 
 /// A state in the cache that is finer than asked for is taken as it is, a coarser one is gone on with, so
 /// that a run that was stopped loses little. Width 0 takes the same places in the pixels and the same

@@ -84,13 +84,17 @@ Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const st
                            const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
     Progress line(prefix + "ground truth", 0);
     std::optional<Progress> techniques;
-    return compare_techniques(device, built_in_catalog(), one.scene, contestants, settings,
-                              {.reference = [&](double done) { line.set(done); },
-                               .techniques =
-                                   [&](double done, const std::string& name) {
-                                       if (!techniques) techniques.emplace("techniques", 0);
-                                       techniques->set(done, prefix + name);
-                                   }});
+    return compare_techniques(
+        device, built_in_catalog(), one.scene, contestants, settings,
+        {.reference =
+             [&](double done, bool first_samples) {
+                 line.set(done, prefix + "ground truth" + (first_samples ? ", first samples" : ""));
+             },
+         .techniques =
+             [&](double done, const std::string& name) {
+                 if (!techniques) techniques.emplace("techniques", 0);
+                 techniques->set(done, prefix + name);
+             }});
 }
 
 // What limits the numbers.
