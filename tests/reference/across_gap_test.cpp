@@ -14,23 +14,18 @@
 namespace dermis {
 namespace {
 
-constexpr float kRadiusMm = 4;
+constexpr float kLeftRadiusMm = 4;
 constexpr double kVarianceMm2 = 3;
-
-Mesh moved(Mesh mesh, Vec3 by_mm) {
-    for (Vec3& p : mesh.positions_mm) p += by_mm;
-    return mesh;
-}
 
 // The left sphere touches x = 0, the right one begins a gap further on.
 Scene two_spheres(float gap_mm, float right_radius_mm, MaterialClass right, Vec3 to_light) {
     Scene scene;
     scene.objects.push_back({.name = "left",
-                             .mesh = moved(test::sphere(kRadiusMm, 5), {-kRadiusMm, 0, 0}),
+                             .mesh = test::moved(test::sphere(kLeftRadiusMm, 5), {-kLeftRadiusMm, 0, 0}),
                              .classes = {MaterialClass::skin}});
     scene.objects.push_back(
         {.name = "right",
-         .mesh = moved(test::sphere(right_radius_mm, 5), {gap_mm + right_radius_mm, 0, 0}),
+         .mesh = test::moved(test::sphere(right_radius_mm, 5), {gap_mm + right_radius_mm, 0, 0}),
          .classes = {right}});
     scene.lights.push_back({.intensity = 1, .to_light_world = to_light, .is_key = true});
     scene.camera = {.eye_mm = {0, 0, 80}, .vertical_fov_rad = 0.15f, .near_mm = 1, .far_mm = 200};
@@ -74,12 +69,12 @@ double sum_over_triangles(const Scene& scene, Vec3 p_mm) {
 }  // namespace
 
 TEST(AcrossAGap, surface_counts_the_straight_distance_to_the_other_sphere) {
-    const Scene touching = two_spheres(0, kRadiusMm, MaterialClass::skin, {0, 1, 0}),
-                beside_black = two_spheres(0, kRadiusMm, MaterialClass::other, {0, 1, 0});
+    const Scene touching = two_spheres(0, kLeftRadiusMm, MaterialClass::skin, {0, 1, 0}),
+                beside_black = two_spheres(0, kLeftRadiusMm, MaterialClass::other, {0, 1, 0});
     double change = 0;
     for (const float angle_rad : {-0.9f, 0.2f, 0.9f}) {
         const Vec3 n = {std::cos(angle_rad), std::sin(angle_rad), 0},
-                   p_mm = Vec3{-kRadiusMm, 0, 0} + n * kRadiusMm;
+                   p_mm = Vec3{-kLeftRadiusMm, 0, 0} + n * kLeftRadiusMm;
         const Estimate both = estimate_at(touching, p_mm, n), alone = estimate_at(beside_black, p_mm, n);
         const double expected = sum_over_triangles(touching, p_mm),
                      expected_alone = sum_over_triangles(beside_black, p_mm);
@@ -93,7 +88,7 @@ TEST(AcrossAGap, surface_counts_the_straight_distance_to_the_other_sphere) {
 
 // Light from the left, and the right sphere wholly in the shadow of the left one.
 TEST(AcrossAGap, walk_lets_no_light_cross_and_surface_does) {
-    const Scene scene = two_spheres(0.2f, 0.75f * kRadiusMm, MaterialClass::skin, {-1, 0, 0});
+    const Scene scene = two_spheres(0.2f, 0.75f * kLeftRadiusMm, MaterialClass::skin, {-1, 0, 0});
     for (const Integrator integrator : {Integrator::surface, Integrator::walk}) {
         ReferenceSettings settings{
             .integrator = integrator, .width = 16, .height = 16, .samples = 8, .probes = 64};

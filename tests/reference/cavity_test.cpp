@@ -42,11 +42,6 @@ double mean_of(const Image& image) {
     return sum / double(image.floats().size());
 }
 
-Mesh moved(Mesh mesh, Vec3 by_mm) {
-    for (Vec3& p : mesh.positions_mm) p += by_mm;
-    return mesh;
-}
-
 class Cavity : public testing::TestWithParam<Integrator> {};
 
 TEST_P(Cavity, a_hidden_inner_shell_changes_nothing_at_all) {
@@ -66,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Cavity, testing::Values(Integrator::surfac
 
 TEST(Walks, parts_that_overlap_are_one_body) {
     // One sphere has another within its skin: an ellipsoid of the same outline must not tell them apart.
-    const Mesh body = test::sphere(6, 4), part = moved(test::sphere(3, 3), {0, 0, -3.5f});
+    const Mesh body = test::sphere(6, 4), part = test::moved(test::sphere(3, 3), {0, 0, -3.5f});
     const Scene whole = scene_of(body, 6), overlapping = scene_of(test::joined(body, part), 6);
     const ReferencePicture a = picture_of(whole, quick(Integrator::walk));
     const ReferencePicture b = picture_of(overlapping, quick(Integrator::walk));

@@ -40,6 +40,11 @@ inline float turn_rad(float u) {
     return u == 1 ? 0 : 2 * std::numbers::pi_v<float> * u;
 }
 
+inline Mesh moved(Mesh mesh, Vec3 by_mm) {
+    for (Vec3& p : mesh.positions_mm) p += by_mm;
+    return mesh;
+}
+
 /// An icosahedron cut `levels` times, vertices on the sphere; no uvs. 20 * 4^levels triangles of nearly one
 /// size.
 inline Mesh sphere(float radius_mm, int levels) {
