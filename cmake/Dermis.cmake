@@ -79,7 +79,7 @@ function(dermis_test_folder folder)
         set_target_properties(test_${folder} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
         # A batch includes its files: GCC takes them for headers, in which a class of an unnamed namespace is a mistake.
         # GoogleTest's macros are safe after an `if`; GCC knows that of them in a file of its own only.
-        target_compile_options(test_${folder} PRIVATE -Wno-subobject-linkage -Wno-dangling-else)
+        target_compile_options(test_${folder} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-dangling-else>)
     endif()
     set_target_properties(test_${folder} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     set(properties TIMEOUT 300)

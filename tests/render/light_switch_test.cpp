@@ -8,7 +8,7 @@ namespace {
 
 class LightSwitch : public RenderTest {
   protected:
-    static constexpr DrawSettings kSmall = {.width = 64, .height = 64, .shadow_map_size = 256};
+    static const DrawSettings kSwitched = {.width = 64, .height = 64, .shadow_map_size = 256};
 
     /// On, off and on again: each frame as a new renderer draws it.
     static void expect_frames_as_new(const Technique& technique, ParameterValues values) {
@@ -19,14 +19,14 @@ class LightSwitch : public RenderTest {
         std::vector<Image> frames;
         for (const float on : {1.0f, 0.0f, 1.0f}) {
             scene.lights[0].intensity = intensity * on;
-            frames.push_back(radiance(renderer, technique, values, kSmall));
+            frames.push_back(radiance(renderer, technique, values, kSwitched));
         }
         Renderer fresh = make_renderer(scene);
         EXPECT_EQ(frames[0].bytes, frames[2].bytes) << technique.id;
-        EXPECT_EQ(frames[2].bytes, radiance(fresh, technique, values, kSmall).bytes) << technique.id;
+        EXPECT_EQ(frames[2].bytes, radiance(fresh, technique, values, kSwitched).bytes) << technique.id;
         scene.lights[0].intensity = 0;
         Renderer dark = make_renderer(scene);
-        EXPECT_EQ(frames[1].bytes, radiance(dark, technique, values, kSmall).bytes) << technique.id;
+        EXPECT_EQ(frames[1].bytes, radiance(dark, technique, values, kSwitched).bytes) << technique.id;
         EXPECT_NE(frames[0].bytes, frames[1].bytes) << technique.id << ": the light is not seen";
     }
 };
