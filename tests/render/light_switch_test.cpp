@@ -8,7 +8,7 @@ namespace {
 
 class LightSwitch : public RenderTest {
   protected:
-    static const DrawSettings kSwitched = {.width = 64, .height = 64, .shadow_map_size = 256};
+    static inline const DrawSettings kSwitched = {.width = 64, .height = 64, .shadow_map_size = 256};
 
     /// On, off and on again: each frame as a new renderer draws it.
     static void expect_frames_as_new(const Technique& technique, ParameterValues values) {
