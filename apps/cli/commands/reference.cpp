@@ -27,8 +27,6 @@ namespace {
 // Exit status: the picture is written, but noisier than asked for.
 constexpr int kNoiseMissed = 3;
 
-// The signal of Ctrl-C or of a request to end, or 0. The picture so far is written, then the program ends; a
-// second signal ends it at once.
 using SignalHandler = void (*)(int);
 
 std::atomic<int> g_signal = 0;
@@ -36,8 +34,9 @@ std::atomic<bool> g_stop = false;
 std::atomic<int64_t> g_stopped_ms = 0;
 SignalHandler g_interrupt_before = SIG_DFL, g_terminate_before = SIG_DFL;
 
-// The first signal ends the passes, one that comes later ends the program. `timeout`, make and shells send
-// the same signal twice, to the process and to its group: what comes within a second is the first one again.
+// Ctrl-C or a request to end. The first signal ends the passes, the picture so far is written, then the
+// program ends; one that comes later ends the program at once. `timeout`, make and shells send the same
+// signal twice, to the process and to its group: what comes within a second is the first one again.
 extern "C" void stop_on_signal(int signal) {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
