@@ -6,7 +6,7 @@
 
 namespace dermis {
 
-/// Changes with every change, but of a comment, to base, mesh, optics, scene, rays, reference or
+/// Changes with every change, but of a comment, to base, image, mesh, optics, scene, rays, reference or
 /// judge/effect_truth.cpp. Made by the build (cmake/SourceVersion.cmake).
 [[nodiscard]] std::string_view truth_version();
 
