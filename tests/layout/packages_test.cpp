@@ -22,9 +22,9 @@ using ::testing::IsEmpty;
 namespace dermis {
 namespace {
 
-const fs::path kRoot = DERMIS_SOURCE_DIR;
+const fs::path kTree = DERMIS_SOURCE_DIR;
 
-std::string read(const fs::path& path) {
+std::string read_text(const fs::path& path) {
     std::ifstream file(path);
     return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -32,13 +32,14 @@ std::string read(const fs::path& path) {
 std::string texts_under(const std::vector<std::string>& trees, const std::set<std::string>& extensions) {
     std::string all;
     for (const std::string& tree : trees) {
-        if (fs::is_regular_file(kRoot / tree)) all += read(kRoot / tree);
-        if (!fs::is_directory(kRoot / tree)) continue;
-        for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree)) {
+        if (fs::is_regular_file(kTree / tree)) all += read_text(kTree / tree);
+        if (!fs::is_directory(kTree / tree)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(kTree / tree)) {
             const fs::path name = entry.path().filename();
             // Names in this test do not count as use.
             if (!entry.is_regular_file() || name.string().starts_with("packages_")) continue;
-            if (extensions.contains(name.extension()) || extensions.contains(name)) all += read(entry.path());
+            if (extensions.contains(name.extension()) || extensions.contains(name))
+                all += read_text(entry.path());
         }
     }
     return all;
@@ -49,8 +50,8 @@ PackageUse repository() {
                                             "tests",  "bench",    "cmake",      "CMakeLists.txt"};
     const std::string programs = texts_under({"tools", "run", "test"}, {"", ".mjs"});
     const std::string sources = texts_under(trees, {".cpp", ".h"});
-    return {.lists = read(kRoot / "tools/packages.txt") + read(kRoot / "tools/packages_checks.txt"),
-            .readme = read(kRoot / "README.md"),
+    return {.lists = read_text(kTree / "tools/packages.txt") + read_text(kTree / "tools/packages_checks.txt"),
+            .readme = read_text(kTree / "README.md"),
             .cmake = texts_under(trees, {".cmake", ".in", "CMakeLists.txt"}),
             .sources = sources,
             .texts = sources + programs};
@@ -125,10 +126,10 @@ TEST(Packages, what_cmake_looks_for_and_what_is_included_must_be_known) {
 TEST(Packages, files_that_cmake_packages_check_come_with_the_listed_packages) {
     if (std::system("command -v dpkg-query >/dev/null") != 0) GTEST_SKIP() << "no dpkg here";
     const DebianPackages system = installed_packages();
-    const std::set<std::string> listed =
-        listed_packages(read(kRoot / "tools/packages.txt") + read(kRoot / "tools/packages_checks.txt"));
+    const std::set<std::string> listed = listed_packages(read_text(kTree / "tools/packages.txt") +
+                                                         read_text(kTree / "tools/packages_checks.txt"));
     std::vector<std::string> files;
-    for (const fs::path& folder : package_folders(read(DERMIS_BINARY_DIR "/CMakeCache.txt")))
+    for (const fs::path& folder : package_folders(read_text(DERMIS_BINARY_DIR "/CMakeCache.txt")))
         for (const std::string& file : checked_files(folder)) files.push_back(file);
     ASSERT_GT(files.size(), 10u);
     const std::map<std::string, std::string> owners = owners_of(files);

@@ -53,7 +53,7 @@ class SourcesPage : public testing::Test {
     std::string page_;
 };
 
-constexpr Preintegration kHalfRing = {.construction = Construction::half_ring};
+constexpr Preintegration kPublishedHalfRing = {.construction = Construction::half_ring};
 const GaussianSum& skin() {
     static const GaussianSum kSkin = gpu_gems_3_skin();
     return kSkin;
@@ -106,7 +106,8 @@ TEST_F(SourcesPage, states_the_mean_light_of_every_construction) {
         "zh_0 of ([0-9.]+) in red at r = 2 mm; [^|]* half ring [^|]* has ([0-9.]+), the full ring ([0-9.]+), "
         "a "
         "sphere of any radius ([0-9.]+)",
-        {curve_2015_zonal(0.5)[0][0], zh_0(kHalfRing), zh_0({.construction = Construction::ring}), zh_0({})});
+        {curve_2015_zonal(0.5)[0][0], zh_0(kPublishedHalfRing), zh_0({.construction = Construction::ring}),
+         zh_0({})});
 }
 
 TEST(PreintegratedPage, states_the_error_of_the_zonal_harmonics) {
