@@ -1,4 +1,5 @@
-// cmake/SourceVersion.cmake: what a cached result is valid for changes with the code that made it, not with its comments.
+// cmake/SourceVersion.cmake: what a cached result is valid for changes with the code that made it, not with
+// its comments.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,11 +20,10 @@ std::string version_of(const std::string& text) {
     const TemporaryDirectory directory;
     const std::string folder = directory.path.string(), output = folder + "/version.cpp";
     std::ofstream(folder + "/code.cpp") << text;
-    const ProgramResult made =
-        run_shell("cmake -D files=" + folder + "/code.cpp -D root=" + folder +
-                      " -D folder=judge -D name=truth_version -D output=" + output +
-                      " -P " DERMIS_SOURCE_DIR "/cmake/SourceVersion.cmake",
-                  folder);
+    const ProgramResult made = run_shell("cmake -D files=" + folder + "/code.cpp -D root=" + folder +
+                                             " -D folder=judge -D name=truth_version -D output=" + output +
+                                             " -P " DERMIS_SOURCE_DIR "/cmake/SourceVersion.cmake",
+                                         folder);
     EXPECT_EQ(made.exit_code, 0) << made.err;
     const std::string source = slurp(output);
     std::smatch found;
