@@ -26,13 +26,19 @@ struct Engine {
     VOrigin v_origin = VOrigin::top;      ///< where the engine has v = 0 in a picture
     void (*add_words)(Words&) = nullptr;  ///< beyond the common ones
     /// What is made from the other files, as Unity's .meta.
-    void (*add_files)(std::vector<PackageFile>&) = nullptr;
+    Result<void> (*add_files)(const PackageInput&, std::vector<PackageFile>&) = nullptr;
 };
+
+/// "@word@" replaced wherever it is; an @ without a word behind it stays. Error: a word that `words` has not.
+[[nodiscard]] Result<std::string> filled(const PackageTemplate& file, const Words& words);
+[[nodiscard]] std::vector<std::byte> to_bytes(std::string_view text);
 
 /// Texels of the diffuse table and its last row's curvature. A lookup is within 0.002 of the integral.
 inline constexpr int kTableWidth = 256, kTableHeight = 128;
 inline constexpr double kTableMaxCurvaturePerMm = 1;
 
 [[nodiscard]] Engine godot();
+[[nodiscard]] Engine unity();
+[[nodiscard]] Engine unreal();
 
 }  // namespace dermis::packages

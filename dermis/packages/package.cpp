@@ -11,13 +11,45 @@
 #include "dermis/packages/engine.h"
 
 namespace dermis {
+
+namespace packages {
+
+std::vector<std::byte> to_bytes(std::string_view text) {
+    const auto bytes = as_bytes(text);
+    return {bytes.begin(), bytes.end()};
+}
+
+Result<std::string> filled(const PackageTemplate& file, const Words& words) {
+    constexpr std::string_view kWord = "abcdefghijklmnopqrstuvwxyz_";
+    std::string text;
+    size_t at = 0;
+    for (size_t start; (start = file.text.find('@', at)) != std::string::npos;) {
+        text.append(file.text, at, start - at);
+        const size_t end = file.text.find_first_not_of(kWord, start + 1);
+        at = start + 1;
+        if (end == std::string::npos || file.text[end] != '@' || end == at) {
+            text += '@';
+            continue;
+        }
+        const auto word = words.find(file.text.substr(at, end - at));
+        if (word == words.end())
+            return Error{file.path + ": unknown word '" + file.text.substr(at, end - at) + "'"};
+        text += word->second;
+        at = end + 1;
+    }
+    return text.append(file.text, at);
+}
+
+}  // namespace packages
+
 namespace {
 
 using packages::Engine;
+using packages::to_bytes;
 using packages::Words;
 
 const std::vector<Engine>& engines() {
-    static const std::vector<Engine> all = {packages::godot()};
+    static const std::vector<Engine> all = {packages::unity(), packages::unreal(), packages::godot()};
     return all;
 }
 
@@ -25,11 +57,6 @@ Result<const Engine*> find_engine(std::string_view name) {
     const auto found = std::ranges::find(engines(), name, &Engine::name);
     if (found != engines().end()) return &*found;
     return Error{unknown_name("engine", name, engine_names())};
-}
-
-std::vector<std::byte> to_bytes(std::string_view text) {
-    const auto bytes = as_bytes(text);
-    return {bytes.begin(), bytes.end()};
 }
 
 // Of the Gaussians that the coefficients are for, so that table and functions agree.
@@ -57,28 +84,6 @@ Words common_words(const Profile& profile) {
             {"max_curvature_per_mm", to_text(packages::kTableMaxCurvaturePerMm) + ".0"}};
 }
 
-// "@word@" replaced wherever it is; an @ without a word behind it stays.
-Result<std::string> filled(const PackageTemplate& file, const Words& words) {
-    constexpr std::string_view kWord = "abcdefghijklmnopqrstuvwxyz_";
-    std::string text;
-    size_t at = 0;
-    for (size_t start; (start = file.text.find('@', at)) != std::string::npos;) {
-        text.append(file.text, at, start - at);
-        const size_t end = file.text.find_first_not_of(kWord, start + 1);
-        at = start + 1;
-        if (end == std::string::npos || file.text[end] != '@' || end == at) {
-            text += '@';
-            continue;
-        }
-        const auto word = words.find(file.text.substr(at, end - at));
-        if (word == words.end())
-            return Error{file.path + ": unknown word '" + file.text.substr(at, end - at) + "'"};
-        text += word->second;
-        at = end + 1;
-    }
-    return text.append(file.text, at);
-}
-
 // packages/common: functions for the packages alone, which are printed with the skin's.
 std::vector<shading::Source> all_functions(const PackageInput& input) {
     std::vector<shading::Source> sources(input.functions.begin(), input.functions.end());
@@ -95,7 +100,7 @@ Result<void> add_templates(const Engine& engine, const PackageInput& input, std:
     for (const PackageTemplate& file : input.templates) {
         if (file.path == "LICENSE") files.push_back({std::string(engine.license_path), to_bytes(file.text)});
         if (!file.path.starts_with(folder)) continue;
-        const Result<std::string> text = filled(file, words);
+        const Result<std::string> text = packages::filled(file, words);
         if (!text) return text.error();
         files.push_back({file.path.substr(folder.size()), to_bytes(*text)});
     }
@@ -133,7 +138,8 @@ Result<std::vector<PackageFile>> make_package(std::string_view name, const Packa
         files.push_back({std::string(engine.table_path), std::move(*table)});
     }
     if (const Result<void> added = add_templates(engine, input, files); !added) return added.error();
-    if (engine.add_files) engine.add_files(files);
+    if (engine.add_files)
+        if (const Result<void> added = engine.add_files(input, files); !added) return added.error();
     std::ranges::sort(files, {}, &PackageFile::path);
     return files;
 }
