@@ -38,12 +38,15 @@ EdgeFit fit_widths(std::span<const Rgb> light, size_t channel, double w0, double
 
 EdgeExpression fit_edge_expression(std::span<const Rgb> light) {
     constexpr double kNarrowest = 0.005, kWidest = 3, kStep = 1.6;
+    // Two wide hyperbolas that nearly cancel fit best of all, and lose their digits in 32 bits.
+    constexpr double kLargestWeight = 64;
     EdgeExpression edge;
     for (size_t c = 0; c < 3; ++c) {
         EdgeFit best{.weight = {}, .error = 1e9};
         for (double w0 = kNarrowest; w0 < kWidest; w0 *= kStep)
             for (double w1 = w0 * kStep; w1 < kWidest * kStep; w1 *= kStep)
-                if (const EdgeFit fit = fit_widths(light, c, w0, w1); fit.error < best.error) {
+                if (const EdgeFit fit = fit_widths(light, c, w0, w1);
+                    fit.error < best.error && fit.weight.cwiseAbs().maxCoeff() < kLargestWeight) {
                     best = fit;
                     edge.width[0][c] = w0, edge.width[1][c] = w1;
                 }

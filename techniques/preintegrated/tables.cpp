@@ -6,11 +6,11 @@
 
 #include "dermis/bake/beckmann_table.h"
 #include "dermis/bake/lut.h"
+#include "dermis/bake/shadow_ramp.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
 #include "dermis/optics/gaussian_channels.h"
 #include "techniques/preintegrated/normal_blend.h"
-#include "techniques/preintegrated/shadow_ramp.h"
 
 namespace dermis::preintegrated {
 namespace {

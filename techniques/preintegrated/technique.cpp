@@ -44,7 +44,7 @@ struct Params {
     Normals normals = Normals::blended;
     float normal_lod_bias = 3;
     Shadow shadow = Shadow::scattered;
-    float shadow_width_mm = 3;
+    float shadow_width_mm = kShadowWidthMm;
     Transmission transmission = Transmission::shadow_map;
     Ambient ambient = Ambient::lut;
     SpecularModel specular = SpecularModel::ggx;
