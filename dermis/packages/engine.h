@@ -22,6 +22,7 @@ struct Engine {
     std::vector<SkinText> texts;
 
     std::string_view license_path = "LICENSE";
+    std::string_view picture_path = "picture.png";
     std::string_view table_path = {};     ///< the diffuse table as EXR; empty: none
     VOrigin v_origin = VOrigin::top;      ///< where the engine has v = 0 in a picture
     void (*add_words)(Words&) = nullptr;  ///< beyond the common ones

@@ -9,6 +9,7 @@
 #include "dermis/export/profile_source.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/packages/engine.h"
+#include "dermis/packages/picture.h"
 
 namespace dermis {
 
@@ -60,7 +61,7 @@ Result<const Engine*> find_engine(std::string_view name) {
 }
 
 // Of the Gaussians that the coefficients are for, so that table and functions agree.
-Result<std::vector<std::byte>> diffuse_table(const Engine& engine, const Profile& profile) {
+Result<Table> diffuse_table(const Engine& engine, const Profile& profile) {
     Result<LutOptions> options = lut_options("dermis");
     if (!options) return options.error();
     options->profile = {
@@ -69,9 +70,21 @@ Result<std::vector<std::byte>> diffuse_table(const Engine& engine, const Profile
     options->height = packages::kTableHeight;
     options->convention.axes[1] = curvature_axis(0, packages::kTableMaxCurvaturePerMm);
     options->convention.v_origin = engine.v_origin;
-    const Result<Table> table = bake_lut(*options);
+    return bake_lut(*options);
+}
+
+Result<void> add_table_and_picture(const Engine& engine, const Profile& profile,
+                                   std::vector<PackageFile>& files) {
+    const Result<Table> table = diffuse_table(engine, profile);
     if (!table) return table.error();
-    return table_bytes(engine.table_path, *table);
+    Result<std::vector<std::byte>> picture = packages::picture_of(*table);
+    if (!picture) return picture.error();
+    files.push_back({std::string(engine.picture_path), std::move(*picture)});
+    if (engine.table_path.empty()) return {};
+    Result<std::vector<std::byte>> bytes = table_bytes(engine.table_path, *table);
+    if (!bytes) return bytes.error();
+    files.push_back({std::string(engine.table_path), std::move(*bytes)});
+    return {};
 }
 
 Words common_words(const Profile& profile) {
@@ -132,11 +145,8 @@ Result<std::vector<PackageFile>> make_package(std::string_view name, const Packa
         if (!text) return text.error();
         files.push_back({std::string(skin.path), to_bytes(*text)});
     }
-    if (!engine.table_path.empty()) {
-        Result<std::vector<std::byte>> table = diffuse_table(engine, input.profile);
-        if (!table) return table.error();
-        files.push_back({std::string(engine.table_path), std::move(*table)});
-    }
+    if (const Result<void> added = add_table_and_picture(engine, input.profile, files); !added)
+        return added.error();
     if (const Result<void> added = add_templates(engine, input, files); !added) return added.error();
     if (engine.add_files)
         if (const Result<void> added = engine.add_files(input, files); !added) return added.error();

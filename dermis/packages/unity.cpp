@@ -60,6 +60,7 @@ Engine unity() {
     return {.name = "unity",
             .texts = {{"Runtime/Skin.hlsl", shading::Language::hlsl}},
             .license_path = "LICENSE.md",
+            .picture_path = "Documentation~/picture.png",
             .table_path = kTable,
             .v_origin = VOrigin::bottom,
             .add_words = add_guids,

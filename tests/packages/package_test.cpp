@@ -35,7 +35,7 @@ TEST(Packages, hold_a_readme_a_licence_and_no_word_left_to_replace) {
         size_t licences = 0;
         for (const auto& [path, text] : files) {
             licences += text.starts_with("MIT License");
-            if (path.ends_with(".exr")) continue;
+            if (path.ends_with(".exr") || path.ends_with(".png")) continue;
             EXPECT_THAT(text, Not(testing::ContainsRegex("@[a-z_]+@"))) << engine << ": " << path;
             EXPECT_TRUE(text.ends_with('\n')) << engine << ": " << path;
         }
