@@ -56,7 +56,7 @@ class Simplifier {
           versions_(mesh.positions_mm.size(), 0),
           locked_(mesh.positions_mm.size(), false) {
         for (uint32_t i = 0; i < indices_.size(); ++i) triangles_of_[indices_[i]].push_back(i / 3);
-        lock_seams_and_submeshes();
+        lock_between_submeshes();
         lock_borders();
         for (uint32_t t = 0; t < mesh.triangle_count(); ++t) add_triangle_quadric(t);
     }
@@ -78,11 +78,8 @@ class Simplifier {
   private:
     [[nodiscard]] Vec3 position(uint32_t v) const { return mesh_.positions_mm[v]; }
 
-    void lock_seams_and_submeshes() {
-        const Weld weld = weld_positions(mesh_.positions_mm);
-        std::vector<uint32_t> copies(weld.count(), 0), submesh_of(locked_.size(), ~0u);
-        for (uint32_t v = 0; v < weld.ids.size(); ++v) ++copies[weld.ids[v]];
-        for (uint32_t v = 0; v < weld.ids.size(); ++v) locked_[v] = copies[weld.ids[v]] > 1;
+    void lock_between_submeshes() {
+        std::vector<uint32_t> submesh_of(locked_.size(), ~0u);
         for (uint32_t s = 0; s < mesh_.submeshes.size(); ++s) {
             const Submesh& submesh = mesh_.submeshes[s];
             for (uint32_t i = 0; i < submesh.index_count; ++i) {
@@ -93,7 +90,7 @@ class Simplifier {
         }
     }
 
-    // An edge that is not of exactly two triangles.
+    // An edge that is not of exactly two triangles; at a UV seam the triangles' vertices differ.
     void lock_borders() {
         std::vector<uint32_t> ends;
         for (uint32_t v = 0; v < triangles_of_.size(); ++v) {

@@ -65,6 +65,7 @@ function start(renderer) {
   });
   element("reset").addEventListener("click", () => { Object.assign(view, begin); showView(); });
   followPointers(view, begin, showView);
+  followKeys(view, showView);
   dragDivider(showWipe);
   new ResizeObserver(redraw).observe(canvas);
   canvas.addEventListener("webglcontextlost", () => showError(new Error("The browser took the graphics away: load the page again.")));
@@ -127,6 +128,18 @@ function followPointers(view, begin, changed) {
     zoom(Math.exp(clamp(event.deltaY, -100, 100) * 0.001));
     changed();
   }, { passive: false });
+}
+
+function followKeys(view, changed) {
+  const steps = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
+  canvas.addEventListener("keydown", event => {
+    const step = steps[event.key];
+    if (!step) return;
+    event.preventDefault();
+    view.cameraYaw += step[0];
+    view.cameraPitch = clamp(view.cameraPitch + step[1], -1.4, 1.4);
+    changed();
+  });
 }
 
 function dragDivider(changed) {

@@ -26,14 +26,20 @@ export function serve(folder) {
     done({ origin: `http://127.0.0.1:${server.address().port}`, close: () => { server.close(); server.closeAllConnections(); } })));
 }
 
-// { call(method, params), evaluate(expression), requests, problems, close() }
+// { call(method, params), load(url), evaluate(expression), requests, problems, close() }; it ends after two minutes.
 export async function openBrowser(chromium, { width, height, phone = false }) {
   const profile = mkdtempSync(join(tmpdir(), "dermis-page-"));
   const browser = spawn(chromium, ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run",
     "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader",
     `--user-data-dir=${profile}`, "--remote-debugging-pipe"], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
   const gone = new Promise(done => browser.on("exit", done));
+  const late = setTimeout(() => {
+    console.error("the browser did not answer within two minutes");
+    browser.kill();
+    process.exit(1);
+  }, 120000);
   let next = 1, rest = "";
+  let loaded;
   const waiting = new Map(), requests = [], problems = [];
   // Messages are JSON, each ended by a zero byte.
   browser.stdio[4].on("data", chunk => {
@@ -46,6 +52,7 @@ export async function openBrowser(chromium, { width, height, phone = false }) {
       if (method === "Runtime.consoleAPICalled" && ["error", "warning"].includes(params.type))
         problems.push(params.args.map(arg => arg.value ?? arg.description).join(" "));
       if (method === "Log.entryAdded" && params.entry.level === "error") problems.push(`${params.entry.text} ${params.entry.url ?? ""}`);
+      if (method === "Page.loadEventFired") loaded?.();
       const answer = waiting.get(id);
       waiting.delete(id);
       answer?.(error ? Promise.reject(new Error(error.message)) : result);
@@ -65,12 +72,18 @@ export async function openBrowser(chromium, { width, height, phone = false }) {
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
     return result.value;
   };
+  const load = async url => {
+    const fired = new Promise(done => { loaded = done; });
+    await call("Page.navigate", { url });
+    await fired;
+  };
   const close = async () => {
     send("Browser.close");  // it ends its own processes, which still write into the profile
     await gone;
+    clearTimeout(late);
     rmSync(profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
   };
-  return { call, evaluate, requests, problems, close };
+  return { call, load, evaluate, requests, problems, close };
 }
 
 // Waits until `expression` is true in the page.

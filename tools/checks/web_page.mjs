@@ -92,6 +92,9 @@ async function drive(server) {
       { const c = document.getElementById("picture"); c.setPointerCapture = () => {};
         c.dispatchEvent(new PointerEvent(type, { pointerId: 7, clientX: x, clientY: 100, buttons: 1 })); }`);
     check(await differing(page, await picture(page), both) > 0.02, "dragging does not turn the picture");
+    const dragged = await picture(page);
+    await change(page, `document.getElementById("picture").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight" }))`);
+    check(await differing(page, await picture(page), dragged) > 0.01, "arrow keys do not turn the picture");
     const foreign = page.requests.filter(url => !url.startsWith(server.origin) && !/^(data|blob):/.test(url));
     check(foreign.length === 0, "the page asks for " + foreign[0]);
     check(page.problems.length === 0, "the console says: " + page.problems[0]);
