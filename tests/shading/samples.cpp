@@ -75,6 +75,7 @@ const std::map<std::string, Domain>& domains() {
         {"visibility", {0, 1}},
         {"slope", {-1, 1}},
         {"cubic", {-1, 1}},
+        {"quintic", {-1, 1}},
         {"edge_of_hyperbolas.root", {-1, 1}},
         {"narrow", {-1, 1}},
         {"narrow2", {0.01, 1}},
