@@ -15,8 +15,7 @@ struct TableSettings {
     bool needs_beckmann = false;  ///< otherwise the table is one texel
 };
 
-/// skin_lut, skin_zonal, skin_shadow, skin_normal_blend, skin_beckmann; all 32-bit float with four channels
-/// but skin_beckmann, which has one.
+/// skin_lut, skin_rows, skin_beckmann; all 32-bit float with four channels but skin_beckmann, which has one.
 [[nodiscard]] Result<std::vector<TableImage>> bake_tables(const TableSettings& settings,
                                                           const SkinContext& skin);
 
