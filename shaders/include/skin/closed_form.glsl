@@ -26,8 +26,8 @@ vec3 line_and_hyperbola(vec3 n_dot_l, vec3 a, vec3 s, vec3 q, vec3 k0, vec3 k1) 
 vec3 edge_of_hyperbolas(float visibility, vec3 slope, vec3 cubic, vec3 quintic, vec3 root, vec3 narrow,
                         vec3 narrow2, vec3 wide, vec3 wide2) {
     float y = 2.0 * visibility - 1.0, y2 = y * y;
-    vec3 sum = slope + y2 * (cubic + y2 * quintic) + root * sqrt(max(1.0 - y2, 0.0)) + narrow * inversesqrt(y2 + narrow2) +
-               wide * inversesqrt(y2 + wide2);
+    vec3 sum = slope + y2 * (cubic + y2 * quintic) + root * sqrt(max(1.0 - y2, 0.0)) +
+               narrow * inversesqrt(y2 + narrow2) + wide * inversesqrt(y2 + wide2);
     return 0.5 + 0.5 * y * sum;
 }
 
