@@ -14,7 +14,10 @@ namespace dermis {
 /// shaders/include/skin/*.glsl as text, by path.
 [[nodiscard]] std::span<const shading::Source> built_in_skin_sources();
 
-/// The files of packages/, and LICENSE.
+/// The files of packages/ but for packages/web, and LICENSE.
 [[nodiscard]] std::span<const PackageTemplate> built_in_package_templates();
+
+/// The files of packages/web, LICENSE, and the shaders that the page shares with the renderer.
+[[nodiscard]] std::span<const shading::Source> built_in_web_texts();
 
 }  // namespace dermis

@@ -12,4 +12,8 @@ namespace dermis {
 /// costs a file read.
 [[nodiscard]] Result<void> complete_scene(Scene& scene);
 
+/// Of each vertex its occlusion blurred over the surface by three variances (kOcclusionVariance0Mm2 and
+/// following); 1 where the mesh has none. Errors as blur_over_surface().
+[[nodiscard]] Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh);
+
 }  // namespace dermis

@@ -1,5 +1,5 @@
 // dermis export: the shading functions with a skin's coefficients, in the language of an engine, or as a
-// folder that the engine opens.
+// folder that the engine or a browser opens.
 
 #include <cstdio>
 #include <memory>
@@ -11,12 +11,16 @@
 #include "dermis/export/profile_source.h"
 #include "dermis/optics/presets.h"
 #include "dermis/packages/package.h"
+#include "web_export.h"
 
 namespace dermis::cli {
 namespace {
 
+constexpr const char *kDefaultScene = "bust", *kDefaultProfile = "gpu_gems_3";
+
 struct ExportOptions {
-    std::string language, engine, profile = "gpu_gems_3", output;
+    std::string language, engine, profile, scene = kDefaultScene, output;
+    bool web = false;
 };
 
 constexpr const char* kAllLanguages = "all";
@@ -68,10 +72,24 @@ Result<int> export_package(const ExportOptions& options, const Profile& profile)
     return deliver_files(files);
 }
 
+Result<int> export_web(const ExportOptions& options) {
+    const std::filesystem::path folder = options.output;
+    if (const Result<void> writable = try_output(folder / "index.html"); !writable) return writable.error();
+    const Result<WebPage> page = make_web_page(options.scene, options.profile);
+    if (!page) return page.error();
+    for (const std::string& warning : page->warnings) print_warning(warning);
+    std::vector<FileContent> files;
+    for (const WebFile& file : page->files) files.push_back({folder / file.path, file.bytes});
+    return deliver_files(files);
+}
+
 Result<int> run(const ExportOptions& options) {
-    if (options.language.empty() == options.engine.empty())
-        return Error{"give --language for a file of functions, or --engine for a folder, and not both"};
-    const Result<Profile> profile = find_profile(options.profile);
+    if (int(!options.language.empty()) + int(!options.engine.empty()) + int(options.web) != 1)
+        return Error{
+            "give one of --language for a file of functions, --engine for a folder, --web for a page"};
+    if (options.web) return export_web(options);
+    if (options.scene != kDefaultScene) return Error{"--scene is for --web"};
+    const Result<Profile> profile = find_profile(options.profile.empty() ? kDefaultProfile : options.profile);
     if (!profile) return profile.error();
     return options.engine.empty() ? export_texts(options, *profile) : export_package(options, *profile);
 }
@@ -80,20 +98,27 @@ Result<int> run(const ExportOptions& options) {
 
 void add_export_command(CommandLine& line) {
     auto options = std::make_shared<ExportOptions>();
-    Command* command =
-        line.add("export", "The shading functions for a skin, as source text or as a package for an engine",
-                 "dermis export --engine godot --profile openpbr_skin_5 -o package/\n"
-                 "  dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl");
+    Command* command = line.add(
+        "export", "A skin for other programs: shading functions as text, a package for an engine, a web page",
+        "dermis export --engine godot --profile openpbr_skin_5 -o package/\n"
+        "  dermis export --web -o page/\n"
+        "  dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl");
     command->add_option("--language", options->language,
                         join(shading::language_names(), ", ") + ", or all: a file of each in a folder");
     command->add_option(
         "--engine", options->engine,
         "a folder with shader, table, import settings and an example: " + join(engine_names(), ", "));
-    command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B")
+    command->add_flag(
+        "--web", options->web,
+        "a folder for any web server: a page that shows a scene's skin, with all that it needs");
+    command->add_option("--profile", options->profile,
+                        "preset, CSV file or burley:R,G,B; default: " + std::string(kDefaultProfile) +
+                            ", or with --web the scene's");
+    command->add_option("--scene", options->scene, "with --web: scene file, mesh or name of a scene")
         ->capture_default_str();
     command
         ->add_option("-o,--output", options->output,
-                     "file to write; with --engine or --language all a folder")
+                     "file to write; with --engine, --web or --language all a folder")
         ->required();
     line.when_chosen(command, [options] { return run(*options); });
 }
