@@ -63,8 +63,8 @@ Result<std::string> shadow_function(const Profile& profile) {
     if (!ramp) return ramp.error();
     const EdgeExpression edge = fit_edge_expression(*ramp);
     std::string arguments;
-    for (const Rgb& value : {edge.weight[0], edge.weight[1], edge.weight[2], edge.weight[3],
-                             squared(edge.width[0]), edge.weight[4], squared(edge.width[1])})
+    for (const Rgb& value : {edge.weight[0], edge.weight[1], edge.weight[2], edge.weight[3], edge.weight[4],
+                             squared(edge.width[0]), edge.weight[5], squared(edge.width[1])})
         arguments += ", " + vec3_literal(value);
     return "// Light in a penumbra, 0 to 1, in place of the shadow's visibility, 0 to 1. The shadow's filter "
            "has to be\n"

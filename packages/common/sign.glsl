@@ -20,9 +20,9 @@ float sign_letter(float place) {
     return 0.0;
 }
 
-// 1 on the letters, 0 beside them. p: position on the screen in pixels, y downwards; the text repeats every 216 by 36.
+// 1 on the letters, 0 beside them. p: position on the screen in pixels, y downwards; the text repeats every 240 by 36.
 float sign_of_missing_table(vec2 p) {
-    vec2 cell = floor(fract(p / vec2(216.0, 36.0)) * vec2(54.0, 9.0));
+    vec2 cell = floor(fract(p / vec2(240.0, 36.0)) * vec2(60.0, 9.0));
     float column = cell.x - 4.0 * floor(cell.x / 4.0);
     if (column > 2.5 || cell.y > 4.5) return 0.0;
     float bit = 14.0 - 3.0 * cell.y - column;

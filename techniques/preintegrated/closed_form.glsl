@@ -20,7 +20,7 @@ void closed_form_zonal(float k, out vec3 zh[3]) {
 
 // A shadow's edge over visibility (dermis/optics/edge_expression.h).
 vec3 scattered_edge(float visibility) {
-    return edge_of_hyperbolas(visibility, edge[0], edge[1], edge[2], edge[3], edge_width2[0], edge[4], edge_width2[1]);
+    return edge_of_hyperbolas(visibility, edge[0], edge[1], edge[2], edge[3], edge[4], edge_width2[0], edge[5], edge_width2[1]);
 }
 
 #endif

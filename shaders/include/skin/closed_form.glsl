@@ -1,5 +1,5 @@
 // Pre-integrated diffuse light without a table: over N.L a line and a hyperbola, whose five colours are polynomials of
-// curvature; a shadow's edge as two hyperbolas. The coefficients are fitted to a profile.
+// curvature; a shadow's edge as a polynomial, two hyperbolas and a root. The coefficients are fitted to a profile.
 #ifndef DERMIS_SKIN_CLOSED_FORM_GLSL
 #define DERMIS_SKIN_CLOSED_FORM_GLSL
 
@@ -23,11 +23,11 @@ vec3 line_and_hyperbola(vec3 n_dot_l, vec3 a, vec3 s, vec3 q, vec3 k0, vec3 k1) 
 
 // Light of 0 to 1 in a penumbra, where the shadow's filter has visibility 0 to 1. narrow2 and wide2 are squared widths
 // of the hyperbolas, as parts of the penumbra's half; the root is for the ends, where a disk's share starts steeply.
-vec3 edge_of_hyperbolas(float visibility, vec3 slope, vec3 cubic, vec3 root, vec3 narrow, vec3 narrow2, vec3 wide,
-                        vec3 wide2) {
+vec3 edge_of_hyperbolas(float visibility, vec3 slope, vec3 cubic, vec3 quintic, vec3 root, vec3 narrow,
+                        vec3 narrow2, vec3 wide, vec3 wide2) {
     float y = 2.0 * visibility - 1.0, y2 = y * y;
-    vec3 sum = slope + cubic * y2 + root * sqrt(max(1.0 - y2, 0.0)) + narrow * inversesqrt(y2 + narrow2) +
-               wide * inversesqrt(y2 + wide2);
+    vec3 sum = slope + y2 * (cubic + y2 * quintic) + root * sqrt(max(1.0 - y2, 0.0)) +
+               narrow * inversesqrt(y2 + narrow2) + wide * inversesqrt(y2 + wide2);
     return 0.5 + 0.5 * y * sum;
 }
 
