@@ -44,27 +44,29 @@ ${table}    };
     target_sources(${target} PRIVATE ${out_dir}/table.cpp)
 endfunction()
 
-# dermis_embed_skin_sources(target): the text of shaders/include/skin/*.glsl, which `dermis export` prints in other languages
-# (defines dermis::built_in_skin_sources, see catalog/catalog.h).
-function(dermis_embed_skin_sources target)
-    file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/shaders/include/skin/*.glsl)
+# dermis_embed_texts(target FUNCTION built_in_skin_sources TYPE shading::Source FROM folder FILES a;b): text files, by their path
+# below FROM. Defines dermis::FUNCTION, see catalog/catalog.h.
+function(dermis_embed_texts target)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "FUNCTION;TYPE;FROM" "FILES")
     set(table "")
-    foreach(source ${sources})
-        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${source})
-        file(READ ${PROJECT_SOURCE_DIR}/${source} text)
-        string(APPEND table "        {\"${source}\", R\"dermis_skin(${text})dermis_skin\"},\n")
+    foreach(path ${arg_FILES})
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+        file(RELATIVE_PATH name ${arg_FROM} ${path})
+        file(READ ${path} text)
+        string(APPEND table "        {\"${name}\", R\"dermis_text(${text})dermis_text\"},\n")
     endforeach()
-    set(output ${PROJECT_BINARY_DIR}/catalog/skin_sources.cpp)
-    file(CONFIGURE OUTPUT ${output} @ONLY CONTENT
-"#include \"catalog/catalog.h\"
+    set(output ${PROJECT_BINARY_DIR}/catalog/${arg_FUNCTION}.cpp)
+    # Not file(CONFIGURE): it would replace the @words@ of the texts.
+    file(WRITE ${output}.new "#include \"catalog/catalog.h\"
 
 #include <vector>
 
-std::span<const dermis::shading::Source> dermis::built_in_skin_sources() {
-    static const std::vector<shading::Source> kSources = {
+std::span<const dermis::${arg_TYPE}> dermis::${arg_FUNCTION}() {
+    static const std::vector<${arg_TYPE}> kTexts = {
 ${table}    };
-    return kSources;
+    return kTexts;
 }
 ")
+    file(COPY_FILE ${output}.new ${output} ONLY_IF_DIFFERENT)
     target_sources(${target} PRIVATE ${output})
 endfunction()

@@ -1,10 +1,14 @@
 #include "bake_options.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
+#include "dermis/bake/rows.h"
 #include "dermis/bake/table_report.h"
 #include "dermis/base/text.h"
+#include "dermis/optics/gaussian_fit.h"
 
 namespace dermis::cli {
 
@@ -44,6 +48,20 @@ Result<Range> parse_range(const std::string& option, const std::string& text) {
     if (ends.size() != 2 || !min || !max)
         return Error{option + " is '" + text + "', must be MIN,MAX, like 0,0.5"};
     return Range{*min, *max};
+}
+
+std::string fit_where_needed(Profile& profile, const Preintegration& how, Integration integration) {
+    const bool good = integration == Integration::exact && check_preintegrable(profile, how);
+    if (good || std::holds_alternative<GaussianSum>(profile.model)) return "";
+    const GaussianFit fit = to_gaussian_sum(profile);
+    const std::string model = model_name(profile);
+    profile.model = fit.sum;
+    std::array<char, 200> text{};
+    std::snprintf(text.data(), text.size(),
+                  "the profile is %s and this convention needs Gaussians: fitted, %.2g %% of the light at a "
+                  "wrong distance\n",
+                  model.c_str(), 100 * std::ranges::max(fit.max_error));
+    return text.data();
 }
 
 Result<int> deliver(const Table& table, const Profile& profile, const TableOutput& output,

@@ -26,6 +26,11 @@ struct Range {
 };
 [[nodiscard]] Result<Range> parse_range(const std::string& option, const std::string& text);
 
+/// A ring, a variance scale and the taps of published code need a sum of Gaussians: another profile becomes
+/// its fit. The text to print says so, and how good the fit is; empty where nothing was fitted.
+[[nodiscard]] std::string fit_where_needed(Profile& profile, const Preintegration& how,
+                                           Integration integration);
+
 /// Writes the table, the plot if one is asked for, and prints what was written and how exact a lookup in it
 /// is.
 [[nodiscard]] Result<int> deliver(const Table& table, const Profile& profile, const TableOutput& output,

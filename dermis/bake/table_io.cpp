@@ -74,17 +74,6 @@ std::vector<std::byte> to_bytes(std::string_view text) {
     return {bytes.begin(), bytes.end()};
 }
 
-Result<std::vector<std::byte>> file_content(const fs::path& path, const Table& table, TableStorage storage,
-                                            const std::string& json) {
-    const std::string extension = to_lower(path.extension().string());
-    if (extension == ".csv") return to_bytes(table_csv(table));
-    if (extension == ".h") return to_bytes(table_c_header(table, path.stem().string()));
-    Result<std::vector<std::byte>> image =
-        encode_image(extension, encoded_image(table, storage), {{kTextKey, json}});
-    if (!image) return Error{path.string() + ": " + image.error().message};
-    return image;
-}
-
 // The embedded text where there is one, else the sidecar; both must agree.
 Result<ParsedConvention> load_convention(const fs::path& path, const std::string& embedded) {
     const fs::path beside = sidecar_path(path);
@@ -173,12 +162,23 @@ TableEncoding encoding_for(TableKind kind, TableStorage storage) {
     return TableEncoding::srgb;
 }
 
-Result<void> write_table(const fs::path& path, const Table& table, TableStorage storage) {
+Result<std::vector<std::byte>> table_bytes(const fs::path& path, const Table& table, TableStorage storage) {
     const Result<TableStorage> chosen = storage_for(path, storage);
     if (!chosen) return chosen.error();
-    const std::string json = convention_json(table.convention, table.width, table.height) + "\n";
-    const auto content = file_content(path, table, *chosen, json.substr(0, json.size() - 1));
+    const std::string extension = to_lower(path.extension().string());
+    if (extension == ".csv") return to_bytes(table_csv(table));
+    if (extension == ".h") return to_bytes(table_c_header(table, path.stem().string()));
+    const std::string json = convention_json(table.convention, table.width, table.height);
+    Result<std::vector<std::byte>> image =
+        encode_image(extension, encoded_image(table, *chosen), {{kTextKey, json}});
+    if (!image) return Error{path.string() + ": " + image.error().message};
+    return image;
+}
+
+Result<void> write_table(const fs::path& path, const Table& table, TableStorage storage) {
+    const auto content = table_bytes(path, table, storage);
     if (!content) return content.error();
+    const std::string json = convention_json(table.convention, table.width, table.height) + "\n";
     const FileContent files[] = {{path, *content}, {sidecar_path(path), as_bytes(json)}};
     return write_files(files);
 }

@@ -29,6 +29,11 @@ namespace dermis {
 [[nodiscard]] Result<void> write_table(const std::filesystem::path& path, const Table& table,
                                        TableStorage storage = TableStorage::automatic);
 
+/// What write_table() writes into the file of this path, without its sidecar.
+[[nodiscard]] Result<std::vector<std::byte>> table_bytes(const std::filesystem::path& path,
+                                                         const Table& table,
+                                                         TableStorage storage = TableStorage::automatic);
+
 /// The table as the file has it, decoded. Refuses: a file without a convention (see `dermis lint`), one whose
 /// embedded and sidecar conventions differ, a size that contradicts it, a PNG flagged sRGB whose convention
 /// is not, a convention that does not match `use` (the message says which key), a .h file (it is for

@@ -1,10 +1,10 @@
 #include "dermis/export/profile_source.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 #include "dermis/base/text.h"
+#include "dermis/export/closed_form_source.h"
+#include "dermis/export/literals.h"
 #include "dermis/optics/gaussian_channels.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/wrap_reach.h"
@@ -12,29 +12,7 @@
 namespace dermis {
 namespace {
 
-// A float literal of six digits: "1.0", "0.000310047".
-std::string literal(double value) {
-    std::array<char, 32> digits{};
-    const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 6).ptr;
-    std::string text(digits.data(), end);
-    if (text.find_first_of(".e") == std::string::npos) text += ".0";
-    return text;
-}
-
-std::string vec3_literal(const Rgb& rgb) {
-    return "vec3(" + literal(rgb[0]) + ", " + literal(rgb[1]) + ", " + literal(rgb[2]) + ")";
-}
-
-std::string vec3_constant(const std::string& name, const Rgb& value) {
-    return "const vec3 " + name + " = " + vec3_literal(value) + ";\n";
-}
-
-// "0.31 %"
-std::string percent(double part) {
-    const double rounded = double(int(part * 1e4 + 0.5)) / 100;
-    return to_text(float(rounded)) + " %";
-}
+using namespace export_text;
 
 std::string heading(const Profile& profile, const GaussianFit& fit) {
     const double error = std::ranges::max(fit.max_error);
@@ -110,10 +88,14 @@ Result<shading::Source> profile_source(const Profile& profile) {
     if (const Result<void> good = check_preintegrable(fit.sum); !good) return good.error();
     const std::vector<ChannelGaussians> terms = by_channel(fit.sum);
     std::string text = heading(profile, fit);
-    for (const char* file : {"pi", "wrap", "zonal"})
+    for (const char* file : {"pi", "closed_form", "transmission", "wrap", "zonal"})
         text += "#include \"shaders/include/skin/" + std::string(file) + ".glsl\"\n";
-    text += "\n" + gaussian_constants(terms) + "\n" + ambient_functions(terms.size()) + "\n" +
-            wrap_function(wrap_reach(fit.sum));
+    const Result<std::string> diffuse = diffuse_function(fit.sum);
+    if (!diffuse) return diffuse.error();
+    const Result<std::string> shadow = shadow_function(profile);
+    if (!shadow) return shadow.error();
+    text += "\n" + gaussian_constants(terms) + "\n" + *diffuse + "\n" + wrap_function(wrap_reach(fit.sum)) +
+            "\n" + ambient_functions(terms.size()) + "\n" + *shadow + "\n" + transmission_function(terms);
     return shading::Source{"profile " + printable_line(profile.name), text};
 }
 

@@ -12,6 +12,8 @@ FormatInfo format_info(ImageFormat format) {
             return {VK_FORMAT_R8_UNORM, kColor, 1, PixelFormat::u8};
         case ImageFormat::rgba8:
             return {VK_FORMAT_R8G8B8A8_UNORM, kColor, 4, PixelFormat::u8};
+        case ImageFormat::rgba16:
+            return {VK_FORMAT_R16G16B16A16_UNORM, kColor, 4, PixelFormat::u16};
         case ImageFormat::r16f:
             return {VK_FORMAT_R16_SFLOAT, kColor, 1, PixelFormat::f16};
         case ImageFormat::rg16f:

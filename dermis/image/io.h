@@ -44,6 +44,10 @@ struct LoadedImage {
 [[nodiscard]] Result<std::vector<std::byte>> encode_image(std::string_view extension, const Image& image,
                                                           const ImageText& text = {});
 
+/// A JPEG of one or three channels of 8 bits, as they are stored; `quality` 1 to 100. Colours (sRGB) have
+/// half the resolution in chroma, data have all of it. Errors: another kind of image.
+[[nodiscard]] Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality);
+
 /// One named part of a layered EXR; channels appear as "name.R", or plain "R" when the name is empty. One
 /// channel is named Y, two R and G.
 struct ImageLayer {

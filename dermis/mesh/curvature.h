@@ -7,6 +7,11 @@
 
 namespace dermis {
 
+/// Over which curvature for shading is averaged. Of 3 mm and 1.8 mm the smaller captures more of
+/// the effect of scattering: bust .134 against .112, head scan .227 against .220 (`preintegrated`, 128 and
+/// 160 pixels).
+inline constexpr double kCurvatureSmoothingMm = 1.8;
+
 /// Mean curvature (k1 + k2) / 2 at every vertex in 1/mm: positive where convex, 1/R on a sphere of radius R,
 /// 1/(2 R) on a cylinder, 0 on a plane and on a minimal surface. Needs normals (for the sign only).
 ///

@@ -2,7 +2,8 @@
 // A shadow's edge as an expression: light L over visibility v, symmetric about (1/2, 1/2), 0 and 1 at its
 // ends. With y = 2 v - 1,
 //
-//     2 L - 1 = e_0 y + e_1 y^3 + e_2 y sqrt(1 - y^2) + e_3 y / sqrt(y^2 + w_0^2) + e_4 y / sqrt(y^2 + w_1^2)
+//     2 L - 1 = e_0 y + e_1 y^3 + e_2 y^5 + e_3 y sqrt(1 - y^2) + e_4 y / sqrt(y^2 + w_0^2) + e_5 y /
+//     sqrt(y^2 + w_1^2)
 //
 // two hyperbolas for the narrow and the wide light of a profile, and a root for the ends, where the share of
 // a disk starts with a vertical tangent. The e are least squares, the two widths searched.
@@ -14,8 +15,10 @@
 
 namespace dermis {
 
+inline constexpr size_t kEdgeTerms = 6;
+
 struct EdgeExpression {
-    std::array<Rgb, 5> weight = {};
+    std::array<Rgb, kEdgeTerms> weight = {};
     std::array<Rgb, 2> width = {};
     double max_error = 0;  ///< of L, at the values that were fitted
 };

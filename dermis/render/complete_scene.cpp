@@ -6,8 +6,10 @@
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
+#include "dermis/mesh/blur_vertices.h"
 #include "dermis/mesh/curvature.h"
 #include "dermis/rays/vertex_occlusion.h"
+#include "shaders/include/constants.h"
 
 namespace dermis {
 namespace {
@@ -60,6 +62,25 @@ Result<void> complete_scene(Scene& scene) {
     for (size_t i = 0; i < scene.objects.size(); ++i)
         if (!has_occlusion(scene.objects[i])) scene.objects[i].mesh.occlusions = std::move((*occlusions)[i]);
     return {};
+}
+
+Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh) {
+    std::vector<float> occlusions = mesh.occlusions;
+    occlusions.resize(mesh.positions_mm.size(), 1.0f);
+    std::vector<Vec3> blurred;
+    for (const float occlusion : occlusions) blurred.push_back(Vec3{1, 1, 1} * occlusion);
+    // Nothing occludes: nothing to blur.
+    if (std::ranges::all_of(occlusions, [&](float occlusion) { return occlusion == occlusions.front(); }))
+        return blurred;
+    const std::pair<float Vec3::*, float> blurs[] = {{&Vec3::x, kOcclusionVariance0Mm2},
+                                                     {&Vec3::y, kOcclusionVariance1Mm2},
+                                                     {&Vec3::z, kOcclusionVariance2Mm2}};
+    for (const auto& [member, variance_mm2] : blurs) {
+        const Result<std::vector<float>> values = blur_over_surface(mesh, occlusions, variance_mm2);
+        if (!values) return values.error();
+        for (size_t i = 0; i < blurred.size(); ++i) blurred[i].*member = (*values)[i];
+    }
+    return blurred;
 }
 
 }  // namespace dermis

@@ -7,13 +7,13 @@
 
 namespace dermis {
 
-/// Curvature is averaged over this distance on the surface. Of 3 mm and 1.8 mm the smaller captures more of
-/// the effect of scattering: bust .134 against .112, head scan .227 against .220 (`preintegrated`, 128 and
-/// 160 pixels).
-inline constexpr double kCurvatureSmoothingMm = 1.8;
-
-/// Fills Mesh::curvatures_per_mm with its tensors, and Mesh::occlusions of every object that lacks them,
-/// occluded by all opaque ones; cached by content, so that a second start costs a file read.
+/// Fills Mesh::curvatures_per_mm with its tensors, averaged over kCurvatureSmoothingMm, and Mesh::occlusions
+/// of every object that lacks them, occluded by all opaque ones; cached by content, so that a second start
+/// costs a file read.
 [[nodiscard]] Result<void> complete_scene(Scene& scene);
+
+/// Of each vertex its occlusion blurred over the surface by three variances (kOcclusionVariance0Mm2 and
+/// following); 1 where the mesh has none. Errors as blur_over_surface().
+[[nodiscard]] Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh);
 
 }  // namespace dermis

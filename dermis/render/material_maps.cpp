@@ -39,6 +39,22 @@ Image to_half_image(const Image& image, int channels) {
     return half;
 }
 
+// Of unit length, in 16 bits: smaller levels then say by their length how far the normals differ. In 8 bits,
+// rounded at every level, a mean of shallow bumps would be off by half of their slope.
+Image to_normals(const Image& image) {
+    Image normals(image.width, image.height, 4, PixelFormat::u16);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            Vec3 n = {image.at(x, y, 0) * 2 - 1, image.at(x, y, 1) * 2 - 1, image.at(x, y, 2) * 2 - 1};
+            n = dot(n, n) > 0 ? normalize(n) : Vec3{0, 0, 1};
+            normals.set(x, y, 0, n.x * 0.5f + 0.5f);
+            normals.set(x, y, 1, n.y * 0.5f + 0.5f);
+            normals.set(x, y, 2, n.z * 0.5f + 0.5f);
+            normals.set(x, y, 3, 1);
+        }
+    return normals;
+}
+
 }  // namespace
 
 const std::vector<MaterialMap>& material_maps() {
@@ -127,6 +143,9 @@ Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& mate
         const Image single = single_channel(image, channel < image.channels ? channel : 0);
         data.format = single.format == PixelFormat::u8 ? ImageFormat::r8 : ImageFormat::r16f;
         data.bytes = single.format == PixelFormat::u8 ? single.bytes : to_half_image(single, 1).bytes;
+    } else if (map.source == &Material::normal_map && image.channels >= 3) {
+        data.format = ImageFormat::rgba16;
+        data.bytes = to_normals(to_linear_float(image)).bytes;
     } else if (image.format == PixelFormat::u8) {
         data.format = ImageFormat::rgba8;
         data.srgb = image.encoding == Encoding::srgb;

@@ -227,6 +227,7 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
         .previous_camera_distance_mm = key == history_key_ ? history_distance_mm_ : 0,
         .shadow_map_size = settings.shadow_map_size,
         .shadow_map_count = 1 + int(shadow_lights.size()),
+        .has_other = uploaded_->has(gpu::DrawClass::other),
         .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
         .has_second_light = scene_->lights.size() > 1,
         .densest_uv_per_mm = uploaded_->uv_density().densest_uv_per_mm,

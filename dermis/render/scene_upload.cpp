@@ -5,8 +5,8 @@
 
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
-#include "dermis/mesh/blur_vertices.h"
 #include "dermis/mesh/stretch.h"
+#include "dermis/render/complete_scene.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"
 #include "dermis/scene/object_checks.h"
@@ -46,23 +46,6 @@ std::vector<CurvatureTensor> curvature_tensors(const Mesh& mesh, const std::vect
     return tensors;
 }
 
-// Three blurs of a vertex's occlusion; itself three times where nothing occludes.
-Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh, const std::vector<float>& occlusions) {
-    std::vector<Vec3> blurred;
-    for (const float occlusion : occlusions) blurred.push_back(Vec3{1, 1, 1} * occlusion);
-    if (std::ranges::all_of(occlusions, [&](float occlusion) { return occlusion == occlusions.front(); }))
-        return blurred;
-    const std::pair<float Vec3::*, float> blurs[] = {{&Vec3::x, kOcclusionVariance0Mm2},
-                                                     {&Vec3::y, kOcclusionVariance1Mm2},
-                                                     {&Vec3::z, kOcclusionVariance2Mm2}};
-    for (const auto& [member, variance_mm2] : blurs) {
-        const Result<std::vector<float>> values = blur_over_surface(mesh, occlusions, variance_mm2);
-        if (!values) return values.error();
-        for (size_t i = 0; i < blurred.size(); ++i) blurred[i].*member = (*values)[i];
-    }
-    return blurred;
-}
-
 Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
     const auto normals = filled(mesh.normals, count, Vec3{0, 0, 1});
@@ -75,7 +58,7 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
         mixed.push_back(tensor.mixed);
     }
     const auto occlusions = filled(mesh.occlusions, count, 1.0f);
-    const Result<std::vector<Vec3>> occlusions_blurred = blurred_occlusions(mesh, occlusions);
+    const Result<std::vector<Vec3>> occlusions_blurred = blurred_occlusions(mesh);
     if (!occlusions_blurred) return Error{std::string(name) + ": " + occlusions_blurred.error().message};
     const UvDerivatives derivatives =
         mesh.uvs.size() == count ? vertex_uv_derivatives(mesh) : UvDerivatives{};

@@ -30,7 +30,24 @@ Pass shadow_tint_pass(int index, int light) {
             .constants = {{"from_light", int32_t(light)}}};
 }
 
-void add_shadows(PassList& list, const SharedPassSettings& settings) {
+// The skin that the light reaches: what other surfaces shade is left out.
+Pass lit_skin_pass(int index, int light, bool has_cut_outs) {
+    return {.name = "lit skin" + (index > 0 ? " " + std::to_string(index) : ""),
+            .kind = PassKind::geometry_light,
+            .shader = "renderer/lit_skin.frag",
+            .reads = {{"shadow_map", shadow_image("shadow_map", index)}},
+            .depth = DepthTarget{.image = shadow_image("lit_skin", index)},
+            .geometry = GeometryFilter::skin,
+            .constants = {{"from_light", int32_t(light)}, {"has_cut_outs", int32_t(has_cut_outs)}}};
+}
+
+bool reads_image(const PassList& list, std::string_view image) {
+    return std::ranges::any_of(list.passes, [&](const Pass& pass) {
+        return std::ranges::any_of(pass.reads, [&](const auto& read) { return read.image == image; });
+    });
+}
+
+void add_shadows(PassList& list, const SharedPassSettings& settings, bool lit_skin) {
     const ImageSize size = {settings.shadow_map_size, settings.shadow_map_size};
     std::vector<int> lights = {-1};
     lights.insert(lights.end(), settings.shadow_lights.begin(), settings.shadow_lights.end());
@@ -39,6 +56,11 @@ void add_shadows(PassList& list, const SharedPassSettings& settings) {
         list.images.push_back(
             {.name = shadow_image("shadow_map", i), .format = ImageFormat::depth32f, .size = size});
         list.passes.push_back(shadow_pass(i, light, settings.has_cut_outs));
+        if (lit_skin) {
+            list.images.push_back(
+                {.name = shadow_image("lit_skin", i), .format = ImageFormat::depth32f, .size = size});
+            list.passes.push_back(lit_skin_pass(i, light, settings.has_cut_outs));
+        }
         if (!settings.has_translucent) continue;
         list.images.push_back(
             {.name = shadow_image("shadow_tint", i), .format = ImageFormat::rgba16f, .size = size});
@@ -169,7 +191,7 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     list.images = {{.name = "radiance", .format = radiance_format, .samples = settings.samples},
                    {.name = "depth", .format = ImageFormat::depth32f, .samples = settings.samples},
                    {.name = "display", .format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba8}};
-    add_shadows(list, settings);
+    add_shadows(list, settings, reads_image(technique, "lit_skin"));
     if (settings.gbuffer || shows_gbuffer) {
         for (const std::string& image : gbuffer_images())
             list.images.push_back({.name = image, .format = ImageFormat::rgba32f});

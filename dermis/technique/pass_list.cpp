@@ -129,13 +129,13 @@ class Checker {
 }  // namespace
 
 std::string_view format_name(ImageFormat format) {
-    static constexpr std::string_view kNames[] = {"r8",      "rgba8", "r16f",    "rg16f",
+    static constexpr std::string_view kNames[] = {"r8",      "rgba8", "rgba16",  "r16f",    "rg16f",
                                                   "rgba16f", "r32f",  "rgba32f", "depth32f"};
     return kNames[size_t(format)];
 }
 
 size_t bytes_per_texel(ImageFormat format) {
-    static constexpr size_t kBytes[] = {1, 4, 2, 4, 8, 4, 16, 4};
+    static constexpr size_t kBytes[] = {1, 4, 8, 2, 4, 8, 4, 16, 4};
     return kBytes[size_t(format)];
 }
 

@@ -21,7 +21,7 @@
 
 namespace dermis {
 
-enum class ImageFormat { r8, rgba8, r16f, rg16f, rgba16f, r32f, rgba32f, depth32f };
+enum class ImageFormat { r8, rgba8, rgba16, r16f, rg16f, rgba16f, r32f, rgba32f, depth32f };
 [[nodiscard]] std::string_view format_name(ImageFormat format);
 [[nodiscard]] size_t bytes_per_texel(ImageFormat format);
 

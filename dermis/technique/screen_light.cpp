@@ -23,7 +23,7 @@ void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel s
     skin.reads.push_back({"blurred_light", blurred});
     skin.reads.push_back("skin_z");
     skin.reads.push_back("skin_key_visibility");
-    read_transmission(skin, transmission);
+    read_transmission(skin, transmission, frame);
     list.passes.push_back(std::move(skin));
 }
 

@@ -28,6 +28,7 @@ struct FrameContext {
     float previous_camera_distance_mm = 0;
     int shadow_map_size = 2048;    ///< of the frame's shadow maps, which a pass may test against
     int shadow_map_count = 1;      ///< "shadow_map", "shadow_map_1" ...; the first is always there
+    bool has_other = false;        ///< the scene has opaque surfaces that are not skin, which shade skin
     bool has_translucent = false;  ///< the scene has translucent surfaces, which tint the key light
     bool has_second_light = false;
     /// Longest step in UV that a millimetre on the skin takes, in 99 % of its area.

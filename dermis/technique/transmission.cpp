@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dermis/technique/forward.h"
+
 namespace dermis {
 namespace {
 
@@ -16,10 +18,19 @@ const std::vector<std::string>& transmission_names() {
     return kNames;
 }
 
-// Something must be bound even where the shader, by its constants, never looks.
-void read_transmission(Pass& pass, Transmission transmission) {
-    pass.reads.emplace_back(kTable, transmission == Transmission::none ? "no_image" : kTable);
+void read_transmission_without_table(Pass& pass, Transmission transmission, const FrameContext& frame) {
+    const bool lit_skin = transmission != Transmission::none && frame.has_other;
+    for (int i = 0; i < kMaxShadowMaps; ++i)
+        pass.reads.emplace_back(
+            shadow_image("lit_skin", i),
+            shadow_image(lit_skin ? "lit_skin" : "shadow_map", i < frame.shadow_map_count ? i : 0));
     pass.constants.emplace_back("transmission", int32_t(transmission));
+}
+
+// Something must be bound even where the shader, by its constants, never looks.
+void read_transmission(Pass& pass, Transmission transmission, const FrameContext& frame) {
+    pass.reads.emplace_back(kTable, transmission == Transmission::none ? "no_image" : kTable);
+    read_transmission_without_table(pass, transmission, frame);
 }
 
 double transmission_reach_mm(const Profile& profile) {

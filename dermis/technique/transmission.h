@@ -17,7 +17,12 @@ inline constexpr const char* kTransmissionHelp =
     "transmission through ears and other thin parts, gathered from the shadow maps";
 
 /// The pass's reads and constants.
-void read_transmission(Pass& pass, Transmission transmission);
+void read_transmission(Pass& pass, Transmission transmission, const FrameContext& frame);
+
+/// The same without the table, for shaders that compute it. Where other opaque surfaces shade skin, the pass
+/// reads "lit_skin" (_1, _2), the shadow map's texels that hold skin; the renderer draws it for passes that
+/// do.
+void read_transmission_without_table(Pass& pass, Transmission transmission, const FrameContext& frame);
 
 /// "skin_transmission", which shadow_map reads: the profile's R per mm^2 over its integral, as the albedo map
 /// holds the albedo, at even steps of distance from 0 to transmission_reach_mm(), both ends included, and the

@@ -62,11 +62,15 @@ float magnification_levels(texture2D map, vec2 uv) {
     return max(-textureQueryLod(sampler2D(map, trilinear_repeat), uv).y, 0.0);
 }
 
-// The mean of the normals that a read of the map covers, a positive bias covering more (Penner 2011): shorter than 1 where
-// they differ, as is the mean of N.L.
+// The mean of the normals that a read of the map covers, a positive bias covering more (Penner 2011), in the map's space:
+// shorter than 1 where they differ.
+vec3 mean_of_normal_map(vec2 uv, float lod_bias) {
+    return texture(sampler2D(normal_map, trilinear_repeat), uv, lod_bias).xyz * 2.0 - 1.0;
+}
+
 vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
     if (normal_space == kNormalSpaceAbsent) return n_geometry_world;
-    vec3 n = texture(sampler2D(normal_map, trilinear_repeat), uv, lod_bias).xyz * 2.0 - 1.0;
+    vec3 n = mean_of_normal_map(uv, lod_bias);
     if (normal_space == kNormalSpaceObject) return mix(n_geometry_world, n, normal_scale);
     n.xy *= normal_scale;
     vec3 t = normalize(t_world_in.xyz - n_geometry_world * dot(n_geometry_world, t_world_in.xyz));

@@ -5,6 +5,8 @@
 // The light that leaves at x is that integral over the one of R alone, which is 1 on flat skin and more where there is
 // skin behind x too: how much more is summed over the lit points off its tangent plane.
 //
+// Of the shadow map's texels those count that hold skin: frames and eyes before it shade it.
+//
 // The includer says which lit points its own blur or model has left out, so that no light is counted twice:
 //
 //     float part_not_counted(Surface s, LitPoint lit);
@@ -18,6 +20,9 @@
 #include "shaders/include/skin/table.glsl"
 
 layout(constant_id = 31) const int transmission = kTransmissionNone;
+
+// The shadow maps' texels that hold skin, 1 in the others; the shadow maps themselves where all of the scene is skin.
+uniform texture2D lit_skin, lit_skin_1, lit_skin_2;
 
 // R per mm^2 over its integral, at a part of the reach. With DERMIS_TRANSMISSION_EXPRESSION the includer defines both.
 vec3 transmission_profile(float distance_over_reach);
@@ -92,17 +97,17 @@ LightMap light_map_around(int light, vec3 p_mm, vec3 to_light_world) {
     return map;
 }
 
-float lit_z(int map_index, vec2 map_uv) {
+float shadow_z(int map_index, vec2 map_uv) {
     if (shadow_map_count == 1 || map_index == 0) return textureLod(sampler2D(shadow_map, nearest_clamp), map_uv, 0.0).r;
     if (map_index == 1) return textureLod(sampler2D(shadow_map_1, nearest_clamp), map_uv, 0.0).r;
     return textureLod(sampler2D(shadow_map_2, nearest_clamp), map_uv, 0.0).r;
 }
 
-// Of the four texels around: below left, below right, above right, above left.
-vec4 lit_z4(int map_index, vec2 map_uv) {
-    if (shadow_map_count == 1 || map_index == 0) return textureGather(sampler2D(shadow_map, nearest_clamp), map_uv);
-    if (map_index == 1) return textureGather(sampler2D(shadow_map_1, nearest_clamp), map_uv);
-    return textureGather(sampler2D(shadow_map_2, nearest_clamp), map_uv);
+// Of the four texels around: below left, below right, above right, above left; 1 without lit skin.
+vec4 lit_skin_z4(int map_index, vec2 map_uv) {
+    if (shadow_map_count == 1 || map_index == 0) return textureGather(sampler2D(lit_skin, nearest_clamp), map_uv);
+    if (map_index == 1) return textureGather(sampler2D(lit_skin_1, nearest_clamp), map_uv);
+    return textureGather(sampler2D(lit_skin_2, nearest_clamp), map_uv);
 }
 
 // The depth of the nearest of the four, without reading it again.
@@ -163,13 +168,13 @@ vec3 gathered_light(Surface s, LightMap map, float reach_mm, bool needed) {
         vec2 across_mm = radius_mm * direction;
         direction = vec2(direction.x * step.x - direction.y * step.y, direction.x * step.y + direction.y * step.x);
         vec2 map_uv = map.here.xy + across_mm.x * map.axis_x + across_mm.y * map.axis_y;
-        vec4 z4 = lit_z4(map.index, map_uv);
+        vec4 z4 = lit_skin_z4(map.index, map_uv);
         float z = nearest_of(map, map_uv, z4);
         vec3 offset_mm = across_mm.x * map.x_world + across_mm.y * map.y_world +
                          (map.here.z - z) * map.mm_per_z * map.to_light_world;
         float distance_mm = length(offset_mm);
         LitPoint lit = LitPoint(s.p_world_mm + offset_mm, lit_normal_world(map, z4));
-        float weight = z == 1.0 ? 0.0 : radius_mm * part_not_counted(s, lit);  // 1: no skin
+        float weight = z == 1.0 ? 0.0 : radius_mm * part_not_counted(s, lit);  // 1: no lit skin
         vec3 r = weight * transmission_profile(distance_mm / reach_mm);
         light += r;
         behind += r * smoothstep(0.0, kOtherWall, abs(dot(s.n_geometry_world, offset_mm)) / max(distance_mm, 1e-6));
@@ -197,7 +202,7 @@ vec3 transmitted_exitance(Surface s, int light, LightSample arriving, float n_do
     float lit = max(n_dot_l, 0.0) * visibility;
     LightMap map = light_map_around(light, s.p_world_mm, arriving.to_light_world);
     float reach_mm = transmission_reach();
-    float depth_mm = (map.here.z - lit_z(map.index, map.here.xy)) * map.mm_per_z;
+    float depth_mm = (map.here.z - shadow_z(map.index, map.here.xy)) * map.mm_per_z;
     // The map's texel may be of the point's own surface: where that slopes, nearer to the light by its rise.
     float cosine = dot(s.n_geometry_world, arriving.to_light_world);
     float slope = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(max(cosine, -kSlopesAway * cosine), 1e-3);

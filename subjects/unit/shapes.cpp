@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/mesh/curvature.h"
 #include "dermis/mesh/primitives.h"
 #include "dermis/mesh/tangents.h"
 #include "dermis/scene/placement.h"
@@ -99,12 +100,14 @@ Mesh saddle(float radius_mm) {
 Mesh relief(float wavelength_mm, float slope) {
     constexpr float kCellsAWave = 24;
     const float k = 2 * std::numbers::pi_v<float> / wavelength_mm;
+    // Of a wave, what the average that complete_scene() takes leaves.
+    const auto averaged = float(std::exp(-std::pow(k * kCurvatureSmoothingMm, 2) / 2));
     return height_field(kReachMm, int(2 * kReachMm / wavelength_mm * kCellsAWave), 1, [&](float x, float) {
         const float rise = slope * std::cos(k * x);
-        return HeightPoint{
-            .z = slope / k * std::sin(k * x),
-            .slope_x = rise,
-            .curvature_per_mm = slope * k * std::sin(k * x) / (2 * std::pow(1 + rise * rise, 1.5f))};
+        return HeightPoint{.z = slope / k * std::sin(k * x),
+                           .slope_x = rise,
+                           .curvature_per_mm = averaged * slope * k * std::sin(k * x) /
+                                               (2 * std::pow(1 + rise * rise, 1.5f))};
     });
 }
 

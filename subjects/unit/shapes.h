@@ -24,7 +24,8 @@ inline constexpr float kReachMm = 20;
 /// z = (x^2 - y^2) / (2 radius), whose mean curvature is 0 in the middle.
 [[nodiscard]] Mesh saddle(float radius_mm);
 
-/// z = slope * wavelength / (2 pi) * sin(2 pi x / wavelength).
+/// z = slope * wavelength / (2 pi) * sin(2 pi x / wavelength). Its curvature is averaged, as that of any mesh
+/// is.
 [[nodiscard]] Mesh relief(float wavelength_mm, float slope);
 
 /// A board that keeps a light from the right or left off x < 0 of the plane z = 0.

@@ -24,7 +24,12 @@ const int kPolynomialTerms = 6, kMaxGaussians = 24;
 // one that asks.
 const int kTransmissionGaussians = 6;
 
-// skin_normal_blend: log2 of a texel of the normal map in mm, 4 microns to 16 mm.
+// Rows of skin_rows, each over its own argument from 0 to 1: zonal harmonics of order 0 to 2 over curvature,
+// the shadow's edge over visibility, weights and levels of the smoother normal over log2 of a texel of the
+// normal map in mm.
+const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowCount = 5, kRowTexels = 257;
+
+// 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
 
 #ifdef __cplusplus

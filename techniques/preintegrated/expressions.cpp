@@ -5,11 +5,11 @@
 #include <numbers>
 #include <numeric>
 
+#include "dermis/bake/shadow_ramp.h"
 #include "dermis/optics/curvature_expressions.h"
 #include "dermis/optics/edge_expression.h"
 #include "dermis/technique/transmission.h"
 #include "techniques/preintegrated/normal_blend.h"
-#include "techniques/preintegrated/shadow_ramp.h"
 
 namespace dermis::preintegrated {
 namespace {

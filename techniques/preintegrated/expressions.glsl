@@ -2,6 +2,7 @@
 #ifndef DERMIS_PREINTEGRATED_EXPRESSIONS_GLSL
 #define DERMIS_PREINTEGRATED_EXPRESSIONS_GLSL
 
+#include "shaders/include/skin/transmission.glsl"
 #include "techniques/preintegrated/closed_form.glsl"
 
 vec3 profile_falloff(float n_dot_l, float k) { return closed_form(vec3(n_dot_l), k); }
@@ -28,7 +29,7 @@ vec3 transmission_profile(float distance_over_reach) {
     float d = transmission_reach_mm * max(distance_over_reach, transmission_nearest);
     vec3 r = vec3(0.0);
     for (int i = 0; i < kTransmissionGaussians; ++i)
-        r += transmission_gaussians[i].rgb * exp2(transmission_gaussians[i].a * d * d);
+        r += transmission_gaussians[i].rgb * gaussian_falloff(d, transmission_gaussians[i].a);
     return r;
 }
 float transmission_reach() { return transmission_reach_mm; }

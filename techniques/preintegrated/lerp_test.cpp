@@ -43,6 +43,24 @@ TEST_F(Lerp, of_normals_loses_light_of_bumps_that_the_blend_keeps) {
     EXPECT_GT(lit, 3);
 }
 
+// Of two stripes, one that leans towards the light and one that leans away, the blend has the light of both:
+// where light grazes too, and the stripe that leans away has none.
+TEST_F(Lerp, of_light_keeps_the_sum_of_what_bumps_take_in) {
+    const Scene scene = striped_scene();
+    const auto drawn = [&](const char* normals) {
+        return draw_grid(scene, {{"shadow", "plain"}, {"normals", normals}});
+    };
+    const Image sharp = drawn("sharp"), blended = drawn("blended");
+    double even = 0, uneven = 0;
+    for (int x = kGrid * 3 / 8; x < kGrid * 7 / 8; x += 2) {
+        const double light = double(sharp.at(x, 1, 0) + sharp.at(x + 1, 1, 0));
+        EXPECT_NEAR(double(blended.at(x, 1, 0) + blended.at(x + 1, 1, 0)), light, 0.2 * light) << x;
+        even += std::abs(double(blended.at(x, 1, 0) - blended.at(x + 1, 1, 0)));
+        uneven += std::abs(double(sharp.at(x, 1, 0) - sharp.at(x + 1, 1, 0)));
+    }
+    EXPECT_LT(even, 0.3 * uneven);
+}
+
 TEST_F(Lerp, without_bumps_is_the_blend) {
     const Scene scene = make_grid_scene();
     EXPECT_LT(relative_difference(draw_grid(scene, {{"normals", "lerp"}}),

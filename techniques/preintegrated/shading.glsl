@@ -55,9 +55,10 @@ uniform texture2D curvature_map;
 // Set by prepare_surface(); the same for every light.
 vec3 skin_diagonal_per_mm, skin_mixed_per_mm;  // the curvature tensor
 float curvature_around_per_mm;
-vec3 n_smooth_world;
-vec3 smooth_weight;    // of the light that n_smooth_world gets; the sharp normal's has the rest
-float smooth_levels;   // mip levels from the sharp normal to the smooth one
+vec3 n_mean_world;    // of the normals that the smoother read covers: shorter than 1 where they differ
+vec3 smooth_weight;   // of the light that these normals get; the sharp normal's has the rest
+float smooth_levels;  // mip levels from the sharp normal to the smooth one
+float bumps;          // variance of the normals over which the smoother read means
 
 #ifdef DERMIS_TABLES
 #include "techniques/preintegrated/tables.glsl"
@@ -98,8 +99,13 @@ void prepare_surface(inout Surface s) {
     smooth_weight = vec3(1.0);
     smooth_levels = normal_lod_bias;
     if (normals == kNormalsBlended || normals == kNormalsLerp) blend_normals(s);
-    n_smooth_world =
-        normalize(mean_normal_world(s.n_geometry_world, s.uv, smooth_levels + magnification_levels(normal_map, s.uv)));
+    float bias = smooth_levels + magnification_levels(normal_map, s.uv);
+    n_mean_world = mean_normal_world(s.n_geometry_world, s.uv, bias);
+    bumps = 0.0;
+    if (normal_space == kNormalSpaceAbsent) return;
+    vec3 of_sharp = mean_of_normal_map(s.uv, 0.0);
+    n_mean_world /= length(of_sharp);
+    bumps = normal_scale * normal_scale * bumps_variance(of_sharp, mean_of_normal_map(s.uv, bias));
 }
 
 vec3 falloff(float n_dot_l, float k) {
@@ -113,18 +119,25 @@ vec3 falloff_of_channels(vec3 n_dot_l, float k) {
     return vec3(falloff(n_dot_l.r, k).r, falloff(n_dot_l.g, k).g, falloff(n_dot_l.b, k).b);
 }
 
-// Blended, the falloff is computed twice instead of three times.
+// The mean light of the bumps that the smoother read covers.
+vec3 falloff_of_bumps(vec3 to_light_world, float k) {
+    float mean = dot(n_mean_world, to_light_world), deviation = bumps_deviation(bumps, mean);
+    return 0.5 * (falloff(min(mean + deviation, 1.0), k) + falloff(max(mean - deviation, -1.0), k));
+}
+
 vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
     float k = min(curvature_towards(skin_diagonal_per_mm, skin_mixed_per_mm, s.n_geometry_world, to_light_world),
                   kMaxCurvaturePerMm);
-    if (normals == kNormalsSmooth) return falloff(dot(n_smooth_world, to_light_world), k);
-    if (normals == kNormalsLerp)
-        return falloff_of_channels(vec3(dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.r), to_light_world),
-                                        dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.g), to_light_world),
-                                        dot(lerped_normal(s.n_world, n_smooth_world, smooth_weight.b), to_light_world)), k);
+    if (normals == kNormalsSmooth) return falloff(dot(normalize(n_mean_world), to_light_world), k);
+    if (normals == kNormalsLerp) {
+        vec3 n_smooth = normalize(n_mean_world);
+        return falloff_of_channels(vec3(dot(lerped_normal(s.n_world, n_smooth, smooth_weight.r), to_light_world),
+                                        dot(lerped_normal(s.n_world, n_smooth, smooth_weight.g), to_light_world),
+                                        dot(lerped_normal(s.n_world, n_smooth, smooth_weight.b), to_light_world)), k);
+    }
     vec3 sharp = falloff(dot(s.n_world, to_light_world), k);
     if (normals == kNormalsSharp) return sharp;
-    return blended_light(sharp, falloff(dot(n_smooth_world, to_light_world), k), smooth_weight);
+    return blended_light(sharp, falloff_of_bumps(to_light_world, k), smooth_weight);
 }
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
@@ -173,10 +186,11 @@ vec3 ambient_response(Surface s) {
     ambient_bands(band);
     vec3 arriving = environment_convolved(s.n_world, band[0], band[1], band[2]);
     if (normals == kNormalsLerp) {
+        vec3 n_smooth = normalize(n_mean_world);
         for (int c = 0; c < 3; ++c)
-            arriving[c] = environment_convolved(lerped_normal(s.n_world, n_smooth_world, smooth_weight[c]), band[0], band[1], band[2])[c];
+            arriving[c] = environment_convolved(lerped_normal(s.n_world, n_smooth, smooth_weight[c]), band[0], band[1], band[2])[c];
     } else if (normals != kNormalsSharp) {
-        arriving = blended_light(arriving, environment_convolved(n_smooth_world, band[0], band[1], band[2]), smooth_weight);
+        arriving = blended_light(arriving, environment_convolved(n_mean_world, band[0], band[1], band[2]), smooth_weight);
     }
     return arriving * scattered_occlusion(s);
 }

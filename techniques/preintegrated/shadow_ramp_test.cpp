@@ -1,6 +1,6 @@
 // The shadow table: its ends, the edge that it describes, and the light of skin outside the penumbra.
 
-#include "techniques/preintegrated/shadow_ramp.h"
+#include "dermis/bake/shadow_ramp.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,6 @@
 #include "test_paths.h"
 
 using namespace dermis;
-using namespace dermis::preintegrated;
 
 namespace {
 

@@ -4,6 +4,7 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
+#include "shaders/include/skin/closed_form.glsl"
 #include "techniques/preintegrated/constants.h"
 
 layout(scalar) uniform Skin {
@@ -13,7 +14,7 @@ layout(scalar) uniform Skin {
     vec3 zonal_0[kPolynomialTerms], zonal_1[kPolynomialTerms], zonal_2[kPolynomialTerms];
     float curvature_knee;
     // dermis/optics/edge_expression.h; squared widths.
-    vec3 edge[5], edge_width2[2];
+    vec3 edge[6], edge_width2[2];
     // Weights that sum to 1 in each channel, variance in mm^2.
     vec4 gaussians[kMaxGaussians];
     int gaussian_count;
@@ -23,12 +24,8 @@ layout(scalar) uniform Skin {
     vec4 transmission_gaussians[kTransmissionGaussians];
 };
 
-// Curvature from 0 to 1 per mm, as the polynomials take it.
-float knee_coordinate(float k) { return k * (1.0 + curvature_knee) / (k + curvature_knee); }
+float knee_of(float k) { return knee_coordinate(k, curvature_knee); }
 
-vec3 polynomial(vec3 p[kPolynomialTerms], float u) {
-    vec3 x = vec3(u);
-    return x * fma(x, fma(x, fma(x, fma(x, fma(x, p[5], p[4]), p[3]), p[2]), p[1]), p[0]);
-}
+vec3 polynomial(vec3 p[kPolynomialTerms], float u) { return polynomial_6(u, p[0], p[1], p[2], p[3], p[4], p[5]); }
 
 #endif

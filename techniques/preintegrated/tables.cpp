@@ -1,22 +1,29 @@
 #include "techniques/preintegrated/tables.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "dermis/bake/beckmann_table.h"
 #include "dermis/bake/lut.h"
+#include "dermis/bake/shadow_ramp.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
 #include "dermis/optics/gaussian_channels.h"
 #include "techniques/preintegrated/normal_blend.h"
-#include "techniques/preintegrated/shadow_ramp.h"
 
 namespace dermis::preintegrated {
 namespace {
 
-constexpr int kLutWidth = 512, kLutHeight = 256, kRows = 257;
+constexpr int kLutWidth = 512, kLutHeight = 256;
 constexpr int kBeckmannWidth = 256, kBeckmannHeight = 256;
-constexpr int kBlendTexels = 97;
+
+using Texel = std::array<float, 4>;
+using Rows = std::vector<Texel>;  // rows of kRowTexels, one after the other
+
+Texel texel(const Rgb& value, double alpha) {
+    return {float(value[0]), float(value[1]), float(value[2]), float(alpha)};
+}
 
 // A table from a file, which is resampled at this technique's texels: its size, range, warp and encoding are
 // those of its convention. Kind, construction, axes and profile must be the same.
@@ -67,9 +74,9 @@ Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContex
     return table_image("skin_lut", kLutHeight, rgba);
 }
 
-// Rows at even steps of curvature, both ends included. A file replaces the orders that it has: a remapped one
+// At even steps of curvature, both ends included. A file replaces the orders that it has: a remapped one
 // lacks the second, which scattering changes least.
-Result<TableImage> zonal_table(const TableSettings& settings, const SkinContext& skin) {
+Result<Rows> zonal_rows(const TableSettings& settings, const SkinContext& skin) {
     Table own;
     if (!skin.zonal_table.empty()) {
         Result<Table> table =
@@ -79,39 +86,47 @@ Result<TableImage> zonal_table(const TableSettings& settings, const SkinContext&
         if (!table) return table.error();
         own = std::move(*table);
     }
-    std::vector<float> rgba(size_t(kRows) * 3 * 4, 1.0f);
-    for (int i = 0; i < kRows; ++i) {
-        const double curvature = std::max(double(kMaxCurvaturePerMm) * i / (kRows - 1), 1e-6);
+    Rows rows(size_t(kRowTexels) * 3);
+    for (int i = 0; i < kRowTexels; ++i) {
+        const double curvature = std::max(double(kMaxCurvaturePerMm) * i / (kRowTexels - 1), 1e-6);
         auto zh = preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature,
                                                 {.construction = settings.construction});
         for (size_t l = 0; l < size_t(own.height); ++l) zh[l] = lookup(own, curvature, double(l));
-        for (size_t l = 0; l < 3; ++l)
-            for (size_t c = 0; c < 3; ++c) rgba[(l * kRows + size_t(i)) * 4 + c] = float(zh[l][c]);
+        for (size_t l = 0; l < 3; ++l) rows[l * kRowTexels + size_t(i)] = texel(zh[l], 1);
     }
-    return table_image("skin_zonal", 3, rgba);
+    return rows;
 }
 
-// Rows at even steps of visibility, both ends included.
-Result<TableImage> shadow_table(const TableSettings& settings, const SkinContext& skin) {
-    const auto ramp = shadow_ramp(skin.profile, settings.shadow_width_mm, kRows);
+// At even steps of visibility, both ends included.
+Result<Rows> shadow_row(const TableSettings& settings, const SkinContext& skin) {
+    const auto ramp = shadow_ramp(skin.profile, settings.shadow_width_mm, kRowTexels);
     if (!ramp) return ramp.error();
-    std::vector<float> rgba;
-    for (const Rgb& light : *ramp)
-        rgba.insert(rgba.end(), {float(light[0]), float(light[1]), float(light[2]), 1.0f});
-    return table_image("skin_shadow", 1, rgba);
+    Rows row;
+    for (const Rgb& light : *ramp) row.push_back(texel(light, 1));
+    return row;
 }
 
 // Weights of the smoother normal, and in alpha its mip level above the sharp one's, over the logarithm of a
 // texel's size in mm.
-Result<TableImage> normal_blend_table(const TableSettings& settings, const SkinContext& skin) {
-    std::vector<float> rgba;
-    for (int i = 0; i < kBlendTexels; ++i) {
-        const double log_mm = kMinLogMm + double(kMaxLogMm - kMinLogMm) * i / (kBlendTexels - 1);
+Result<Rows> normals_row(const TableSettings& settings, const SkinContext& skin) {
+    Rows row;
+    for (int i = 0; i < kRowTexels; ++i) {
+        const double log_mm = kMinLogMm + double(kMaxLogMm - kMinLogMm) * i / (kRowTexels - 1);
         const NormalBlend blend = normal_blend(skin.gaussians, std::exp2(log_mm), settings.normal_lod_bias);
-        for (const double weight : blend.weight) rgba.push_back(float(weight));
-        rgba.push_back(float(blend.lod_bias));
+        row.push_back(texel(blend.weight, blend.lod_bias));
     }
-    return table_image("skin_normal_blend", 1, rgba);
+    return row;
+}
+
+// The order is that of kRowZonal, kRowShadow, kRowNormals.
+Result<TableImage> rows_table(const TableSettings& settings, const SkinContext& skin) {
+    Rows all;
+    for (const auto make : {zonal_rows, shadow_row, normals_row}) {
+        const Result<Rows> rows = make(settings, skin);
+        if (!rows) return rows.error();
+        all.insert(all.end(), rows->begin(), rows->end());
+    }
+    return table_image("skin_rows", kRowCount, all);
 }
 
 // The tenth root of Beckmann's distribution over u = sqrt(1 - N.H) and v = sqrt(alpha), which is smooth
@@ -133,7 +148,7 @@ Result<TableImage> beckmann_table(const TableSettings& settings, const SkinConte
 
 Result<std::vector<TableImage>> bake_tables(const TableSettings& settings, const SkinContext& skin) {
     std::vector<TableImage> images;
-    for (const auto make : {diffuse_table, zonal_table, shadow_table, normal_blend_table, beckmann_table}) {
+    for (const auto make : {diffuse_table, rows_table, beckmann_table}) {
         Result<TableImage> image = make(settings, skin);
         if (!image) return image.error();
         images.push_back(std::move(*image));

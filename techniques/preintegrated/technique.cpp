@@ -44,7 +44,7 @@ struct Params {
     Normals normals = Normals::blended;
     float normal_lod_bias = 3;
     Shadow shadow = Shadow::scattered;
-    float shadow_width_mm = 3;
+    float shadow_width_mm = kShadowWidthMm;
     Transmission transmission = Transmission::shadow_map;
     Ambient ambient = Ambient::lut;
     SpecularModel specular = SpecularModel::ggx;
@@ -103,12 +103,10 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                                  {"normals", int32_t(params.normals)},
                                                  {"ambient", int32_t(params.ambient)}});
     if (tables) {
-        for (const char* table :
-             {"skin_lut", "skin_zonal", "skin_shadow", "skin_normal_blend", "skin_beckmann"})
-            pass.reads.push_back(table);
-        read_transmission(pass, params.transmission);
+        for (const char* table : {"skin_lut", "skin_rows", "skin_beckmann"}) pass.reads.push_back(table);
+        read_transmission(pass, params.transmission, frame);
     } else {
-        pass.constants.emplace_back("transmission", int32_t(params.transmission));
+        read_transmission_without_table(pass, params.transmission, frame);
     }
     const std::array<Rgb, 3> weights = occlusion_blend(frame.skin_gaussians);
     for (size_t i = 0; i < weights.size(); ++i)

@@ -149,7 +149,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                                  {"light_map_texels", texels_of(params, plan)},
                                                  {"detail", keeps_lit ? kDetailPixel : kDetailMap}});
     read_shadow_channels(skin, atlas.shadow, frame);
-    read_transmission(skin, params.atlas.transmission);
+    read_transmission(skin, params.atlas.transmission, frame);
     list.passes.push_back(std::move(skin));
     return list;
 }

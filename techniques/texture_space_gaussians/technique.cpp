@@ -131,7 +131,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                   {"light_map_lit", "light_map_a"}};
     skin.constants.emplace_back("detail", int32_t(params.atlas.detail));
     read_shadow_channels(skin, atlas.shadow, frame);
-    read_transmission(skin, params.atlas.transmission);
+    read_transmission(skin, params.atlas.transmission, frame);
     list.passes.push_back(std::move(skin));
     return list;
 }

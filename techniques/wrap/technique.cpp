@@ -49,7 +49,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     skin.constants.emplace_back("width", int32_t(params.width));
     skin.values = {{"second_moment_mm2", to_vec3(reach.second_moment_mm2)},
                    {"bend_mm2", to_vec3(reach.bend_mm2)}};
-    read_transmission(skin, params.transmission);
+    read_transmission(skin, params.transmission, frame);
     return {.passes = {std::move(skin)}};
 }
 

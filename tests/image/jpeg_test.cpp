@@ -55,3 +55,28 @@ TEST(Jpeg, a_small_file_that_states_a_huge_size_is_refused_before_decoding) {
     ASSERT_FALSE(loaded);
     EXPECT_NE(loaded.error().message.find("too short a file"), std::string::npos) << loaded.error().message;
 }
+
+TEST(Jpeg, what_is_written_is_read_back_near_to_what_it_was) {
+    for (const int channels : {1, 3}) {
+        Image image(48, 40, channels, PixelFormat::u8, Encoding::linear);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < channels; ++c)
+                    image.set(x, y, c, float(c == 0 ? x : c == 1 ? y : 40) / 47);
+        const auto bytes = encode_jpeg(image, 95);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        const auto back = decode_image(*bytes, "written.jpg", ImageUse::data);
+        ASSERT_TRUE(back) << back.error().message;
+        ASSERT_EQ(back->image.channels, channels);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < channels; ++c)
+                    ASSERT_NEAR(back->image.at(x, y, c), image.at(x, y, c), 5.0f / 255);
+    }
+}
+
+TEST(Jpeg, floats_and_alpha_are_not_written) {
+    EXPECT_FALSE(encode_jpeg(Image(4, 4, 3), 90));
+    EXPECT_FALSE(encode_jpeg(Image(4, 4, 4, PixelFormat::u8), 90));
+    EXPECT_FALSE(encode_jpeg(Image(), 90));
+}

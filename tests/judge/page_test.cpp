@@ -53,7 +53,7 @@ TEST_F(Page, opens_in_a_browser_and_the_picture_follows_the_slider) {
     EXPECT_EQ(good.exit_code, 0) << good.err;
     EXPECT_TRUE(std::filesystem::exists(path("page.png")));
 
-    // What it cannot fail on is no check: a page whose pictures ignore the slider.
+    // Proof that the check can fail: a page whose pictures ignore the slider.
     std::string broken = *page;
     const std::string line = "$(\"left\").style.clipPath";
     ASSERT_NE(broken.find(line), std::string::npos);

@@ -200,14 +200,11 @@ TEST_F(Scoreboards, unit_scenes_have_their_exact_answers_and_no_technique_captur
 
 // Of the records, which the tests above compare with what is measured now. oren_nayar is no model of
 // scattering: it changes the picture by the roughness of the surface, which the truth has not.
-// Where one is, its page says so: relief is no sphere that is wide as scattering.
 TEST(Scoreboard, no_techniques_default_is_worse_than_lambert) {
     const auto text = read_text_file(kRecorded);
     ASSERT_TRUE(text) << text.error().message;
     const auto recorded = parse_scores(*text);
     ASSERT_TRUE(recorded) << recorded.error().message;
-    const auto page = read_text_file(DERMIS_SOURCE_DIR "/techniques/preintegrated/README.md");
-    ASSERT_TRUE(page);
     size_t count = 0;
     std::vector<std::string> worse;
     for (const ScoreRow& row : *recorded) {
@@ -215,10 +212,7 @@ TEST(Scoreboard, no_techniques_default_is_worse_than_lambert) {
         ++count;
         if (row.captured.all.share + row.captured.all.error >= 0) continue;
         worse.push_back(row.technique + " " + row.scene);
-        EXPECT_THAT(*page, HasSubstr("`" + row.scene.substr(row.scene.find('/') + 1) + "`"));
     }
-    EXPECT_THAT(worse, testing::UnorderedElementsAre("preintegrated unit/relief_0.5mm",
-                                                     "preintegrated unit/relief_1mm",
-                                                     "preintegrated unit/relief_2mm"));
+    EXPECT_THAT(worse, testing::IsEmpty());
     EXPECT_GE(count, 16 * (built_in_catalog().techniques.size() - 1));
 }

@@ -109,6 +109,9 @@ TEST(EdgeExpression, follows_an_edge_and_states_its_error) {
             largest = std::max(largest, std::abs(evaluate(edge, i / 128.0)[c] - ramp[size_t(i)][c]));
     EXPECT_NEAR(edge.max_error, largest, 1e-9);
     EXPECT_LT(largest, 0.5 * kCode);
+    // Shaders add these in 32 bits, which keep 7 digits.
+    for (const Rgb& weight : edge.weight)
+        for (const double w : weight) EXPECT_LT(std::abs(w), 64);
     EXPECT_EQ(evaluate(edge, -1)[0], evaluate(edge, 0)[0]);
     for (const double v : {0.1, 0.35}) EXPECT_NEAR(evaluate(edge, v)[0] + evaluate(edge, 1 - v)[0], 1, 1e-12);
 }

@@ -101,6 +101,40 @@ TEST_F(Transmissions, through_a_slab_is_its_integral_in_every_technique_and_prof
         }
 }
 
+// A plate that covers the lit side, .3 mm before it: it takes all the light, and is no lit skin itself.
+TEST_F(Transmissions, end_at_an_opaque_frame) {
+    Scene scene = lit(make_box({40, 40, 2}), {0, 0, -1}, 2);
+    Mesh plate = make_box({44, 44, 0.5f});
+    for (Vec3& p : plate.positions_mm) p.z -= 1.55f;
+    scene.objects.push_back({.name = "frame", .mesh = std::move(plate), .classes = {MaterialClass::other}});
+    EXPECT_TRUE(complete_scene(scene));
+    Renderer renderer = make_renderer(scene);
+    for (const Technique* technique : transmitting()) {
+        const Rgb light = exitance(draw(renderer, *technique, "shadow_map", 9), 4, 4);
+        for (size_t c = 0; c < 3; ++c) EXPECT_LT(light[c], 0.002) << technique->id << ", channel " << c;
+    }
+}
+
+// Beside the plate the skin is lit, and passes its light on to what lies behind the plate's edge.
+TEST_F(Transmissions, come_around_the_edge_of_an_opaque_frame) {
+    Scene scene = lit(make_box({40, 40, 2}), {0, 0, -1}, 2);
+    Mesh plate = make_box({44, 44, 0.5f});
+    for (Vec3& p : plate.positions_mm) p.z -= 1.55f, p.x += 22;  // covers x > 0
+    scene.objects.push_back({.name = "frame", .mesh = std::move(plate), .classes = {MaterialClass::other}});
+    EXPECT_TRUE(complete_scene(scene));
+    Renderer renderer = make_renderer(scene);
+    const Rgb part = slab_integral("gpu_gems_3", 2);
+    for (const Technique* technique : transmitting()) {
+        const Image image = draw(renderer, *technique, "shadow_map", 9);
+        // By symmetry the halves add up to the whole slab's light: x = -w and x = w on both sides of the
+        // edge.
+        const double left = exitance(image, 3, 4)[0], right = exitance(image, 5, 4)[0];
+        EXPECT_NEAR(left + right, part[0], 0.15 * part[0]) << technique->id;
+        EXPECT_GT(left, right) << technique->id;
+        EXPECT_GT(right, 0.2 * part[0]) << technique->id;
+    }
+}
+
 // Light 30 degrees off the axis behind the sphere, so that a part of its lit side is seen. A technique's own
 // blur or model may lose light there; what transmission adds must bring the whole nearer to the integral, and
 // not above it.

@@ -14,7 +14,8 @@ std::string metal_header() {
     return "#pragma once\n#include <cmath>\n#define constant static constexpr\nnamespace metal {\n" +
            std::string(cpp_prelude()) +
            "inline float saturate(float x) { return clamp(x, 0.0f, 1.0f); }\n"
-           "template <class V, int = V::size> V saturate(V v) { return clamp(v, 0.0f, 1.0f); }\n}\n";
+           "template <class V, int = V::size> V saturate(V v) { return clamp(v, 0.0f, 1.0f); }\n"
+           "template <class V> V rsqrt(V v) { return inversesqrt(v); }\n}\n";
 }
 
 std::string call_of(const Sampled& function) {

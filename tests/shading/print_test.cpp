@@ -100,7 +100,8 @@ TEST(Print, the_skin_is_printed_in_every_language_the_same_every_time) {
             EXPECT_EQ(*text, *skin_text(*profile, built_in_skin_sources(), *find_language(language)));
             EXPECT_THAT(*text, HasSubstr(name));
             for (const char* function :
-                 {"ggx(", "kelemen_szirmay_kalos(", "skin_wrap(", "skin_ambient_band_1("})
+                 {"ggx(", "kelemen_szirmay_kalos(", "skin_wrap(", "skin_ambient_band_1(", "skin_diffuse(",
+                  "skin_shadow_edge(", "skin_transmittance("})
                 EXPECT_THAT(*text, HasSubstr(function)) << language;
             EXPECT_THAT(*text, Not(HasSubstr("shaders/include"))) << language;
             for (const std::string_view line : split(*text, '\n')) {

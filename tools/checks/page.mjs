@@ -1,64 +1,22 @@
 // Opens a report in headless Chromium, moves the slider by key and by pointer, and checks that the pixels follow.
 //
 //     node page.mjs CHROMIUM REPORT.html [SCREENSHOT.png]
-//
-// Speaks the DevTools protocol over the browser's pipe (--remote-debugging-pipe), so that it needs no package.
 
-import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { writeFileSync } from "node:fs";
+import { resolve } from "node:path";
+import { openBrowser } from "./browser.mjs";
 
 const [chromium, report, screenshot] = process.argv.slice(2);
-const profile = mkdtempSync(join(tmpdir(), "dermis-page-"));
-const browser = spawn(chromium, ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-  "--no-first-run", `--user-data-dir=${profile}`, "--window-size=1300,1000", "--remote-debugging-pipe"],
-  { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
-const gone = new Promise(done => browser.on("exit", done));
+const page = await openBrowser(chromium, { width: 1300, height: 1000 });
+const { call, evaluate } = page;
 const finish = async message => {
-  browser.kill();
-  await gone;
-  rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
+  await page.close();
   if (message) console.error(message);
   process.exit(message ? 1 : 0);
 };
-setTimeout(() => finish("the browser did not answer within a minute"), 60000);
-
-// Messages are JSON, each ended by a zero byte.
-let next = 1, rest = "";
-const waiting = new Map(), requests = [], problems = [];
-let loaded;
-const load = new Promise(done => { loaded = done; });
-browser.stdio[4].on("data", chunk => {
-  const parts = (rest + chunk).split("\0");
-  rest = parts.pop();
-  for (const part of parts) {
-    const message = JSON.parse(part);
-    if (message.method === "Network.requestWillBeSent") requests.push(message.params.request.url);
-    if (message.method === "Runtime.exceptionThrown") problems.push(message.params.exceptionDetails.exception?.description ?? "an exception");
-    if (message.method === "Log.entryAdded" && message.params.entry.level === "error") problems.push(message.params.entry.text);
-    if (message.method === "Page.loadEventFired") loaded();
-    const answer = waiting.get(message.id);
-    if (!answer) continue;
-    waiting.delete(message.id);
-    message.error ? finish(message.error.message) : answer(message.result);
-  }
-});
-const send = (method, params = {}, sessionId) => new Promise(done => {
-  waiting.set(next, done);
-  browser.stdio[3].write(JSON.stringify({ id: next++, method, params, sessionId }) + "\0");
-});
-
-const { targetId } = await send("Target.createTarget", { url: "about:blank" });
-const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
-const call = (method, params) => send(method, params, sessionId);
-for (const part of ["Page", "Runtime", "Network", "Log"]) await call(part + ".enable");
-await call("Page.navigate", { url: "file://" + resolve(report) });
-await load;
-
-const evaluate = async expression =>
-  (await call("Runtime.evaluate", { expression, returnByValue: true, awaitPromise: true })).result.value;
 const check = async (good, message) => { if (!good) await finish(message); };
+await page.load("file://" + resolve(report));
+
 const box = await evaluate("(() => { const b = document.getElementById('stage').getBoundingClientRect(); return { x: b.x, y: b.y, width: b.width, height: b.height }; })()");
 const stage = async () => (await call("Page.captureScreenshot", { format: "png", clip: { ...box, scale: 1 } })).data;
 // The share of pixels that clearly differ between two screenshots, within columns from..to (of the width).
@@ -135,7 +93,7 @@ const sorted = async () => {
   return evaluate("document.querySelector('tbody').innerText");
 };
 await check(await sorted() !== await sorted(), "a click on a heading does not sort");
-const foreign = requests.filter(url => !url.startsWith("file:") && !url.startsWith("data:"));
+const foreign = page.requests.filter(url => !url.startsWith("file:") && !url.startsWith("data:"));
 await check(foreign.length === 0, "the page asks for " + foreign[0]);
-await check(problems.length === 0, problems[0]);
+await check(page.problems.length === 0, page.problems[0]);
 await finish();

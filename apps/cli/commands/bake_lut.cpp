@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <memory>
 
 #include "bake_options.h"
@@ -72,9 +73,12 @@ Result<int> run(const BakeLutOptions& options) {
     if (!storage) return storage.error();
     if (options.convention == "dermis" || options.convention == "penner")
         lut->convention.encoding = encoding_for(TableKind::diffuse, *storage);
+    const std::string note = fit_where_needed(lut->profile, lut->convention.how, lut->convention.integration);
     const Result<Table> table = bake_lut(*lut);
     if (!table) return table.error();
-    return deliver(*table, lut->profile, options.output, *storage);
+    const Result<int> delivered = deliver(*table, lut->profile, options.output, *storage);
+    if (delivered) std::printf("%s", note.c_str());
+    return delivered;
 }
 
 }  // namespace
@@ -84,7 +88,7 @@ void add_bake_lut_command(CommandLine& line) {
     Command* command =
         line.add("lut", "Pre-integrated diffuse light over N.L and curvature",
                  "dermis bake lut --profile jensen_skin1 --size 256 -o skin.exr --plot skin.svg\n"
-                 "  dermis bake lut --convention unity_2011 -o old.png",
+                 "  dermis bake lut --convention unity_2011 --profile openpbr_skin_5 -o unity.png",
                  bake_group(line));
     command->add_option("--convention", options->convention,
                         "dermis (exact, sphere), or a published table: penner, unity_2011, faceworks");

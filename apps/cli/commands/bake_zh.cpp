@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <memory>
 
 #include "bake_options.h"
@@ -40,7 +41,7 @@ Result<ZonalOptions> zonal_options(const BakeZhOptions& options) {
 }
 
 Result<int> run(const BakeZhOptions& options) {
-    const Result<ZonalOptions> zonal = zonal_options(options);
+    Result<ZonalOptions> zonal = zonal_options(options);
     if (!zonal) return zonal.error();
     const bool remapped = zonal->layout == ZonalLayout::two_rows_remapped_8;
     const Result<TableStorage> storage =
@@ -50,9 +51,12 @@ Result<int> run(const BakeZhOptions& options) {
         return Error{
             options.output.path +
             ": zonal harmonics reach 1.03, which a PNG cannot hold; write .exr, or --layout remapped"};
+    const std::string note = fit_where_needed(zonal->profile, zonal->how, Integration::exact);
     const Result<Table> table = bake_zonal_harmonics(*zonal);
     if (!table) return table.error();
-    return deliver(*table, zonal->profile, options.output, *storage);
+    const Result<int> delivered = deliver(*table, zonal->profile, options.output, *storage);
+    if (delivered) std::printf("%s", note.c_str());
+    return delivered;
 }
 
 }  // namespace

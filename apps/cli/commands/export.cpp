@@ -1,4 +1,5 @@
-// dermis export: the shading functions with a skin's coefficients, in the language of an engine.
+// dermis export: the shading functions with a skin's coefficients, in the language of an engine, or as a
+// folder that the engine or a browser opens.
 
 #include <cstdio>
 #include <memory>
@@ -9,12 +10,17 @@
 #include "dermis/base/text.h"
 #include "dermis/export/profile_source.h"
 #include "dermis/optics/presets.h"
+#include "dermis/packages/package.h"
+#include "web_export.h"
 
 namespace dermis::cli {
 namespace {
 
+constexpr const char *kDefaultScene = "bust", *kDefaultProfile = "gpu_gems_3";
+
 struct ExportOptions {
-    std::string language, profile = "gpu_gems_3", output;
+    std::string language, engine, profile, scene = kDefaultScene, output;
+    bool web = false;
 };
 
 constexpr const char* kAllLanguages = "all";
@@ -31,14 +37,18 @@ Result<std::vector<shading::Language>> chosen_languages(const std::string& name)
     return Error{unknown_name("language", name, names)};
 }
 
-Result<int> run(const ExportOptions& options) {
+Result<int> deliver_files(std::span<const FileContent> files) {
+    if (const Result<void> written = write_files(files); !written) return written.error();
+    for (const FileContent& file : files) std::printf("%s\n", file.path.c_str());
+    return 0;
+}
+
+Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
     const Result<std::vector<shading::Language>> languages = chosen_languages(options.language);
     if (!languages) return languages.error();
-    const Result<Profile> profile = find_profile(options.profile);
-    if (!profile) return profile.error();
     std::vector<std::string> paths, texts;
     for (const shading::Language language : *languages) {
-        Result<std::string> text = skin_text(*profile, built_in_skin_sources(), language);
+        Result<std::string> text = skin_text(profile, built_in_skin_sources(), language);
         if (!text) return text.error();
         const bool folder = options.language == kAllLanguages;
         const std::string file = "skin" + std::string(shading::file_extension(language));
@@ -47,25 +57,68 @@ Result<int> run(const ExportOptions& options) {
     }
     std::vector<FileContent> files;
     for (size_t i = 0; i < paths.size(); ++i) files.push_back({paths[i], as_bytes(texts[i])});
-    if (const Result<void> written = write_files(files); !written) return written.error();
-    for (const std::string& path : paths) std::printf("%s\n", path.c_str());
-    return 0;
+    return deliver_files(files);
+}
+
+Result<int> export_package(const ExportOptions& options, const Profile& profile) {
+    if (const Result<void> known = check_engine(options.engine); !known) return known.error();
+    const std::filesystem::path folder = options.output;
+    if (const Result<void> writable = try_output(folder / "README.md"); !writable) return writable.error();
+    const Result<std::vector<PackageFile>> package =
+        make_package(options.engine, {profile, built_in_skin_sources(), built_in_package_templates()});
+    if (!package) return package.error();
+    std::vector<FileContent> files;
+    for (const PackageFile& file : *package) files.push_back({folder / file.path, file.bytes});
+    return deliver_files(files);
+}
+
+Result<int> export_web(const ExportOptions& options) {
+    const std::filesystem::path folder = options.output;
+    if (const Result<void> writable = try_output(folder / "index.html"); !writable) return writable.error();
+    const Result<WebPage> page = make_web_page(options.scene, options.profile);
+    if (!page) return page.error();
+    for (const std::string& warning : page->warnings) print_warning(warning);
+    std::vector<FileContent> files;
+    for (const WebFile& file : page->files) files.push_back({folder / file.path, file.bytes});
+    return deliver_files(files);
+}
+
+Result<int> run(const ExportOptions& options) {
+    if (int(!options.language.empty()) + int(!options.engine.empty()) + int(options.web) != 1)
+        return Error{
+            "give one of --language for a file of functions, --engine for a folder, --web for a page"};
+    if (options.web) return export_web(options);
+    if (options.scene != kDefaultScene) return Error{"--scene is for --web"};
+    const Result<Profile> profile = find_profile(options.profile.empty() ? kDefaultProfile : options.profile);
+    if (!profile) return profile.error();
+    return options.engine.empty() ? export_texts(options, *profile) : export_package(options, *profile);
 }
 
 }  // namespace
 
 void add_export_command(CommandLine& line) {
     auto options = std::make_shared<ExportOptions>();
-    Command* command = line.add("export", "The shading functions for a skin as source text for an engine",
-                                "dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl\n"
-                                "  dermis export --language all -o shaders/");
-    command
-        ->add_option("--language", options->language,
-                     join(shading::language_names(), ", ") + ", or all: a file of each in a folder")
-        ->required();
-    command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B")
+    Command* command = line.add(
+        "export", "A skin for other programs: shading functions as text, a package for an engine, a web page",
+        "dermis export --engine godot --profile openpbr_skin_5 -o package/\n"
+        "  dermis export --web -o page/\n"
+        "  dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl");
+    command->add_option("--language", options->language,
+                        join(shading::language_names(), ", ") + ", or all: a file of each in a folder");
+    command->add_option(
+        "--engine", options->engine,
+        "a folder with shader, table, import settings and an example: " + join(engine_names(), ", "));
+    command->add_flag(
+        "--web", options->web,
+        "a folder for any web server: a page that shows a scene's skin, with all that it needs");
+    command->add_option("--profile", options->profile,
+                        "preset, CSV file or burley:R,G,B; default: " + std::string(kDefaultProfile) +
+                            ", or with --web the scene's");
+    command->add_option("--scene", options->scene, "with --web: scene file, mesh or name of a scene")
         ->capture_default_str();
-    command->add_option("-o,--output", options->output, "file to write; with --language all a folder")
+    command
+        ->add_option("-o,--output", options->output,
+                     "file to write; with --engine, --web or --language all a folder")
         ->required();
     line.when_chosen(command, [options] { return run(*options); });
 }

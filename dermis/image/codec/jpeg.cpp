@@ -11,6 +11,15 @@ namespace {
 // that leaves room for what progressive end-of-band runs save.
 constexpr uint64_t kMostJpegRatio = 2048;
 
+struct Compressor {
+    tjhandle handle = tjInitCompress();
+    unsigned char* bytes = nullptr;
+    ~Compressor() {
+        tjFree(bytes);
+        if (handle) tjDestroy(handle);
+    }
+};
+
 struct Decompressor {
     tjhandle handle = tjInitDecompress();
     ~Decompressor() {
@@ -65,3 +74,22 @@ Result<LoadedImage> decode_jpeg(Bytes file, ImageUse use) {
 }
 
 }  // namespace dermis::codec
+
+namespace dermis {
+
+Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality) {
+    if (image.format != PixelFormat::u8 || (image.channels != 1 && image.channels != 3) || image.empty())
+        return Error{"a JPEG has one or three channels of 8 bits"};
+    codec::Compressor compressor;
+    const bool grey = image.channels == 1;
+    const int sampling = grey ? TJSAMP_GRAY : image.encoding == Encoding::srgb ? TJSAMP_420 : TJSAMP_444;
+    unsigned long size = 0;
+    if (!compressor.handle || tjCompress2(compressor.handle, image.values<uint8_t>().data(), image.width, 0,
+                                          image.height, grey ? TJPF_GRAY : TJPF_RGB, &compressor.bytes, &size,
+                                          sampling, quality, TJFLAG_ACCURATEDCT) != 0)
+        return Error{std::string("cannot write a JPEG: ") + tjGetErrorStr2(compressor.handle)};
+    const auto* bytes = reinterpret_cast<const std::byte*>(compressor.bytes);
+    return std::vector(bytes, bytes + size);
+}
+
+}  // namespace dermis

@@ -33,9 +33,9 @@ std::string_view as_text(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-Container split_glb(std::span<const std::byte> bytes, Complaints& complaints) {
+Container split_glb(std::span<const std::byte> bytes, Messages& messages) {
     Container container;
-    const auto fail = [&](const std::string& text) { return complaints.fail("", text), Container{}; };
+    const auto fail = [&](const std::string& text) { return messages.fail("", text), Container{}; };
     if (bytes.size() < 20)
         return fail("truncated: a GLB has at least 20 bytes, this has " + std::to_string(bytes.size()));
     if (const uint32_t version = read_u32(bytes, 4); version != 2)
@@ -81,16 +81,16 @@ bool too_deep(std::string_view json) {
 }
 
 void parse_json(std::string_view text, Document& document) {
-    if (text.empty()) return document.complaints.fail("", "the file is empty");
-    if (too_deep(text)) return document.complaints.fail("", "JSON nested deeper than 128 levels");
+    if (text.empty()) return document.messages.fail("", "the file is empty");
+    if (too_deep(text)) return document.messages.fail("", "JSON nested deeper than 128 levels");
     try {
         document.root = nlohmann::json::parse(text.begin(), text.end());
     } catch (const nlohmann::json::exception& wrong) {
         const auto* where = dynamic_cast<const nlohmann::json::parse_error*>(&wrong);
-        return document.complaints.fail(
+        return document.messages.fail(
             "", "invalid JSON" + (where ? " at byte " + std::to_string(where->byte) : std::string()));
     }
-    if (!document.root.is_object()) document.complaints.fail("", "the JSON must be an object");
+    if (!document.root.is_object()) document.messages.fail("", "the JSON must be an object");
 }
 
 // Extensions that are not read: an error where the file cannot do without, else a warning for each.
@@ -117,7 +117,7 @@ void check_extensions(Document& document) {
 void check_version(Document& document) {
     const JsonView asset = document.view()["asset"];
     const std::string version = asset["version"].text(""), needed = asset["minVersion"].text("2.0");
-    if (document.complaints.error) return;
+    if (document.messages.error) return;
     if (!version.starts_with("2."))
         asset["version"].fail("'" + version.substr(0, 20) + "'; only glTF 2.x is read");
     if (needed != "2.0")
@@ -153,21 +153,21 @@ void load_buffer(const JsonView& buffer, std::optional<std::span<const std::byte
 
 void open_document(std::span<const std::byte> bytes, const std::filesystem::path& name,
                    const ReadSibling& read_sibling, const MeshOptions& options, Document& document) {
-    document.complaints.file = name.string();
+    document.messages.file = name.string();
     document.directory = name.parent_path();
     document.max_vertices = options.max_vertices;
     document.max_nodes = options.max_nodes;
-    Complaints& complaints = document.complaints;
+    Messages& messages = document.messages;
     Container container{as_text(bytes), {}};
     // By content: exporters name files wrongly.
-    if (bytes.size() >= 4 && read_u32(bytes, 0) == kGlbMagic) container = split_glb(bytes, complaints);
-    if (complaints.error) return;
+    if (bytes.size() >= 4 && read_u32(bytes, 0) == kGlbMagic) container = split_glb(bytes, messages);
+    if (messages.error) return;
     parse_json(container.json, document);
-    if (complaints.error) return;
+    if (messages.error) return;
     check_version(document);
     check_extensions(document);
     const JsonView buffers = document.view()["buffers"];
-    for (size_t i = 0; i < buffers.size() && !complaints.error; ++i)
+    for (size_t i = 0; i < buffers.size() && !messages.error; ++i)
         load_buffer(buffers[i], i == 0 ? container.binary : std::nullopt, read_sibling,
                     document.buffers.emplace_back());
 }

@@ -16,14 +16,14 @@ struct Document {
     nlohmann::json root;
     std::vector<std::vector<std::byte>> buffers;
     std::filesystem::path directory;  ///< of the file, for image paths
-    Complaints complaints;
+    Messages messages;
     size_t max_vertices = 0, max_nodes = 0;
 
-    [[nodiscard]] JsonView view() { return {&root, "", complaints}; }
+    [[nodiscard]] JsonView view() { return {&root, "", messages}; }
 };
 
 /// Reads the container (GLB or bare JSON), checks the version and the required extensions, loads the buffers.
-/// Errors are left in complaints.
+/// Errors are left in messages.
 void open_document(std::span<const std::byte> bytes, const std::filesystem::path& name,
                    const ReadSibling& read_sibling, const MeshOptions& options, Document& document);
 

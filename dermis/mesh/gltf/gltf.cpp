@@ -54,7 +54,7 @@ class SceneReader {
     }
 
   private:
-    [[nodiscard]] bool failed() const { return document_.complaints.error.has_value(); }
+    [[nodiscard]] bool failed() const { return document_.messages.error.has_value(); }
 
     uint64_t vertices_of(uint64_t mesh) {
         const JsonView primitives = document_.view()["meshes"][size_t(mesh)]["primitives"];
@@ -186,14 +186,14 @@ class SceneReader {
 
     void finish() {
         if (failed()) return;
-        if (mesh_.indices.empty()) return document_.complaints.fail("", "no triangles in the default scene");
+        if (mesh_.indices.empty()) return document_.messages.fail("", "no triangles in the default scene");
         if (!any_normals_) mesh_.normals.clear();
         if (!any_uvs_) mesh_.uvs.clear();
         if (!any_tangents_) mesh_.tangents.clear();
         if (!any_colors_) mesh_.colors_linear.clear();
         if (any_uvs_ && without_uvs_ > 0)
-            document_.complaints.warn("",
-                                      std::to_string(without_uvs_) + " vertices have no UV; they get (0, 0)");
+            document_.messages.warn("",
+                                    std::to_string(without_uvs_) + " vertices have no UV; they get (0, 0)");
         mesh_.materials = read_materials(document_, mm_per_unit_, material_scales_);
         warn_of_wrap();
         const auto default_number = uint32_t(mesh_.materials.size());
@@ -219,10 +219,9 @@ class SceneReader {
             const ImageSource& map = mesh_.materials[submesh.material].base_color_map;
             if ((map.wrap_u == TextureWrap::repeat && map.wrap_v == TextureWrap::repeat) || !leaves(submesh))
                 continue;
-            return document_.complaints.warn("", "UVs of material '" +
-                                                     mesh_.materials[submesh.material].name +
-                                                     "' leave their image, whose sampler clamps or mirrors; "
-                                                     "maps are drawn repeating");
+            return document_.messages.warn("", "UVs of material '" + mesh_.materials[submesh.material].name +
+                                                   "' leave their image, whose sampler clamps or mirrors; "
+                                                   "maps are drawn repeating");
         }
     }
 
@@ -246,9 +245,9 @@ Result<LoadedMesh> parse_gltf(std::span<const std::byte> bytes, const std::files
     Document document;
     open_document(bytes, name, read_sibling, options, document);
     LoadedMesh loaded;
-    if (!document.complaints.error) loaded.mesh = SceneReader(document, options.unit_mm.value_or(1000)).run();
-    if (document.complaints.error) return *document.complaints.error;
-    loaded.warnings = std::move(document.complaints.warnings);
+    if (!document.messages.error) loaded.mesh = SceneReader(document, options.unit_mm.value_or(1000)).run();
+    if (document.messages.error) return *document.messages.error;
+    loaded.warnings = std::move(document.messages.warnings);
     return loaded;
 }
 

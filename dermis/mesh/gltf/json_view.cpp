@@ -4,11 +4,11 @@
 
 namespace dermis::gltf {
 
-void Complaints::fail(const std::string& place, const std::string& text) {
+void Messages::fail(const std::string& place, const std::string& text) {
     if (!error) error = Error{file + ": " + (place.empty() ? "" : place + ": ") + text};
 }
 
-void Complaints::warn(const std::string& place, const std::string& text) {
+void Messages::warn(const std::string& place, const std::string& text) {
     warnings.push_back(file + ": " + (place.empty() ? "" : place + ": ") + text);
 }
 
@@ -21,7 +21,7 @@ JsonView JsonView::operator[](const char* key) const {
     } else if (value_) {
         fail("must be an object");
     }
-    return {found, place, *complaints_};
+    return {found, place, *messages_};
 }
 
 JsonView JsonView::operator[](size_t index) const {
@@ -30,7 +30,7 @@ JsonView JsonView::operator[](size_t index) const {
         found = &(*value_)[index];
     else
         fail("has no element " + std::to_string(index) + " (it has " + std::to_string(size()) + ")");
-    return {found, place_ + "[" + std::to_string(index) + "]", *complaints_};
+    return {found, place_ + "[" + std::to_string(index) + "]", *messages_};
 }
 
 size_t JsonView::size() const {

@@ -14,7 +14,7 @@ namespace dermis::gltf {
 
 /// The errors and warnings of reading so far. Reading goes on after an error with harmless values; the caller
 /// asks at the end of each step.
-struct Complaints {
+struct Messages {
     std::string file;
     std::optional<Error> error;  ///< the first
     std::vector<std::string> warnings;
@@ -27,8 +27,8 @@ struct Complaints {
 /// errors.
 class JsonView {
   public:
-    JsonView(const nlohmann::json* value, std::string place, Complaints& complaints)
-        : value_(value), place_(std::move(place)), complaints_(&complaints) {}
+    JsonView(const nlohmann::json* value, std::string place, Messages& messages)
+        : value_(value), place_(std::move(place)), messages_(&messages) {}
 
     [[nodiscard]] bool exists() const { return value_ != nullptr; }
     [[nodiscard]] const std::string& place() const { return place_; }
@@ -50,14 +50,14 @@ class JsonView {
         return fallback;
     }
 
-    void fail(const std::string& text) const { complaints_->fail(place_, text); }
-    void warn(const std::string& text) const { complaints_->warn(place_, text); }
-    [[nodiscard]] bool failed() const { return complaints_->error.has_value(); }
+    void fail(const std::string& text) const { messages_->fail(place_, text); }
+    void warn(const std::string& text) const { messages_->warn(place_, text); }
+    [[nodiscard]] bool failed() const { return messages_->error.has_value(); }
 
   private:
     const nlohmann::json* value_;
     std::string place_;
-    Complaints* complaints_;
+    Messages* messages_;
 };
 
 }  // namespace dermis::gltf

@@ -169,7 +169,7 @@ class MaterialReader {
                    ImageSource{};
         return {.name = (document_.directory / path).string(),
                 .encoded = {},
-                .named_by = document_.complaints.file};
+                .named_by = document_.messages.file};
     }
 
     ImageSource embedded(const JsonView& source, const std::string& name, std::vector<std::byte> bytes) {
@@ -178,7 +178,7 @@ class MaterialReader {
         embedded_bytes_ += bytes.size();
         if (embedded_bytes_ > kMaxEmbeddedBytes)
             return source.fail("more than 1 GiB of embedded images"), ImageSource{};
-        return {.name = document_.complaints.file + ":" + (name.empty() ? source.place() : name),
+        return {.name = document_.messages.file + ":" + (name.empty() ? source.place() : name),
                 .encoded = std::move(bytes)};
     }
 
@@ -195,7 +195,7 @@ std::vector<Material> read_materials(Document& document, double mm_per_unit,
     MaterialReader reader(document, mm_per_unit);
     const JsonView sources = document.view()["materials"];
     std::vector<Material> materials;
-    for (size_t i = 0; i < sources.size() && !document.complaints.error; ++i)
+    for (size_t i = 0; i < sources.size() && !document.messages.error; ++i)
         materials.push_back(reader.read(sources[i], i, i < node_scales.size() ? node_scales[i] : 1));
     return materials;
 }

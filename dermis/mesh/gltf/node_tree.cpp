@@ -16,7 +16,7 @@ class TreeReader {
         if (nodes.size() > document_.max_nodes)
             nodes.fail("are " + std::to_string(nodes.size()) + ", more than the " +
                        std::to_string(document_.max_nodes) + " that dermis loads");
-        if (document_.complaints.error) return {};
+        if (document_.messages.error) return {};
         tree_.world.assign(nodes.size(), Affine{});
         visited_.assign(nodes.size(), false);
         const std::vector<uint64_t> parentless = find_parentless();
@@ -56,7 +56,7 @@ class TreeReader {
 
     void visit(uint64_t root, bool drawn) {
         std::vector<std::pair<uint64_t, Affine>> open = {{root, to_mm_}};
-        while (!open.empty() && !document_.complaints.error) {
+        while (!open.empty() && !document_.messages.error) {
             const auto [index, parent] = open.back();
             open.pop_back();
             const JsonView node = document_.view()["nodes"][size_t(index)];

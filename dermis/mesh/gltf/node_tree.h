@@ -14,7 +14,7 @@ struct NodeTree {
     std::vector<uint64_t> drawn;  ///< nodes of the default scene with a mesh, in its order
 };
 
-/// `to_mm` comes after every root. Errors (a node reached twice, too many of them) are left in complaints.
+/// `to_mm` comes after every root. Errors (a node reached twice, too many of them) are left in messages.
 [[nodiscard]] NodeTree read_nodes(Document& document, const Affine& to_mm);
 
 }  // namespace dermis::gltf

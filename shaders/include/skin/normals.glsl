@@ -17,6 +17,20 @@ vec3 blended_light(vec3 of_sharp_normal, vec3 of_smooth_normal, vec3 smooth_weig
     return mix(of_sharp_normal, of_smooth_normal, smooth_weight);
 }
 
+// Variance of the normals that a smoother read of a normal map covers, on both axes: over normals whose mean has length
+// r it is 1 - r^2 (Toksvig 2005). What the sharp read covers counts as one normal. Pass both reads as they are, not
+// normalised.
+float bumps_variance(vec3 of_sharp_read, vec3 of_smooth_read) {
+    return max(1.0 - dot(of_smooth_read, of_smooth_read) / dot(of_sharp_read, of_sharp_read), 0.0);
+}
+
+// How far N.L deviates over such bumps, 0 to 1; mean_n_dot_l, -1 to 1, is N.L of the smoother read. Where light grazes,
+// bumps take in more than their mean normal does: those that face away get none, and not less. Light at one deviation
+// above the mean and at one below, halved, is the mean of the bumps' light for any cubic (Gauss and Hermite's rule).
+float bumps_deviation(float variance, float mean_n_dot_l) {
+    return sqrt(0.5 * variance * max(1.0 - mean_n_dot_l * mean_n_dot_l, 0.0));
+}
+
 // The normal of a channel as published, mixed itself (Penner 2011). Both normals are normalised.
 vec3 lerped_normal(vec3 n_sharp, vec3 n_smooth, float smooth_weight) {
     return normalize(mix(n_sharp, n_smooth, smooth_weight));

@@ -1,4 +1,4 @@
-#include "techniques/preintegrated/shadow_ramp.h"
+#include "dermis/bake/shadow_ramp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "dermis/bake/shadow_table.h"
 
-namespace dermis::preintegrated {
+namespace dermis {
 
 double disk_share(double t) {
     t = std::clamp(t, -1.0, 1.0);
@@ -41,4 +41,4 @@ Result<std::vector<Rgb>> shadow_ramp(const Profile& profile, double width_mm, in
     return ramp;
 }
 
-}  // namespace dermis::preintegrated
+}  // namespace dermis

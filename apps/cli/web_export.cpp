@@ -1,0 +1,92 @@
+#include "web_export.h"
+
+#include "catalog/catalog.h"
+#include "dermis/base/text.h"
+#include "dermis/image/skin_colour.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/presets.h"
+#include "dermis/render/complete_scene.h"
+#include "dermis/render/skin_tone.h"
+#include "dermis/scene/load_scene.h"
+
+namespace dermis::cli {
+namespace {
+
+constexpr const char* kNumerals[] = {"I", "II", "III", "IV", "V", "VI"};
+constexpr float kShadowWidthMm = 3;
+
+// What a technique gives the page for one skin, with its default settings.
+class ToneMaker {
+  public:
+    static Result<ToneMaker> create() {
+        const Result<const Technique*> technique =
+            find_technique(built_in_catalog().techniques, "preintegrated");
+        if (!technique) return technique.error();
+        ToneMaker maker(**technique);
+        if (const Result<void> set = maker.values_.set("shadow_width_mm", to_text(kShadowWidthMm)); !set)
+            return set.error();
+        return maker;
+    }
+
+    [[nodiscard]] Result<WebTone> make(const std::string& name, const std::string& profile_name,
+                                       Vec3 tint_linear, Vec3 mean_linear) const {
+        Result<Profile> profile = find_profile(profile_name);
+        if (!profile) return profile.error();
+        SkinContext skin = {.profile = *profile, .gaussians = to_gaussian_sum(*profile).sum};
+        Result<std::vector<TableImage>> tables = technique_.tables(values_, skin);
+        if (!tables) return tables.error();
+        WebTone tone = {.name = name,
+                        .description = profile->name,
+                        .albedo_tint_linear = tint_linear,
+                        .mean_albedo_linear = mean_linear * tint_linear,
+                        .tables = std::move(*tables)};
+        const PassList list = technique_.build(values_, {.skin_gaussians = skin.gaussians});
+        for (const auto& [value_name, value] : list.passes.front().values)
+            for (size_t i = 0; i < tone.occlusion_weights.size(); ++i)
+                if (value_name == "occlusion_weight_" + std::to_string(i))
+                    tone.occlusion_weights[i] = std::get<Vec3>(value);
+        return tone;
+    }
+
+  private:
+    explicit ToneMaker(const Technique& technique) : technique_(technique), values_(technique.parameters) {}
+    const Technique& technique_;
+    ParameterValues values_;
+};
+
+// The scene's own skin, then the six tones of OpenPBR.
+Result<std::vector<WebTone>> make_tones(const Scene& scene) {
+    const Result<ToneMaker> maker = ToneMaker::create();
+    if (!maker) return maker.error();
+    const Result<Vec3> mean = mean_skin_albedo(scene);
+    if (!mean) return mean.error();
+    std::vector<WebTone> tones;
+    Result<WebTone> own = maker->make("Own", scene.skin.profile, scene.skin.albedo_tint_linear, *mean);
+    if (!own) return own.error();
+    tones.push_back(std::move(*own));
+    for (int tone = 1; tone <= 6; ++tone) {
+        Result<WebTone> made = maker->make(kNumerals[tone - 1], "openpbr_skin_" + std::to_string(tone),
+                                           tint_towards(skin_tone_albedo_linear(tone), *mean), *mean);
+        if (!made) return made.error();
+        tones.push_back(std::move(*made));
+    }
+    return tones;
+}
+
+}  // namespace
+
+Result<WebPage> make_web_page(const std::string& scene_name, const std::string& profile) {
+    Result<Scene> scene = load_scene(scene_name, {.subjects = built_in_catalog().subjects});
+    if (!scene) return scene.error();
+    if (!profile.empty()) scene->skin.profile = profile;
+    if (const Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    Result<std::vector<WebTone>> tones = make_tones(*scene);
+    if (!tones) return tones.error();
+    return dermis::make_web_page({.scene = *scene,
+                                  .tones = std::move(*tones),
+                                  .functions = built_in_skin_sources(),
+                                  .texts = built_in_web_texts(),
+                                  .shadow_width_mm = kShadowWidthMm});
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,15 @@
+#pragma once
+// A material's maps as JPEG. Internal to dermis/web.
+
+#include <nlohmann/json.hpp>
+
+#include "dermis/web/web.h"
+
+namespace dermis::web {
+
+/// Adds the maps of `material` to `files` as "maps/N_albedo.jpg", "_normal.jpg" and "_surface.jpg"
+/// (roughness, factor on the reflectance, occlusion); their paths as JSON, for those that there are.
+[[nodiscard]] Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& material,
+                                              const Mesh& mesh, const std::string& prefix, int map_side);
+
+}  // namespace dermis::web

@@ -1,0 +1,22 @@
+#pragma once
+// What the page reads by texture coordinate. Internal to dermis/web.
+
+#include <nlohmann/json.hpp>
+
+#include "dermis/web/binary.h"
+#include "dermis/web/web.h"
+
+namespace dermis::web {
+
+/// The diffuse tables of all tones as layers of one texture of shared exponents; their other
+/// functions as rows of another, of halves. Sizes and offsets as JSON. Errors: a tone without the tables.
+[[nodiscard]] Result<nlohmann::json> add_tables(Binary& binary, std::span<const WebTone> tones);
+
+/// Prefiltered cube without its largest level, spherical harmonics, and the split sum's second factor.
+[[nodiscard]] Result<nlohmann::json> add_environment(Binary& binary, const Environment& environment);
+
+/// With no more digits than the float has.
+[[nodiscard]] nlohmann::json to_json(float value);
+[[nodiscard]] nlohmann::json to_json(Vec3 v);
+
+}  // namespace dermis::web

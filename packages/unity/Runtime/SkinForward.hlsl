@@ -1,0 +1,112 @@
+// The lit pass: main light and additional lights with their shadows, ambient probes, fog.
+#ifndef DERMIS_SKIN_FORWARD
+#define DERMIS_SKIN_FORWARD
+
+#include "SkinInput.hlsl"
+#include "Packages/com.unity.render-pipelines.universal/ShaderLibrary/Lighting.hlsl"
+#include "Skin.hlsl"
+
+static const float kMaxCurvaturePerMm = @max_curvature_per_mm@;
+static const float2 kTableSize = float2(@table_width@, @table_height@);
+
+TEXTURE2D(_BaseMap);
+SAMPLER(sampler_BaseMap);
+TEXTURE2D(_BumpMap);
+SAMPLER(sampler_BumpMap);
+TEXTURE2D(_SkinTable);
+SAMPLER(sampler_SkinTable);
+
+struct SkinAttributes {
+    float4 positionOS : POSITION;
+    float3 normalOS : NORMAL;
+    float4 tangentOS : TANGENT;
+    float2 uv : TEXCOORD0;
+    UNITY_VERTEX_INPUT_INSTANCE_ID
+};
+
+struct SkinVaryings {
+    float4 positionCS : SV_POSITION;
+    float2 uv : TEXCOORD0;
+    float3 positionWS : TEXCOORD1;
+    float3 normalWS : TEXCOORD2;
+    float4 tangentWS : TEXCOORD3;  // w: sign of the bitangent
+    float fog : TEXCOORD4;
+    UNITY_VERTEX_OUTPUT_STEREO
+};
+
+SkinVaryings SkinVertex(SkinAttributes input) {
+    SkinVaryings output = (SkinVaryings)0;
+    UNITY_SETUP_INSTANCE_ID(input);
+    UNITY_INITIALIZE_VERTEX_OUTPUT_STEREO(output);
+    output.positionWS = TransformObjectToWorld(input.positionOS.xyz);
+    output.positionCS = TransformWorldToHClip(output.positionWS);
+    output.uv = input.uv * _BaseMap_ST.xy + _BaseMap_ST.zw;
+    output.normalWS = TransformObjectToWorldNormal(input.normalOS);
+    output.tangentWS = float4(TransformObjectToWorldDir(input.tangentOS.xyz),
+                              input.tangentOS.w * GetOddNegativeScale());
+    output.fog = ComputeFogFactor(output.positionCS.z);
+    return output;
+}
+
+struct SkinSurface {
+    float3 albedo, n, v;  // linear; world space, normalised
+    float curvature_per_mm;
+};
+
+// Reflected radiance of one light.
+float3 SkinLight(SkinSurface s, Light light) {
+    float3 irradiance = light.color * (light.distanceAttenuation * light.shadowAttenuation);
+    float n_dot_l = dot(s.n, light.direction);
+    float2 uv = diffuse_coordinate(n_dot_l, s.curvature_per_mm, kMaxCurvaturePerMm);
+    // URP leaves out the 1 / pi of Lambert and of the lobes alike.
+    float3 radiance = s.albedo * SAMPLE_TEXTURE2D_LOD(_SkinTable, sampler_SkinTable, uv, 0).rgb;
+    if (n_dot_l > 0.0) {
+        float3 h = normalize(light.direction + s.v);
+        float lobes = two_lobe_ggx(saturate(dot(s.n, h)), n_dot_l, max(dot(s.n, s.v), 1e-3), _Roughness);
+        radiance += kPi * lobes * fresnel_schlick(_F0, saturate(dot(h, s.v)));
+    }
+    return radiance * irradiance;
+}
+
+float3 SkinLights(SkinSurface s, SkinVaryings input) {
+    float4 shadow_coordinate = TransformWorldToShadowCoord(input.positionWS);
+    float3 radiance = SkinLight(s, GetMainLight(shadow_coordinate, input.positionWS, half4(1, 1, 1, 1)));
+#if defined(_ADDITIONAL_LIGHTS) || defined(_FORWARD_PLUS) || defined(_CLUSTER_LIGHT_LOOP)
+    // What the macros of the light loop read.
+    InputData inputData = (InputData)0;
+    inputData.positionWS = input.positionWS;
+    inputData.normalizedScreenSpaceUV = GetNormalizedScreenSpaceUV(input.positionCS);
+    uint pixelLightCount = GetAdditionalLightsCount();
+#if defined(_FORWARD_PLUS) || defined(_CLUSTER_LIGHT_LOOP)
+    // Directional lights after the main one are not in the clusters.
+    for (uint i = 0; i < min(URP_FP_DIRECTIONAL_LIGHTS_COUNT, MAX_VISIBLE_LIGHTS); ++i)
+        radiance += SkinLight(s, GetAdditionalLight(i, input.positionWS, half4(1, 1, 1, 1)));
+#endif
+    LIGHT_LOOP_BEGIN(pixelLightCount)
+        radiance += SkinLight(s, GetAdditionalLight(lightIndex, input.positionWS, half4(1, 1, 1, 1)));
+    LIGHT_LOOP_END
+#endif
+    return radiance;
+}
+
+float4 SkinFragment(SkinVaryings input) : SV_Target {
+    UNITY_SETUP_STEREO_EYE_INDEX_POST_VERTEX(input);
+    // Not assigned, or imported with a size limit: words instead of wrong light.
+    if (any(_SkinTable_TexelSize.zw != kTableSize)) return float4((float3)sign_of_missing_table(input.positionCS.xy), 1.0);
+
+    float3 n_geometry = normalize(input.normalWS);
+    float3 bump = UnpackNormalScale(SAMPLE_TEXTURE2D(_BumpMap, sampler_BumpMap, input.uv), _BumpScale);
+    float3 bitangent = input.tangentWS.w * cross(n_geometry, input.tangentWS.xyz);
+    SkinSurface s;
+    s.albedo = _BaseColor.rgb * SAMPLE_TEXTURE2D(_BaseMap, sampler_BaseMap, input.uv).rgb;
+    s.n = normalize(bump.x * input.tangentWS.xyz + bump.y * bitangent + bump.z * n_geometry);
+    s.v = GetWorldSpaceNormalizeViewDir(input.positionWS);
+    // Of the mesh: a bump of the map is smaller than what scatters.
+    s.curvature_per_mm = min(_CurvatureGain * curvature_from_derivatives(fwidth(n_geometry),
+                                                                         fwidth(input.positionWS) * _MmPerUnit),
+                             kMaxCurvaturePerMm);
+    float3 radiance = SkinLights(s, input) + s.albedo * SampleSH(s.n);
+    return float4(MixFog(radiance, input.fog), 1.0);
+}
+
+#endif

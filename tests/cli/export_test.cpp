@@ -1,0 +1,99 @@
+// dermis export and the tables for engines, as a user runs them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/run_program.h"
+#include "support/temporary_directory.h"
+
+using namespace dermis;
+using testing::HasSubstr;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Export : public testing::Test {
+  protected:
+    ProgramResult dermis(const std::string& arguments) {
+        return run_shell(std::string(DERMIS_PROGRAM) + " " + arguments, scratch_.path.string());
+    }
+    void expect_refused(const std::string& arguments, const std::string& message) {
+        const ProgramResult result = dermis(arguments);
+        EXPECT_NE(result.exit_code, 0) << arguments;
+        EXPECT_THAT(result.err, HasSubstr(message)) << arguments;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_EQ(result.out, "") << arguments;
+        EXPECT_TRUE(fs::is_empty(out_.path)) << arguments;
+    }
+    std::string out(const std::string& name) const { return (out_.path / name).string(); }
+
+    TemporaryDirectory scratch_, out_;
+};
+
+}  // namespace
+
+TEST_F(Export, an_engine_gets_a_folder_and_the_printed_files_are_in_it) {
+    for (const char* engine : {"unity", "unreal", "godot"}) {
+        const std::string folder = out(engine);
+        const ProgramResult result =
+            dermis("export --engine " + std::string(engine) + " --profile openpbr_skin_5 -o " + folder);
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        size_t files = 0;
+        for (size_t at = 0, end; (end = result.out.find('\n', at)) != std::string::npos;
+             at = end + 1, ++files)
+            EXPECT_TRUE(fs::is_regular_file(result.out.substr(at, end - at))) << result.out;
+        EXPECT_GE(files, 8u) << engine;
+        EXPECT_TRUE(fs::exists(folder + "/README.md"));
+    }
+}
+
+TEST_F(Export, of_every_openpbr_tone_has_a_package) {
+    for (int tone = 1; tone <= 6; ++tone)
+        EXPECT_EQ(dermis("export --engine godot --profile openpbr_skin_" + std::to_string(tone) + " -o " +
+                         out("tone_" + std::to_string(tone)))
+                      .exit_code,
+                  0)
+            << tone;
+}
+
+TEST_F(Export, refuses_wrong_options_and_leaves_nothing) {
+    expect_refused("export --engine godott -o " + out("p"), "unknown engine 'godott'; did you mean 'godot'?");
+    expect_refused("export --engine godot --profile gpu_gems -o " + out("p"), "unknown profile 'gpu_gems'");
+    expect_refused("export --engine godot --language hlsl -o " + out("p"), "and not both");
+    expect_refused("export -o " + out("p"),
+                   "give --language for a file of functions, or --engine for a folder");
+    expect_refused("export --engine godot", "--output is required");
+    expect_refused("export --engine godot -o /dev/null/p", "/dev/null/p: cannot make the directory");
+}
+
+// A folder that is a file, or in which one of the files cannot be written: nothing is written.
+TEST_F(Export, writes_all_files_or_none) {
+    const std::string folder = out("p");
+    fs::create_directories(folder + "/addons/dermis_skin/skin_material.tres");
+    const ProgramResult result = dermis("export --engine godot -o " + folder);
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_THAT(result.err, HasSubstr("skin_material.tres: is a directory"));
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        EXPECT_TRUE(entry.is_directory()) << entry.path();
+}
+
+// Burley has a pole, which a ring cannot integrate: the table is of its fit, and says how good that is.
+TEST_F(Export, tables_of_published_conventions_are_made_for_every_openpbr_tone) {
+    for (const char* convention : {"unity_2011", "penner", "faceworks"}) {
+        const ProgramResult result = dermis("bake lut --size 32 --convention " + std::string(convention) +
+                                            " --profile openpbr_skin_5 -o " + out(convention) + ".png");
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_THAT(result.out,
+                    HasSubstr("the profile is Burley and this convention needs Gaussians: fitted, 0.23 %"));
+    }
+    const ProgramResult zonal =
+        dermis("bake zh --construction ring --profile openpbr_skin_5 -o " + out("zh.exr"));
+    EXPECT_EQ(zonal.exit_code, 0) << zonal.err;
+    EXPECT_THAT(zonal.out, HasSubstr("fitted, 0.23 %"));
+    const ProgramResult exact = dermis("bake lut --size 32 --profile openpbr_skin_5 -o " + out("exact.exr"));
+    EXPECT_EQ(exact.out.find("fitted"), std::string::npos) << exact.out;
+}

@@ -1,0 +1,30 @@
+#pragma once
+// Packages as tests read them.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "catalog/catalog.h"
+#include "dermis/image/io.h"
+#include "dermis/optics/presets.h"
+
+namespace dermis {
+
+/// Content by path.
+inline std::map<std::string, std::string> package_of(const std::string& engine, const std::string& profile) {
+    std::map<std::string, std::string> files;
+    const auto skin = find_profile(profile);
+    EXPECT_TRUE(skin);
+    if (!skin) return files;
+    const auto package = make_package(engine, {*skin, built_in_skin_sources(), built_in_package_templates()});
+    EXPECT_TRUE(package) << package.error().message;
+    if (!package) return files;
+    for (const PackageFile& file : *package)
+        files[file.path] = std::string(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+    return files;
+}
+
+}  // namespace dermis

@@ -1,0 +1,59 @@
+// What a material without its table writes on the screen: the function, printed as C++ and compiled, against
+// the letters.
+
+#include <gmock/gmock.h>
+
+#include "dermis/base/file.h"
+#include "dermis/base/process.h"
+#include "packages/packages.h"
+#include "support/temporary_directory.h"
+
+namespace dermis {
+namespace {
+
+// A character a cell of 4 pixels.
+const std::string kLetters =
+    "##. ###     ### #.# ### ##.     ### ### ##. #.. ###\n"
+    "#.# #.#     #.. #.# .#. #.#     .#. #.# #.# #.. #..\n"
+    "#.# #.#     ### ##. .#. #.#     .#. ### ##. #.. ##.\n"
+    "#.# #.#     ..# #.# .#. #.#     .#. #.# #.# #.. #..\n"
+    "#.# ###     ### #.# ### #.#     .#. #.# ##. ### ###\n";
+
+// The text as the function draws it, row by row, of the first repetition but its empty cells at the right.
+std::string drawn(const std::string& source) {
+    const auto units = shading::read_sources(std::vector<shading::Source>{{"sign.glsl", source}});
+    EXPECT_TRUE(units) << units.error().message;
+    if (!units) return "";
+    const TemporaryDirectory directory;
+    EXPECT_TRUE(
+        write_text_file(directory.path / "sign.h", shading::print(*units, shading::Language::cpp, {})));
+    EXPECT_TRUE(write_text_file(directory.path / "main.cpp",
+                                "#include <cstdio>\n#include \"sign.h\"\nint main() {\n"
+                                "    for (int y = 0; y < 5; ++y)\n        for (int x = 0; x < 52; ++x)\n"
+                                "            std::putchar(x == 51 ? '\\n' : skin::sign_of_missing_table("
+                                "skin::float2(4.0f * x + 1.5f, 4.0f * y + 1.5f)) > 0.5f ? '#' : '.');\n}\n"));
+    const std::string program = (directory.path / "sign").string();
+    EXPECT_EQ(
+        run_program({DERMIS_COMPILER, "-std=c++17", (directory.path / "main.cpp").string(), "-o", program},
+                    directory.path / "log.txt"),
+        0);
+    EXPECT_EQ(run_program({program}, directory.path / "out.txt"), 0);
+    const auto text = read_text_file(directory.path / "out.txt");
+    return text ? *text : "";
+}
+
+std::string sign_source() {
+    for (const PackageTemplate& file : built_in_package_templates())
+        if (file.path == "packages/common/sign.glsl") return file.text;
+    return "";
+}
+
+TEST(Sign, of_a_missing_table_is_legible) {
+    std::string expected = kLetters;
+    for (char& c : expected)
+        if (c == ' ') c = '.';
+    EXPECT_EQ(drawn(sign_source()), expected);
+}
+
+}  // namespace
+}  // namespace dermis
