@@ -306,4 +306,15 @@ Profile scaled(const Profile& profile, double factor) {
     return result;
 }
 
+Vec3 profile_transfer(const GaussianSum& profile, double x) {
+    double sum[3] = {0, 0, 0}, total[3] = {0, 0, 0};
+    for (const GaussianTerm& term : profile.terms)
+        for (size_t c = 0; c < 3; ++c) {
+            sum[c] += term.weight[c] * std::exp(-term.variance_mm2 * x);
+            total[c] += term.weight[c];
+        }
+    const auto share = [&](int c) { return total[c] > 0 ? float(sum[c] / total[c]) : 1.0f; };
+    return {share(0), share(1), share(2)};
+}
+
 }  // namespace dermis

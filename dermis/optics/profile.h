@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/base/vec.h"
 #include "dermis/optics/medium.h"
 #include "dermis/optics/tabulated_profile.h"
 
@@ -38,6 +39,10 @@ struct GaussianSum {
     std::string name;
     std::vector<GaussianTerm> terms;
 };
+
+/// What is left of a wave of light of each colour, 1 for a colour that the skin does not reflect: the sum of
+/// the weights times exp(-variance x), x = 2 pi^2 / wavelength^2 in 1/mm^2, over the sum of the weights.
+[[nodiscard]] Vec3 profile_transfer(const GaussianSum& profile, double x);
 
 /// GPU Gems 3, section 14.4: six Gaussians fitted to a three-layer skin; weights
 /// of each channel sum to 1.

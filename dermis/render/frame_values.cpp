@@ -97,7 +97,8 @@ gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings)
             {"penumbra_mm", settings.penumbra_mm},
             {"exposure", std::exp2(scene.exposure_ev)},
             {"second_light", int32_t(second)},
-            {"second_light_view_projection", light_matrix_of(scene, second)}};
+            {"second_light_view_projection", light_matrix_of(scene, second)},
+            {"pixel_per_distance", 2 * std::tan(scene.camera.vertical_fov_rad / 2) / float(settings.height)}};
 }
 
 }  // namespace dermis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dermis {
 namespace {
@@ -71,6 +72,19 @@ AtlasLightSettings atlas_light_settings(const AtlasParams& params) {
                      .size = params.light_map_size},
             .size = params.light_map_size,
             .kernel_scale_mm = params.kernel_growth};
+}
+
+std::vector<NamedValue> detail_values(const std::function<Vec3(double texel_mm)>& kept) {
+    std::vector<NamedValue> values;
+    for (int i = 0; i < kDetailSamples; ++i)
+        values.emplace_back("detail_kept[" + std::to_string(i) + "]",
+                            kept(double(kDetailFirstMm) * std::exp2(double(i) / kDetailPerOctave)));
+    return values;
+}
+
+Vec3 kept_of_shortest_wave(const GaussianSum& blur, double texel_mm) {
+    const double wave_mm = 2 * texel_mm;
+    return profile_transfer(blur, 2 * std::numbers::pi * std::numbers::pi / (wave_mm * wave_mm));
 }
 
 float longest_step_texels(float length_mm, int size, const FrameContext& frame) {

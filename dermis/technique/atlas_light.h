@@ -3,6 +3,8 @@
 // blurs are to be in millimetres, the atlas's metric and gutter texels that hold the light from across the UV
 // seam.
 
+#include <functional>
+
 #include "dermis/technique/atlas_cull.h"
 #include "dermis/technique/shadow_channels.h"
 #include "dermis/technique/transmission.h"
@@ -47,6 +49,14 @@ struct AtlasLightSettings {
 /// In texels of the light map, the farthest that `length_mm` reaches on nearly all of the skin (99 % of its
 /// area); longer steps are cut to it, so that culls know how far light is carried.
 [[nodiscard]] float longest_step_texels(float length_mm, int size, const FrameContext& frame);
+
+/// The uniform block Skin of shaders/atlas/final.glsl: what the blur leaves of the light that a light map
+/// with texels of this side on the skin cannot hold.
+[[nodiscard]] std::vector<NamedValue> detail_values(const std::function<Vec3(double texel_mm)>& kept);
+
+/// What `blur` leaves of a wave of two texels, the shortest that the map holds. Shorter ones are damped more;
+/// waves a little longer, which the map holds in part, less.
+[[nodiscard]] Vec3 kept_of_shortest_wave(const GaussianSum& blur, double texel_mm);
 
 /// Image "light_map_a" must be declared, in mm "light_map_b" too; the map ends in light_map_a. In mm it is
 /// (exitance, 1) or 0, and atlas_metric is there for read_atlas_metric(); else alpha is the kernel size and 1

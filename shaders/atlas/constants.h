@@ -22,6 +22,11 @@ const int kLookupDisk = 0, kLookupSingle = 1;
 // Specialisation constant detail.
 const int kDetailMap = 0, kDetailPixel = 1;
 
+// Uniform block Skin, detail_kept: of texels from kDetailFirstMm, kDetailPerOctave to each doubling of their
+// side.
+const int kDetailSamples = 49, kDetailPerOctave = 4;
+const float kDetailFirstMm = 1.0f / 64;
+
 // Texels a side of the tiles that are kept or dropped whole.
 const int kCullTile = 8;
 

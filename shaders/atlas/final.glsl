@@ -29,17 +29,37 @@ bool read_light_map(texture2D map, Surface s, int texels, out vec3 exitance) {
 
 layout(constant_id = 4) const int detail = kDetailPixel;
 
-// What the map's texels are too coarse for stays at the pixel: light there, and what the blur adds to the map or takes from
-// it. `map` is blurred, `map_lit` is before the blur. The light at the pixel takes in albedo ^ pre_scatter, as the map does.
+// Of detail_values() in dermis/technique/atlas_light.h.
+layout(scalar) uniform Skin { vec3 detail_kept[kDetailSamples]; };
+
+// The side of a square on the skin, as large as a texel there, or as a pixel where that is larger: what is lit here holds no
+// shorter waves then. The ratio of areas on the skin and in the atlas is that of the first fundamental form.
+float coarser_side_mm(Surface s, vec2 texels) {
+    vec2 across = dFdx(s.uv) * texels, down = dFdy(s.uv) * texels;
+    float pixel_mm2 = length(cross(dFdx(s.p_world_mm), dFdy(s.p_world_mm)));
+    float pixel_texels = abs(across.x * down.y - across.y * down.x);
+    return sqrt(pixel_mm2 / clamp(pixel_texels, 1e-12, 1.0));
+}
+
+vec3 kept_detail(float side_mm) {
+    float at = log2(max(side_mm, kDetailFirstMm) / kDetailFirstMm) * float(kDetailPerOctave);
+    int i = int(min(at, float(kDetailSamples - 2)));
+    return mix(detail_kept[i], detail_kept[i + 1], min(at - float(i), 1.0));
+}
+
+// What the map's texels are too coarse for is added at the pixel, damped as the blur damps it: the light there less that of
+// the map before the blur, `map_lit`. Means of normals are compared, as the two read the normal map at different levels;
+// what normalising adds to the mean is no wave and stays. The light at the pixel takes in albedo ^ pre_scatter, as the map does.
 vec3 scattered_exitance(texture2D map, texture2D map_lit, Surface s, int texels, float pre_scatter) {
     vec3 blurred, lit;
     bool found = read_light_map(map, s, texels, blurred);
     if (found && detail == kDetailMap) return blurred;
-    vec3 here = unblurred_exitance(s);
-    if (pre_scatter > 0.0) here *= pow(s.albedo_linear, vec3(pre_scatter));
-    if (!found) return here;
+    Exitance here = unblurred_exitance(s);
+    vec3 pre = pre_scatter > 0.0 ? pow(s.albedo_linear, vec3(pre_scatter)) : vec3(1.0);
+    if (!found) return here.of_normal * pre;
     read_light_map(map_lit, s, texels, lit);
-    return max(here + blurred - lit, vec3(0.0));
+    vec3 kept = kept_detail(coarser_side_mm(s, vec2(textureSize(sampler2D(map, linear_clamp), 0))));
+    return max(blurred + kept * (here.of_mean * pre - lit) + (here.of_normal - here.of_mean) * pre, vec3(0.0));
 }
 
 // The blur reaches what is near along the surface, however that bends, but not through. Points of one surface that are near

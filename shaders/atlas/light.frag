@@ -17,10 +17,22 @@ layout(location = 0) out vec4 light_out;  // exitance over albedo
 
 const float kLargestWritten = 254.0 / 255.0;
 
+// Where a pixel covers more than a texel, the levels by which the camera reads maps coarser. At one level of detail the map
+// and the pixel have the same light, also where grazing light is clamped, and the map holds no waves that pixels skip.
+float levels_to_the_pixel(Surface s) {
+    const float kLeastCosine = 0.1;
+    float texel_mm = max(length(dFdx(s.p_world_mm)), length(dFdy(s.p_world_mm)));
+    float distance_mm = (view_projection * vec4(s.p_world_mm, 1.0)).w;
+    float cosine = max(abs(dot(s.n_geometry_world, s.to_eye_world)), kLeastCosine);
+    return max(log2(distance_mm * pixel_per_distance / (cosine * max(texel_mm, 1e-9))), 0.0);
+}
+
 void main() {
     Surface s = load_surface();
+    s.n_mean_world = mean_normal_world(s.n_geometry_world, s.uv, levels_to_the_pixel(s));
+    s.n_world = normalize(s.n_mean_world);
     float kernel_size = texture(sampler2D(kernel_size_map, trilinear_repeat), s.uv).r;
-    vec3 exitance = unblurred_exitance(s);
+    vec3 exitance = unblurred_exitance(s).of_mean;
     if (pre_scatter > 0.0) exitance *= pow(s.albedo_linear, vec3(pre_scatter));
     light_out = vec4(exitance, space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten));
 }

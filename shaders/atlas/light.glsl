@@ -34,10 +34,16 @@ vec3 light_exitance(Surface s, int i) {
     return light.irradiance_linear * n_dot_l * shadow_factor(passing(s, i, light.to_light_world));
 }
 
-vec3 unblurred_exitance(Surface s) {
-    vec3 exitance = environment_irradiance(s.n_world) * s.occlusion;
-    for (int i = 0; i < light_count; ++i) exitance += light_exitance(s, i);
-    return exitance;
+// By the shading normal, and by the mean of the normal map's normals that it is made of: N.L of that mean is the mean of N.L.
+struct Exitance {
+    vec3 of_normal, of_mean;
+};
+
+Exitance unblurred_exitance(Surface s) {
+    vec3 direct = vec3(0.0);
+    for (int i = 0; i < light_count; ++i) direct += light_exitance(s, i);
+    return Exitance(environment_irradiance(s.n_world) * s.occlusion + direct,
+                    environment_irradiance(s.n_mean_world) * s.occlusion + direct * length(s.n_mean_world));
 }
 
 #endif

@@ -29,6 +29,7 @@ layout(scalar) uniform Frame {
     float exposure;              // a factor, 2^exposure_ev
     int second_light;            // the first light that is not the key, -1: none
     mat4 second_light_view_projection;
+    float pixel_per_distance;    // side of a pixel over its distance along the view
 };
 
 // Directional: intensity_linear is irradiance at normal incidence; point and spot: irradiance at 1 m.

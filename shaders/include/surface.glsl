@@ -40,6 +40,7 @@ struct Surface {
     vec3 p_world_mm;
     vec3 n_geometry_world;  // interpolated, without the normal map
     vec3 n_world;
+    vec3 n_mean_world;      // of the normal map over the pixel, shorter than 1 where its normals differ
     vec3 to_eye_world;
     vec2 uv;
     vec3 albedo_linear;
@@ -83,7 +84,8 @@ Surface load_surface() {
     s.n_geometry_world = normalize(n_world_in);
     s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
     s.uv = uv_in;
-    s.n_world = normalize(mean_normal_world(s.n_geometry_world, uv_in, 0.0));
+    s.n_mean_world = mean_normal_world(s.n_geometry_world, uv_in, 0.0);
+    s.n_world = normalize(s.n_mean_world);
     s.albedo_linear =
         albedo_linear * color_linear_in.rgb * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
     s.roughness = clamp(roughness * texture(sampler2D(roughness_map, trilinear_repeat), uv_in).r, 0.03, 1.0);

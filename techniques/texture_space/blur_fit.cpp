@@ -44,6 +44,20 @@ Curve damping(double variance_mm2, const Curve& x) {
     return curve;
 }
 
+// What reading between texels leaves of a wave.
+double read_transfer(const BlurFitSettings& settings, double x) {
+    return std::exp(-kBilinearVariance * settings.texel_mm * settings.texel_mm * x);
+}
+
+// What the mean of the taps leaves: a ring of radius r turns a wave of frequency f into J0(2 pi f r) of it,
+// as a mean over the wave's directions.
+double taps_transfer(double radius_mm, const BlurFitSettings& settings, double x) {
+    double sum = 0;
+    for (const TapRing& ring : settings.rings)
+        sum += ring.weight * ::j0(ring.distance * radius_mm * std::sqrt(2 * x));
+    return sum * read_transfer(settings, x);
+}
+
 double squared_error(const Curve& a, const Curve& b) {
     double sum = 0;
     for (size_t i = 0; i < kSamples; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -75,11 +89,6 @@ double fit_shares(const Curve& target, const Curve& reading, const std::vector<C
     return squared_error(product_without(taps.size()), target);
 }
 
-double tap_variance_mm2(double radius_mm, const BlurFitSettings& settings) {
-    return settings.tap_variance * radius_mm * radius_mm +
-           kBilinearVariance * settings.texel_mm * settings.texel_mm;
-}
-
 struct Fit {
     std::vector<double> radii_mm;
     std::array<std::vector<double>, 3> shares;
@@ -90,9 +99,13 @@ Fit fit_at(std::vector<double> radii_mm, const Curves& target, const Curve& x,
            const BlurFitSettings& settings) {
     Fit fit{.radii_mm = std::move(radii_mm), .error = 0};
     std::vector<Curve> taps;
-    for (const double radius_mm : fit.radii_mm)
-        taps.push_back(damping(tap_variance_mm2(radius_mm, settings), x));
-    const Curve reading = damping(kBilinearVariance * settings.texel_mm * settings.texel_mm, x);
+    for (const double radius_mm : fit.radii_mm) {
+        taps.emplace_back();
+        for (size_t i = 0; i < kSamples; ++i) taps.back()[i] = taps_transfer(radius_mm, settings, x[i]);
+    }
+    Curve reading;
+    for (size_t i = 0; i < kSamples; ++i)
+        reading[i] = settings.read_blurs ? read_transfer(settings, x[i]) : 1;
     for (size_t c = 0; c < 3; ++c) {
         fit.shares[c].assign(taps.size(), 0.5);
         fit.error += fit_shares(target[c], reading, taps, fit.shares[c]);
@@ -102,23 +115,17 @@ Fit fit_at(std::vector<double> radii_mm, const Curves& target, const Curve& x,
 
 }  // namespace
 
-Vec3 profile_transfer(const GaussianSum& profile, double x) {
-    double sum[3] = {0, 0, 0}, total[3] = {0, 0, 0};
-    for (const GaussianTerm& term : profile.terms)
-        for (size_t c = 0; c < 3; ++c) {
-            sum[c] += term.weight[c] * std::exp(-term.variance_mm2 * x);
-            total[c] += term.weight[c];
-        }
-    // A colour that the skin does not reflect is not blurred.
-    const auto share = [&](int c) { return total[c] > 0 ? float(sum[c] / total[c]) : 1.0f; };
-    return {share(0), share(1), share(2)};
+double tap_variance(const std::vector<TapRing>& rings) {
+    double sum = 0;
+    for (const TapRing& ring : rings) sum += ring.weight * ring.distance * ring.distance / 2;
+    return sum;
 }
 
 Vec3 blur_transfer(const std::vector<BlurPass>& passes, const BlurFitSettings& settings, double x) {
-    const auto reading = float(std::exp(-kBilinearVariance * settings.texel_mm * settings.texel_mm * x));
+    const float reading = settings.read_blurs ? float(read_transfer(settings, x)) : 1.0f;
     Vec3 product = {reading, reading, reading};
     for (const BlurPass& pass : passes) {
-        const auto taps = float(std::exp(-tap_variance_mm2(double(pass.radius), settings) * x));
+        const auto taps = float(taps_transfer(double(pass.radius), settings, x));
         product = product * (Vec3{1, 1, 1} - pass.share * (1 - taps));
     }
     return product;
@@ -129,7 +136,7 @@ std::vector<BlurPass> fit_blur(const GaussianSum& profile, const BlurFitSettings
     const Curve x = samples_of(profile, settings.texel_mm);
     const Curves target = target_of(profile, x);
     const auto radius_of = [&](double variance_mm2) {
-        return std::sqrt(variance_mm2 / settings.tap_variance);
+        return std::sqrt(variance_mm2 / tap_variance(settings.rings));
     };
     const double widest =
         radius_of(std::ranges::max(profile.terms, {}, &GaussianTerm::variance_mm2).variance_mm2);

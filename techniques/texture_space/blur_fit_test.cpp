@@ -31,7 +31,7 @@ double largest_error(const GaussianSum& profile, const BlurFitSettings& settings
 TEST(BlurFit, four_passes_damp_waves_as_every_skin_profile_does) {
     for (const char* name : {"gpu_gems_3", "jensen_skin1", "openpbr_skin_3"}) {
         const GaussianSum skin = to_gaussian_sum(*find_profile(name)).sum;
-        EXPECT_LT(largest_error(skin, {.passes = 4, .texel_mm = 0.05}, 0.5), 0.05) << name;
+        EXPECT_LT(largest_error(skin, {.passes = 4, .texel_mm = 0.05}, 0.5), 0.06) << name;
         EXPECT_GT(largest_error(skin, {.passes = 1, .texel_mm = 0.05}, 0.5), 0.06) << name;
     }
 }
@@ -52,6 +52,27 @@ TEST(BlurFit, twice_the_profile_on_texels_of_twice_the_size_is_twice_the_radius)
     for (size_t i = 0; i < once.size(); ++i) {
         EXPECT_NEAR(twice[i].radius, 2 * once[i].radius, 1e-4);
         EXPECT_NEAR(twice[i].share.x, once[i].share.x, 1e-4);
+    }
+}
+
+// The eight taps of the filter gaussian, summed one by one.
+TEST(BlurFit, the_damping_of_a_pass_is_that_of_its_taps_over_all_directions) {
+    const BlurFitSettings settings{.texel_mm = 1e-3};
+    const BlurPass pass{.radius = 2, .share = {1, 1, 1}};
+    constexpr int kDirections = 360;
+    for (const double wave_mm : {30.0, 10.0, 5.0, 3.0}) {
+        double sum = 0;
+        for (int i = 0; i < kDirections; ++i)
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    if (dx == 0 && dy == 0) continue;
+                    const double angle = 2 * std::numbers::pi * i / kDirections;
+                    const double along_mm = 2 * (dx * std::cos(angle) + dy * std::sin(angle));
+                    sum += (2 - std::abs(dx)) * (2 - std::abs(dy)) / 12.0 *
+                           std::cos(2 * std::numbers::pi * along_mm / wave_mm);
+                }
+        const double x = 2 * std::numbers::pi * std::numbers::pi / (wave_mm * wave_mm);
+        EXPECT_NEAR(blur_transfer({pass}, settings, x).x, sum / kDirections, 1e-4) << wave_mm;
     }
 }
 

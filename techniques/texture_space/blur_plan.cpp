@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "techniques/texture_space/params.h"
 
@@ -14,21 +15,31 @@ constexpr int kMaxPasses = 16;
 constexpr int kSourceSize = 512;
 constexpr float kSourceScale = 3, kSourceBias = 2;
 
-// The taps of a filter without its centre: variance along one axis at radius 1, and their share of the
-// published filter, which includes the centre.
+// The taps of a filter without its centre, and their share of the published filter, which includes the
+// centre.
 struct Taps {
-    double variance = 0;
+    std::vector<TapRing> rings;
     float share = 1;
 };
+
+// The disk of twelve points as three rings of an even disk of the same variance, 0.3442 along one axis.
+std::vector<TapRing> poisson_rings() {
+    constexpr int kRings = 3;
+    const double radius = std::sqrt(4 * 0.3442);
+    std::vector<TapRing> rings;
+    for (int i = 0; i < kRings; ++i)
+        rings.push_back({.distance = radius * std::sqrt((i + 0.5) / kRings), .weight = 1.0 / kRings});
+    return rings;
+}
 
 Taps taps_of(Filter filter) {
     switch (filter) {
         case Filter::poisson:
-            return {0.3442, 12.0f / 13};
+            return {poisson_rings(), 12.0f / 13};
         case Filter::gaussian:
-            return {2.0 / 3, 12.0f / 16};
+            return {{{1, 2.0 / 3}, {std::numbers::sqrt2, 1.0 / 3}}, 12.0f / 16};
         case Filter::box:
-            return {0.75, 8.0f / 9};
+            return {{{1, 0.5}, {std::numbers::sqrt2, 0.5}}, 8.0f / 9};
         case Filter::kawase:
             break;
     }
@@ -57,9 +68,10 @@ std::vector<BlurPass> passes_of_profile(const Params& params, const FrameContext
             variances.push_back(kawase_variance_texels(i));
         return equal_passes(nearest_pass_count(frame.skin_gaussians, variances, texel), 1);
     }
-    std::vector<BlurPass> passes = fit_blur(
-        frame.skin_gaussians,
-        {.passes = params.blur_passes, .tap_variance = taps_of(params.filter).variance, .texel_mm = texel});
+    std::vector<BlurPass> passes = fit_blur(frame.skin_gaussians, {.passes = params.blur_passes,
+                                                                   .rings = taps_of(params.filter).rings,
+                                                                   .texel_mm = texel,
+                                                                   .read_blurs = !plan.keeps_lit});
     if (!plan.in_mm)
         for (BlurPass& pass : passes) pass.radius /= float(texel);
     return passes;
@@ -91,6 +103,16 @@ BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
     return plan;
 }
 
+GaussianSum set_blur(const Params& params) {
+    double variance = 0;
+    for (int i = 0; i < params.blur_passes; ++i)
+        variance += params.filter == Filter::kawase
+                        ? kawase_variance_texels(i)
+                        : double(taps_of(params.filter).share) * tap_variance(taps_of(params.filter).rings) *
+                              double(params.blur_bias * params.blur_bias);
+    return {.terms = {{.variance_mm2 = variance}}};
+}
+
 float widest_tap(Filter filter, size_t pass) {
     return filter == Filter::kawase ? 0.5f + float(pass) : 1.0f;
 }
@@ -103,7 +125,9 @@ Params coarse_params(Params params, float scale) {
     const int32_t size = params.atlas.light_map_size;
     params.atlas = coarse_light_map(params.atlas, scale);
     if (params.filter == Filter::kawase) return params;
-    const int32_t passes = (params.blur_passes + 1) / 2;
+    // Half of the passes of a fit to the profile are rings of taps that show.
+    const int32_t passes =
+        params.blur == Blur::profile ? (3 * params.blur_passes + 3) / 4 : (params.blur_passes + 1) / 2;
     float wider = passes > 0 ? std::sqrt(float(params.blur_passes) / float(passes)) : 1.0f;
     if (params.space == Space::texels) wider *= float(params.atlas.light_map_size) / float(size);
     params.blur_passes = passes;

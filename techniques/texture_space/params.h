@@ -66,10 +66,14 @@ struct BlurPlan {
 
 [[nodiscard]] BlurPlan blur_plan(const Params& params, const FrameContext& frame);
 
+/// blur=set as one Gaussian of the passes' variance where the kernel map is 0, in mm^2, or texels^2 with
+/// space=texels.
+[[nodiscard]] GaussianSum set_blur(const Params& params);
+
 /// The farthest tap of a pass along one axis of the atlas, in radii of its filter.
 [[nodiscard]] float widest_tap(Filter filter, size_t pass);
 
-/// A smaller light map, and half of the blur's passes at a width that is the same: for Technique::coarse.
+/// A smaller light map, and fewer of the blur's passes at a width that is the same: for Technique::coarse.
 [[nodiscard]] Params coarse_params(Params params, float scale);
 
 }  // namespace dermis::texture_space

@@ -20,6 +20,7 @@ using texture_space::Dilate;
 using texture_space::Filter;
 using texture_space::Params;
 using texture_space::Seams;
+using texture_space::Space;
 
 constexpr const char* kOwnView = "light_map";
 
@@ -162,6 +163,15 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
     return transmission_tables(values.as<Params>().atlas.transmission, skin);
 }
 
+// A blur that is set takes the place of the profile.
+Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
+    const Params params = values.as<Params>();
+    const GaussianSum blur = params.blur == Blur::profile ? skin.gaussians : texture_space::set_blur(params);
+    const bool in_texels = params.blur == Blur::set && params.space == Space::texels;
+    return detail_values(
+        [&](double texel_mm) { return kept_of_shortest_wave(blur, in_texels ? 1.0 : texel_mm); });
+}
+
 }  // namespace
 
 Technique make_texture_space_technique() {
@@ -172,6 +182,7 @@ Technique make_texture_space_technique() {
             .views = {kOwnView},
             .build = build,
             .tables = tables,
+            .skin_values = skin_values,
             .coarse = coarse,
             .figures = texture_space_figures};
 }

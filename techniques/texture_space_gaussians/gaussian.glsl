@@ -22,10 +22,17 @@ float spacing() {
     return inversesqrt(second_moment / sum);
 }
 
+// Sigma of the taps, in texels, for a Gaussian of this variance in texels^2, reads between texels included: these add 1/6
+// along each axis that they lie off, so 1/4 for both passes as a mean over the directions of the steps. Offsets under
+// half a texel have a variance of their own length instead of its square.
+float tap_sigma_texels(float variance) { return variance < 0.5 ? variance : sqrt(variance - 0.25); }
+
 vec4 gaussian() {
     BlurCentre centre = blur_centre(ivec2(gl_FragCoord.xy));
     if (!centre.is_skin) return vec4(0.0);
-    float step_mm = sigma_mm * spacing();
+    float texels_per_mm = sqrt(max(abs(centre.steps.x * centre.steps.w - centre.steps.y * centre.steps.z), 1e-12));
+    float variance = sigma_mm * texels_per_mm;
+    float step_mm = tap_sigma_texels(variance * variance) / texels_per_mm * spacing();
     vec4 sum = vec4(0.0);
     for (int k = -half_taps; k <= half_taps; ++k) {
         float weight = exp(-0.5 * float(k * k) * 9.0 / float(half_taps * half_taps));

@@ -150,6 +150,13 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
     return transmission_tables(values.as<Params>().atlas.transmission, skin);
 }
 
+Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
+    const auto width = double(values.as<Params>().width);
+    GaussianSum blur = skin.gaussians;
+    for (GaussianTerm& term : blur.terms) term.variance_mm2 *= width * width;
+    return detail_values([&](double texel_mm) { return kept_of_shortest_wave(blur, texel_mm); });
+}
+
 }  // namespace
 
 Technique make_texture_space_gaussians_technique() {
@@ -160,6 +167,7 @@ Technique make_texture_space_gaussians_technique() {
             .views = {kOwnView},
             .build = build,
             .tables = tables,
+            .skin_values = skin_values,
             .coarse = coarse};
 }
 
