@@ -32,7 +32,7 @@ inline constexpr float kMaxBlurRadius = 64;
 struct Params {
     AtlasParams atlas;
     Blur blur = Blur::profile;
-    Filter filter = Filter::gaussian;
+    Filter filter = Filter::poisson;
     int32_t blur_passes = 4;
     float blur_scale = 2;
     float blur_bias = 1;
@@ -57,7 +57,7 @@ struct Params {
 /// Radii are radius * (kernel map * kernel_scale + kernel_bias), in mm or texels.
 struct BlurPlan {
     int size = 1024;  ///< of the light map
-    Filter filter = Filter::gaussian;
+    Filter filter = Filter::poisson;
     bool in_mm = true;
     bool keeps_lit = true;  ///< the map before the blur is read by the final mesh too
     float kernel_scale = 0, kernel_bias = 1;
