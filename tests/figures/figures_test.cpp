@@ -158,7 +158,7 @@ TEST_F(Figures, of_texture_space_show_what_they_are_about) {
         ASSERT_TRUE(result) << result.error().message;
         for (const CellReport& cell : result->cells)
             if (!cell.compared_to.empty()) {
-                EXPECT_GT(cell.difference.flip, 0.013) << id << ", " << cell.label;
+                EXPECT_GT(cell.difference.flip, 0.010) << id << ", " << cell.label;
             }
     }
 }

@@ -38,7 +38,7 @@ class AtlasCull : public RenderTest {
     /// 12 views around the head or every `step`-th of them, each third from nearby; the share of lit texels
     /// that culling keeps, summed.
     static void expect_same_in_12_views(const std::string& name, const Settings& more,
-                                        const char* technique = "texture_space", double share = 0.85,
+                                        const char* technique = "texture_space", double share = 0.92,
                                         int step = 1) {
         Scene scene = load(name);
         Renderer renderer = make_renderer(scene);
