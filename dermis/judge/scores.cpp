@@ -8,6 +8,9 @@
 namespace dermis {
 namespace {
 
+// The mean of a pixel's points that are all skin may round below 1, as that of 12 x 12 does.
+constexpr float kWhole = 1 - 1e-5f;
+
 bool covers_anything(const Image& mask) {
     return std::ranges::any_of(mask.floats(), [](float v) { return v > 0; });
 }
@@ -25,7 +28,7 @@ SkinMasks make_masks(const Image& light, const Image& drawn, const Image& skin) 
     SkinMasks masks{Image(skin.width, skin.height, 1), Image(skin.width, skin.height, 1),
                     Image(skin.width, skin.height, 1)};
     for (size_t i = 0; i < skin.pixel_count(); ++i) {
-        if (drawn.floats()[i] < 1 || skin.floats()[i] < 1) continue;
+        if (drawn.floats()[i] < kWhole || skin.floats()[i] < kWhole) continue;
         masks.skin.floats()[i] = 1;
         const float n_dot_l = light.floats()[4 * i + 2], visibility = light.floats()[4 * i + 3];
         if (std::abs(n_dot_l) < kTerminatorCosine) masks.terminator.floats()[i] = 1;

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "dermis/image/resample.h"
 #include "dermis/judge/heat_map.h"
 
 using namespace dermis;
@@ -65,6 +67,15 @@ TEST(Scores, pixels_that_only_one_renderer_calls_skin_do_not_count) {
     EXPECT_EQ(m.skin.at(2, 2, 0), 0);
     EXPECT_EQ(m.skin.at(3, 3, 0), 0);
     EXPECT_EQ(sum(m.skin), kScoredSide * kScoredSide - 2);
+}
+
+TEST(Scores, pixels_whose_points_are_all_skin_count_for_any_number_of_points) {
+    for (int points_a_side = 1; points_a_side <= 20; ++points_a_side) {
+        Image covered(kScoredSide * points_a_side, kScoredSide * points_a_side, 1);
+        std::ranges::fill(covered.floats(), 1.0f);
+        const SkinMasks m = make_masks(even(0, 4), resize(covered, kScoredSide, kScoredSide), even(1, 1));
+        EXPECT_EQ(sum(m.skin), kScoredSide * kScoredSide) << points_a_side;
+    }
 }
 
 TEST(Scores, an_error_counts_where_it_is_and_nowhere_else) {
