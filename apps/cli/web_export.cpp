@@ -1,6 +1,9 @@
 #include "web_export.h"
 
+#include <algorithm>
+
 #include "catalog/catalog.h"
+#include "dermis/bake/shadow_ramp.h"
 #include "dermis/base/text.h"
 #include "dermis/image/skin_colour.h"
 #include "dermis/optics/gaussian_fit.h"
@@ -8,12 +11,21 @@
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/skin_tone.h"
 #include "dermis/scene/load_scene.h"
+#include "techniques/preintegrated/constants.h"
 
 namespace dermis::cli {
 namespace {
 
 constexpr const char* kNumerals[] = {"I", "II", "III", "IV", "V", "VI"};
-constexpr float kShadowWidthMm = 3;
+constexpr std::string_view kSharedShaders[] = {"shaders/include/constants.h", "shaders/renderer/constants.h",
+                                               "techniques/preintegrated/constants.h",
+                                               "shaders/renderer/tone_map.glsl"};
+
+Result<TableImage> table_of(std::span<const TableImage> tables, std::string_view name) {
+    const auto table = std::ranges::find(tables, name, &TableImage::name);
+    if (table == tables.end()) return Error{"the technique makes no table " + std::string(name)};
+    return *table;
+}
 
 // What a technique gives the page for one skin, with its default settings.
 class ToneMaker {
@@ -33,13 +45,18 @@ class ToneMaker {
         Result<Profile> profile = find_profile(profile_name);
         if (!profile) return profile.error();
         SkinContext skin = {.profile = *profile, .gaussians = to_gaussian_sum(*profile).sum};
-        Result<std::vector<TableImage>> tables = technique_.tables(values_, skin);
+        const Result<std::vector<TableImage>> tables = technique_.tables(values_, skin);
         if (!tables) return tables.error();
+        const Result<TableImage> diffuse = table_of(*tables, "skin_lut"),
+                                 rows = table_of(*tables, "skin_rows");
+        if (!diffuse) return diffuse.error();
+        if (!rows) return rows.error();
         WebTone tone = {.name = name,
                         .description = profile->name,
                         .albedo_tint_linear = tint_linear,
                         .mean_albedo_linear = mean_linear * tint_linear,
-                        .tables = std::move(*tables)};
+                        .diffuse_table = *diffuse,
+                        .rows_table = *rows};
         const PassList list = technique_.build(values_, {.skin_gaussians = skin.gaussians});
         for (const auto& [value_name, value] : list.passes.front().values)
             for (size_t i = 0; i < tone.occlusion_weights.size(); ++i)
@@ -86,6 +103,8 @@ Result<WebPage> make_web_page(const std::string& scene_name, const std::string& 
                                   .tones = std::move(*tones),
                                   .functions = built_in_skin_sources(),
                                   .texts = built_in_web_texts(),
+                                  .shared_shaders = kSharedShaders,
+                                  .table_max_curvature_per_mm = kMaxCurvaturePerMm,
                                   .shadow_width_mm = kShadowWidthMm});
 }
 

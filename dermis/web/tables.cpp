@@ -12,30 +12,27 @@
 namespace dermis::web {
 namespace {
 
-// The renderer's table goes to 1 per mm; more than this a head has in a few creases only.
+// The renderer's table goes further; more than this a head has in a few creases only.
 constexpr int kTableWidth = 128, kTableHeight = 64;
-constexpr float kMaxCurvaturePerMm = 0.6f;
+constexpr float kPageCurvaturePerMm = 0.6f;
 // Of the rows, half of theirs.
 constexpr int kRowWidth = 129;
-constexpr float kBakedCurvaturePerMm = 1.0f;
 // Of the prefiltered cube the level of 128 texels is for mirrors.
 constexpr int kFirstLevel = 1;
 
-Result<Image> table_of(const WebTone& tone, std::string_view name) {
-    const auto table = std::ranges::find(tone.tables, name, &TableImage::name);
-    if (table == tone.tables.end() || table->format != ImageFormat::rgba32f)
-        return Error{"the technique makes no table " + std::string(name) + " of 32-bit floats"};
-    Image image(table->width, table->height, 4);
-    std::memcpy(image.floats().data(), table->bytes.data(), table->bytes.size());
+Result<Image> image_of(const TableImage& table) {
+    if (table.format != ImageFormat::rgba32f) return Error{"table " + table.name + " is not rgba32f"};
+    Image image(table.width, table.height, 4);
+    std::memcpy(image.floats().data(), table.bytes.data(), table.bytes.size());
     return image;
 }
 
 // The whole texture covers the range, so texel centres lie half a texel inside.
-void put_diffuse(Binary& binary, const Image& baked) {
+void put_diffuse(Binary& binary, const Image& baked, float baked_curvature_per_mm) {
     for (int y = 0; y < kTableHeight; ++y)
         for (int x = 0; x < kTableWidth; ++x) {
             const Vec2 uv = {(float(x) + 0.5f) / kTableWidth,
-                             (float(y) + 0.5f) / kTableHeight * kMaxCurvaturePerMm / kBakedCurvaturePerMm};
+                             (float(y) + 0.5f) / kTableHeight * kPageCurvaturePerMm / baked_curvature_per_mm};
             const Vec4 light = sample_bilinear(baked, uv);
             binary.put(shared_exponent({light.x, light.y, light.z}));
         }
@@ -61,21 +58,22 @@ nlohmann::json to_json(Vec3 v) {
     return nlohmann::json::array({to_json(v.x), to_json(v.y), to_json(v.z)});
 }
 
-Result<nlohmann::json> add_tables(Binary& binary, std::span<const WebTone> tones) {
+Result<nlohmann::json> add_tables(Binary& binary, std::span<const WebTone> tones,
+                                  float baked_curvature_per_mm) {
     nlohmann::json made;
     made["diffuse"] = {{"offset", binary.begin_block()},
                        {"width", kTableWidth},
                        {"height", kTableHeight},
-                       {"max_curvature_per_mm", kMaxCurvaturePerMm}};
+                       {"max_curvature_per_mm", kPageCurvaturePerMm}};
     for (const WebTone& tone : tones) {
-        const Result<Image> table = table_of(tone, "skin_lut");
+        const Result<Image> table = image_of(tone.diffuse_table);
         if (!table) return table.error();
-        put_diffuse(binary, *table);
+        put_diffuse(binary, *table, baked_curvature_per_mm);
     }
     nlohmann::json& rows = made["rows"];
     rows = {{"offset", binary.begin_block()}, {"width", kRowWidth}, {"height", 0}};
     for (const WebTone& tone : tones) {
-        const Result<Image> table = table_of(tone, "skin_rows");
+        const Result<Image> table = image_of(tone.rows_table);
         if (!table) return table.error();
         rows["height"] = table->height;
         for (int y = 0; y < table->height; ++y) put_row(binary, *table, y);

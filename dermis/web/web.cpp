@@ -19,10 +19,6 @@ using nlohmann::json;
 using web::to_json;
 
 constexpr std::string_view kPageFolder = "packages/web/";
-// The renderer's own files that the page's shader includes, in the order in which they go into shared.glsl.
-constexpr std::string_view kSharedShaders[] = {"shaders/include/constants.h", "shaders/renderer/constants.h",
-                                               "techniques/preintegrated/constants.h",
-                                               "shaders/renderer/tone_map.glsl"};
 constexpr size_t kMaxTones = 16, kMaxLights = 4;
 
 std::vector<std::byte> to_bytes(std::string_view text) {
@@ -54,7 +50,7 @@ Result<void> add_texts(const WebInput& input, std::vector<WebFile>& files) {
     if (!license) return license.error();
     files.push_back({"LICENSE.txt", to_bytes(*license)});
     std::string shared;
-    for (const std::string_view path : kSharedShaders) {
+    for (const std::string_view path : input.shared_shaders) {
         const Result<std::string> text = text_of(input.texts, path);
         if (!text) return text.error();
         shared += "// " + std::string(path) + "\n" + without_includes(*text) + "\n";
@@ -170,7 +166,7 @@ Result<json> object_json(const WebInput& input, size_t index, web::Binary& binar
 
 Result<json> scene_json(const WebInput& input, web::Binary& binary, WebPage& page) {
     const Scene& scene = input.scene;
-    Result<json> tables = web::add_tables(binary, input.tones);
+    Result<json> tables = web::add_tables(binary, input.tones, input.table_max_curvature_per_mm);
     if (!tables) return tables.error();
     Result<json> environment = web::add_environment(binary, scene.environment);
     if (!environment) return environment.error();

@@ -29,8 +29,9 @@ struct WebTone {
     std::string description;  ///< the profile's name
     Vec3 albedo_tint_linear = {1, 1, 1};
     Vec3 mean_albedo_linear;  ///< tint included: the button's colour
-    /// skin_lut and skin_rows of the technique `preintegrated`.
-    std::vector<TableImage> tables;
+    /// Both rgba32f: diffuse light over N.L from -1 to 1 and curvature from 0 to
+    /// WebInput::table_max_curvature_per_mm, and the rows that the page's shader reads by number.
+    TableImage diffuse_table, rows_table;
     std::array<Vec3, 3> occlusion_weights;  ///< of the occlusion's three blurs
 };
 
@@ -38,11 +39,15 @@ struct WebInput {
     const Scene& scene;
     std::vector<WebTone> tones;                  ///< 1 to 16; the first is shown first
     std::span<const shading::Source> functions;  ///< shaders/include/skin
-    /// packages/web by path, and the shaders that kSharedShaders (web.cpp) names.
+    /// packages/web by path, and the shaders of `shared_shaders`.
     std::span<const shading::Source> texts;
+    /// The renderer's own files that the page's shader includes, in the order in which they go into
+    /// shared.glsl.
+    std::span<const std::string_view> shared_shaders;
     int map_side = 1024;             ///< larger maps are made smaller
     size_t triangle_count = 30'000;  ///< of each object, at most, where its seams allow it
-    float shadow_width_mm = 3;       ///< that skin_rows was made for
+    float table_max_curvature_per_mm = 1;
+    float shadow_width_mm = 3;  ///< that the row of a shadow's edge was made for
 };
 
 /// `path` is relative to the folder, with '/'.
@@ -56,8 +61,8 @@ struct WebPage {
     std::vector<std::string> warnings;  ///< what of the scene the page does not show
 };
 
-/// The same input gives the same bytes. Errors: no skin, a map that cannot be read, a technique without these
-/// tables.
+/// The same input gives the same bytes. Errors: no skin, a map that cannot be read, a table of another
+/// format.
 [[nodiscard]] Result<WebPage> make_web_page(const WebInput& input);
 
 }  // namespace dermis

@@ -9,9 +9,6 @@ uniform samplerCube environment_cube;
 uniform vec2 environment_levels;  // how many, and the first one's number
 uniform sampler2D environment_brdf;
 
-const int kShadowTaps = 24;
-const float kGoldenAngle = 2.39996323;
-
 vec3 shadow_map_position(vec3 p) {
     vec4 clip = light_view_projection * vec4(p, 1.0);
     return clip.xyz * 0.5 + 0.5;

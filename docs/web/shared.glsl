@@ -32,6 +32,10 @@ const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
 const float kShadowConcavity = 0.1;  // curvature times the disk's radius, up to which the disk is lifted
 const float kShadowFacetLift = 0.3;  // in radii: the tangent plane of a smooth normal cuts through the facets
 const float kShadowMaxSlope = 4.0;   // of the plane against the light: 76 degrees
+const int kShadowTaps = 24;
+
+// Between the points of a Vogel spiral, radians (Vogel 1979).
+const float kGoldenAngle = 2.39996323;
 
 // Variances along one axis of the three blurs of the occlusion at the vertices: less than 0.5 counts as
 // sharp, and no Gaussian of skin is wider than 8.
@@ -106,6 +110,12 @@ const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowCount = 5, kRowTex
 
 // 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
+
+// Of a shadow's edge without a table (dermis/optics/edge_expression.h).
+const int kEdgeWeights = 6;
+
+// N.L up to which a shadow's edge is as wide as the penumbra, and from which it scatters.
+const float kGrazing = 0.3, kSteep = 0.7;
 
 #ifdef __cplusplus
 }  // namespace dermis

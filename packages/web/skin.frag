@@ -147,7 +147,7 @@ void main() {
     vec3 reflected = environment_specular(n_sharp, v, roughness, reflectance, open);
     for (int i = 0; i < light_count; ++i) {
         vec3 l = to_light[i];
-        float part = scatters ? smoothstep(0.3, 0.7, dot(n, l)) : 0.0;
+        float part = scatters ? smoothstep(kGrazing, kSteep, dot(n, l)) : 0.0;
         float visibility = casts_shadow[i] ? shadow_visibility(p_mm, n, l, mix(penumbra_mm, shadow_width_mm, part)) : 1.0;
         vec3 response = scatters ? direct_skin(s, l, visibility, part) : vec3(max(dot(n_sharp, l), 0.0) * visibility);
         exitance += irradiance_linear[i] * response;

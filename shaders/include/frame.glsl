@@ -8,8 +8,6 @@
 #include "shaders/include/constants.h"
 #include "shaders/include/skin/pi.glsl"
 
-const float kGoldenAngle = 2.39996323;
-
 layout(scalar) uniform Frame {
     mat4 view_projection;
     mat4 inverse_view_projection;

@@ -14,7 +14,6 @@ layout(constant_id = 30) const int tinted_shadows = 0;
 // Where it is known to be 1, nothing is compiled that looks for another map: a software device takes every branch.
 layout(constant_id = 32) const int shadow_map_count = kMaxShadowMaps;
 
-const int kShadowTaps = 24;
 const int kTintTaps = 12;
 
 // Point `index` of a Vogel spiral: even cover of the unit disk by any number of points (Vogel 1979).

@@ -32,6 +32,12 @@ const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowCount = 5, kRowTex
 // 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
 
+// Of a shadow's edge without a table (dermis/optics/edge_expression.h).
+const int kEdgeWeights = 6;
+
+// N.L up to which a shadow's edge is as wide as the penumbra, and from which it scatters.
+const float kGrazing = 0.3, kSteep = 0.7;
+
 #ifdef __cplusplus
 }  // namespace dermis
 #endif

@@ -14,7 +14,7 @@
 namespace dermis::preintegrated {
 namespace {
 
-static_assert(size_t(kPolynomialTerms) == kExpressionTerms);
+static_assert(size_t(kPolynomialTerms) == kExpressionTerms && size_t(kEdgeWeights) == kEdgeTerms);
 
 constexpr int kRampSteps = 129;
 

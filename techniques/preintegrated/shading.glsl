@@ -23,7 +23,6 @@ layout(constant_id = 3) const int shadow = kShadowScattered;
 #define DERMIS_SHADOW_WIDTH_MM shadow_filter_mm(s.n_geometry_world, light.to_light_world)
 
 // At grazing light a wider filter than the penumbra would light skin that is in shadow.
-const float kGrazing = 0.3, kSteep = 0.7;
 float scattered_shadow_part(vec3 n_world, vec3 to_light_world) {
     return shadow == kShadowScattered ? smoothstep(kGrazing, kSteep, dot(n_world, to_light_world)) : 0.0;
 }

@@ -14,7 +14,7 @@ layout(scalar) uniform Skin {
     vec3 zonal_0[kPolynomialTerms], zonal_1[kPolynomialTerms], zonal_2[kPolynomialTerms];
     float curvature_knee;
     // dermis/optics/edge_expression.h; squared widths.
-    vec3 edge[6], edge_width2[2];
+    vec3 edge[kEdgeWeights], edge_width2[2];
     // Weights that sum to 1 in each channel, variance in mm^2.
     vec4 gaussians[kMaxGaussians];
     int gaussian_count;
