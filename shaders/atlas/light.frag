@@ -5,7 +5,7 @@
 // alpha is 1 where skin was written, the target is cleared to 0, and the size is in the atlas's metric.
 #include "shaders/atlas/light.glsl"
 
-uniform texture2D kernel_size_map;
+uniform sampler2D kernel_size_map;
 
 layout(constant_id = 12) const int space = kSpaceTexels;
 
@@ -31,7 +31,7 @@ void main() {
     Surface s = load_surface();
     s.n_mean_world = mean_normal_world(s.n_geometry_world, s.uv, levels_to_the_pixel(s));
     s.n_world = normalize(s.n_mean_world);
-    float kernel_size = texture(sampler2D(kernel_size_map, trilinear_repeat), s.uv).r;
+    float kernel_size = texture(kernel_size_map, s.uv).r;
     vec3 exitance = unblurred_exitance(s).of_mean;
     if (pre_scatter > 0.0) exitance *= pow(s.albedo_linear, vec3(pre_scatter));
     light_out = vec4(exitance, space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten));
