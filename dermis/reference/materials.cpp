@@ -146,7 +146,7 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .roughness = material.roughness,
                        .f0 = float(f0_of_eta(material.ior)) * material.specular,
                        .metallic = is_skin ? 0 : material.metallic,
-                       .opacity = cut_out ? 1 : material.opacity,
+                       .opacity = is_skin || cut_out ? 1 : material.opacity,
                        .occlusion = occlusion_at(surface, hit),
                        .material_class = e.material_class};
     if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;
