@@ -137,6 +137,7 @@ Result<Texture> Texture::upload(Device& device, const TextureData& data) {
     state->image = std::move(*image);
     state->name = data.name;
     state->bytes_per_texel = dermis::bytes_per_texel(data.format);
+    state->sampler = device.state().map_sampler(data.address_u, data.address_v);
     return Texture(std::move(state));
 }
 
