@@ -89,6 +89,7 @@ Device::State::~State() {
     pipeline_cache = {};
     uploads = {};
     samplers = {};
+    map_samplers = {};
     context.vk.vkDestroyDevice(context.device, nullptr);
 }
 

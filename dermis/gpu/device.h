@@ -53,6 +53,9 @@ class Device {
     std::unique_ptr<State> state_;
 };
 
+/// What a texture has beyond its edges.
+enum class AddressMode { repeat, clamp, mirror };
+
 /// Mip levels from large to small, layers (6 faces of a cube, in +X -X +Y -Y +Z -Z order) inside each level.
 struct TextureData {
     std::string name;
@@ -62,6 +65,8 @@ struct TextureData {
     bool cube = false;
     std::vector<std::byte> bytes;
     bool generate_mips = false;  ///< on the device, from level 0 (bytes holds level 0 only)
+    AddressMode address_u = AddressMode::repeat,
+                address_v = AddressMode::repeat;  ///< where a shader has a sampler2D
 };
 
 class Texture {

@@ -136,6 +136,7 @@ Result<Texture> Texture::upload(Device& device, const TextureData& data) {
     auto state = std::make_unique<State>();
     state->image = std::move(*image);
     state->name = data.name;
+    state->sampler = device.state().map_sampler(data.address_u, data.address_v);
     return Texture(std::move(state));
 }
 

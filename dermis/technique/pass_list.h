@@ -4,8 +4,9 @@
 //
 // Names tie it together. A texture, block or specialisation constant in a shader is bound to what carries its
 // name: an image of this list, an input of the frame (shadow_map, environment_cube, ...), a map of the
-// material being drawn, or a value. Samplers have fixed names: linear_clamp, linear_repeat, nearest_clamp,
-// trilinear_repeat, trilinear_clamp, shadow_compare.
+// material being drawn, or a value. A map is a sampler2D, with the address modes that its material states.
+// Everything else is a texture2D, and samplers have fixed names: linear_clamp, nearest_clamp,
+// trilinear_clamp, shadow_compare.
 
 #include <array>
 #include <cstdint>
