@@ -5,6 +5,7 @@
 #include "shaders/include/environment.glsl"
 #include "shaders/include/lights.glsl"
 #include "shaders/atlas/shadow_channels.glsl"
+#include "shaders/include/reduced_diffuse.glsl"
 #include "shaders/include/surface.glsl"
 
 // Of dermis::AtlasParams, what shaders need.
@@ -31,7 +32,7 @@ vec3 light_exitance(Surface s, int i) {
     LightSample light = sample_light(i, s.p_world_mm);
     float n_dot_l = dot(s.n_world, light.to_light_world);
     if (n_dot_l <= 0.0) return vec3(0.0);
-    return light.irradiance_linear * n_dot_l * shadow_factor(passing(s, i, light.to_light_world));
+    return light.irradiance_linear * n_dot_l * diffuse_entry(s, n_dot_l) * shadow_factor(passing(s, i, light.to_light_world));
 }
 
 // By the shading normal, and by the mean of the normal map's normals that it is made of: N.L of that mean is the mean of N.L.

@@ -37,6 +37,6 @@ void main() {
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
     exitance += transmitted;
-    vec3 diffuse_radiance = s.albedo_linear * exitance / kPi;
+    vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);
 }
