@@ -20,6 +20,15 @@ void print_warning(std::string_view text) {
     print_message("warning: " + std::string(text));
 }
 
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 Result<Size> parse_size(std::string_view text) {
     const std::vector<std::string_view> sides = split(text, 'x');
     const auto side = [](std::string_view part) -> int {
@@ -151,6 +160,7 @@ void CommandLine::when_chosen(Command* command, Action run) {
 }
 
 std::optional<int> CommandLine::parse(int argc, char** argv) {
+    words.assign(argv + std::min(argc, 1), argv + argc);
     // CLI11 would say only that a subcommand is missing.
     if (argc >= 2 && argv[1][0] != '-' && !find(argv[1])) {
         std::vector<std::string> names;

@@ -86,6 +86,8 @@ class CommandLine {
     /// wrong.
     [[nodiscard]] std::optional<int> parse(int argc, char** argv);
     Action action;
+    /// What was parsed, without the program's name.
+    std::vector<std::string> words;
 
   private:
     std::unique_ptr<CLI::App> app_;
@@ -102,6 +104,9 @@ struct Size {
 /// One line on the error stream, whatever file names and values it quotes (printable_line).
 void print_message(std::string_view text);
 void print_warning(std::string_view text);
+
+/// Quoted for a shell where it has to be.
+[[nodiscard]] std::string shell_word(const std::string& word);
 
 /// Generated: calls add_NAME_command of every commands/NAME.cpp.
 void add_all_commands(CommandLine& line);

@@ -1,12 +1,17 @@
 #include "reference_options.h"
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "dermis/base/text.h"
+#include "dermis/judge/reference_cache.h"
+#include "dermis/render/complete_scene.h"
 #include "render_options.h"
 
 namespace dermis::cli {
 namespace {
 
-constexpr int kSamples = 64, kMostSamples = 65536;
+constexpr int kSamples = 64;
 
 template <class Enum>
 struct Named {
@@ -110,6 +115,58 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
     return chosen;
 }
 
+Result<std::optional<SampleRange>> ReferenceOptions::range(const ReferenceSettings& settings) const {
+    if (sample_range.empty()) return std::optional<SampleRange>();
+    const std::vector<std::string_view> ends = split(sample_range, ':');
+    std::vector<int> numbers;
+    for (const std::string_view text : ends)
+        if (const std::optional<double> number = parse_number(trim(text));
+            number && *number >= 0 && *number <= kMostSamples && *number == std::floor(*number))
+            numbers.push_back(int(*number));
+    if (ends.size() != 2 || numbers.size() != 2)
+        return Error{"--sample-range '" + sample_range + "': write BEGIN:END, such as 0:16"};
+    const SampleRange chosen = {numbers[0], numbers[1]};
+    if (Result<void> good = check_range(settings, chosen); !good)
+        return Error{"--sample-range " + sample_range + ": " + good.error().message};
+    if (!preview.empty())
+        return Error{"--preview " + preview +
+                     ": a part of a picture has none; dermis merge --preview makes it"};
+    return std::optional(chosen);
+}
+
+Result<Scene> ReferenceOptions::load_scene() const {
+    Result<Scene> loaded = scene.load();
+    if (!loaded) return loaded;
+    // The renderer's approximation needs the vertices' occlusion.
+    if (ambient == "renderer")
+        if (Result<void> completed = complete_scene(*loaded); !completed) return completed.error();
+    if (!profile.empty()) loaded->skin.profile = profile;
+    return loaded;
+}
+
+PictureFacts ReferenceOptions::facts(const ReferenceSettings& settings, const Scene& loaded) const {
+    // What only the picture knows has its place already.
+    const nlohmann::ordered_json facts_json = {
+        {"scene", scene.name},       {"integrator", integrator},
+        {"width", settings.width},   {"height", settings.height},
+        {"passes", nullptr},         {"probes", settings.probes},
+        {"seed", settings.seed},     {"filter", filter},
+        {"shadows", shadows},        {"ambient", ambient},
+        {"specular", specular},      {"normalisation", normalisation},
+        {"cavities", cavities},      {"width_scale", settings.width_scale},
+        {"penumbra_mm", penumbra_mm}};
+    return {.description = facts_json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
+            .credit = loaded.credit,
+            .scene_warnings = loaded.warnings,
+            .tone_map = loaded.tone_map,
+            .exposure_ev = loaded.exposure_ev};
+}
+
+Result<std::string> content_hash(const Scene& scene, ReferenceSettings settings) {
+    settings.samples = 0;
+    return reference_hash(scene, settings);
+}
+
 void ReferenceOptions::add_to(Command& command) {
     scene.add_to(command)->required();
     command.add_option("-o,--output", output, "FILE.exr")->required();
@@ -119,6 +176,8 @@ void ReferenceOptions::add_to(Command& command) {
         ->capture_default_str();
     command.add_option("--samples,--spp", samples,
                        "maximum samples a pixel (default: 64; with --noise as many as it needs)");
+    command.add_option("--sample-range", sample_range,
+                       "BEGIN:END: write the sums over these of the --samples as a part for dermis merge");
     command.add_option("--noise", noise, "stop at this relative error, such as 0.01");
     command.add_option("--seed", seed, "seed of the random numbers; the same seed gives the same picture")
         ->capture_default_str();

@@ -1,17 +1,19 @@
 #pragma once
 // The flags of `dermis reference` and the settings they give.
 
+#include <optional>
 #include <string>
 
 #include "command.h"
-#include "dermis/reference/picture.h"
+#include "dermis/jobs/picture_file.h"
+#include "dermis/reference/picture_sums.h"
 #include "scene_choice.h"
 
 namespace dermis::cli {
 
 struct ReferenceOptions {
     SceneChoice scene;
-    std::string output, preview, size = "512x512", profile;
+    std::string output, preview, size = "512x512", profile, sample_range;
     std::string integrator = "surface", filter = "box", shadows = "scene", ambient = "traced",
                 specular = "ggx";
     std::string normalisation = "area", cavities = "flesh", medium;
@@ -23,6 +25,15 @@ struct ReferenceOptions {
 
     void add_to(Command& command);
     [[nodiscard]] Result<ReferenceSettings> settings() const;
+    /// Of --sample-range; nothing when it is absent.
+    [[nodiscard]] Result<std::optional<SampleRange>> range(const ReferenceSettings& settings) const;
+    /// What pictures and parts state of the scene and these options.
+    [[nodiscard]] PictureFacts facts(const ReferenceSettings& settings, const Scene& loaded) const;
+    /// The scene, ready to be rendered.
+    [[nodiscard]] Result<Scene> load_scene() const;
 };
+
+/// The hash of all that the picture depends on but the number of its samples.
+[[nodiscard]] Result<std::string> content_hash(const Scene& scene, ReferenceSettings settings);
 
 }  // namespace dermis::cli

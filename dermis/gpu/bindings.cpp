@@ -66,7 +66,7 @@ Result<BindingResolver::Found> BindingResolver::find_texture(const Pass& pass, c
                                                              const Draw* draw) const {
     const auto of_texture = [](const Texture& texture) {
         const DeviceImage& image = texture.state().image;
-        return Found{image.view.get(), shape_of(image.info), nullptr};
+        return Found{image.view.get(), shape_of(image.info), nullptr, texture.state().sampler};
     };
     if (draw)
         if (const auto* texture = find_in(draw->textures, binding.name); texture && *texture)
@@ -104,14 +104,20 @@ Result<Descriptor> BindingResolver::texture(PlannedPass& planned, const Binding&
         return Error{binding_label(*planned.pass, "texture", binding) + " is " +
                      std::string(shape_name(binding.shape)) + " in the shader, but what is bound to it is " +
                      std::string(shape_name(found->shape))};
+    const bool has_sampler = binding.kind == BindingKind::sampled_texture;
+    if (has_sampler && !found->sampler)
+        return Error{binding_label(*planned.pass, "texture", binding) +
+                     " is a sampler2D in the shader, but an image of a pass has no sampler; declare it as "
+                     "texture2D and use one of the named samplers"};
     const std::optional<DepthTarget>& depth = planned.pass->depth;
     const bool tested = found->image && depth && depth->image == found->image->declaration.name;
     const ImageUse use = tested ? ImageUse::depth_test : ImageUse::sampled;
     if (found->image)
         add_access(planned.accesses,
                    {.image = found->image, .mips = found->image->image.info.mips, .use = use});
-    Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
-    descriptor.image = {VK_NULL_HANDLE, found->view, use_scope(use).layout};
+    Descriptor descriptor{.type = has_sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                              : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
+    descriptor.image = {has_sampler ? found->sampler : VK_NULL_HANDLE, found->view, use_scope(use).layout};
     return descriptor;
 }
 
@@ -196,6 +202,7 @@ Result<Descriptor> BindingResolver::resolve_one(PlannedPass& planned, const Bind
                                                 const Draw* draw) {
     switch (binding.kind) {
         case BindingKind::texture:
+        case BindingKind::sampled_texture:
             return texture(planned, binding, draw);
         case BindingKind::storage_image:
             return storage_image(planned, binding);

@@ -11,15 +11,16 @@
 namespace dermis::gpu {
 
 /// The samplers a shader may name.
-inline constexpr std::array<std::string_view, 6> kSamplerNames = {"linear_clamp",    "linear_repeat",
-                                                                  "nearest_clamp",   "trilinear_repeat",
+inline constexpr std::array<std::string_view, 4> kSamplerNames = {"linear_clamp", "nearest_clamp",
                                                                   "trilinear_clamp", "shadow_compare"};
+inline constexpr size_t kAddressModes = 3;
 
 struct Device::State {
     Instance instance;
     DeviceInfo info;
     Context context;
     std::array<OwnedSampler, kSamplerNames.size()> samplers;
+    std::array<OwnedSampler, kAddressModes * kAddressModes> map_samplers;
     OwnedCommandPool uploads;
     OwnedPipelineCache pipeline_cache;
     std::string pipeline_cache_key;
@@ -29,6 +30,9 @@ struct Device::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State();
+    [[nodiscard]] VkSampler map_sampler(AddressMode u, AddressMode v) const {
+        return map_samplers[size_t(u) * kAddressModes + size_t(v)].get();
+    }
 };
 
 [[nodiscard]] Result<void> make_samplers(Device::State& state);

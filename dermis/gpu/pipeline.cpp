@@ -116,7 +116,8 @@ Result<Pipeline> build_graphics(Device::State& device, const Pass& pass, const S
     std::vector<VkPipelineShaderStageCreateInfo> stage_infos;
     for (const Stage& stage : *stages) stage_infos.push_back(stage.info);
     const GraphicsState state(pass, formats, pipeline.inputs);
-    const VkGraphicsPipelineCreateInfo info = state.info(stage_infos, pipeline.layout.get());
+    const VkGraphicsPipelineCreateInfo info =
+        state.info(stage_infos, pipeline.layout.get(), context.pipeline_flags());
     VkPipeline handle = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateGraphicsPipelines(context.device, device.pipeline_cache.get(),
                                                                  1, &info, nullptr, &handle);
@@ -134,6 +135,7 @@ Result<Pipeline> build_compute(Device::State& device, const Pass& pass, const Sh
     const Result<std::vector<Stage>> stages = make_stages(device, pass, shaders, pipeline);
     if (!stages) return stages.error();
     const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                              .flags = context.pipeline_flags(),
                                               .stage = stages->front().info,
                                               .layout = pipeline.layout.get()};
     VkPipeline handle = VK_NULL_HANDLE;

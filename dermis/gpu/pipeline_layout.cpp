@@ -11,6 +11,8 @@ VkDescriptorType descriptor_type(BindingKind kind) {
     switch (kind) {
         case BindingKind::texture:
             return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+        case BindingKind::sampled_texture:
+            return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         case BindingKind::storage_image:
             return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         case BindingKind::sampler:

@@ -86,6 +86,7 @@ class BindingResolver {
         VkImageView view = VK_NULL_HANDLE;
         TextureShape shape = TextureShape::plane;
         FrameImage* image = nullptr;
+        VkSampler sampler = VK_NULL_HANDLE;  ///< of a texture; an image has none
     };
 
     [[nodiscard]] Result<Found> find_texture(const Pass& pass, const Binding& binding,

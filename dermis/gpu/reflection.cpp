@@ -121,9 +121,7 @@ class Reflector {
         for (const auto& resource : list(SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS))
             add_binding(resource, BindingKind::sampler);
         for (const auto& resource : list(SPVC_RESOURCE_TYPE_SAMPLED_IMAGE))
-            fail("'" + std::string(resource.name) +
-                 "' is a combined sampler; use a separate texture2D and "
-                 "one of the named samplers");
+            add_binding(resource, BindingKind::sampled_texture).shape = shape(resource.type_id);
         for (const auto& resource : list(SPVC_RESOURCE_TYPE_UNIFORM_BUFFER))
             add_binding(resource, BindingKind::uniform_block).block = read_block(resource);
         for (const auto& resource : list(SPVC_RESOURCE_TYPE_STORAGE_BUFFER))

@@ -12,7 +12,7 @@
 
 namespace dermis::gpu {
 
-enum class BindingKind { texture, storage_image, sampler, uniform_block, storage_buffer };
+enum class BindingKind { texture, sampled_texture, storage_image, sampler, uniform_block, storage_buffer };
 enum class TextureShape { plane, cube, plane_multisampled, other };
 enum class ValueType { int32, uint32, number, vec2, vec3, vec4, mat4 };
 [[nodiscard]] std::string_view type_name(ValueType type);

@@ -1,4 +1,4 @@
-// The samplers, by the names that shaders use for them.
+// The samplers that shaders name, and those of textures: trilinear, one for each pair of address modes.
 
 #include <algorithm>
 
@@ -7,14 +7,17 @@
 namespace dermis::gpu {
 namespace {
 
+constexpr std::array<VkSamplerAddressMode, kAddressModes> kVulkanModes = {
+    VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+    VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT};
+
 VkSamplerCreateInfo sampler_info(std::string_view name, const Context& context) {
     const bool nearest = name.starts_with("nearest"), trilinear = name.starts_with("trilinear");
     const VkFilter filter = nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
-    VkSamplerAddressMode address =
-        name.ends_with("repeat") ? VK_SAMPLER_ADDRESS_MODE_REPEAT : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     const bool compare = name == "shadow_compare";
     // Outside the shadow map nothing is in shadow: the border has the largest depth.
-    if (compare) address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+    const VkSamplerAddressMode address =
+        compare ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSamplerCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
         .magFilter = filter,
@@ -35,17 +38,32 @@ VkSamplerCreateInfo sampler_info(std::string_view name, const Context& context) 
     return info;
 }
 
+Result<OwnedSampler> make_sampler(const Context& context, const VkSamplerCreateInfo& info,
+                                  const std::string& name) {
+    VkSampler sampler = VK_NULL_HANDLE;
+    const VkResult result = context.vk.vkCreateSampler(context.device, &info, nullptr, &sampler);
+    if (Result<void> ok = check(result, "make a sampler"); !ok) return ok.error();
+    set_object_name(context, VK_OBJECT_TYPE_SAMPLER, sampler, name);
+    return OwnedSampler(context, sampler);
+}
+
 }  // namespace
 
 Result<void> make_samplers(Device::State& state) {
     const Context& context = state.context;
     for (size_t i = 0; i < kSamplerNames.size(); ++i) {
-        const VkSamplerCreateInfo info = sampler_info(kSamplerNames[i], context);
-        VkSampler sampler = VK_NULL_HANDLE;
-        const VkResult result = context.vk.vkCreateSampler(context.device, &info, nullptr, &sampler);
-        if (Result<void> ok = check(result, "make a sampler"); !ok) return ok.error();
-        state.samplers[i] = OwnedSampler(context, sampler);
-        set_object_name(context, VK_OBJECT_TYPE_SAMPLER, sampler, kSamplerNames[i]);
+        const std::string name(kSamplerNames[i]);
+        Result<OwnedSampler> made = make_sampler(context, sampler_info(name, context), name);
+        if (!made) return made.error();
+        state.samplers[i] = std::move(*made);
+    }
+    for (size_t i = 0; i < state.map_samplers.size(); ++i) {
+        VkSamplerCreateInfo info = sampler_info("trilinear", context);
+        info.addressModeU = kVulkanModes[i / kAddressModes];
+        info.addressModeV = kVulkanModes[i % kAddressModes];
+        Result<OwnedSampler> made = make_sampler(context, info, "map " + std::to_string(i));
+        if (!made) return made.error();
+        state.map_samplers[i] = std::move(*made);
     }
     return {};
 }

@@ -136,7 +136,18 @@ Result<Texture> Texture::upload(Device& device, const TextureData& data) {
     auto state = std::make_unique<State>();
     state->image = std::move(*image);
     state->name = data.name;
+    state->bytes_per_texel = dermis::bytes_per_texel(data.format);
+    state->sampler = device.state().map_sampler(data.address_u, data.address_v);
     return Texture(std::move(state));
+}
+
+uint64_t Texture::bytes() const {
+    const ImageInfo& info = state_->image.info;
+    return uint64_t(info.extent.width) * info.extent.height * info.layers * state_->bytes_per_texel;
+}
+
+size_t Texture::bytes_per_texel() const {
+    return state_->bytes_per_texel;
 }
 
 Texture::Texture(std::unique_ptr<State> state) : state_(std::move(state)) {}

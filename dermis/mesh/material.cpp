@@ -1,6 +1,24 @@
 #include "dermis/mesh/material.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dermis {
+namespace {
+
+float inside_side(float at, TextureWrap wrap) {
+    if (at >= 0 && at <= 1) return at;
+    if (wrap == TextureWrap::clamp) return std::clamp(at, 0.0f, 1.0f);
+    if (wrap == TextureWrap::repeat) return at - std::floor(at);
+    const float t = at - 2 * std::floor(at / 2);
+    return t > 1 ? 2 - t : t;
+}
+
+}  // namespace
+
+Vec2 inside_image(const ImageSource& image, Vec2 uv) {
+    return {inside_side(uv.x, image.wrap_u), inside_side(uv.y, image.wrap_v)};
+}
 
 float cutoff_of_map(const Material& material) {
     constexpr float kBlended = 0.5f, kNothing = 2;  // no map reaches 2

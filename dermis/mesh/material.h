@@ -26,6 +26,9 @@ struct ImageSource {
     [[nodiscard]] bool present() const { return !name.empty() || !encoded.empty(); }
 };
 
+/// The point of the image, 0 .. 1, that is read at uv.
+[[nodiscard]] Vec2 inside_image(const ImageSource& image, Vec2 uv);
+
 enum class NormalSpace { tangent, object };
 enum class AlphaMode { opaque, mask, blend };
 

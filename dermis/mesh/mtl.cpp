@@ -42,7 +42,7 @@ constexpr std::array<MapOption, 14> kMapOptions = {{{"-blendu", 1, ""},
                                                     {"-s", 3, "1 1 1"},
                                                     {"-t", 3, "0 0 0"},
                                                     {"-texres", 1, ""},
-                                                    {"-clamp", 1, "off"},
+                                                    {"-clamp", 1, ""},
                                                     {"-bm", 1, ""},
                                                     {"-imfchan", 1, ""},
                                                     {"-type", 1, ""},
@@ -51,6 +51,7 @@ constexpr std::array<MapOption, 14> kMapOptions = {{{"-blendu", 1, ""},
 
 struct MapLine {
     std::string file, color_space;
+    bool clamps = false;
     std::optional<float> bump_scale;
     std::vector<std::string_view> ignored;  // options with a value that would change the map
 };
@@ -82,6 +83,7 @@ MapLine read_map(TextCursor cursor) {
             if (!number && !takes_words) break;  // -o, -s and -t may leave v and w out
             if (option->name == "-bm")
                 map.bump_scale = finite(number ? std::optional(float(*number)) : std::nullopt);
+            if (option->name == "-clamp") map.clamps = to_lower(value) == "on";
             if (option->name == "-colorspace") map.color_space = to_lower(value);
             values.push_back(value);
             cursor = value_ahead;
@@ -205,6 +207,7 @@ class MtlParser {
         set_constant_beside(keyword);
         target->name = (directory_ / map.file).string();
         target->named_by = name_;
+        target->wrap_u = target->wrap_v = map.clamps ? TextureWrap::clamp : TextureWrap::repeat;
     }
 
     void warn_once(const std::string& text) {

@@ -11,7 +11,9 @@ Result<std::unique_ptr<CutOut>> CutOut::load(const SceneObject& object, uint32_t
     if (cutoff == 0) return std::unique_ptr<CutOut>();
     const Result<Image> alpha = load_alpha(material);
     if (!alpha) return alpha.error();
-    return std::unique_ptr<CutOut>(new CutOut(object.mesh, cutoff, Texture(*alpha)));
+    const ImageSource& source = material.alpha_map.present() ? material.alpha_map : material.base_color_map;
+    return std::unique_ptr<CutOut>(
+        new CutOut(object.mesh, cutoff, Texture(*alpha, source.wrap_u, source.wrap_v)));
 }
 
 bool CutOut::passes(uint32_t triangle, float u, float v) const {

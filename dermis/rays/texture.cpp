@@ -14,9 +14,31 @@ int source_channel(int channels, int wanted) {
     return channels <= 2 ? 0 : wanted;
 }
 
+// Two texels of a row or column and the weight of the second.
+struct TexelPair {
+    int first = 0, second = 0;
+    float weight = 0;
+};
+
+// A coordinate of NaN or infinity reads the first texel instead of an arbitrary address.
+TexelPair texel_pair(float at, int size, TextureWrap wrap) {
+    const float period = wrap == TextureWrap::mirror ? 2.0f : 1.0f;
+    float inside =
+        wrap == TextureWrap::clamp ? std::clamp(at, 0.0f, 1.0f) : at - period * std::floor(at / period);
+    if (!(inside >= 0 && inside <= period)) inside = 0;
+    const float position = inside * float(size) - 0.5f, low = std::floor(position);
+    const auto texel = [&](int i) {
+        if (wrap == TextureWrap::repeat) return i < 0 ? i + size : i >= size ? i - size : i;
+        if (wrap == TextureWrap::mirror && i >= size) i = 2 * size - 1 - i;
+        return std::clamp(i, 0, size - 1);
+    };
+    return {texel(int(low)), texel(int(low) + 1), position - low};
+}
+
 }  // namespace
 
-Texture::Texture(const Image& image) : channels_(image.channels), encoded_(image.encoding == Encoding::srgb) {
+Texture::Texture(const Image& image, TextureWrap u, TextureWrap v)
+    : channels_(image.channels), wrap_u_(u), wrap_v_(v), encoded_(image.encoding == Encoding::srgb) {
     for (int i = 0; i < 256; ++i) {
         const float value = float(i) / 255;
         decoded_[size_t(i)] = encoded_ ? srgb_decode(value) : value;
@@ -87,18 +109,10 @@ Vec4 Texture::texel(const Level& level, int x, int y) const {
 }
 
 Vec4 Texture::sample_level(const Level& level, Vec2 uv) const {
-    const float x = (uv.x - std::floor(uv.x)) * float(level.width) - 0.5f;
-    const float y = (uv.y - std::floor(uv.y)) * float(level.height) - 0.5f;
-    const float x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
-    // A uv of NaN or infinity reads the first texel instead of an arbitrary address.
-    const auto wrapped = [](float at, int size) {
-        const int i = at >= -1 && at <= float(size) ? int(at) : 0;
-        return i < 0 ? i + size : i >= size ? i - size : i;
-    };
-    const int left = wrapped(x0, level.width), right = wrapped(x0 + 1, level.width);
-    const int top = wrapped(y0, level.height), bottom = wrapped(y0 + 1, level.height);
-    const Vec4 a = texel(level, left, top), b = texel(level, right, top), c = texel(level, left, bottom),
-               d = texel(level, right, bottom);
+    const TexelPair x = texel_pair(uv.x, level.width, wrap_u_), y = texel_pair(uv.y, level.height, wrap_v_);
+    const Vec4 a = texel(level, x.first, y.first), b = texel(level, x.second, y.first),
+               c = texel(level, x.first, y.second), d = texel(level, x.second, y.second);
+    const float fx = x.weight, fy = y.weight;
     const float wa = (1 - fx) * (1 - fy), wb = fx * (1 - fy), wc = (1 - fx) * fy, wd = fx * fy;
     return {a.x * wa + b.x * wb + c.x * wc + d.x * wd, a.y * wa + b.y * wb + c.y * wc + d.y * wd,
             a.z * wa + b.z * wb + c.z * wc + d.z * wd, a.w * wa + b.w * wb + c.w * wc + d.w * wd};

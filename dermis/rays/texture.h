@@ -1,13 +1,14 @@
 #pragma once
-// Maps as the ground truth reads them: bilinear, repeating. Where a pixel's footprint is averaged by its
-// samples that is level 0; where every sample goes through the pixel's middle, a footprint picks from the
-// same chain of smaller levels that a renderer without anisotropic filtering reads.
+// Maps as the ground truth reads them: bilinear, beyond their edges as their material states. Where a pixel's
+// footprint is averaged by its samples that is level 0; where every sample goes through the pixel's middle, a
+// footprint picks from the same chain of smaller levels that a renderer without anisotropic filtering reads.
 
 #include <array>
 #include <vector>
 
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
+#include "dermis/mesh/material.h"
 
 namespace dermis {
 
@@ -21,7 +22,8 @@ struct UvFootprint {
 class Texture {
   public:
     Texture() = default;
-    explicit Texture(const Image& image);
+    explicit Texture(const Image& image, TextureWrap u = TextureWrap::repeat,
+                     TextureWrap v = TextureWrap::repeat);
 
     [[nodiscard]] bool empty() const { return levels_.empty(); }
     /// How many channels the image had, 1 to 4.
@@ -41,6 +43,7 @@ class Texture {
     [[nodiscard]] Level half_size(const Level& level) const;
 
     int channels_ = 0;
+    TextureWrap wrap_u_ = TextureWrap::repeat, wrap_v_ = TextureWrap::repeat;
     bool encoded_ = false;       // 8-bit colours are sRGB
     std::vector<Level> levels_;  // full to 1 x 1, each half the one before, as GPUs make them
     std::array<float, 256> decoded_{};

@@ -7,7 +7,6 @@
 #include "dermis/optics/fresnel.h"
 #include "dermis/rays/uv_raster.h"
 #include "dermis/scene/image_source.h"
-#include "dermis/scene/object_checks.h"
 
 namespace dermis {
 namespace {
@@ -39,8 +38,14 @@ Result<const Texture*> MaterialSet::texture_of(const ImageSource& source, ImageU
                                                const SceneObject& object, const Material& material) {
     if (!source.present()) return static_cast<const Texture*>(nullptr);
     const int gutter = material.dilate_texels;
-    const std::string key =
-        Hasher().add(source.name).add(std::span(source.encoded)).add(use).add(gutter).hex();
+    const std::string key = Hasher()
+                                .add(source.name)
+                                .add(std::span(source.encoded))
+                                .add(use)
+                                .add(gutter)
+                                .add(source.wrap_u)
+                                .add(source.wrap_v)
+                                .hex();
     std::unique_ptr<Texture>& texture = textures_[key];
     if (!texture) {
         Result<Image> loaded = load_image_source(source, use);
@@ -51,7 +56,7 @@ Result<const Texture*> MaterialSet::texture_of(const ImageSource& source, ImageU
             dilate(image,
                    coverage_mask(rasterise_uv(std::span(&object, 1), image.width, image.height, every)),
                    gutter);
-        texture = std::make_unique<Texture>(image);
+        texture = std::make_unique<Texture>(image, source.wrap_u, source.wrap_v);
     }
     return static_cast<const Texture*>(texture.get());
 }
@@ -150,7 +155,7 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .n_geometry = surface.n_geometry_world,
                        .n = normal_at(surface, hit.object),
                        .albedo_linear = material.base_color_linear * rgb(surface.color_linear),
-                       .emission_linear = emission_of(material, e.material_class),
+                       .emission_linear = material.emission_linear,
                        .roughness = reflection.roughness,
                        .f0 = reflection.f0,
                        .metallic = is_skin ? 0 : material.metallic,

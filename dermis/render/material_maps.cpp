@@ -55,6 +55,18 @@ Image to_normals(const Image& image) {
     return normals;
 }
 
+gpu::AddressMode address_mode(TextureWrap wrap) {
+    switch (wrap) {
+        case TextureWrap::repeat:
+            return gpu::AddressMode::repeat;
+        case TextureWrap::clamp:
+            return gpu::AddressMode::clamp;
+        case TextureWrap::mirror:
+            return gpu::AddressMode::mirror;
+    }
+    return gpu::AddressMode::repeat;
+}
+
 }  // namespace
 
 const std::vector<MaterialMap>& material_maps() {
@@ -139,6 +151,7 @@ Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& mate
         dilate(image, atlas_mask(mesh, image.width, image.height), material.dilate_texels);
     gpu::TextureData data = {.name = source.name, .width = image.width, .height = image.height};
     data.generate_mips = true;
+    data.address_u = address_mode(source.wrap_u), data.address_v = address_mode(source.wrap_v);
     if (map.is_single) {
         const Image single = single_channel(image, channel < image.channels ? channel : 0);
         data.format = single.format == PixelFormat::u8 ? ImageFormat::r8 : ImageFormat::r16f;

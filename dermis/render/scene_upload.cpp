@@ -21,6 +21,7 @@ std::string texture_key(const MaterialMap& map, const Material& material) {
     if (!source) return map.texture;
     Hasher hasher;
     hasher.add(source->name).add(source->encoded).add(map.texture).add(material.dilate_texels);
+    hasher.add(source->wrap_u).add(source->wrap_v);
     return hasher.hex();
 }
 
@@ -94,7 +95,8 @@ gpu::Values material_values(const Material& material, MaterialClass material_cla
             material.normal_space == NormalSpace::object ? kNormalSpaceObject : kNormalSpaceTangent;
     return {{"albedo_linear", material.base_color_linear * tint},
             {"roughness", material.roughness},
-            {"emission_linear", emission_of(material, material_class)},
+            {"emission_linear", material.emission_linear},
+            {"emission_from_map", int32_t(material.emission_map.present())},
             {"specular", material.specular},
             {"f0", dielectric_f0(material.ior)},
             {"metallic", material.metallic},

@@ -17,12 +17,9 @@ struct Mean {
     void add(Vec3 color) { sum += color, ++count; }
 };
 
-// Nearest texel, repeated outside 0..1.
+// Nearest texel.
 Vec3 texel_at(const Image& image, Vec2 uv) {
-    const auto index = [](float t, int size) {
-        const float inside = t - std::floor(t);
-        return std::clamp(int(inside * float(size)), 0, size - 1);
-    };
+    const auto index = [](float t, int size) { return std::clamp(int(t * float(size)), 0, size - 1); };
     const int x = index(uv.x, image.width), y = index(uv.y, image.height);
     const auto channel = [&](int c) {
         const float value = image.at(x, y, image.channels >= 3 ? c : 0);
@@ -42,7 +39,8 @@ Result<void> add_submesh(const Mesh& mesh, const Submesh& submesh, Mean& mean) {
     for (uint32_t i = 0; i < submesh.index_count; ++i) {
         const uint32_t vertex = mesh.indices[submesh.first_index + i];
         mean.add(map.empty() ? material.base_color_linear
-                             : material.base_color_linear * texel_at(map, mesh.uvs[vertex]));
+                             : material.base_color_linear *
+                                   texel_at(map, inside_image(material.base_color_map, mesh.uvs[vertex])));
     }
     return {};
 }

@@ -26,7 +26,7 @@ Result<void> apply_displacement(Mesh& mesh) {
                                            : decode_image(source.encoded, source.name, ImageUse::data);
     if (!loaded) return loaded.error();
     const Image heights = to_linear_float(loaded->image);
-    displace(mesh, [&](Vec2 uv) { return sample_bilinear(heights, uv).x; },
+    displace(mesh, [&](Vec2 uv) { return sample_bilinear(heights, inside_image(source, uv)).x; },
              {.mid = material.displacement_mid, .amplitude_mm = material.displacement_amplitude_mm});
     return {};
 }

@@ -15,11 +15,6 @@ void warn_of_materials(const SceneObject& object, std::vector<std::string>& warn
                                "' is skin, of which alpha cuts nothing out; class = \"other\" under "
                                "[material." +
                                material.name + "] of a scene file cuts it");
-        if (emission_of(material, object.classes[i]) != material.emission_linear)
-            warnings.push_back("material '" + material.name +
-                               "' is skin, whose emission map is not drawn; class = \"other\" under "
-                               "[material." +
-                               material.name + "] of a scene file draws it");
         if (object.classes[i] == MaterialClass::other && material.alpha_mode == AlphaMode::blend &&
             is_cut_out)
             warnings.push_back("material '" + material.name +
@@ -66,11 +61,6 @@ void warn_of_direction(const SceneObject& object, std::vector<std::string>& warn
 }
 
 }  // namespace
-
-Vec3 emission_of(const Material& material, MaterialClass material_class) {
-    const bool lacks_map = material_class == MaterialClass::skin && material.emission_map.present();
-    return lacks_map ? Vec3{} : material.emission_linear;
-}
 
 bool is_card(const Mesh& mesh, const Material& material) {
     const auto whole = [](const Material& other) { return cutoff_of_map(other) == 0; };

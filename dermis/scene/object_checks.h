@@ -12,11 +12,7 @@ namespace dermis {
 /// skin unless a scene file says so. (Exporters mark whole heads as cut out; those stay skin.)
 [[nodiscard]] bool is_card(const Mesh& mesh, const Material& material);
 
-/// What multiplies the emission map. Skin has none, since its shaders have no texture to spare: where it has
-/// a map it emits nothing.
-[[nodiscard]] Vec3 emission_of(const Material& material, MaterialClass material_class);
-
-/// One line each, with the mend: alpha and emission that do less than the mesh file says (skin is never cut
+/// One line each, with the mend: alpha that does less than the mesh file says (skin is never cut
 /// out, nothing is blended); a head that does not face +Z.
 [[nodiscard]] std::vector<std::string> object_warnings(const SceneObject& object);
 

@@ -23,6 +23,7 @@ Result<void> add(Hasher& hasher, const ImageSource& source) {
     if (!source.present()) return {};
     hasher.add(source.width).add(source.height).add(source.channels);
     hasher.add(std::span(source.encoded)).add(std::span(source.pixels));
+    hasher.add(source.wrap_u).add(source.wrap_v);
     if (!source.encoded.empty() || !source.pixels.empty()) return {};
     const Result<std::vector<std::byte>> file = read_file(source.name);
     if (!file) return file.error();

@@ -91,6 +91,10 @@ float longest_step_texels(float length_mm, int size, const FrameContext& frame) 
     return std::clamp(length_mm * frame.densest_uv_per_mm * float(size), 0.01f, float(size) / 4);
 }
 
+double typical_texel_mm(int size, const FrameContext& frame) {
+    return 1 / std::max(double(frame.typical_uv_per_mm) * size, 1e-6);
+}
+
 void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const FrameContext& frame) {
     if (settings.in_mm) {
         list.seams = SeamRequest{.size = settings.size};

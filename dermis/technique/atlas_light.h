@@ -18,7 +18,7 @@ enum class AtlasDetail : int32_t { map = kDetailMap, pixel = kDetailPixel };
 /// The parameters of every technique that lights the skin in its atlas: a part of the technique's own, with
 /// the rows of atlas_parameters(). Shaders have them in the block AtlasParams (shaders/atlas/light.glsl).
 struct AtlasParams {
-    int32_t light_map_size = 1024;
+    int32_t light_map_size = 512;
     bool translucent_shadows = true;
     float occluded = 0;
     float trans_shadow_alpha = 1;
@@ -51,6 +51,9 @@ struct AtlasLightSettings {
 /// In texels of the light map, the farthest that `length_mm` reaches on nearly all of the skin (99 % of its
 /// area); longer steps are cut to it, so that culls know how far light is carried.
 [[nodiscard]] float longest_step_texels(float length_mm, int size, const FrameContext& frame);
+
+/// Side of a texel on the skin, the median by area.
+[[nodiscard]] double typical_texel_mm(int size, const FrameContext& frame);
 
 /// The uniform block Skin of shaders/atlas/final.glsl: what the blur leaves of the light that a light map
 /// with texels of this side on the skin cannot hold.

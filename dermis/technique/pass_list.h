@@ -4,8 +4,9 @@
 //
 // Names tie it together. A texture, block or specialisation constant in a shader is bound to what carries its
 // name: an image of this list, an input of the frame (shadow_map, environment_cube, ...), a map of the
-// material being drawn, or a value. Samplers have fixed names: linear_clamp, linear_repeat, nearest_clamp,
-// trilinear_repeat, trilinear_clamp, shadow_compare.
+// material being drawn, or a value. A map is a sampler2D, with the address modes that its material states.
+// Everything else is a texture2D, and samplers have fixed names: linear_clamp, nearest_clamp,
+// trilinear_clamp, shadow_compare.
 
 #include <array>
 #include <cstdint>
@@ -41,6 +42,14 @@ struct ImageDeclaration {
     bool persistent = false;  ///< keeps its content into the next frame
     friend bool operator==(const ImageDeclaration&, const ImageDeclaration&) = default;
 };
+
+struct TexelSize {
+    int width = 0, height = 0;
+};
+/// Of an image in a frame of this size.
+[[nodiscard]] TexelSize size_in_frame(const ImageSize& size, int frame_width, int frame_height);
+/// Of all its levels and samples.
+[[nodiscard]] uint64_t bytes_in_frame(const ImageDeclaration& image, int frame_width, int frame_height);
 
 /// What a pass rasterises. geometry_screen: through the camera; geometry_uv_atlas: at uv * 2 - 1;
 /// geometry_light: from the key light. resolve, generate_mips and copy are transfers from reads[0] (to

@@ -5,7 +5,7 @@
 // alpha is 1 where skin was written, the target is cleared to 0, and the size is in the atlas's metric.
 #include "shaders/atlas/light.glsl"
 
-uniform texture2D kernel_size_map;
+uniform sampler2D kernel_size_map;
 
 layout(constant_id = 12) const int space = kSpaceTexels;
 
@@ -27,12 +27,23 @@ float levels_to_the_pixel(Surface s) {
     return max(log2(distance_mm * pixel_per_distance / (cosine * max(texel_mm, 1e-9))), 0.0);
 }
 
+vec3 direct_exitance(Surface s) {
+    vec3 direct = vec3(0.0);
+    for (int i = 0; i < light_count; ++i) {
+        LightSample light = sample_light(i, s.p_world_mm);
+        float n_dot_l = dot(s.n_world, light.to_light_world);
+        if (n_dot_l <= 0.0) continue;
+        direct += light.irradiance_linear * n_dot_l * diffuse_entry(s, n_dot_l) * shadow_factor(passing(s, i, light.to_light_world));
+    }
+    return direct;
+}
+
 void main() {
     Surface s = load_surface();
     s.n_mean_world = mean_normal_world(s.n_geometry_world, s.uv, levels_to_the_pixel(s));
     s.n_world = normalize(s.n_mean_world);
-    float kernel_size = texture(sampler2D(kernel_size_map, trilinear_repeat), s.uv).r;
-    vec3 exitance = unblurred_exitance(s).of_mean;
+    float kernel_size = texture(kernel_size_map, s.uv).r;
+    vec3 exitance = unblurred_exitance(s, direct_exitance(s)).of_mean;
     if (pre_scatter > 0.0) exitance *= pow(s.albedo_linear, vec3(pre_scatter));
     light_out = vec4(exitance, space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten));
 }

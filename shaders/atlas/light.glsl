@@ -27,22 +27,13 @@ vec3 passing(Surface s, int light, vec3 to_light_world) {
 
 vec3 shadow_factor(vec3 passing) { return mix(vec3(occluded), vec3(1.0), passing); }
 
-// Exitance over albedo, of one light.
-vec3 light_exitance(Surface s, int i) {
-    LightSample light = sample_light(i, s.p_world_mm);
-    float n_dot_l = dot(s.n_world, light.to_light_world);
-    if (n_dot_l <= 0.0) return vec3(0.0);
-    return light.irradiance_linear * n_dot_l * diffuse_entry(s, n_dot_l) * shadow_factor(passing(s, i, light.to_light_world));
-}
-
 // By the shading normal, and by the mean of the normal map's normals that it is made of: N.L of that mean is the mean of N.L.
 struct Exitance {
     vec3 of_normal, of_mean;
 };
 
-Exitance unblurred_exitance(Surface s) {
-    vec3 direct = vec3(0.0);
-    for (int i = 0; i < light_count; ++i) direct += light_exitance(s, i);
+// Exitance over albedo; `direct` is that of the lights, by the shading normal.
+Exitance unblurred_exitance(Surface s, vec3 direct) {
     return Exitance(environment_irradiance(s.n_world) * s.occlusion + direct,
                     environment_irradiance(s.n_mean_world) * s.occlusion + direct * length(s.n_mean_world));
 }

@@ -8,7 +8,7 @@ layout(location = 1) in vec3 n_world;
 layout(location = 3) in vec2 uv;
 layout(location = 9) in vec3 du_mm;
 layout(location = 10) in vec3 dv_mm;
-uniform texture2D kernel_size_map;
+uniform sampler2D kernel_size_map;
 layout(push_constant, scalar) uniform PassValues {
     float size;            // texels a side
     float kernel_scale;    // mm
@@ -41,7 +41,7 @@ vec2 limited(vec2 step_texels) {
 void main() {
     float e = dot(du_mm, du_mm), f = dot(du_mm, dv_mm), g = dot(dv_mm, dv_mm);
     float determinant = max(e * g - f * f, 1e-6 * e * g);
-    float length_mm = texture(sampler2D(kernel_size_map, trilinear_repeat), uv).r * kernel_scale + kernel_bias;
+    float length_mm = texture(kernel_size_map, uv).r * kernel_scale + kernel_bias;
     vec3 t1, t2;
     frame_of(normalize(n_world), t1, t2);
     if (!(determinant > 0.0)) {

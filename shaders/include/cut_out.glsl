@@ -5,10 +5,10 @@
 
 #include "shaders/include/surface.glsl"
 
-uniform texture2D alpha_map;
+uniform sampler2D alpha_map;
 
 bool cut_out() {
-    float alpha = texture(sampler2D(alpha_map, trilinear_repeat), uv_in).r * color_linear_in.a;
+    float alpha = texture(alpha_map, uv_in).r * color_linear_in.a;
     return alpha < alpha_cutoff;
 }
 

@@ -44,7 +44,6 @@ struct LightSource {
 layout(scalar) readonly buffer Lights { LightSource lights[]; };
 
 uniform sampler linear_clamp;
-uniform sampler trilinear_repeat;
 uniform sampler trilinear_clamp;
 uniform samplerShadow shadow_compare;
 uniform sampler nearest_clamp;

@@ -28,13 +28,14 @@ layout(scalar) uniform Material {
     float curvature_scale_per_mm;  // of a difference of 1 in the curvature map
     float curvature_mid;           // its value on flat skin
     float alpha_cutoff;            // 0: nothing is cut out
+    int emission_from_map;
 };
 
-uniform texture2D albedo_map;
-uniform texture2D normal_map;
-uniform texture2D specular_map;
-uniform texture2D roughness_map;
-uniform texture2D occlusion_map;
+uniform sampler2D albedo_map;
+uniform sampler2D normal_map;
+uniform sampler2D specular_map;
+uniform sampler2D roughness_map;
+uniform sampler2D occlusion_map;
 
 struct Surface {
     vec3 p_world_mm;
@@ -58,14 +59,14 @@ float mean_curvature_per_mm(Surface s) {
 
 // Levels that a map is magnified by, 0 when it is not. A bias adds to the level before it is clamped to 0, so
 // under magnification a smoother read has to add these too.
-float magnification_levels(texture2D map, vec2 uv) {
-    return max(-textureQueryLod(sampler2D(map, trilinear_repeat), uv).y, 0.0);
+float magnification_levels(sampler2D map, vec2 uv) {
+    return max(-textureQueryLod(map, uv).y, 0.0);
 }
 
 // The mean of the normals that a read of the map covers, a positive bias covering more (Penner 2011), in the map's space:
 // shorter than 1 where they differ.
 vec3 mean_of_normal_map(vec2 uv, float lod_bias) {
-    return texture(sampler2D(normal_map, trilinear_repeat), uv, lod_bias).xyz * 2.0 - 1.0;
+    return texture(normal_map, uv, lod_bias).xyz * 2.0 - 1.0;
 }
 
 vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
@@ -87,11 +88,11 @@ Surface load_surface() {
     s.n_mean_world = mean_normal_world(s.n_geometry_world, uv_in, 0.0);
     s.n_world = normalize(s.n_mean_world);
     s.albedo_linear =
-        albedo_linear * color_linear_in.rgb * texture(sampler2D(albedo_map, trilinear_repeat), uv_in).rgb;
-    s.roughness = clamp(roughness * texture(sampler2D(roughness_map, trilinear_repeat), uv_in).r, 0.03, 1.0);
-    s.f0 = f0 * specular * texture(sampler2D(specular_map, trilinear_repeat), uv_in).r;
+        albedo_linear * color_linear_in.rgb * texture(albedo_map, uv_in).rgb;
+    s.roughness = clamp(roughness * texture(roughness_map, uv_in).r, 0.03, 1.0);
+    s.f0 = f0 * specular * texture(specular_map, uv_in).r;
     // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
-    s.occlusion = min(occlusion_in, texture(sampler2D(occlusion_map, trilinear_repeat), uv_in).r);
+    s.occlusion = min(occlusion_in, texture(occlusion_map, uv_in).r);
     s.occlusion_vertex = occlusion_in;
     s.occlusion_blurred = occlusion_blurred_in;
     s.curvature_diagonal_per_mm = curvature_diagonal_per_mm_in;

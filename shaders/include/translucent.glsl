@@ -5,11 +5,11 @@
 
 #include "shaders/include/surface.glsl"
 
-uniform texture2D opacity_map;
+uniform sampler2D opacity_map;
 
 vec3 surface_transmittance() {
     if (opacity_from_map == 0) return albedo_linear * (1.0 - opacity);
-    return texture(sampler2D(opacity_map, trilinear_repeat), uv_in).rgb;
+    return texture(opacity_map, uv_in).rgb;
 }
 
 #endif

@@ -2,14 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 // What is not skin: eyes, teeth, hair, frames, glass. Metallic-roughness as glTF has it.
 #include "shaders/include/cut_out.glsl"
+#include "shaders/include/emission.glsl"
 #include "shaders/include/environment.glsl"
 #include "shaders/include/lights.glsl"
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/specular.glsl"
 #include "shaders/include/surface.glsl"
 
-uniform texture2D metallic_map;
-uniform texture2D emission_map;
+uniform sampler2D metallic_map;
 
 layout(location = 0) out vec4 radiance_out;
 
@@ -23,7 +23,7 @@ void main() {
         s.n_geometry_world = -s.n_geometry_world;
     }
     // A metal's F0 is its colour; the models take one number, so its colour multiplies the result.
-    float metal = metallic * texture(sampler2D(metallic_map, trilinear_repeat), s.uv).r;
+    float metal = metallic * texture(metallic_map, s.uv).r;
     float f0_one = mix(s.f0, 1.0, metal);
     vec3 specular_tint = mix(vec3(1.0), s.albedo_linear, metal);
     vec3 exitance = environment_irradiance(s.n_world) * s.occlusion;
@@ -39,6 +39,6 @@ void main() {
                                                               s.roughness, f0_one);
     }
     vec3 diffuse_radiance = s.albedo_linear * (1.0 - metal) * exitance / kPi;
-    vec3 emitted = emission_linear * texture(sampler2D(emission_map, trilinear_repeat), s.uv).rgb;
-    radiance_out = vec4(emitted + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
+    radiance_out =
+        vec4(emitted_radiance() + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
 }

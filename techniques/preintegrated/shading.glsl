@@ -50,7 +50,7 @@ layout(constant_id = 4) const int curvature = kCurvatureVertex;
 layout(constant_id = 5) const int normals = kNormalsBlended;
 layout(constant_id = 6) const int ambient = kAmbientLut;
 
-uniform texture2D curvature_map;
+uniform sampler2D curvature_map;
 // Set by prepare_surface(); the same for every light.
 vec3 skin_diagonal_per_mm, skin_mixed_per_mm;  // the curvature tensor
 float curvature_around_per_mm;
@@ -72,18 +72,18 @@ void choose_curvature(Surface s) {
     float k = curvature == kCurvatureDerivative
                   ? curvature_from_derivatives(fwidth(s.n_geometry_world), fwidth(s.p_world_mm)) / tune_curvature
                   : curvature_scale_per_mm *
-                        (texture(sampler2D(curvature_map, trilinear_repeat), s.uv).r - curvature_mid);
+                        (texture(curvature_map, s.uv).r - curvature_mid);
     skin_diagonal_per_mm = sphere_diagonal(curvature_gain * k, s.n_geometry_world);
     skin_mixed_per_mm = sphere_mixed(curvature_gain * k, s.n_geometry_world);
 }
 
 float normal_texel_mm(Surface s) {
-    vec2 map_size = vec2(textureSize(sampler2D(normal_map, trilinear_repeat), 0));
+    vec2 map_size = vec2(textureSize(normal_map, 0));
     return texel_mm(dFdx(s.p_world_mm), dFdy(s.p_world_mm), dFdx(s.uv) * map_size, dFdy(s.uv) * map_size);
 }
 
 void blend_normals(Surface s) {
-    float lod = max(textureQueryLod(sampler2D(normal_map, trilinear_repeat), s.uv).x, 0.0);
+    float lod = max(textureQueryLod(normal_map, s.uv).x, 0.0);
     vec4 blend = normal_blend(max(normal_texel_mm(s), 1e-8) * exp2(lod));
     smooth_weight = blend.rgb;
     smooth_levels = blend.a;
@@ -174,9 +174,9 @@ vec3 scattered_occlusion(Surface s) {
     vec3 of_vertices = (1.0 - weight_0 - weight_1 - weight_2) * s.occlusion_vertex + weight_0 * s.occlusion_blurred.x +
                        weight_1 * s.occlusion_blurred.y + weight_2 * s.occlusion_blurred.z;
     float levels = smooth_levels + magnification_levels(occlusion_map, s.uv);
-    float sharp = texture(sampler2D(occlusion_map, trilinear_repeat), s.uv).r;
+    float sharp = texture(occlusion_map, s.uv).r;
     if (normals == kNormalsSharp) return min(of_vertices, vec3(sharp));
-    vec3 of_map = mix(vec3(sharp), texture(sampler2D(occlusion_map, trilinear_repeat), s.uv, levels).rrr, smooth_weight);
+    vec3 of_map = mix(vec3(sharp), texture(occlusion_map, s.uv, levels).rrr, smooth_weight);
     return min(of_vertices, of_map);
 }
 

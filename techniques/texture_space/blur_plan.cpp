@@ -55,13 +55,9 @@ std::vector<BlurPass> equal_passes(int count, float share) {
     return std::vector<BlurPass>(size_t(std::max(count, 0)), {.radius = 1, .share = Vec3{1, 1, 1} * share});
 }
 
-double texel_mm(const FrameContext& frame, int size) {
-    return 1 / std::max(double(frame.typical_uv_per_mm) * size, 1e-6);
-}
-
 std::vector<BlurPass> passes_of_profile(const Params& params, const FrameContext& frame,
                                         const BlurPlan& plan) {
-    const double texel = texel_mm(frame, plan.size);
+    const double texel = typical_texel_mm(plan.size, frame);
     if (params.filter == Filter::kawase) {
         std::vector<double> variances;
         for (int i = 0; i < std::min(params.blur_passes, kMaxPasses); ++i)

@@ -15,28 +15,22 @@ layout(constant_id = 3) const int light_map_texels = kTexelsPremultiplied;
 
 float luminance(vec3 c_linear) { return dot(c_linear, vec3(0.2125, 0.7154, 0.0721)); }
 
-// Of the key light's specular.
-vec3 specular_dimming(LightSample key, vec3 passing, vec3 exitance) {
+vec3 key_specular_shadow(Surface s, vec3 passing, vec3 exitance) {
     if (specular_shadow == kSpecularShadowOff) return vec3(1.0);
     if (specular_shadow == kSpecularShadowMap) return shadow_factor(passing);
     // The source multiplies by the luminance as it is, its light being about 1; here by its share of the key light.
+    LightSample key = sample_light(max(key_light, 0), s.p_world_mm);
     float share = luminance(exitance) / max(luminance(key.irradiance_linear), 1e-4);
     return vec3(clamp(share * specular_shadow_scale + specular_shadow_bias, 0.0, 1.0));
 }
 
 void main() {
     Surface s = load_surface();
-    vec3 exitance = scattered_exitance(light_map, light_map_lit, s, light_map_texels, 0.0), transmitted = vec3(0.0);
-    vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
-    for (int i = 0; i < light_count; ++i) {
-        LightSample light = sample_light(i, s.p_world_mm);
-        vec3 through = passing(s, i, light.to_light_world);
-        transmitted += transmitted_past(s, i, light, through);
-        vec3 dimmed = i == key_light ? specular_dimming(light, through, exitance) : shadow_factor(through);
-        specular_radiance += light.irradiance_linear * dimmed *
-                             specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
-    }
-    exitance += transmitted;
+    PixelLight light = light_pixel(s);
+    vec3 exitance = scattered_exitance(light_map, light_map_lit, s, light.direct, light_map_texels, 0.0);
+    vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion) +
+                             light.specular + light.key_specular * key_specular_shadow(s, light.key_passing, exitance);
+    exitance += light.transmitted;
     vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);
 }

@@ -45,11 +45,36 @@ struct Step {
     Vec3 share;
 };
 
+// Terms narrower than this part of a texel take one blur together: a texel cannot tell them apart. Captured
+// share of the bust .822 without, .821 with .5, .803 with .8 (light map 512, texel 1.0 mm).
+constexpr double kToldApartTexels = 0.5;
+
+// Those up to `variance_mm2` as one, of their mean variance over all channels.
+std::vector<GaussianTerm> narrow_terms_joined(std::vector<GaussianTerm> sorted, double variance_mm2) {
+    const auto wide = std::ranges::find_if(
+        sorted, [&](const GaussianTerm& term) { return term.variance_mm2 > variance_mm2; });
+    if (wide - sorted.begin() < 2) return sorted;
+    GaussianTerm joined = {.variance_mm2 = 0, .weight = {0, 0, 0}};
+    double sum = 0;
+    for (auto term = sorted.begin(); term != wide; ++term)
+        for (size_t c = 0; c < 3; ++c) {
+            joined.weight[c] += term->weight[c];
+            joined.variance_mm2 += term->weight[c] * term->variance_mm2;
+            sum += term->weight[c];
+        }
+    joined.variance_mm2 /= std::max(sum, 1e-9);
+    sorted.erase(sorted.begin() + 1, wide);
+    sorted.front() = joined;
+    return sorted;
+}
+
 // The profile's terms, narrowest first, equal variances together; shares sum to 1 per channel, as albedo lies
 // in the base colour.
-std::vector<Step> steps_of(const GaussianSum& sum, float width) {
+std::vector<Step> steps_of(const GaussianSum& sum, float width, double texel_mm) {
     std::vector<GaussianTerm> terms = sum.terms;
     std::ranges::sort(terms, {}, &GaussianTerm::variance_mm2);
+    const double narrow_mm = kToldApartTexels * texel_mm / std::max(double(width), 1e-6);
+    terms = narrow_terms_joined(std::move(terms), narrow_mm * narrow_mm);
     double total[3] = {0, 0, 0};
     for (const GaussianTerm& term : terms)
         for (int c = 0; c < 3; ++c) total[c] += term.weight[size_t(c)];
@@ -113,7 +138,8 @@ void add_gaussian(PassList& list, const Params& params, const AtlasLightSettings
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
-    const std::vector<Step> steps = steps_of(frame.skin_gaussians, params.width);
+    const std::vector<Step> steps =
+        steps_of(frame.skin_gaussians, params.width, typical_texel_mm(params.atlas.light_map_size, frame));
     const AtlasLightSettings atlas = atlas_settings(params, steps, frame);
     const ImageSize size = {params.atlas.light_map_size, params.atlas.light_map_size};
     PassList list;

@@ -44,6 +44,8 @@ constexpr Case kCases[] = {
     {"info", "info cube.obj --json", nullptr, nullptr, kRays},
     {"reference", "reference scene.toml --size 8x8 --samples 2 --probes 2 -o out/a.exr", "out/a.exr", nullptr,
      kRays},
+    {"part", "reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 4:8 -o out/a.exr",
+     "out/a.exr", nullptr, kRays},
 };
 
 constexpr const char* kCube =

@@ -177,12 +177,18 @@ TEST_F(BindingTest, a_cube_in_place_of_a_plane_is_an_error) {
                 HasSubstr("'albedo' is texture2D in the shader, but what is bound to it is textureCube"));
 }
 
-TEST_F(BindingTest, a_combined_sampler_is_refused) {
+TEST_F(BindingTest, an_image_of_a_pass_has_no_sampler_of_its_own) {
     const std::string shader = R"(
-uniform sampler2D albedo;
+uniform sampler2D before;
 layout(location = 0) out vec4 color;
-void main() { color = texture(albedo, vec2(0.5)); })";
-    EXPECT_THAT(error_of(shader, list()), HasSubstr("'albedo' is a combined sampler"));
+void main() { color = texture(before, vec2(0.5)); })";
+    PassList passes = list();
+    passes.images.push_back({.name = "before", .format = ImageFormat::rgba32f});
+    Pass first = passes.passes.front();
+    first.name = "first", first.shader = "white.frag", first.colors = {{.image = "before"}};
+    passes.passes.insert(passes.passes.begin(), first);
+    passes.passes.back().reads.push_back("before");
+    EXPECT_THAT(error_of(shader, passes), HasSubstr("'before' is a sampler2D in the shader, but an image"));
 }
 
 TEST_F(BindingTest, an_unknown_sampler_is_an_error_that_lists_the_known) {

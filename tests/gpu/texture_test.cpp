@@ -84,6 +84,36 @@ TEST_F(TextureTest, mip_levels_can_be_generated) {
     EXPECT_EQ(sample(kLod, *map, {{"lod", 1.f}})[0], 3);
 }
 
+TEST_F(TextureTest, each_texture_has_its_own_address_modes) {
+    const std::string shader = R"(
+uniform sampler2D map;
+layout(push_constant, scalar) uniform Push { vec2 uv; };
+layout(location = 0) out vec4 color;
+void main() { color = textureLod(map, uv, 0); })";
+    const float texels[] = {1, 2, 3, 4};
+    // At the middle of texel 5 of a row of 4, and one to the left of the row.
+    const auto read = [&](AddressMode u, Vec2 uv, AddressMode v = AddressMode::repeat) {
+        Result<Texture> map = Texture::upload(device(), {.name = "row",
+                                                         .format = ImageFormat::r32f,
+                                                         .width = v == AddressMode::repeat ? 4 : 1,
+                                                         .height = v == AddressMode::repeat ? 1 : 4,
+                                                         .bytes = bytes_of(texels),
+                                                         .address_u = u,
+                                                         .address_v = v});
+        EXPECT_TRUE(map) << map.error().message;
+        return sample(shader, *map, {{"uv", uv}})[0];
+    };
+    const Vec2 right = {1.375f, 0.5f}, left = {-0.375f, 0.5f};
+    EXPECT_EQ(read(AddressMode::repeat, right), 2);
+    EXPECT_EQ(read(AddressMode::clamp, right), 4);
+    EXPECT_EQ(read(AddressMode::mirror, right), 3);
+    EXPECT_EQ(read(AddressMode::repeat, left), 3);
+    EXPECT_EQ(read(AddressMode::clamp, left), 1);
+    EXPECT_EQ(read(AddressMode::mirror, left), 2);
+    EXPECT_EQ(read(AddressMode::repeat, {0.5f, 1.375f}, AddressMode::mirror), 3);
+    EXPECT_EQ(read(AddressMode::repeat, {0.5f, 1.375f}, AddressMode::clamp), 4);
+}
+
 TEST_F(TextureTest, outside_the_shadow_map_is_lit) {
     const float depth[] = {0.5f};
     Result<Texture> map = Texture::upload(

@@ -162,7 +162,37 @@ TEST_F(CutOut, surfaces_emit_what_their_map_says) {
     expect_at(p, {10, 0, 20}, {});
     expect_at(p, {30, 0, 0}, {0, 0, 3});
     scene.objects[1].classes = {MaterialClass::skin};
-    expect_at(pictures(scene), {-10, 0, 20}, {});
+    const Pictures of_skin = pictures(scene);
+    expect_at(of_skin, {-10, 0, 20}, {2, 1, 0.5f});
+    expect_at(of_skin, {10, 0, 20}, {});
+}
+
+// u runs over the card three times; the map is bright in its left half.
+TEST_F(CutOut, maps_are_clamped_and_mirrored_as_their_samplers_say) {
+    struct Case {
+        TextureWrap wrap;
+        bool lit_before, lit_after;  // at u of -0.25 and 1.25
+    };
+    for (const Case& c : {Case{TextureWrap::repeat, false, true}, Case{TextureWrap::clamp, true, false},
+                          Case{TextureWrap::mirror, true, false}})
+        for (const bool of_alpha : {false, true})
+            for (const MaterialClass material_class : {MaterialClass::other, MaterialClass::skin}) {
+                if (of_alpha && material_class == MaterialClass::skin) continue;  // is never cut out
+                SCOPED_TRACE(int(c.wrap) * 10 + of_alpha);
+                Scene scene = card_over_skin([&](Material& m) {
+                    m.base_color_map = of_alpha ? halves("alpha", {255, 255, 255, 255}, {255, 255, 255, 0})
+                                                : halves("color", {255}, {0});
+                    m.base_color_map.wrap_u = c.wrap;
+                    if (of_alpha) m.alpha_mode = AlphaMode::mask;
+                });
+                scene.objects[1].classes = {material_class};
+                for (Vec2& uv : scene.objects[1].mesh.uvs) uv.x = 3 * uv.x - 1;
+                scene.objects[0].mesh.materials[0].base_color_linear = {};
+                const Pictures p = pictures(scene);
+                const auto color = [](bool lit) { return lit ? kCardColor * kLit : Vec3{}; };
+                expect_at(p, {-10, 0, 20}, color(c.lit_before));
+                expect_at(p, {10, 0, 20}, color(c.lit_after));
+            }
 }
 
 TEST_F(CutOut, vertex_colours_multiply_the_base_colour) {

@@ -183,24 +183,6 @@ TEST(GltfUv, each_materials_set_and_transform_change_its_primitives_uvs) {
     }
 }
 
-TEST(GltfUv, wrap_modes_are_named_where_they_would_show) {
-    const auto warned = [](const std::string& sampler, float side) {
-        const GltfBuilder builder = triangle().accessor<float>(5126, "VEC2", 3, {0, 0, side, 0, 0, side});
-        return any_contains(
-            load_gltf(builder.file(
-                          R"({"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0})", R"({"mesh":0})",
-                          R"(,"samplers":[)" + sampler +
-                              R"(],"textures":[{"source":0,"sampler":0}],"images":[{"uri":"a.png"}],)"
-                              R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])"))
-                .warnings,
-            "leave their image");
-    };
-    const std::string clamps = R"({"wrapS":33071,"wrapT":33071})";
-    EXPECT_TRUE(warned(clamps, 2));
-    EXPECT_FALSE(warned(clamps, 1)) << "inside of the image all wrap modes are alike";
-    EXPECT_FALSE(warned("{}", 2));
-}
-
 TEST(GltfUv, tangents_of_a_rotated_texture_are_computed_again) {
     const GltfBuilder builder =
         triangle()

@@ -2,23 +2,19 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "dermis/base/file.h"
 #include "dermis/base/progress.h"
-#include "dermis/base/text.h"
-#include "dermis/image/io.h"
-#include "dermis/image/tone_map.h"
-#include "dermis/reference/picture.h"
-#include "dermis/render/complete_scene.h"
+#include "dermis/jobs/part.h"
+#include "dermis/judge/truth_version.h"
+#include "picture_text.h"
 #include "reference_options.h"
 
 namespace dermis::cli {
@@ -66,108 +62,92 @@ class StopOnSignals {
     StopOnSignals& operator=(const StopOnSignals&) = delete;
 };
 
-// Before the work, not after it.
-Result<void> try_outputs(const ReferenceOptions& options) {
-    if (to_lower(std::filesystem::path(options.output).extension().string()) != ".exr")
-        return Error{"-o " + options.output + ": the ground truth is linear and layered; name a .exr file"};
-    if (Result<void> tried = try_output(options.output); !tried) return tried;
-    if (options.preview.empty()) return {};
-    const std::string extension = std::filesystem::path(options.preview).extension().string();
-    if (const auto encoded = encode_image(extension, Image(1, 1, 3, PixelFormat::u8, Encoding::srgb), {});
-        !encoded)
-        return Error{"--preview " + options.preview + ": " + encoded.error().message};
-    return try_output(options.preview);
+// A progress line over calls with the share that is done.
+template <class Work>
+auto with_progress(Work work) {
+    constexpr double kSteps = 1000;
+    Progress line("ground truth", size_t(kSteps));
+    size_t shown = 0;
+    return work([&](double done) {
+        const auto now = size_t(done * kSteps);
+        if (now > shown) line.advance(now - shown);
+        shown = std::max(shown, now);
+    });
 }
 
-Result<Scene> scene_of(const ReferenceOptions& options) {
-    Result<Scene> scene = options.scene.load();
-    if (!scene) return scene;
-    // The renderer's approximation needs the vertices' occlusion.
-    if (options.ambient == "renderer")
-        if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
-    if (!options.profile.empty()) scene->skin.profile = options.profile;
-    return scene;
+// The shell line without output and range.
+std::string command_of(const std::vector<std::string>& words) {
+    std::string command = "dermis";
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const bool with_value = word == "-o" || word == "--output" || word == "--sample-range";
+        if (with_value) ++i;
+        if (with_value || word == "--json" || word.starts_with("--output=") ||
+            word.starts_with("--sample-range="))
+            continue;
+        command += " " + shell_word(word);
+    }
+    return command;
 }
 
-nlohmann::ordered_json description(const ReferenceOptions& options, const ReferenceSettings& settings,
-                                   const ReferencePicture& picture, bool stopped) {
-    return {{"scene", options.scene.name},
-            {"integrator", options.integrator},
-            {"width", settings.width},
-            {"height", settings.height},
-            {"passes", picture.passes},
-            {"probes", settings.probes},
-            {"seed", settings.seed},
-            {"filter", options.filter},
-            {"shadows", options.shadows},
-            {"ambient", options.ambient},
-            {"specular", options.specular},
-            {"normalisation", options.normalisation},
-            {"cavities", options.cavities},
-            {"width_scale", settings.width_scale},
-            {"penumbra_mm", options.penumbra_mm},
-            {"relative_error", picture.relative_error},
-            {"noise_reached", picture.reached_noise},
-            {"stopped", stopped},
-            {"warnings", picture.warnings}};
-}
-
-Result<void> write_picture(const ReferenceOptions& options, const Scene& scene,
-                           const ReferencePicture& picture, const std::string& text) {
-    const ImageLayer layers[] = {{"", picture.radiance},         {"diffuse", picture.diffuse},
-                                 {"specular", picture.specular}, {"variance", picture.variance},
-                                 {"samples", picture.samples},   {"skin", picture.skin}};
-    ImageText inside = {{"dermis", text}};
-    if (!scene.credit.empty()) inside["credit"] = scene.credit;
-    return write_layered_exr(options.output, layers, inside);
-}
-
-// For display: the scene's exposure and tone map, 8 bits.
-Result<void> write_preview(const ReferenceOptions& options, const Scene& scene,
-                           const ReferencePicture& picture) {
-    if (options.preview.empty()) return {};
-    const Image shown = tone_mapped(picture.radiance, scene.tone_map, std::exp2(scene.exposure_ev));
-    Image opaque(shown.width, shown.height, 3);
-    for (size_t i = 0; i < opaque.pixel_count(); ++i)
-        std::copy_n(&shown.floats()[4 * i], 3, &opaque.floats()[3 * i]);
-    const ImageText text = scene.credit.empty() ? ImageText{} : ImageText{{"credit", scene.credit}};
-    return write_image(options.preview, convert(opaque, PixelFormat::u8, Encoding::srgb), text);
-}
-
-Result<int> run(const ReferenceOptions& options) {
-    const Result<ReferenceSettings> settings = options.settings();
-    if (!settings) return settings.error();
-    if (Result<void> tried = try_outputs(options); !tried) return tried.error();
-    const Result<Scene> scene = scene_of(options);
-    if (!scene) return scene.error();
-    const StopOnSignals stop;  // until the files are written
-    Result<ReferencePicture> picture = [&] {
-        constexpr double kSteps = 1000;
-        Progress line("ground truth", size_t(kSteps));
-        size_t shown = 0;
-        return render_reference(
-            *scene, *settings,
-            [&](double done) {
-                const auto now = size_t(done * kSteps);
-                if (now > shown) line.advance(now - shown);
-                shown = std::max(shown, now);
-            },
-            &g_stop);
-    }();
-    if (!picture) return picture.error();
-    picture->warnings.insert(picture->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
-    nlohmann::ordered_json json = description(options, *settings, *picture, g_stop);
-    if (Result<void> written = write_picture(options, *scene, *picture, json.dump()); !written)
+Result<int> run_part(const ReferenceOptions& options, const ReferenceSettings& settings, const Scene& scene,
+                     SampleRange range, const std::vector<std::string>& words) {
+    const Result<std::string> content = content_hash(scene, settings);
+    if (!content) return content.error();
+    const auto start = std::chrono::steady_clock::now();
+    const Result<PictureSums> sums = with_progress([&](const ReferenceProgress& progress) {
+        return sum_samples(scene, settings, range, progress, &g_stop);
+    });
+    if (!sums && g_stop) {
+        print_message(sums.error().message);
+        return 128 + g_signal;
+    }
+    if (!sums) return sums.error();
+    if (Result<void> written = write_part(options.output,
+                                          {.picture = options.facts(settings, scene),
+                                           .version = std::string(truth_version()),
+                                           .content = *content,
+                                           .command = command_of(words),
+                                           .range = range,
+                                           .samples = settings.samples},
+                                          *sums);
+        !written)
         return written.error();
-    json["time_ms"] = picture->time_ms;  // not in the file: the same seed gives the same bytes
-    if (Result<void> written = write_preview(options, *scene, *picture); !written) return written.error();
-    for (const std::string& warning : picture->warnings) print_warning(warning);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (options.json)
-        std::printf("%s\n", json.dump(2).c_str());
+        std::printf("%s\n", nlohmann::ordered_json{{"output", options.output},
+                                                   {"begin", range.begin},
+                                                   {"end", range.end},
+                                                   {"samples", settings.samples},
+                                                   {"content", *content},
+                                                   {"time_ms", seconds * 1000}}
+                                .dump(2)
+                                .c_str());
     else
-        std::printf("%s: %s%d passes, relative error %.4f, %.1f s%s%s\n", options.output.c_str(),
-                    g_stop ? "stopped after " : "", picture->passes, picture->relative_error,
-                    picture->time_ms / 1000, scene->credit.empty() ? "" : "\n", scene->credit.c_str());
+        std::printf("%s: samples %d:%d of 0:%d, %.1f s\n", options.output.c_str(), range.begin, range.end,
+                    settings.samples, seconds);
+    return 0;
+}
+
+Result<int> run_picture(const ReferenceOptions& options, const ReferenceSettings& settings,
+                        const Scene& scene) {
+    const Result<ReferencePicture> picture = with_progress([&](const ReferenceProgress& progress) {
+        return render_reference(scene, settings, progress, &g_stop);
+    });
+    if (!picture) return picture.error();
+    const PictureFacts facts = options.facts(settings, scene);
+    const std::string text = described(facts, *picture, g_stop);
+    if (Result<void> written = write_picture_file(options.output, facts, *picture, text); !written)
+        return written.error();
+    if (!options.preview.empty())
+        if (Result<void> written = write_preview_file(options.preview, facts, *picture); !written)
+            return written.error();
+    print_picture({.output = options.output,
+                   .text = text,
+                   .credit = scene.credit,
+                   .json = options.json,
+                   .stopped = g_stop},
+                  *picture);
     if (g_stop) return 128 + g_signal;
     if (picture->reached_noise) return 0;
     std::fprintf(stderr,
@@ -175,6 +155,19 @@ Result<int> run(const ReferenceOptions& options) {
                  "--samples\n",
                  picture->relative_error, picture->passes, options.noise);
     return kNoiseMissed;
+}
+
+Result<int> run(const ReferenceOptions& options, const std::vector<std::string>& words) {
+    const Result<ReferenceSettings> settings = options.settings();
+    if (!settings) return settings.error();
+    const Result<std::optional<SampleRange>> range = options.range(*settings);
+    if (!range) return range.error();
+    if (Result<void> tried = try_picture_files(options.output, options.preview); !tried) return tried.error();
+    const Result<Scene> scene = options.load_scene();
+    if (!scene) return scene.error();
+    const StopOnSignals stop;  // until the files are written
+    return *range ? run_part(options, *settings, *scene, **range, words)
+                  : run_picture(options, *settings, *scene);
 }
 
 }  // namespace
@@ -185,11 +178,12 @@ void add_reference_command(CommandLine& line) {
         "reference", "Renders the ground truth of a scene: surface integral of the profile, or random walks",
         "dermis reference head_scan -o truth.exr --noise 0.01\n"
         "  dermis reference head_scan --integrator walk --profile jensen_skin1 --samples 256 -o walk.exr\n"
+        "  dermis reference head_scan --samples 64 --sample-range 0:16 -o part.exr   (see dermis merge)\n"
         "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin\n"
         "  Ctrl-C (or SIGTERM) writes the picture so far and prints its error\n"
         "  exit code 3: the picture is written, but --samples ended it before --noise was reached");
     options->add_to(*command);
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(command, [options, &line] { return run(*options, line.words); });
 }
 
 }  // namespace dermis::cli

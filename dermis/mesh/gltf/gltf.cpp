@@ -195,34 +195,12 @@ class SceneReader {
             document_.messages.warn("",
                                     std::to_string(without_uvs_) + " vertices have no UV; they get (0, 0)");
         mesh_.materials = read_materials(document_, mm_per_unit_, material_scales_);
-        warn_of_wrap();
         const auto default_number = uint32_t(mesh_.materials.size());
         for (Submesh& submesh : mesh_.submeshes)
             if (submesh.material == kDefaultMaterial) submesh.material = default_number;
         const bool uses_default = std::ranges::any_of(
             mesh_.submeshes, [&](const Submesh& submesh) { return submesh.material == default_number; });
         if (uses_default) mesh_.materials.emplace_back().name = "default";
-    }
-
-    // Inside the image all wrap modes are alike.
-    void warn_of_wrap() {
-        constexpr float kEdge = 1e-3f;
-        const auto leaves = [&](const Submesh& submesh) {
-            const auto indices = std::span(mesh_.indices).subspan(submesh.first_index, submesh.index_count);
-            return !mesh_.uvs.empty() && std::ranges::any_of(indices, [&](uint32_t i) {
-                const Vec2 uv = mesh_.uvs[i];
-                return std::max(std::abs(uv.x - 0.5f), std::abs(uv.y - 0.5f)) > 0.5f + kEdge;
-            });
-        };
-        for (const Submesh& submesh : mesh_.submeshes) {
-            if (submesh.material >= mesh_.materials.size()) continue;
-            const ImageSource& map = mesh_.materials[submesh.material].base_color_map;
-            if ((map.wrap_u == TextureWrap::repeat && map.wrap_v == TextureWrap::repeat) || !leaves(submesh))
-                continue;
-            return document_.messages.warn("", "UVs of material '" + mesh_.materials[submesh.material].name +
-                                                   "' leave their image, whose sampler clamps or mirrors; "
-                                                   "maps are drawn repeating");
-        }
     }
 
     static constexpr uint32_t kDefaultMaterial = ~0u;

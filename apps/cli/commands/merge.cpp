@@ -1,0 +1,80 @@
+// `dermis merge`: a picture from the parts that `dermis reference --sample-range` wrote.
+
+#include "dermis/jobs/merge.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "command.h"
+#include "dermis/base/progress.h"
+#include "picture_text.h"
+
+namespace dermis::cli {
+namespace {
+
+struct MergeOptions {
+    std::vector<std::string> parts;
+    std::string output, preview;
+    bool check = false, json = false;
+};
+
+// Each part by itself, for scripts: exit code 0 when all are whole.
+Result<int> check_parts(const MergeOptions& options) {
+    int damaged = 0;
+    for (const std::string& file : options.parts) {
+        const Result<Part> part = read_part(file);
+        if (part) {
+            std::printf("%s: samples %d:%d of 0:%d\n", file.c_str(), part->facts.range.begin,
+                        part->facts.range.end, part->facts.samples);
+            continue;
+        }
+        print_message(part.error().message);
+        ++damaged;
+    }
+    return damaged == 0 ? 0 : 1;
+}
+
+Result<int> run(const MergeOptions& options) {
+    if (options.check && options.output.empty() && options.preview.empty()) return check_parts(options);
+    if (options.check) return Error{"--check writes nothing: leave out -o and --preview"};
+    if (options.output.empty()) return Error{"-o is missing: name the picture, a .exr file"};
+    if (Result<void> tried = try_picture_files(options.output, options.preview); !tried) return tried.error();
+    const auto start = std::chrono::steady_clock::now();
+    Result<MergedPicture> merged = [&] {
+        Progress line("merge", 0);
+        return merge_parts(std::vector<std::filesystem::path>(options.parts.begin(), options.parts.end()),
+                           [&](double done) { line.set(done); });
+    }();
+    if (!merged) return merged.error();
+    const PictureFacts& facts = merged->facts.picture;
+    const std::string text = described(facts, merged->picture, false);
+    if (Result<void> written = write_picture_file(options.output, facts, merged->picture, text); !written)
+        return written.error();
+    if (!options.preview.empty())
+        if (Result<void> written = write_preview_file(options.preview, facts, merged->picture); !written)
+            return written.error();
+    merged->picture.time_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    print_picture({.output = options.output, .text = text, .credit = facts.credit, .json = options.json},
+                  merged->picture);
+    return 0;
+}
+
+}  // namespace
+
+void add_merge_command(CommandLine& line) {
+    const auto options = std::make_shared<MergeOptions>();
+    Command* command =
+        line.add("merge", "Makes a picture of its parts, which dermis reference --sample-range wrote",
+                 "dermis merge part*.exr -o picture.exr --preview picture.png\n"
+                 "  dermis merge --check part*.exr   (names parts that are cut off or damaged)");
+    command->add_option("parts", options->parts, "the parts, in any order")->required();
+    command->add_option("-o,--output", options->output, "FILE.exr");
+    command->add_option("--preview", options->preview, "FILE.png: the picture with the scene's tone map");
+    command->add_flag("--check", options->check, "only read the parts, and say of each whether it is whole");
+    command->add_flag("--json", options->json, "print one JSON object");
+    line.when_chosen(command, [options] { return run(*options); });
+}
+
+}  // namespace dermis::cli
