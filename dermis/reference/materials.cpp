@@ -159,7 +159,7 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .roughness = reflection.roughness,
                        .f0 = reflection.f0,
                        .metallic = is_skin ? 0 : material.metallic,
-                       .opacity = cut_out ? 1 : material.opacity,
+                       .opacity = is_skin || cut_out ? 1 : material.opacity,
                        .occlusion = occlusion_at(surface, hit),
                        .material_class = e.material_class};
     if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;
