@@ -8,7 +8,8 @@ namespace {
 
 class FrameConstants : public RenderTest {
   protected:
-    static inline const DrawSettings kFrame = {.width = 96, .height = 96, .shadow_map_size = 512};
+    static inline const DrawSettings kFrame = {
+        .width = 96, .height = 96, .shadow_map_size = 512, .penumbra_mm = 12};
 
     static void SetUpTestSuite() {
         RenderTest::SetUpTestSuite();
