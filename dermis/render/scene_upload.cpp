@@ -154,9 +154,9 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
         map_constants_.emplace_back("has_" + map.texture, std::ranges::any_of(jobs, [&](const Job& job) {
                                         return job.map == &map && map_source(map, *job.material);
                                     }));
-    for (const Job& job : jobs) {
+    for (Job& job : jobs) {
         if (!*job.data) return job.data->error();
-        const LoadedMap& loaded = **job.data;
+        const LoadedMap loaded = std::move(**job.data);
         if (!loaded.warning.empty()) warnings_.push_back(loaded.warning);
         Result<gpu::Texture> texture = gpu::Texture::upload(device, loaded.texture);
         if (!texture) return texture.error();

@@ -94,6 +94,7 @@ void add_views(Hasher& hasher, const Scene& scene) {
     add(hasher, scene.background_linear);
     hasher.add(scene.skin.profile);
     add(hasher, scene.skin.albedo_tint_linear);
+    if (scene.skin.specular_reduces_diffuse) hasher.add("specular reduces diffuse");
 }
 
 }  // namespace

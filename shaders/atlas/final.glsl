@@ -96,7 +96,7 @@ PixelLight light_pixel(Surface s) {
         vec3 arriving = n_dot_l > 0.0 ? passing(s, i, light.to_light_world) : vec3(0.0);
         vec3 specular = light.irradiance_linear *
                         specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
-        sum.direct += light.irradiance_linear * max(n_dot_l, 0.0) * shadow_factor(arriving);
+        sum.direct += light.irradiance_linear * max(n_dot_l, 0.0) * diffuse_entry(s, n_dot_l) * shadow_factor(arriving);
         sum.transmitted += transmitted_past(s, i, light, arriving);
         if (i == key_light) {
             sum.key_specular = specular;

@@ -82,5 +82,6 @@ void main() {
         specular_radiance += arriving *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
-    radiance_out = vec4(shown_radiance(s.albedo_linear * exitance / kPi, specular_radiance, exitance / kPi), 1.0);
+    vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
+    radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);
 }

@@ -4,6 +4,7 @@
 
 #include "shaders/include/environment.glsl"
 #include "shaders/include/lights.glsl"
+#include "shaders/include/reduced_diffuse.glsl"
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/surface.glsl"
 
@@ -18,7 +19,7 @@ vec3 unblurred_exitance(Surface s, out float key_visibility) {
         LightThrough through =
             light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
         if (i == key_light) key_visibility = through.visibility;
-        exitance += light.irradiance_linear * n_dot_l * through.visibility * through.tint;
+        exitance += light.irradiance_linear * n_dot_l * diffuse_entry(s, n_dot_l) * through.visibility * through.tint;
     }
     return exitance;
 }

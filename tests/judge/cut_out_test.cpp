@@ -147,6 +147,7 @@ TEST_F(CutOut, leaves_skin_whole) {
         m.alpha_mode = AlphaMode::mask;
     });
     scene.objects[1].classes = {MaterialClass::skin};
+    scene.objects[1].mesh.materials[0].opacity = 0.5f;
     expect_at(pictures(scene), {10, 0, 20}, kCardColor * kLit);
 }
 
