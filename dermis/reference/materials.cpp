@@ -72,6 +72,7 @@ Result<MaterialSet> MaterialSet::load(const Scene& scene) {
         {&Material::normal_map, &Maps::normal, ImageUse::data},
         {&Material::specular_map, &Maps::specular, ImageUse::data},
         {&Material::roughness_map, &Maps::roughness, ImageUse::data},
+        {&Material::metallic_map, &Maps::metallic, ImageUse::data},
         {&Material::metallic_roughness_map, &Maps::metallic_roughness, ImageUse::data},
         {&Material::occlusion_map, &Maps::occlusion, ImageUse::data},
         {&Material::opacity_map, &Maps::opacity, ImageUse::color},
@@ -169,7 +170,9 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
     if (e.maps.emission)
         point.emission_linear =
             point.emission_linear * rgb(e.maps.emission->sample(surface.uv, surface.footprint));
-    if (e.maps.metallic_roughness)
+    if (e.maps.metallic)
+        point.metallic *= e.maps.metallic->sample(surface.uv, surface.footprint).x;
+    else if (e.maps.metallic_roughness)
         point.metallic *= e.maps.metallic_roughness->sample(surface.uv, surface.footprint).z;
     return point;
 }

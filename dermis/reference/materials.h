@@ -58,6 +58,7 @@ class MaterialSet {
         const Texture* normal = nullptr;
         const Texture* specular = nullptr;
         const Texture* roughness = nullptr;
+        const Texture* metallic = nullptr;
         const Texture* metallic_roughness = nullptr;
         const Texture* occlusion = nullptr;
         const Texture* opacity = nullptr;

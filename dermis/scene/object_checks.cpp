@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "dermis/scene/toml_values.h"
+
 namespace dermis {
 namespace {
 
@@ -15,7 +17,7 @@ void warn_of_materials(const SceneObject& object, std::vector<std::string>& warn
             warnings.push_back("material '" + material.name +
                                "' is skin, of which alpha cuts nothing out and shows nothing behind it; "
                                "class = \"other\" under [material." +
-                               material.name + "] of a scene file takes it into account");
+                               toml_string(material.name) + "] of a scene file takes it into account");
         if (object.classes[i] == MaterialClass::other && material.alpha_mode == AlphaMode::blend &&
             is_cut_out)
             warnings.push_back("material '" + material.name +

@@ -38,7 +38,7 @@ Result<void> add(Hasher& hasher, const Material& m) {
     hasher.add(m.double_sided).add(m.normal_space).add(m.normal_scale).add(m.dilate_texels);
     for (const ImageSource* source :
          {&m.base_color_map, &m.emission_map, &m.normal_map, &m.metallic_roughness_map, &m.specular_map,
-          &m.occlusion_map, &m.opacity_map, &m.roughness_map})
+          &m.occlusion_map, &m.opacity_map, &m.roughness_map, &m.metallic_map})
         if (Result<void> added = add(hasher, *source); !added) return added;
     // Only where it counts, so that the cached ground truth of other scenes is found.
     if (cutoff_of_map(m) == 0) return {};

@@ -168,6 +168,18 @@ TEST_F(CutOut, surfaces_emit_what_their_map_says) {
     expect_at(of_skin, {10, 0, 20}, {});
 }
 
+// What is no metal reflects its colour diffusely; a metal does not.
+TEST_F(CutOut, a_map_of_metal_counts_by_its_red_channel) {
+    Scene scene = card_over_skin([](Material& m) {
+        m.metallic = 1;
+        m.metallic_map = halves("metal", {255, 0, 0}, {0, 255, 255});
+        m.metallic_roughness_map = halves("replaced", {0, 255, 0}, {0, 255, 255});
+    });
+    const Pictures p = pictures(scene);
+    EXPECT_LT(p.truth.at(24, 32, 0), 0.01f);
+    expect_at(p, {10, 0, 20}, kCardColor * kLit);
+}
+
 // u runs over the card three times; the map is bright in its left half.
 TEST_F(CutOut, maps_are_clamped_and_mirrored_as_their_samplers_say) {
     struct Case {
