@@ -15,13 +15,14 @@ Result<const Pipeline*> raster_pipeline(const PassList& list, const Pass& pass, 
         if (!shader) return shader.error();
         fragment = *shader;
     }
-    return pipelines.graphics(pass, **vertex, fragment, target_formats(list, pass));
+    return pipelines.graphics({list, pass}, **vertex, fragment, target_formats(list, pass));
 }
 
-Result<const Pipeline*> compute_pipeline(const Pass& pass, ShaderLibrary& shaders, PipelineStore& pipelines) {
+Result<const Pipeline*> compute_pipeline(const PassList& list, const Pass& pass, ShaderLibrary& shaders,
+                                         PipelineStore& pipelines) {
     const Result<const Shader*> shader = shaders.get(pass.shader, VK_SHADER_STAGE_COMPUTE_BIT);
     if (!shader) return shader.error();
-    return pipelines.compute(pass, **shader);
+    return pipelines.compute({list, pass}, **shader);
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ Result<const Pipeline*> pass_pipeline(const PassList& list, const Pass& pass, Sh
     if (is_transfer(pass.kind) || (pass.kind == PassKind::fullscreen && pass.shader.empty()))
         return static_cast<const Pipeline*>(nullptr);
     const Result<const Pipeline*> pipeline = pass.kind == PassKind::compute
-                                                 ? compute_pipeline(pass, shaders, pipelines)
+                                                 ? compute_pipeline(list, pass, shaders, pipelines)
                                                  : raster_pipeline(list, pass, shaders, pipelines);
     if (!pipeline) return pipeline.error().within(pass_label(pass));
     return *pipeline;

@@ -246,6 +246,8 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
                                        .has_cut_outs = uploaded_->has_cut_outs(),
                                        .gbuffer = settings.gbuffer};
     list_ = frame_passes(technique.build(values, frame), shared);
+    list_.constants = uploaded_->map_constants();
+    list_.constants.emplace_back("one_light", scene_->lights.size() == 1);
     radiance_name_ = radiance_image(shared);
     if (Result<void> good = check_atlas(); !good) return good.error();
     check_maps();

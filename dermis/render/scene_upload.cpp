@@ -150,6 +150,10 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
                            ? load_material_map(*job.map, *job.material, *job.mesh)
                            : Result<LoadedMap>({neutral_map(*job.map), {}});
     });
+    for (const MaterialMap& map : material_maps())
+        map_constants_.emplace_back("has_" + map.texture, std::ranges::any_of(jobs, [&](const Job& job) {
+                                        return job.map == &map && map_source(map, *job.material);
+                                    }));
     for (Job& job : jobs) {
         if (!*job.data) return job.data->error();
         const LoadedMap loaded = std::move(**job.data);

@@ -133,6 +133,9 @@ struct SeamRequest {
 struct PassList {
     std::vector<ImageDeclaration> images;
     std::vector<Pass> passes;
+    /// Specialisation constants of the whole frame: a shader takes those that it declares, unless its pass
+    /// has them. Where neither has on_cpu, it is 1 on a software device.
+    std::vector<std::pair<std::string, int32_t>> constants;
     std::optional<SeamRequest> seams;
     /// Textures of material maps without which these settings show nothing; a skin material without one is a
     /// warning.

@@ -89,7 +89,7 @@ struct PixelLight {
 
 PixelLight light_pixel(Surface s) {
     PixelLight sum = PixelLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));
-    for (int i = 0; i < light_count; ++i) {
+    [[unroll]] for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         float n_dot_l = dot(s.n_world, light.to_light_world);
         // Skin that faces away takes in and reflects nothing, whatever is before it.

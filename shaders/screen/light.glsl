@@ -12,7 +12,7 @@
 vec3 unblurred_exitance(Surface s, out float key_visibility) {
     vec3 exitance = environment_irradiance(s.n_world) * s.occlusion;
     key_visibility = 0.0;
-    for (int i = 0; i < light_count; ++i) {
+    [[unroll]] for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         float n_dot_l = dot(s.n_world, light.to_light_world);
         if (n_dot_l <= 0.0) continue;

@@ -26,10 +26,12 @@ class NullDeviceTest : public ::testing::Test {
 
     static gpu::ShaderSource shaders() { return gpu::embedded_shaders(built_in_catalog().shaders); }
 
-    /// With its defaults, for a scene with one light and nothing but skin.
+    /// With its defaults, for a scene with one light and nothing but skin, which has every map.
     static PassList frame_of(const std::string& technique) {
         const Technique& found = built_in_technique(technique);
-        return frame_passes(found.build(ParameterValues(found.parameters), {}), {});
+        PassList list = frame_passes(found.build(ParameterValues(found.parameters), {}), {});
+        list.constants = {{"one_light", 1}};
+        return list;
     }
 
     std::vector<gpu::PassStatistics> compile(const PassList& list) {
