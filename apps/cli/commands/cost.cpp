@@ -84,8 +84,10 @@ Result<int> print_costs(const CostOptions& options) {
     }
     if (options.json) std::printf("%s\n", json.dump(2).c_str());
     if (!options.json)
-        std::printf("Fragments counted on %s. This is a model, not a measurement: docs/performance.md.\n",
-                    counted->device.c_str());
+        std::printf(
+            "Fragments counted on %s.\nThis is a model, not a measurement: docs/performance.md has its "
+            "assumptions.\n",
+            counted->device.c_str());
     return 0;
 }
 
