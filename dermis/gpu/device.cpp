@@ -42,6 +42,13 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
                                             .scalarBlockLayout = VK_TRUE};
     std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
     if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
+        .pipelineExecutableInfo = VK_TRUE};
+    if (options.keep_statistics) {
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        v13.pNext = &statistics;
+    }
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .pNext = &v12,
                                      .queueCreateInfoCount = 1,
@@ -84,7 +91,8 @@ void take_physical_device(Context& context, const PhysicalDevice& device) {
 
 Device::State::~State() {
     if (!context.device) return;
-    context.vk.vkDeviceWaitIdle(context.device);
+    // RADV without hardware has no wait and crashes; nothing was submitted to it.
+    if (!context.keep_statistics) context.vk.vkDeviceWaitIdle(context.device);
     save_pipeline_cache(*this);
     pipeline_cache = {};
     uploads = {};
@@ -107,10 +115,12 @@ Result<Device> Device::create(const DeviceOptions& options) {
     state->context.instance = state->instance.get();
     load_debug_names(state->instance, state->context);
     take_physical_device(state->context, *device);
+    state->context.keep_statistics = options.keep_statistics;
     if (Result<void> ok = make_device(*state, options); !ok) return ok.error();
     if (Result<void> ok = make_upload_pool(*state); !ok) return ok.error();
     if (Result<void> ok = make_samplers(*state); !ok) return ok.error();
-    if (Result<void> ok = open_pipeline_cache(*state); !ok) return ok.error();
+    if (!options.keep_statistics)
+        if (Result<void> ok = open_pipeline_cache(*state); !ok) return ok.error();
     return Device(std::move(state));
 }
 

@@ -19,6 +19,9 @@ struct DeviceOptions {
     std::string name_contains = {};
     /// What a window needs (glfwGetRequiredInstanceExtensions); empty: no window.
     std::vector<std::string> instance_extensions = {};
+    /// Pipelines keep the compiler's statistics (statistics.h) and are compiled anew, never taken from the
+    /// cache on disk. Such a device draws nothing.
+    bool keep_statistics = false;
 };
 
 struct DeviceInfo {
@@ -72,6 +75,9 @@ struct TextureData {
 class Texture {
   public:
     [[nodiscard]] static Result<Texture> upload(Device& device, const TextureData& data);
+    /// Of level 0, all layers.
+    [[nodiscard]] uint64_t bytes() const;
+    [[nodiscard]] size_t bytes_per_texel() const;
     ~Texture();
     Texture(Texture&&) noexcept;
     Texture& operator=(Texture&&) noexcept;
@@ -97,6 +103,7 @@ class Geometry {
     [[nodiscard]] static Result<Geometry> upload(Device& device, std::string_view name,
                                                  std::span<const VertexStream> streams,
                                                  std::span<const uint32_t> indices);
+    [[nodiscard]] uint32_t vertex_count() const;
     ~Geometry();
     Geometry(Geometry&&) noexcept;
     Geometry& operator=(Geometry&&) noexcept;

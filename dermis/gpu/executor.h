@@ -18,6 +18,8 @@ namespace dermis::gpu {
 using Values = std::map<std::string, ShaderValue, std::less<>>;
 
 enum class DrawClass { skin, other, translucent };
+/// Whether a pass with this filter takes such a draw.
+[[nodiscard]] bool takes(GeometryFilter filter, DrawClass draw);
 
 /// Pixels of the targets, from the top left.
 struct PixelRect {

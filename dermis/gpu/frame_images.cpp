@@ -1,7 +1,6 @@
 #include "dermis/gpu/frame_images.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "dermis/base/text.h"
 
@@ -11,14 +10,6 @@ namespace {
 // Images that no list used for so many runs are freed: lists that alternate keep theirs, and resizing a
 // window does not fill the memory.
 constexpr uint64_t kIdleImageRuns = 8;
-
-VkExtent2D resolve_size(const ImageSize& size, int width, int height) {
-    if (size.width > 0 && size.height > 0) return {uint32_t(size.width), uint32_t(size.height)};
-    const auto scaled = [&](int side) {
-        return uint32_t(std::max(1L, std::lround(float(side) * size.frame_scale)));
-    };
-    return {scaled(width), scaled(height)};
-}
 
 bool is_storage(const PassList& list, std::string_view name) {
     return std::ranges::any_of(list.passes, [&](const Pass& pass) {
@@ -40,7 +31,8 @@ Result<void> FrameImages::prepare(const PassList& list, int width, int height) {
     ++run_;
     current_.clear();
     for (const ImageDeclaration& declaration : list.images) {
-        const VkExtent2D extent = resolve_size(declaration.size, width, height);
+        const TexelSize size = size_in_frame(declaration.size, width, height);
+        const VkExtent2D extent = {uint32_t(size.width), uint32_t(size.height)};
         const bool storage = is_storage(list, declaration.name);
         const std::string key = image_key(declaration, extent, storage);
         auto found = images_.find(key);

@@ -75,6 +75,10 @@ Result<Geometry> Geometry::upload(Device& device, std::string_view name,
     return Geometry(std::move(state));
 }
 
+uint32_t Geometry::vertex_count() const {
+    return state_->vertex_count;
+}
+
 Geometry::Geometry(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;

@@ -107,9 +107,10 @@ void GraphicsState::set_targets(const Pass& pass, const TargetFormats& formats) 
 }
 
 VkGraphicsPipelineCreateInfo GraphicsState::info(std::span<const VkPipelineShaderStageCreateInfo> stages,
-                                                 VkPipelineLayout layout) const {
+                                                 VkPipelineLayout layout, VkPipelineCreateFlags flags) const {
     return {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
             .pNext = &rendering_,
+            .flags = flags,
             .stageCount = uint32_t(stages.size()),
             .pStages = stages.data(),
             .pVertexInputState = &vertex_input_,

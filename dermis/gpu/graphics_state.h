@@ -14,7 +14,8 @@ class GraphicsState {
 
     /// Valid as long as this and the stages.
     [[nodiscard]] VkGraphicsPipelineCreateInfo info(std::span<const VkPipelineShaderStageCreateInfo> stages,
-                                                    VkPipelineLayout layout) const;
+                                                    VkPipelineLayout layout,
+                                                    VkPipelineCreateFlags flags) const;
 
   private:
     void set_vertex_input(const std::vector<StageVariable>& inputs);

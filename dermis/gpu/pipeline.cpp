@@ -22,9 +22,13 @@ struct Stage {
     VkPipelineShaderStageCreateInfo info = {};
 };
 
-int32_t constant_value(const Pass& pass, const SpecializationConstant& constant) {
-    for (const auto& [name, value] : pass.constants)
+int32_t constant_value(const Context& context, const ListedPass& listed,
+                       const SpecializationConstant& constant) {
+    for (const auto& [name, value] : listed.pass.constants)
         if (name == constant.name) return value;
+    for (const auto& [name, value] : listed.list.constants)
+        if (name == constant.name) return value;
+    if (constant.name == "on_cpu") return context.is_cpu;
     return int32_t(constant.default_value);
 }
 
@@ -40,7 +44,7 @@ Result<void> check_constants(const Pass& pass, std::span<const Shader* const> sh
     return {};
 }
 
-Result<void> make_stage(const Context& context, const Pass& pass, const Shader& shader,
+Result<void> make_stage(const Context& context, const ListedPass& pass, const Shader& shader,
                         const Pipeline& pipeline, Stage& stage) {
     const std::vector<uint32_t> words = renumbered(shader, pipeline);
     const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
@@ -53,7 +57,7 @@ Result<void> make_stage(const Context& context, const Pass& pass, const Shader& 
     set_object_name(context, VK_OBJECT_TYPE_SHADER_MODULE, module, shader.name);
     for (const SpecializationConstant& constant : shader.interface.constants) {
         stage.entries.push_back({constant.id, uint32_t(stage.values.size() * 4), 4});
-        stage.values.push_back(constant_value(pass, constant));
+        stage.values.push_back(constant_value(context, pass, constant));
     }
     stage.specialization = {uint32_t(stage.entries.size()), stage.entries.data(), stage.values.size() * 4,
                             stage.values.data()};
@@ -65,17 +69,18 @@ Result<void> make_stage(const Context& context, const Pass& pass, const Shader& 
     return {};
 }
 
-void add_shader(Hasher& hash, const Pass& pass, const Shader& shader) {
+void add_shader(Hasher& hash, const Context& context, const ListedPass& pass, const Shader& shader) {
     hash.add(shader.hash);
     for (const SpecializationConstant& constant : shader.interface.constants)
-        hash.add(constant.id).add(constant_value(pass, constant));
+        hash.add(constant.id).add(constant_value(context, pass, constant));
 }
 
-std::string graphics_key(const Pass& pass, const Shader& vertex, const Shader* fragment,
-                         const TargetFormats& formats) {
+std::string graphics_key(const Context& context, const ListedPass& listed, const Shader& vertex,
+                         const Shader* fragment, const TargetFormats& formats) {
+    const Pass& pass = listed.pass;
     Hasher hash;
-    add_shader(hash, pass, vertex);
-    if (fragment) add_shader(hash, pass, *fragment);
+    add_shader(hash, context, listed, vertex);
+    if (fragment) add_shader(hash, context, listed, *fragment);
     for (size_t i = 0; i < formats.colors.size(); ++i)
         hash.add(formats.colors[i]).add(pass.colors[i].blend).add(pass.colors[i].write_mask);
     hash.add("depth").add(formats.depth).add(formats.samples).add(pass.cull).add(has_depth_bias(pass));
@@ -83,17 +88,17 @@ std::string graphics_key(const Pass& pass, const Shader& vertex, const Shader* f
     return hash.hex();
 }
 
-std::string compute_key(const Pass& pass, const Shader& shader) {
+std::string compute_key(const Context& context, const ListedPass& pass, const Shader& shader) {
     Hasher hash;
     hash.add("compute");
-    add_shader(hash, pass, shader);
+    add_shader(hash, context, pass, shader);
     return hash.hex();
 }
 
 // Layout first: the modules carry its binding numbers.
-Result<std::vector<Stage>> make_stages(Device::State& device, const Pass& pass,
+Result<std::vector<Stage>> make_stages(Device::State& device, const ListedPass& pass,
                                        std::span<const Shader* const> shaders, Pipeline& pipeline) {
-    if (Result<void> ok = check_constants(pass, shaders); !ok) return ok.error();
+    if (Result<void> ok = check_constants(pass.pass, shaders); !ok) return ok.error();
     if (Result<void> ok = merge_interface(shaders, pipeline); !ok) return ok.error();
     if (Result<void> ok = make_layout(device, pipeline); !ok) return ok.error();
     std::vector<Stage> stages(shaders.size());
@@ -103,20 +108,22 @@ Result<std::vector<Stage>> make_stages(Device::State& device, const Pass& pass,
     return stages;
 }
 
-Result<Pipeline> build_graphics(Device::State& device, const Pass& pass, const Shader& vertex,
+Result<Pipeline> build_graphics(Device::State& device, const ListedPass& listed, const Shader& vertex,
                                 const Shader* fragment, const TargetFormats& formats) {
+    const Pass& pass = listed.pass;
     if (Result<void> ok = check_stage_borders(pass, vertex, fragment); !ok) return ok.error();
     const Context& context = device.context;
     Pipeline pipeline;
     pipeline.inputs = vertex.interface.inputs;
     std::vector<const Shader*> shaders = {&vertex};
     if (fragment) shaders.push_back(fragment);
-    const Result<std::vector<Stage>> stages = make_stages(device, pass, shaders, pipeline);
+    const Result<std::vector<Stage>> stages = make_stages(device, listed, shaders, pipeline);
     if (!stages) return stages.error();
     std::vector<VkPipelineShaderStageCreateInfo> stage_infos;
     for (const Stage& stage : *stages) stage_infos.push_back(stage.info);
     const GraphicsState state(pass, formats, pipeline.inputs);
-    const VkGraphicsPipelineCreateInfo info = state.info(stage_infos, pipeline.layout.get());
+    const VkGraphicsPipelineCreateInfo info =
+        state.info(stage_infos, pipeline.layout.get(), context.pipeline_flags());
     VkPipeline handle = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateGraphicsPipelines(context.device, device.pipeline_cache.get(),
                                                                  1, &info, nullptr, &handle);
@@ -125,7 +132,7 @@ Result<Pipeline> build_graphics(Device::State& device, const Pass& pass, const S
     return pipeline;
 }
 
-Result<Pipeline> build_compute(Device::State& device, const Pass& pass, const Shader& shader) {
+Result<Pipeline> build_compute(Device::State& device, const ListedPass& pass, const Shader& shader) {
     const Context& context = device.context;
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
@@ -134,6 +141,7 @@ Result<Pipeline> build_compute(Device::State& device, const Pass& pass, const Sh
     const Result<std::vector<Stage>> stages = make_stages(device, pass, shaders, pipeline);
     if (!stages) return stages.error();
     const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                              .flags = context.pipeline_flags(),
                                               .stage = stages->front().info,
                                               .layout = pipeline.layout.get()};
     VkPipeline handle = VK_NULL_HANDLE;
@@ -159,14 +167,14 @@ Result<const Pipeline*> PipelineStore::find_or_build(const std::string& key, con
     return &found->second;
 }
 
-Result<const Pipeline*> PipelineStore::graphics(const Pass& pass, const Shader& vertex,
+Result<const Pipeline*> PipelineStore::graphics(const ListedPass& pass, const Shader& vertex,
                                                 const Shader* fragment, const TargetFormats& formats) {
-    return find_or_build(graphics_key(pass, vertex, fragment, formats), pass,
+    return find_or_build(graphics_key(device_->context, pass, vertex, fragment, formats), pass.pass,
                          [&] { return build_graphics(*device_, pass, vertex, fragment, formats); });
 }
 
-Result<const Pipeline*> PipelineStore::compute(const Pass& pass, const Shader& shader) {
-    return find_or_build(compute_key(pass, shader), pass,
+Result<const Pipeline*> PipelineStore::compute(const ListedPass& pass, const Shader& shader) {
+    return find_or_build(compute_key(device_->context, pass, shader), pass.pass,
                          [&] { return build_compute(*device_, pass, shader); });
 }
 

@@ -21,6 +21,12 @@ struct Pipeline {
     uint64_t last_run = 0;
 };
 
+/// A pass and what its list has for all of them.
+struct ListedPass {
+    const PassList& list;
+    const Pass& pass;
+};
+
 /// The targets a graphics pipeline is built for.
 struct TargetFormats {
     std::vector<VkFormat> colors;
@@ -34,9 +40,9 @@ class PipelineStore {
 
     /// `fragment` is null for depth-only passes. Errors: stages that disagree about a name, too many
     /// bindings, an output that is missing.
-    [[nodiscard]] Result<const Pipeline*> graphics(const Pass& pass, const Shader& vertex,
+    [[nodiscard]] Result<const Pipeline*> graphics(const ListedPass& pass, const Shader& vertex,
                                                    const Shader* fragment, const TargetFormats& formats);
-    [[nodiscard]] Result<const Pipeline*> compute(const Pass& pass, const Shader& shader);
+    [[nodiscard]] Result<const Pipeline*> compute(const ListedPass& pass, const Shader& shader);
 
     /// Once a run; drops what has long not been used when there is much of it.
     void begin_run();

@@ -2,37 +2,10 @@
 
 #include <algorithm>
 
+#include "dermis/gpu/pass_pipeline.h"
+
 namespace dermis::gpu {
 namespace {
-
-std::string_view default_vertex_shader(PassKind kind) {
-    switch (kind) {
-        case PassKind::geometry_screen:
-            return "renderer/mesh_screen.vert";
-        case PassKind::geometry_uv_atlas:
-            return "renderer/mesh_uv_atlas.vert";
-        case PassKind::geometry_light:
-            return "renderer/mesh_light.vert";
-        default:
-            return "renderer/fullscreen.vert";
-    }
-}
-
-bool takes(GeometryFilter filter, DrawClass draw) {
-    switch (filter) {
-        case GeometryFilter::skin:
-            return draw == DrawClass::skin;
-        case GeometryFilter::other:
-            return draw == DrawClass::other;
-        case GeometryFilter::opaque:
-            return draw != DrawClass::translucent;
-        case GeometryFilter::translucent:
-            return draw == DrawClass::translucent;
-        case GeometryFilter::all:
-            return true;
-    }
-    return false;
-}
 
 Error pass_error(const Pass& pass, const std::string& what) {
     return Error{pass_label(pass) + ": " + what};
@@ -58,29 +31,22 @@ class Planner {
   private:
     Result<void> raster(PlannedPass& planned) {
         const Pass& pass = *planned.pass;
-        TargetFormats formats;
-        if (Result<void> ok = targets(planned, formats); !ok) return ok;
-        if (pass.kind == PassKind::fullscreen && pass.shader.empty()) return {};  // only clears
-        const std::string_view vertex_name =
-            pass.vertex_shader.empty() ? default_vertex_shader(pass.kind) : pass.vertex_shader;
-        const Result<const Shader*> vertex = context_.shaders.get(vertex_name, VK_SHADER_STAGE_VERTEX_BIT);
-        if (!vertex) return vertex.error().within(pass_label(pass));
-        const Shader* fragment = nullptr;
-        if (!pass.shader.empty()) {
-            const Result<const Shader*> shader =
-                context_.shaders.get(pass.shader, VK_SHADER_STAGE_FRAGMENT_BIT);
-            if (!shader) return shader.error().within(pass_label(pass));
-            fragment = *shader;
-        }
-        const Result<const Pipeline*> pipeline =
-            context_.pipelines.graphics(pass, **vertex, fragment, formats);
-        if (!pipeline) return pipeline.error().within(pass_label(pass));
-        planned.pipeline = *pipeline;
+        if (Result<void> ok = targets(planned); !ok) return ok;
+        if (Result<void> ok = find_pipeline(planned); !ok || !planned.pipeline) return ok;
         if (Result<void> ok = resolver_.push_constants(planned); !ok) return ok;
+        const std::string_view vertex_name = vertex_shader_name(pass);
         return is_geometry(pass.kind) ? geometry(planned, vertex_name) : fullscreen(planned, vertex_name);
     }
 
-    Result<void> targets(PlannedPass& planned, TargetFormats& formats) {
+    Result<void> find_pipeline(PlannedPass& planned) {
+        const Result<const Pipeline*> pipeline =
+            pass_pipeline(context_.list, *planned.pass, context_.shaders, context_.pipelines);
+        if (!pipeline) return pipeline.error();
+        planned.pipeline = *pipeline;
+        return {};
+    }
+
+    Result<void> targets(PlannedPass& planned) {
         const Pass& pass = *planned.pass;
         for (const ColorTarget& target : pass.colors) {
             FrameImage* image = context_.images.find(target.image);
@@ -94,8 +60,6 @@ class Planner {
                 !context_.device.context.can(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
                 return pass_error(pass, context_.device.info.name + " cannot blend into " +
                                             std::string(format_name(image->declaration.format)));
-            formats.colors.push_back(format);
-            formats.samples = image->image.info.samples;
             if (Result<void> ok = extent(planned, target.image, image->extent(target.mip)); !ok) return ok;
             planned.accesses.push_back({.image = image,
                                         .first_mip = uint32_t(target.mip),
@@ -106,8 +70,6 @@ class Planner {
         FrameImage* image = context_.images.find(pass.depth->image);
         if (!is_depth(image->declaration.format))
             return pass_error(pass, "depth target '" + pass.depth->image + "' has a colour format");
-        formats.depth = image->image.info.format;
-        formats.samples = image->image.info.samples;
         planned.accesses.push_back(
             {.image = image,
              .use = only_tests(*pass.depth) ? ImageUse::depth_test : ImageUse::depth_target,
@@ -164,11 +126,7 @@ class Planner {
     Result<void> compute(PlannedPass& planned) {
         const Pass& pass = *planned.pass;
         if (pass.storage.empty()) return pass_error(pass, "a compute pass needs a storage image");
-        const Result<const Shader*> shader = context_.shaders.get(pass.shader, VK_SHADER_STAGE_COMPUTE_BIT);
-        if (!shader) return shader.error().within(pass_label(pass));
-        const Result<const Pipeline*> pipeline = context_.pipelines.compute(pass, **shader);
-        if (!pipeline) return pipeline.error().within(pass_label(pass));
-        planned.pipeline = *pipeline;
+        if (Result<void> ok = find_pipeline(planned); !ok) return ok;
         planned.extent = context_.images.find(pass.storage.front().image)->extent();
         for (const ImageRead& storage : pass.storage)
             planned.accesses.push_back(
@@ -183,6 +141,22 @@ class Planner {
 };
 
 }  // namespace
+
+bool takes(GeometryFilter filter, DrawClass draw) {
+    switch (filter) {
+        case GeometryFilter::skin:
+            return draw == DrawClass::skin;
+        case GeometryFilter::other:
+            return draw == DrawClass::other;
+        case GeometryFilter::opaque:
+            return draw != DrawClass::translucent;
+        case GeometryFilter::translucent:
+            return draw == DrawClass::translucent;
+        case GeometryFilter::all:
+            return true;
+    }
+    return false;
+}
 
 bool is_transfer(PassKind kind) {
     return kind == PassKind::resolve || kind == PassKind::generate_mips || kind == PassKind::copy;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "dermis/gpu/texture_state.h"
 
@@ -55,37 +57,88 @@ ImageInfo image_info(const TextureData& data) {
             .cube = data.cube};
 }
 
-void copy_levels(const Context& context, VkCommandBuffer commands, const TextureData& data,
-                 const DeviceImage& image, VkBuffer staging) {
-    VkDeviceSize offset = 0;
+// Rows of a level, or all of it where it has layers, by where they lie in the data.
+struct Strip {
+    VkBufferImageCopy region;  // its offset is set when it is copied
+    size_t begin = 0, bytes = 0;
+};
+
+// The staging buffer is no larger but for a strip that is: a map of 16384 x 16384 texels takes 1 GiB already.
+constexpr size_t kStagingBytes = size_t{32} << 20;
+
+std::vector<Strip> strips_of(const TextureData& data, const ImageInfo& info) {
+    std::vector<Strip> strips;
+    size_t begin = 0;
     for (int mip = 0; mip < data.mips; ++mip) {
-        const VkExtent2D extent = mip_extent(image.info.extent, mip);
-        const VkBufferImageCopy region = {
-            .bufferOffset = offset,
-            .imageSubresource = {image.info.aspect, uint32_t(mip), 0, image.info.layers},
-            .imageExtent = {extent.width, extent.height, 1}};
-        context.vk.vkCmdCopyBufferToImage(commands, staging, image.handle.get(),
-                                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-        offset +=
-            VkDeviceSize(extent.width) * extent.height * image.info.layers * bytes_per_texel(data.format);
+        const VkExtent2D extent = mip_extent(info.extent, mip);
+        const size_t row = size_t(extent.width) * info.layers * bytes_per_texel(data.format);
+        const auto affordable = uint32_t(std::clamp<size_t>(kStagingBytes / row, 1, extent.height));
+        const uint32_t rows = info.layers > 1 ? extent.height : affordable;
+        for (uint32_t y = 0; y < extent.height; y += rows) {
+            const uint32_t height = std::min(rows, extent.height - y);
+            strips.push_back({.region = {.imageSubresource = {info.aspect, uint32_t(mip), 0, info.layers},
+                                         .imageOffset = {0, int32_t(y), 0},
+                                         .imageExtent = {extent.width, height, 1}},
+                              .begin = begin,
+                              .bytes = row * height});
+            begin += row * height;
+        }
     }
+    return strips;
 }
 
-void record_upload(const Context& context, VkCommandBuffer commands, const TextureData& data,
-                   const DeviceImage& image, VkBuffer staging) {
-    const uint32_t mips = image.info.mips;
+// What fits into the staging buffer at once, from the first of `strips` on.
+std::span<Strip> first_batch(std::span<Strip> strips, size_t staging_bytes) {
+    size_t count = 0, used = 0;
+    for (; count < strips.size() && used + strips[count].bytes <= staging_bytes; ++count) {
+        strips[count].region.bufferOffset = used;
+        used += strips[count].bytes;
+    }
+    return strips.first(count);
+}
+
+void finish_mips(const Context& context, VkCommandBuffer commands, const TextureData& data,
+                 const DeviceImage& image) {
     constexpr VkImageLayout kDestination = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     constexpr VkImageLayout kSource = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     constexpr VkImageLayout kSampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    transition(context, commands, image, 0, mips, VK_IMAGE_LAYOUT_UNDEFINED, kDestination);
-    copy_levels(context, commands, data, image, staging);
-    const uint32_t generated = data.generate_mips ? mips - 1 : 0;
+    const uint32_t mips = image.info.mips, generated = data.generate_mips ? mips - 1 : 0;
     for (uint32_t mip = 1; mip <= generated; ++mip) {
         transition(context, commands, image, mip - 1, 1, kDestination, kSource);
         blit_mip(context, commands, image, mip);
     }
     if (generated) transition(context, commands, image, 0, generated, kSource, kSampled);
     transition(context, commands, image, generated, mips - generated, kDestination, kSampled);
+}
+
+Result<void> copy_strips(Device& device, const TextureData& data, const DeviceImage& image) {
+    const Context& context = device.state().context;
+    std::vector<Strip> strips = strips_of(data, image.info);
+    const size_t largest = std::ranges::max(strips, {}, &Strip::bytes).bytes;
+    const size_t staging_bytes = std::min(std::max(kStagingBytes, largest), data.bytes.size());
+    Result<Buffer> staging = make_buffer(context, "staging " + data.name, staging_bytes,
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
+    if (!staging) return staging.error();
+    for (std::span<Strip> rest = strips; !rest.empty();) {
+        const std::span<Strip> batch = first_batch(rest, staging_bytes);
+        for (const Strip& strip : batch)
+            std::memcpy(static_cast<std::byte*>(staging->mapped) + strip.region.bufferOffset,
+                        data.bytes.data() + strip.begin, strip.bytes);
+        const bool is_first = rest.size() == strips.size(), is_last = rest.size() == batch.size();
+        Result<void> done =
+            run_once(device.state(), "the upload of " + data.name, [&](VkCommandBuffer commands) {
+                if (is_first)
+                    transition(context, commands, image, 0, image.info.mips, VK_IMAGE_LAYOUT_UNDEFINED,
+                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+                for (const Strip& strip : batch)
+                    context.vk.vkCmdCopyBufferToImage(commands, staging->handle.get(), image.handle.get(),
+                                                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &strip.region);
+                if (is_last) finish_mips(context, commands, data, image);
+            });
+        if (!done) return done;
+        rest = rest.subspan(batch.size());
+    }
+    return {};
 }
 
 }  // namespace
@@ -125,19 +178,22 @@ Result<Texture> Texture::upload(Device& device, const TextureData& data) {
     if (Result<void> ok = check_data(data, context); !ok) return ok.error();
     Result<DeviceImage> image = make_image(context, data.name, image_info(data));
     if (!image) return image.error();
-    Result<Buffer> staging = make_buffer(context, "staging " + data.name, data.bytes.size(),
-                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
-    if (!staging) return staging.error();
-    std::memcpy(staging->mapped, data.bytes.data(), data.bytes.size());
-    Result<void> done = run_once(device.state(), "the upload of " + data.name, [&](VkCommandBuffer commands) {
-        record_upload(context, commands, data, *image, staging->handle.get());
-    });
-    if (!done) return done.error();
+    if (Result<void> done = copy_strips(device, data, *image); !done) return done.error();
     auto state = std::make_unique<State>();
     state->image = std::move(*image);
     state->name = data.name;
+    state->bytes_per_texel = dermis::bytes_per_texel(data.format);
     state->sampler = device.state().map_sampler(data.address_u, data.address_v);
     return Texture(std::move(state));
+}
+
+uint64_t Texture::bytes() const {
+    const ImageInfo& info = state_->image.info;
+    return uint64_t(info.extent.width) * info.extent.height * info.layers * state_->bytes_per_texel;
+}
+
+size_t Texture::bytes_per_texel() const {
+    return state_->bytes_per_texel;
 }
 
 Texture::Texture(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -10,6 +10,7 @@ namespace dermis::gpu {
 struct Texture::State {
     DeviceImage image;  ///< always in SHADER_READ_ONLY_OPTIMAL
     std::string name;
+    size_t bytes_per_texel = 0;
     VkSampler sampler = VK_NULL_HANDLE;  ///< the device's, trilinear with the texture's address modes
 };
 

@@ -26,12 +26,16 @@ struct Context {
     uint32_t timestamp_bits = 0;
     VkSampleCountFlags sample_counts = 0;  ///< of colour and depth targets alike
     bool is_cpu = false;
+    bool keep_statistics = false;  ///< of pipelines: VK_KHR_pipeline_executable_properties is enabled
     PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;  ///< null without VK_EXT_debug_utils
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 
     /// Whether optimally tiled images of this format have all these features.
     [[nodiscard]] bool can(VkFormat format, VkFormatFeatureFlags features) const;
+    [[nodiscard]] VkPipelineCreateFlags pipeline_flags() const {
+        return keep_statistics ? VkPipelineCreateFlags{VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR} : 0;
+    }
 };
 
 /// A device-level handle that destroys itself.

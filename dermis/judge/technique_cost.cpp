@@ -1,7 +1,6 @@
 #include "dermis/judge/technique_cost.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
@@ -16,27 +15,12 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-// Of all mips; images without a size of their own have the frame's.
-size_t image_bytes(const ImageDeclaration& image, int width, int height) {
-    const bool own = image.size.width > 0;
-    const auto side = [&](int fixed, int frame) {
-        return size_t(std::max(own ? fixed : int(std::lround(float(frame) * image.size.frame_scale)), 1));
-    };
-    size_t w = side(image.size.width, width), h = side(image.size.height, height), texels = 0;
-    for (int mip = 0; image.mips == 0 || mip < image.mips; ++mip) {
-        texels += w * h;
-        if (w == 1 && h == 1) break;
-        w = std::max<size_t>(w / 2, 1);
-        h = std::max<size_t>(h / 2, 1);
-    }
-    return texels * bytes_per_texel(image.format) * size_t(image.samples);
-}
-
 Result<void> measure_bytes(const Scene& scene, const Contestant& contestant, int width, int height,
                            TechniqueCost& cost) {
     const Technique& technique = *contestant.technique;
     const PassList list = technique.build(contestant.values, {});
-    for (const ImageDeclaration& image : list.images) cost.image_bytes += image_bytes(image, width, height);
+    for (const ImageDeclaration& image : list.images)
+        cost.image_bytes += bytes_in_frame(image, width, height);
     if (!technique.tables) return {};
     const Result<Profile> profile = find_profile(scene.skin.profile);
     if (!profile) return profile.error();

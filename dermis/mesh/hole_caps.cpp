@@ -8,8 +8,6 @@
 namespace dermis {
 namespace {
 
-constexpr size_t kLargestExact = 400;
-
 struct Edge {
     uint32_t from, to;
     friend auto operator<=>(const Edge&, const Edge&) = default;
@@ -104,10 +102,26 @@ std::vector<BorderLoop> border_loops(std::span<const Vec3> positions_mm, std::sp
     return loops;
 }
 
-std::vector<std::array<Vec3, 3>> cap_of(const BorderLoop& loop) {
+size_t affordable_exact(std::span<const BorderLoop> loops) {
+    constexpr double kMostSteps = 2e9;
+    constexpr size_t kSmallest = 16;
+    const auto steps = [&](size_t largest) {
+        double sum = 0;
+        for (const BorderLoop& loop : loops) {
+            const auto n = double(std::min(loop.size(), largest));
+            sum += n * n * n / 6;
+        }
+        return sum;
+    };
+    size_t largest = kLargestExactLoop;
+    while (largest > kSmallest && steps(largest) > kMostSteps) largest /= 2;
+    return largest;
+}
+
+std::vector<std::array<Vec3, 3>> cap_of(const BorderLoop& loop, size_t largest_exact) {
     BorderLoop rest = loop;
     std::vector<std::array<Vec3, 3>> triangles;
-    while (rest.size() > kLargestExact) {
+    while (rest.size() > largest_exact) {
         BorderLoop kept;
         for (size_t i = 0; i < rest.size(); ++i) {
             if (i % 2 == 0 || i + 1 == rest.size())

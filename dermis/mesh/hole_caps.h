@@ -23,8 +23,14 @@ using BorderLoop = std::vector<Vec3>;
                                                    std::span<const uint32_t> triangles);
 
 /// The triangulation of the loop of smallest area, facing as its surface does: size() - 2 triangles.
-/// Barequet, Sharir 1995, Filling Gaps in the Boundary of a Polyhedron. Cubic time, so above 400 vertices
-/// every second one is cut off first, until the rest is small enough.
-[[nodiscard]] std::vector<std::array<Vec3, 3>> cap_of(const BorderLoop& loop);
+/// Barequet, Sharir 1995, Filling Gaps in the Boundary of a Polyhedron. Cubic time, so above `largest_exact`
+/// vertices every second one is cut off first, until the rest is small enough.
+inline constexpr size_t kLargestExactLoop = 400;
+[[nodiscard]] std::vector<std::array<Vec3, 3>> cap_of(const BorderLoop& loop,
+                                                      size_t largest_exact = kLargestExactLoop);
+
+/// The largest_exact with which the caps of all loops together take a few seconds: kLargestExactLoop but for
+/// a mesh of thousands of long borders.
+[[nodiscard]] size_t affordable_exact(std::span<const BorderLoop> loops);
 
 }  // namespace dermis

@@ -61,6 +61,7 @@ struct Material {
     ImageSource opacity_map;             ///< coloured transmittance of translucent objects
     ImageSource transmission_map;        ///< A
     ImageSource roughness_map;           ///< perceptual, R; when present it replaces metallic_roughness_map's
+    ImageSource metallic_map;            ///< R; when present it replaces metallic_roughness_map's
     ImageSource kernel_size_map;         ///< R: 0 on thick skin, up to 1 where blurs widen because it is thin
     ImageSource curvature_map;           ///< R; (value - curvature_mid) * curvature_scale_per_mm
 

@@ -159,6 +159,7 @@ class MtlParser {
         if (keyword == "map_ks") return &material.specular_map;
         if (keyword == "map_ke") return &material.emission_map;
         if (keyword == "map_pr") return &material.roughness_map;
+        if (keyword == "map_pm") return &material.metallic_map;
         if (keyword == "norm" || keyword == "map_kn") return &material.normal_map;
         if (keyword == "disp" || keyword == "map_disp") return &material.displacement_map;
         if (keyword == "map_d") return &material.alpha_map;
@@ -176,6 +177,7 @@ class MtlParser {
         Material& material = materials_.back();
         if (keyword == "map_ke" && material.emission_linear == Vec3{}) material.emission_linear = {1, 1, 1};
         if (keyword == "map_pr") material.roughness = 1;
+        if (keyword == "map_pm") material.metallic = 1;
         if (keyword == "map_d") {
             material.alpha_mode = AlphaMode::mask;
             material.opacity = 1;

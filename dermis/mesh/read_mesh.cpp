@@ -94,8 +94,8 @@ void warn_of_height(const Mesh& mesh, const fs::path& name, const MeshOptions& o
     if (options.unit_mm)
         text += ", check the unit of " + to_text(*options.unit_mm) + " mm";
     else
-        text += is_obj ? "; OBJ has no unit, state it (--unit-mm)"
-                       : "; glTF is in metres, else state the unit (--unit-mm)";
+        text += std::string(is_obj ? "; OBJ has no unit:" : "; glTF is in metres, else") +
+                " state unit_mm under [[mesh]] of a scene file";
     warnings.push_back(text);
 }
 

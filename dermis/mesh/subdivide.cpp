@@ -11,6 +11,7 @@
 #include <numeric>
 #include <string>
 
+#include "dermis/base/progress.h"
 #include "dermis/mesh/weld.h"
 
 namespace dermis {
@@ -77,18 +78,22 @@ std::unique_ptr<Far::TopologyRefiner> make_refiner(const Cage& cage, size_t posi
 }
 
 template <class Value, class Step>
-std::vector<Sum<Value>> refine(const std::vector<Value>& values, int level, const Step& step) {
+std::vector<Sum<Value>> refine(const std::vector<Value>& values, int level, Progress& progress,
+                               const Step& step) {
     std::vector<Sum<Value>> current;
     for (const Value& value : values) current.push_back({value});
-    for (int l = 1; l <= level; ++l) current = step(l, current);
+    for (int l = 1; l <= level; ++l) {
+        current = step(l, current);
+        progress.advance();
+    }
     return current;
 }
 
 void evaluate_positions(const Far::TopologyRefiner& refiner, const std::vector<Vec3>& cage,
-                        PolygonMesh& out) {
+                        Progress& progress, PolygonMesh& out) {
     const Far::PrimvarRefiner primvars(refiner);
     const auto refined =
-        refine(cage, refiner.GetMaxLevel(), [&](int level, const std::vector<PositionSum>& from) {
+        refine(cage, refiner.GetMaxLevel(), progress, [&](int level, const std::vector<PositionSum>& from) {
             std::vector<PositionSum> to(size_t(refiner.GetLevel(level).GetNumVertices()));
             primvars.Interpolate(level, from, to);
             return to;
@@ -101,13 +106,15 @@ void evaluate_positions(const Far::TopologyRefiner& refiner, const std::vector<V
     }
 }
 
-void evaluate_uvs(const Far::TopologyRefiner& refiner, const std::vector<Vec2>& cage, PolygonMesh& out) {
+void evaluate_uvs(const Far::TopologyRefiner& refiner, const std::vector<Vec2>& cage, Progress& progress,
+                  PolygonMesh& out) {
     const Far::PrimvarRefiner primvars(refiner);
-    const auto refined = refine(cage, refiner.GetMaxLevel(), [&](int level, const std::vector<UvSum>& from) {
-        std::vector<UvSum> to(size_t(refiner.GetLevel(level).GetNumFVarValues(0)));
-        primvars.InterpolateFaceVarying(level, from, to, 0);
-        return to;
-    });
+    const auto refined =
+        refine(cage, refiner.GetMaxLevel(), progress, [&](int level, const std::vector<UvSum>& from) {
+            std::vector<UvSum> to(size_t(refiner.GetLevel(level).GetNumFVarValues(0)));
+            primvars.InterpolateFaceVarying(level, from, to, 0);
+            return to;
+        });
     std::vector<UvSum> limit(refined.size());
     primvars.LimitFaceVarying(refined, limit, 0);
     for (const UvSum& uv : limit) out.uvs.push_back(uv.value);
@@ -154,11 +161,14 @@ Result<PolygonMesh> subdivide(const PolygonMesh& polygons, int level) {
         return Error{"the mesh cannot be subdivided: a face uses a vertex twice, or an edge is not manifold"};
     Far::TopologyRefiner::UniformOptions uniform(level);
     uniform.fullTopologyInLastLevel = true;
+    // The topology and the faces count as one step each, positions and UVs as one a level.
+    Progress progress("subdividing", 2 + 2 * size_t(level));
     refiner->RefineUniform(uniform);
+    progress.advance();
     PolygonMesh out;
     out.materials = polygons.materials;
-    evaluate_positions(*refiner, polygons.positions_mm, out);
-    if (!cage.uvs.empty()) evaluate_uvs(*refiner, cage.uv_values, out);
+    evaluate_positions(*refiner, polygons.positions_mm, progress, out);
+    if (!cage.uvs.empty()) evaluate_uvs(*refiner, cage.uv_values, progress, out);
     copy_faces(*refiner, polygons, out);
     return out;
 }

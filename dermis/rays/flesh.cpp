@@ -181,8 +181,10 @@ void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
         flesh.hidden_area_mm2 += triangles.area_mm2[t];
     }
     flesh.mesh_openings = border_loops(mesh.positions_mm, mesh.indices, skin).size();
-    for (const BorderLoop& loop : border_loops(mesh.positions_mm, mesh.indices, boundary)) {
-        const std::vector<std::array<Vec3, 3>> cap = cap_of(loop);
+    const std::vector<BorderLoop> loops = border_loops(mesh.positions_mm, mesh.indices, boundary);
+    const size_t largest_exact = affordable_exact(loops);
+    for (const BorderLoop& loop : loops) {
+        const std::vector<std::array<Vec3, 3>> cap = cap_of(loop, largest_exact);
         flesh.caps.insert(flesh.caps.end(), cap.begin(), cap.end());
     }
 }

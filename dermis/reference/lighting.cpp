@@ -23,6 +23,10 @@ float entry_transmittance(double eta, float cosine) {
     return eta > 1 ? float(1 - fresnel_dielectric(cosine, eta)) : 1.0f;
 }
 
+float not_reflected(float scale, float bias, float f0) {
+    return 1 - std::min(f0 * scale + bias, 1.0f);
+}
+
 Vec3 mix(Vec3 a, Vec3 b, float t) {
     return a + (b - a) * t;
 }
@@ -80,6 +84,22 @@ float specular_response(SpecularReflection model, Vec3 n, Vec3 to_eye, Vec3 to_l
     return float(brdf * n_dot_l);
 }
 
+Receiver receiver_of(const ShadingPoint& point) {
+    Receiver receiver{point.p_smooth_mm, point.n_geometry, point.n, point.occlusion, std::nullopt};
+    if (point.material_class == MaterialClass::skin)
+        receiver.skin = SurfaceReflection{point.roughness, point.f0};
+    return receiver;
+}
+
+Receiver Lighting::skin_receiver(const SurfaceAttributes& surface, const RayHit& hit) const {
+    Receiver receiver{.p_smooth_mm = surface.p_smooth_mm,
+                      .n_geometry = surface.n_geometry_world,
+                      .n = materials_.normal_at(surface, hit.object),
+                      .occlusion = materials_.occlusion_at(surface, hit)};
+    if (brdf_) receiver.skin = materials_.reflection_at(surface, hit.object);
+    return receiver;
+}
+
 Vec3 Lighting::transmittance(const Ray& ray) const {
     if (rays_.occluded(RaySet::opaque, ray)) return {};
     Vec3 through{1, 1, 1};
@@ -101,9 +121,24 @@ Vec3 Lighting::light_visibility(size_t light, const Receiver& receiver, Vec3 to_
         {.origin_mm = origin_mm, .direction = to_light, .min_mm = offset_mm, .max_mm = distance_mm});
 }
 
+// A walk has its own boundary, which reflects light before it enters.
+float Lighting::entry(const Receiver& receiver, float cosine) const {
+    if (settings_.entry_eta > 1) return entry_transmittance(settings_.entry_eta, cosine);
+    if (!brdf_ || !receiver.skin) return 1;
+    const auto [roughness, f0] = *receiver.skin;
+    const Vec4 terms = brdf_->at(kBrdfLobeGgx, roughness, cosine);
+    return not_reflected(terms.x, terms.y, f0) / std::max(not_reflected(terms.z, terms.w, f0), 1e-3f);
+}
+
+float Lighting::diffuse_exit(const ShadingPoint& point, Vec3 to_eye) const {
+    if (!brdf_ || point.material_class != MaterialClass::skin) return 1;
+    const Vec4 terms =
+        brdf_->at(kBrdfLobeGgx, point.roughness, std::clamp(dot(point.n, to_eye), 1e-3f, 1.0f));
+    return not_reflected(terms.x, terms.y, point.f0);
+}
+
 Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingRandom& random) const {
     if (environment_.dark()) return {};
-    const double eta = settings_.entry_eta;
     if (settings_.ambient == AmbientModel::renderer)
         return environment_.harmonic_irradiance(receiver.n) * (receiver.occlusion * harmonic_entry_);
     // One direction from an even mixture of the cosine lobe and the bright parts: the balance heuristic of
@@ -118,7 +153,7 @@ Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingRa
     const Vec3 through = transmittance({.origin_mm = receiver.p_smooth_mm + receiver.n_geometry * offset_mm,
                                         .direction = direction,
                                         .min_mm = offset_mm});
-    return through * environment_.radiance(direction) * (cosine * entry_transmittance(eta, cosine) / density);
+    return through * environment_.radiance(direction) * (cosine * entry(receiver, cosine) / density);
 }
 
 Vec3 Lighting::irradiance(const Receiver& receiver, const LightingRandom& random) const {
@@ -129,8 +164,7 @@ Vec3 Lighting::irradiance(const Receiver& receiver, const LightingRandom& random
         if (cosine <= 0 || is_black(arrival.irradiance_linear)) continue;
         const Vec3 visible =
             light_visibility(light, receiver, arrival.to_light, arrival.distance_mm, random.penumbra);
-        sum +=
-            arrival.irradiance_linear * visible * (cosine * entry_transmittance(settings_.entry_eta, cosine));
+        sum += arrival.irradiance_linear * visible * (cosine * entry(receiver, cosine));
     }
     return sum + environment_irradiance(receiver, random);
 }
@@ -160,7 +194,7 @@ Vec3 Lighting::specular_radiance(const ShadingPoint& given, Vec3 to_eye, const L
     // A metal's F0 is its colour; the models take one number, so its colour multiplies the result.
     ShadingPoint point = given;
     point.f0 = given.f0 + (1 - given.f0) * given.metallic;
-    const Receiver receiver{point.p_smooth_mm, point.n_geometry, point.n, point.occlusion};
+    const Receiver receiver = receiver_of(point);
     Vec3 sum;
     for (size_t light = 0; light < scene_.lights.size(); ++light) {
         const LightArrival arrival = light_at(scene_.lights[light], point.p_smooth_mm);

@@ -2,6 +2,7 @@
 // Light that arrives at a point of the scene, shadowed by rays: irradiance for the diffuse transport,
 // reflected radiance for the specular one.
 
+#include <optional>
 #include <string_view>
 
 #include "dermis/optics/fresnel.h"
@@ -47,23 +48,31 @@ struct Receiver {
     Vec3 n_geometry;
     Vec3 n;  ///< shading normal: the cosine of the irradiance is to this one
     float occlusion = 1;
+    std::optional<SurfaceReflection> skin;  ///< what reflects before light enters; absent: not skin
 };
+[[nodiscard]] Receiver receiver_of(const ShadingPoint& point);
 
 /// Keeps references; everything must outlive it. Safe from any thread.
 class Lighting {
   public:
     Lighting(const Scene& scene, const RayScene& rays, const MaterialSet& materials,
              const EnvironmentSampler& environment, const LightingSettings& settings,
-             const SplitSumReflection* reflection = nullptr)
+             const SplitSumReflection* reflection = nullptr, const BrdfTable* brdf = nullptr)
         : scene_(scene),
           rays_(rays),
           materials_(materials),
           environment_(environment),
           settings_(settings),
           reflection_(reflection),
+          brdf_(scene.skin.specular_reduces_diffuse && settings.specular != SpecularReflection::none
+                    ? brdf
+                    : nullptr),
           shadow_maps_(scene.shadow_maps()),
           harmonic_entry_(settings.entry_eta > 1 ? float(1 - diffuse_external_reflectance(settings.entry_eta))
                                                  : 1.0f) {}
+
+    /// Where a probe or a walk meets skin.
+    [[nodiscard]] Receiver skin_receiver(const SurfaceAttributes& surface, const RayHit& hit) const;
 
     /// An unbiased estimate of the irradiance, linear; exact (no noise) without penumbra and traced
     /// environment.
@@ -75,6 +84,10 @@ class Lighting {
     [[nodiscard]] Vec3 specular_radiance(const ShadingPoint& point, Vec3 to_eye,
                                          const LightingRandom& random) const;
 
+    /// What is left of diffuse light that leaves towards the eye (shaders/include/reduced_diffuse.glsl): less
+    /// than 1 on skin of a scene with Skin::specular_reduces_diffuse.
+    [[nodiscard]] float diffuse_exit(const ShadingPoint& point, Vec3 to_eye) const;
+
     /// What comes through of light along the segment: 0 behind opaque things, coloured behind translucent
     /// ones (each surface crossed multiplies).
     [[nodiscard]] Vec3 transmittance(const Ray& ray) const;
@@ -82,6 +95,7 @@ class Lighting {
     [[nodiscard]] const LightingSettings& settings() const { return settings_; }
 
   private:
+    [[nodiscard]] float entry(const Receiver& receiver, float cosine) const;
     [[nodiscard]] Vec3 light_visibility(size_t light, const Receiver& receiver, Vec3 to_light,
                                         float distance_mm, Vec2 u) const;
     [[nodiscard]] Vec3 environment_irradiance(const Receiver& receiver, const LightingRandom& random) const;
@@ -93,6 +107,7 @@ class Lighting {
     const EnvironmentSampler& environment_;
     LightingSettings settings_;
     const SplitSumReflection* reflection_;
+    const BrdfTable* brdf_;  // absent: the specular reflection takes nothing from the diffuse light
     std::vector<int> shadow_maps_;
     float harmonic_entry_;  // the part of even light that enters; an integral, so it is made once
 };

@@ -72,6 +72,7 @@ Result<MaterialSet> MaterialSet::load(const Scene& scene) {
         {&Material::normal_map, &Maps::normal, ImageUse::data},
         {&Material::specular_map, &Maps::specular, ImageUse::data},
         {&Material::roughness_map, &Maps::roughness, ImageUse::data},
+        {&Material::metallic_map, &Maps::metallic, ImageUse::data},
         {&Material::metallic_roughness_map, &Maps::metallic_roughness, ImageUse::data},
         {&Material::occlusion_map, &Maps::occlusion, ImageUse::data},
         {&Material::opacity_map, &Maps::opacity, ImageUse::color},
@@ -131,11 +132,24 @@ float MaterialSet::occlusion_at(const SurfaceAttributes& surface, const RayHit& 
                             : occlusion;
 }
 
+SurfaceReflection MaterialSet::reflection_at(const SurfaceAttributes& surface, uint32_t object) const {
+    const auto& [material, material_class, maps] = entry(surface, object);
+    SurfaceReflection made{material->roughness, float(f0_of_eta(material->ior)) * material->specular};
+    if (maps.specular) made.f0 *= factor(*maps.specular, surface);
+    if (maps.roughness)
+        made.roughness *= maps.roughness->sample(surface.uv, surface.footprint).x;
+    else if (maps.metallic_roughness)
+        made.roughness *= maps.metallic_roughness->sample(surface.uv, surface.footprint).y;
+    made.roughness = std::clamp(made.roughness, kLeastRoughness, 1.0f);
+    return made;
+}
+
 ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& hit) const {
     const Entry& e = entry(surface, hit.object);
     const Material& material = *e.material;
     const bool is_skin = e.material_class == MaterialClass::skin;
     const bool cut_out = e.material_class == MaterialClass::other && cutoff_of_map(material) > 0;
+    const SurfaceReflection reflection = reflection_at(surface, hit.object);
     ShadingPoint point{.p_mm = surface.p_world_mm,
                        .p_smooth_mm = surface.p_smooth_mm,
                        .n_face = surface.n_face_world,
@@ -143,10 +157,10 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .n = normal_at(surface, hit.object),
                        .albedo_linear = material.base_color_linear * rgb(surface.color_linear),
                        .emission_linear = material.emission_linear,
-                       .roughness = material.roughness,
-                       .f0 = float(f0_of_eta(material.ior)) * material.specular,
+                       .roughness = reflection.roughness,
+                       .f0 = reflection.f0,
                        .metallic = is_skin ? 0 : material.metallic,
-                       .opacity = cut_out ? 1 : material.opacity,
+                       .opacity = is_skin || cut_out ? 1 : material.opacity,
                        .occlusion = occlusion_at(surface, hit),
                        .material_class = e.material_class};
     if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;
@@ -156,14 +170,10 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
     if (e.maps.emission)
         point.emission_linear =
             point.emission_linear * rgb(e.maps.emission->sample(surface.uv, surface.footprint));
-    if (e.maps.specular) point.f0 *= factor(*e.maps.specular, surface);
-    if (e.maps.roughness) point.roughness *= e.maps.roughness->sample(surface.uv, surface.footprint).x;
-    if (e.maps.metallic_roughness) {
-        const Vec4 packed = e.maps.metallic_roughness->sample(surface.uv, surface.footprint);
-        if (!e.maps.roughness) point.roughness *= packed.y;
-        point.metallic *= packed.z;
-    }
-    point.roughness = std::clamp(point.roughness, kLeastRoughness, 1.0f);
+    if (e.maps.metallic)
+        point.metallic *= e.maps.metallic->sample(surface.uv, surface.footprint).x;
+    else if (e.maps.metallic_roughness)
+        point.metallic *= e.maps.metallic_roughness->sample(surface.uv, surface.footprint).z;
     return point;
 }
 

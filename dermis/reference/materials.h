@@ -31,6 +31,12 @@ struct ShadingPoint {
     MaterialClass material_class = MaterialClass::skin;
 };
 
+/// What a surface's specular reflection is made of.
+struct SurfaceReflection {
+    float roughness = 0.5f;  ///< perceptual; alpha = roughness^2
+    float f0 = 0.04f;
+};
+
 class MaterialSet {
   public:
     /// Decodes every map once. Errors name the file. The scene must outlive it.
@@ -41,6 +47,7 @@ class MaterialSet {
     /// Only the shading normal, for points whose irradiance is gathered: object-space maps are in world
     /// space.
     [[nodiscard]] Vec3 normal_at(const SurfaceAttributes& surface, uint32_t object) const;
+    [[nodiscard]] SurfaceReflection reflection_at(const SurfaceAttributes& surface, uint32_t object) const;
     /// What a translucent surface lets through: its opacity map's colour, or base colour * (1 - opacity).
     [[nodiscard]] Vec3 transmittance_at(const SurfaceAttributes& surface, uint32_t object) const;
     [[nodiscard]] float occlusion_at(const SurfaceAttributes& surface, const RayHit& hit) const;
@@ -51,6 +58,7 @@ class MaterialSet {
         const Texture* normal = nullptr;
         const Texture* specular = nullptr;
         const Texture* roughness = nullptr;
+        const Texture* metallic = nullptr;
         const Texture* metallic_roughness = nullptr;
         const Texture* occlusion = nullptr;
         const Texture* opacity = nullptr;

@@ -36,14 +36,16 @@ Vec2 place_in_pixel(const ReferenceSettings& settings, uint32_t index, OwenSeque
 
 PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays,
                            MaterialSet materials, EnvironmentSampler environment,
-                           SplitSumReflection reflection, const LightingSettings& lighting)
+                           SplitSumReflection reflection, std::optional<BrdfTable> brdf,
+                           const LightingSettings& lighting)
     : scene_(scene),
       settings_(settings),
       rays_(std::move(rays)),
       materials_(std::move(materials)),
       environment_(std::move(environment)),
       reflection_(std::move(reflection)),
-      lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_) {
+      brdf_(std::move(brdf)),
+      lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_, brdf_ ? &*brdf_ : nullptr) {
     const float aspect = float(settings.width) / float(settings.height);
     inverse_view_projection_ = camera_matrices(scene.camera, aspect).inverse_view_projection;
 }
@@ -80,6 +82,12 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
     Result<SplitSumReflection> reflection = SplitSumReflection::load(
         approximate ? scene.environment : Environment{.kind = EnvironmentKind::none});
     if (!reflection) return reflection.error();
+    std::optional<BrdfTable> brdf;
+    if (scene.skin.specular_reduces_diffuse) {
+        Result<BrdfTable> loaded = BrdfTable::load();
+        if (!loaded) return loaded.error();
+        brdf = std::move(*loaded);
+    }
     const bool walks = settings.integrator == Integrator::walk;
     ScatteringMedium medium;
     if (walks) {
@@ -93,9 +101,9 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
             medium.sigma_a_per_mm[c] /= settings.width_scale;
         }
     }
-    std::unique_ptr<PixelSampler> sampler(new PixelSampler(scene, settings, std::move(*rays),
-                                                           std::move(*materials), std::move(*environment),
-                                                           std::move(*reflection), lighting));
+    std::unique_ptr<PixelSampler> sampler(
+        new PixelSampler(scene, settings, std::move(*rays), std::move(*materials), std::move(*environment),
+                         std::move(*reflection), std::move(brdf), lighting));
     if (walks && settings.width_scale > 0) sampler->use_medium(medium);
     if (settings.integrator == Integrator::surface && settings.width_scale > 0) {
         Result<Profile> profile = find_profile(scene.skin.profile);
@@ -136,7 +144,7 @@ Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footpr
         sample.lost_walks += walked.lost;
         return walked.exitance;
     }
-    const Receiver receiver{point.p_smooth_mm, point.n_geometry, point.n, point.occlusion};
+    const Receiver receiver = receiver_of(point);
     if (!skin) return lighting_.irradiance(receiver, random);
     // For a width of 0: with a single ray per sample the penumbra would be most of the noise.
     constexpr int kProbesARay = 4;
@@ -162,7 +170,7 @@ MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t 
     OwenSequence uniform(seed, 0);
     const LightingRandom random{uniform.next_2d(), uniform.next_2d(), uniform.next_1d()};
     const Vec3 m = exitance(point, surface.footprint, random, seed, sample);
-    const Vec3 albedo = point.albedo_linear * (1 - point.metallic);
+    const Vec3 albedo = point.albedo_linear * ((1 - point.metallic) * lighting_.diffuse_exit(point, to_eye));
     sample.diffuse += weight * (albedo * m * (point.opacity / kPi) + point.emission_linear);
     sample.specular += weight * lighting_.specular_radiance(point, to_eye, random);
     return point.material_class;

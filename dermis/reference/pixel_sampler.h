@@ -27,7 +27,7 @@ class PixelSampler {
 
   private:
     PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays, MaterialSet materials,
-                 EnvironmentSampler environment, SplitSumReflection reflection,
+                 EnvironmentSampler environment, SplitSumReflection reflection, std::optional<BrdfTable> brdf,
                  const LightingSettings& lighting);
     void use_profile(const Profile& profile);
     void use_medium(const ScatteringMedium& medium);
@@ -51,6 +51,7 @@ class PixelSampler {
     MaterialSet materials_;
     EnvironmentSampler environment_;
     SplitSumReflection reflection_;
+    std::optional<BrdfTable> brdf_;
     Lighting lighting_;
     Mat4 inverse_view_projection_;
     std::optional<SurfaceIntegrator> surface_;

@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "dermis/image/half.h"
-#include "dermis/scene/brdf_table.h"
 #include "dermis/scene/cube_map.h"
 
 namespace dermis {
@@ -27,7 +26,7 @@ Result<SplitSumReflection> SplitSumReflection::load(const Environment& environme
     if (environment.kind == EnvironmentKind::none || environment.intensity <= 0) return reflection;
     Result<EnvironmentLight> light = prepare_environment(environment);
     if (!light) return light.error();
-    Result<std::vector<std::byte>> brdf = stored_brdf_table();
+    Result<BrdfTable> brdf = BrdfTable::load();
     if (!brdf) return brdf.error();
     reflection.light_ = std::move(*light);
     reflection.brdf_ = std::move(*brdf);
@@ -76,28 +75,11 @@ Vec3 SplitSumReflection::cube(Vec3 d, float level) const {
     return blend(cube_level(d, low), cube_level(d, high), clamped - float(low));
 }
 
-Vec2 SplitSumReflection::scale_and_bias(float roughness, float n_dot_v) const {
-    const auto at = [&](int x, int y) -> Vec2 {
-        x = std::clamp(x, 0, kBrdfTableSize - 1);
-        y = std::clamp(y, 0, kBrdfTableSize - 1);
-        uint16_t half[2];
-        std::memcpy(half, &brdf_[size_t(y * kBrdfTableSize + x) * sizeof half], sizeof half);
-        return {from_half(half[0]), from_half(half[1])};
-    };
-    const float x = n_dot_v * kBrdfTableSize - 0.5f, y = roughness * kBrdfTableSize - 0.5f;
-    const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
-    const float fx = x - float(x0), fy = y - float(y0);
-    const Vec2 a = at(x0, y0), b = at(x0 + 1, y0), c = at(x0, y0 + 1), d = at(x0 + 1, y0 + 1);
-    const auto lerp = [](float from, float to, float t) { return from + (to - from) * t; };
-    return {lerp(lerp(a.x, b.x, fx), lerp(c.x, d.x, fx), fy),
-            lerp(lerp(a.y, b.y, fx), lerp(c.y, d.y, fx), fy)};
-}
-
 Vec3 SplitSumReflection::radiance(Vec3 n, Vec3 to_eye, float roughness, float f0, float occlusion) const {
     if (intensity_ <= 0) return {};
     const float n_dot_v = std::clamp(dot(n, to_eye), 1e-3f, 1.0f);
     const Vec3 reflected = n * (2 * dot(n, to_eye)) - to_eye;
-    const Vec2 brdf = scale_and_bias(roughness, n_dot_v);
+    const Vec4 brdf = brdf_.at(kBrdfLobeGgx, roughness, n_dot_v);
     return cube(to_environment(reflected, yaw_rad_), roughness * float(light_.mips - 1)) *
            (intensity_ * (f0 * brdf.x + brdf.y) * specular_occlusion(n_dot_v, occlusion, roughness));
 }

@@ -4,6 +4,7 @@
 // not contain the error of that approximation.
 
 #include "dermis/base/result.h"
+#include "dermis/scene/brdf_table.h"
 #include "dermis/scene/environment.h"
 
 namespace dermis {
@@ -20,10 +21,9 @@ class SplitSumReflection {
     [[nodiscard]] Vec3 cube(Vec3 d, float level) const;
     [[nodiscard]] Vec3 cube_level(Vec3 d, int level) const;
     [[nodiscard]] Vec3 texel(int level, int face, int x, int y) const;
-    [[nodiscard]] Vec2 scale_and_bias(float roughness, float n_dot_v) const;
 
     EnvironmentLight light_;
-    std::vector<std::byte> brdf_;       // brdf_table.h
+    BrdfTable brdf_;
     std::vector<size_t> level_starts_;  // into the cube's halves
     float intensity_ = 0, yaw_rad_ = 0;
 };

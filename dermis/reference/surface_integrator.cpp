@@ -83,10 +83,7 @@ void SurfaceIntegrator::probe(const DiffusePoint& point, const LocalFrame& frame
         const float survival = std::min(1.0f, most(weight) / kFullWeight);
         if (survival <= 0 || chance.next_1d() >= survival) continue;
         weight *= 1 / survival;
-        const Receiver receiver{.p_smooth_mm = surface.p_smooth_mm,
-                                .n_geometry = surface.n_geometry_world,
-                                .n = materials_.normal_at(surface, hit.object),
-                                .occlusion = materials_.occlusion_at(surface, hit)};
+        const Receiver receiver = lighting_.skin_receiver(surface, hit);
         sums.irradiance += weight * lighting_.irradiance(receiver, {penumbra, environment, choice.y});
         sums.reflectance += weight;
     }

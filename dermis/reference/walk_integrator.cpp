@@ -68,11 +68,7 @@ WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, Vec3 
         if (end.lost || end.throughput == Vec3{}) continue;
         SurfaceAttributes surface = rays_.surface_at(boundary.last());
         surface.footprint = point.footprint;
-        const uint32_t object = boundary.last().object;
-        const Receiver receiver{.p_smooth_mm = surface.p_smooth_mm,
-                                .n_geometry = surface.n_geometry_world,
-                                .n = materials_.normal_at(surface, object),
-                                .occlusion = materials_.occlusion_at(surface, boundary.last())};
+        const Receiver receiver = lighting_.skin_receiver(surface, boundary.last());
         const LightingRandom uniform{random.next_2d(), random.next_2d(), random.next_1d()};
         sum += end.throughput * lighting_.irradiance(receiver, uniform);
     }

@@ -29,9 +29,9 @@ Result<void> SceneOnDevice::upload_environment(gpu::Device& device, const Scene&
     Result<std::vector<std::byte>> table = stored_brdf_table();
     if (!table) return table.error();
     Result<gpu::Texture> brdf = gpu::Texture::upload(device, {.name = "environment_brdf",
-                                                              .format = ImageFormat::rg16f,
+                                                              .format = ImageFormat::rgba16f,
                                                               .width = kBrdfTableSize,
-                                                              .height = kBrdfTableSize,
+                                                              .height = kBrdfLobes * kBrdfTableSize,
                                                               .bytes = std::move(*table)});
     if (!brdf) return brdf.error();
     environment_brdf_ = std::make_unique<gpu::Texture>(std::move(*brdf));

@@ -91,7 +91,7 @@ gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings)
              scene.environment.kind == EnvironmentKind::none ? 0.0f : scene.environment.intensity},
             {"environment_yaw_rad", scene.environment.yaw_rad},
             {"environment_mip_count", float(settings.environment_mip_count)},
-            {"light_count", int32_t(scene.lights.size())},
+            {"frame_light_count", int32_t(scene.lights.size())},
             {"key_light", int32_t(key)},
             {"shadow_texel_mm", 2 * scene.bounds_radius_mm / float(settings.shadow_map_size)},
             {"penumbra_mm", settings.penumbra_mm},

@@ -53,6 +53,7 @@ std::string light_key(const Technique& technique, const ParameterValues& values,
         for (const auto& [name, value] : light)
             std::visit([&](const auto& v) { hasher.add(std::as_bytes(std::span(&v, 1))); }, value);
     hasher.add(scene.environment.intensity).add(scene.environment.yaw_rad).add(scene.skin.profile);
+    hasher.add(scene.skin.specular_reduces_diffuse);
     return hasher.hex();
 }
 
@@ -230,6 +231,7 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
         .has_other = uploaded_->has(gpu::DrawClass::other),
         .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
         .has_second_light = scene_->lights.size() > 1,
+        .reduced_diffuse = scene_->skin.specular_reduces_diffuse,
         .densest_uv_per_mm = uploaded_->uv_density().densest_uv_per_mm,
         .typical_uv_per_mm = uploaded_->uv_density().typical_uv_per_mm,
         .skin_gaussians = (*skin)->gaussians};
@@ -244,6 +246,8 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
                                        .has_cut_outs = uploaded_->has_cut_outs(),
                                        .gbuffer = settings.gbuffer};
     list_ = frame_passes(technique.build(values, frame), shared);
+    list_.constants = uploaded_->map_constants();
+    list_.constants.emplace_back("one_light", scene_->lights.size() == 1);
     radiance_name_ = radiance_image(shared);
     if (Result<void> good = check_atlas(); !good) return good.error();
     check_maps();

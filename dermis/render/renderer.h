@@ -54,6 +54,10 @@ class Renderer {
 
     gpu::Executor& executor() { return executor_; }
 
+    /// Of the last frame: its passes, and what its inputs() were besides.
+    [[nodiscard]] const PassList& list() const { return list_; }
+    [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;
+
   private:
     Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene);
     Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
@@ -62,7 +66,6 @@ class Renderer {
     void check_maps();
     Result<void> prepare_seams();
     [[nodiscard]] Result<const SkinContext*> skin_context();
-    [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;
 
     gpu::Device* device_;
     gpu::Executor executor_;

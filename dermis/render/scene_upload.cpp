@@ -150,9 +150,13 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
                            ? load_material_map(*job.map, *job.material, *job.mesh)
                            : Result<LoadedMap>({neutral_map(*job.map), {}});
     });
-    for (const Job& job : jobs) {
+    for (const MaterialMap& map : material_maps())
+        map_constants_.emplace_back("has_" + map.texture, std::ranges::any_of(jobs, [&](const Job& job) {
+                                        return job.map == &map && map_source(map, *job.material);
+                                    }));
+    for (Job& job : jobs) {
         if (!*job.data) return job.data->error();
-        const LoadedMap& loaded = **job.data;
+        const LoadedMap loaded = std::move(**job.data);
         if (!loaded.warning.empty()) warnings_.push_back(loaded.warning);
         Result<gpu::Texture> texture = gpu::Texture::upload(device, loaded.texture);
         if (!texture) return texture.error();

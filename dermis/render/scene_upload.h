@@ -27,6 +27,10 @@ class SceneOnDevice {
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     /// Whether alpha cuts any of what is drawn (cutoff_of_map).
     [[nodiscard]] bool has_cut_outs() const { return has_cut_outs_; }
+    /// Specialisation constants "has_TEXTURE": whether any material has that map.
+    [[nodiscard]] const std::vector<std::pair<std::string, int32_t>>& map_constants() const {
+        return map_constants_;
+    }
     [[nodiscard]] const gpu::Texture& environment_cube() const { return *environment_cube_; }
     [[nodiscard]] const gpu::Texture& environment_brdf() const { return *environment_brdf_; }
     [[nodiscard]] const gpu::Texture& no_image() const { return *no_image_; }
@@ -48,6 +52,7 @@ class SceneOnDevice {
     std::vector<gpu::Values> environment_sh_;
     std::vector<gpu::Draw> draws_;
     bool has_cut_outs_ = false;
+    std::vector<std::pair<std::string, int32_t>> map_constants_;
     std::vector<std::string> warnings_;
 };
 

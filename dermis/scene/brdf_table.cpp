@@ -1,9 +1,11 @@
 #include "dermis/scene/brdf_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <span>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
@@ -57,29 +59,95 @@ Vec2 ggx_scale_and_bias(float roughness, float n_dot_v, int samples) {
     return {float(scale / samples), float(bias / samples)};
 }
 
-size_t table_bytes(int size) {
-    return size_t(size) * size_t(size) * 2 * sizeof(uint16_t);
+// Half vectors with the density D cos: f_r n.l over that of the light's direction, D cos / (4 h.v), is
+// n.l / (h.v n.h).
+Vec2 ksk_scale_and_bias(float roughness, float n_dot_v, int samples) {
+    const float alpha = std::max(roughness * roughness, 1e-4f);
+    const float nv = std::clamp(n_dot_v, 1e-4f, 1.0f), sv = std::sqrt(1 - nv * nv);
+    double scale = 0, bias = 0;
+    for (int i = 0; i < samples; ++i) {
+        const Vec2 xi = hammersley(uint32_t(i), uint32_t(samples));
+        const float tangent2 = -alpha * alpha * std::log(1 - xi.x), nh = 1 / std::sqrt(1 + tangent2);
+        const float phi = 2 * std::numbers::pi_v<float> * xi.y;
+        const float vh = nh * (sv * std::sqrt(tangent2) * std::cos(phi) + nv);
+        const float nl = 2 * vh * nh - nv;
+        if (nl <= 0 || vh <= 0) continue;
+        const float weight = nl / (vh * nh);
+        const float m = 1 - std::min(vh, 1.0f), fresnel = m * m * m * m * m;
+        scale += double(weight * (1 - fresnel));
+        bias += double(weight * fresnel);
+    }
+    return {float(scale / samples), float(bias / samples)};
 }
 
+namespace {
+
+using Texel = std::array<uint16_t, 4>;
+
+size_t table_bytes(int size) {
+    return size_t(size) * size_t(size) * kBrdfLobes * sizeof(Texel);
+}
+
+void fill_row(std::span<Texel> row, int lobe, float roughness) {
+    Vec2 mean;
+    std::vector<Vec2> values(row.size());
+    for (size_t x = 0; x < row.size(); ++x) {
+        const float cosine = (float(x) + 0.5f) / float(row.size());
+        values[x] = lobe == kBrdfLobeKsk ? ksk_scale_and_bias(roughness, cosine)
+                                         : ggx_scale_and_bias(roughness, cosine);
+        mean = mean + values[x] * (2 * cosine / float(row.size()));
+    }
+    for (size_t x = 0; x < row.size(); ++x)
+        row[x] = {to_half(values[x].x), to_half(values[x].y), to_half(mean.x), to_half(mean.y)};
+}
+
+}  // namespace
+
 std::vector<std::byte> make_brdf_table(int size) {
-    std::vector<std::byte> table(table_bytes(size));
-    parallel_for(size_t(size), 1, [&](size_t begin, size_t end) {
+    const auto side = size_t(size);
+    std::vector<Texel> texels(side * side * kBrdfLobes);
+    parallel_for(side * kBrdfLobes, 1, [&](size_t begin, size_t end) {
         for (size_t row = begin; row < end; ++row)
-            for (size_t x = 0; x < size_t(size); ++x) {
-                const Vec2 value =
-                    ggx_scale_and_bias((float(row) + 0.5f) / float(size), (float(x) + 0.5f) / float(size));
-                const uint16_t texel[2] = {to_half(value.x), to_half(value.y)};
-                std::memcpy(&table[(row * size_t(size) + x) * sizeof texel], texel, sizeof texel);
-            }
+            fill_row(std::span(texels).subspan(row * side, side), int(row / side),
+                     (float(row % side) + 0.5f) / float(size));
     });
-    return table;
+    const auto bytes = std::as_bytes(std::span(texels));
+    return {bytes.begin(), bytes.end()};
 }
 
 Result<std::vector<std::byte>> stored_brdf_table() {
     // Raise with every change to what the table holds.
-    constexpr int kVersion = 1;
+    constexpr int kVersion = 2;
     return cached("brdf", Hasher().add(kVersion).add(kBrdfTableSize).hex(), table_bytes(kBrdfTableSize),
                   []() -> Result<std::vector<std::byte>> { return make_brdf_table(kBrdfTableSize); });
+}
+
+Result<BrdfTable> BrdfTable::load() {
+    Result<std::vector<std::byte>> texels = stored_brdf_table();
+    if (!texels) return texels.error();
+    BrdfTable table;
+    table.texels_ = std::move(*texels);
+    return table;
+}
+
+Vec4 BrdfTable::at(int lobe, float roughness, float cosine) const {
+    constexpr int kLast = kBrdfTableSize - 1;
+    const auto texel = [&](int x, int y) -> Vec4 {
+        const int row = lobe * kBrdfTableSize + std::clamp(y, 0, kLast);
+        Texel half;
+        std::memcpy(&half, &texels_[size_t(row * kBrdfTableSize + std::clamp(x, 0, kLast)) * sizeof half],
+                    sizeof half);
+        return {from_half(half[0]), from_half(half[1]), from_half(half[2]), from_half(half[3])};
+    };
+    const auto lerp = [](Vec4 a, Vec4 b, float t) -> Vec4 {
+        return {std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t), std::lerp(a.z, b.z, t),
+                std::lerp(a.w, b.w, t)};
+    };
+    const float x = cosine * kBrdfTableSize - 0.5f, y = roughness * kBrdfTableSize - 0.5f;
+    const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
+    const float fx = x - float(x0);
+    return lerp(lerp(texel(x0, y0), texel(x0 + 1, y0), fx),
+                lerp(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx), y - float(y0));
 }
 
 }  // namespace dermis

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "dermis/scene/toml_values.h"
+
 namespace dermis {
 namespace {
 
@@ -10,11 +12,12 @@ void warn_of_materials(const SceneObject& object, std::vector<std::string>& warn
     for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
         const Material& material = object.mesh.materials[i];
         const bool is_cut_out = cutoff_of_map(material) > 0;
-        if (object.classes[i] == MaterialClass::skin && material.alpha_mode == AlphaMode::mask)
+        const bool has_alpha = material.alpha_mode == AlphaMode::mask || is_cut_out || material.opacity < 1;
+        if (object.classes[i] == MaterialClass::skin && has_alpha)
             warnings.push_back("material '" + material.name +
-                               "' is skin, of which alpha cuts nothing out; class = \"other\" under "
-                               "[material." +
-                               material.name + "] of a scene file cuts it");
+                               "' is skin, of which alpha cuts nothing out and shows nothing behind it; "
+                               "class = \"other\" under [material." +
+                               toml_string(material.name) + "] of a scene file takes it into account");
         if (object.classes[i] == MaterialClass::other && material.alpha_mode == AlphaMode::blend &&
             is_cut_out)
             warnings.push_back("material '" + material.name +

@@ -72,9 +72,10 @@ struct Environment {
 struct Skin {
     std::string profile = "gpu_gems_3";
     float ior = 1.4f;
-    float roughness = 0.45f;              ///< perceptual
-    float specular = 1;                   ///< scales F0
-    Vec3 albedo_tint_linear = {1, 1, 1};  ///< multiplies the materials' base colour
+    float roughness = 0.45f;                ///< perceptual
+    float specular = 1;                     ///< scales F0
+    Vec3 albedo_tint_linear = {1, 1, 1};    ///< multiplies the materials' base colour
+    bool specular_reduces_diffuse = false;  ///< shaders/include/reduced_diffuse.glsl has the formula
     std::string diffuse_table;  ///< a file of `dermis bake lut` for techniques that read one; empty: baked
     std::string zonal_table;    ///< the same of `dermis bake zh`
 };

@@ -107,6 +107,31 @@ bool any_material(const Scene& scene, const auto& holds) {
     });
 }
 
+bool is_skin(const Scene& scene, std::string_view material) {
+    for (const SceneObject& object : scene.objects)
+        for (size_t i = 0; i < object.mesh.materials.size(); ++i)
+            if (object.mesh.materials[i].name == material && object.classes[i] == MaterialClass::skin)
+                return true;
+    return false;
+}
+
+void warn_of_sections(const SceneDescription& description, const Scene& scene,
+                      std::vector<std::string>& warnings) {
+    const LightDescription light_defaults;
+    for (const LightDescription& light : description.lights)
+        if (light.kind != LightKind::spot && (light.inner_angle_deg != light_defaults.inner_angle_deg ||
+                                              light.outer_angle_deg != light_defaults.outer_angle_deg))
+            warnings.emplace_back(
+                "light.inner_angle_deg and outer_angle_deg have no effect: they are for kind = \"spot\"");
+    const auto& environment = description.environment;
+    if (environment && environment->kind == EnvironmentKind::none &&
+        (environment->yaw_deg != 0 || environment->intensity != 1 || environment->visible))
+        warnings.emplace_back("the keys of [environment] have no effect beside kind = \"none\"");
+    for (const auto& [name, material] : description.materials)
+        if (material.metallic.value_or(0) > 0 && is_skin(scene, name))
+            warnings.push_back("material." + name + ".metallic has no effect: skin is no metal");
+}
+
 }  // namespace
 
 std::vector<std::string> keys_without_effect(const SceneDescription& description, const Scene& scene) {
@@ -125,6 +150,7 @@ std::vector<std::string> keys_without_effect(const SceneDescription& description
         warnings.emplace_back(
             "a displacement map has no effect without displacement_amplitude_mm under "
             "[maps], the height in mm of a step of 1 in map value");
+    warn_of_sections(description, scene, warnings);
     return warnings;
 }
 

@@ -38,7 +38,7 @@ Result<void> add(Hasher& hasher, const Material& m) {
     hasher.add(m.double_sided).add(m.normal_space).add(m.normal_scale).add(m.dilate_texels);
     for (const ImageSource* source :
          {&m.base_color_map, &m.emission_map, &m.normal_map, &m.metallic_roughness_map, &m.specular_map,
-          &m.occlusion_map, &m.opacity_map, &m.roughness_map})
+          &m.occlusion_map, &m.opacity_map, &m.roughness_map, &m.metallic_map})
         if (Result<void> added = add(hasher, *source); !added) return added;
     // Only where it counts, so that the cached ground truth of other scenes is found.
     if (cutoff_of_map(m) == 0) return {};
@@ -94,6 +94,7 @@ void add_views(Hasher& hasher, const Scene& scene) {
     add(hasher, scene.background_linear);
     hasher.add(scene.skin.profile);
     add(hasher, scene.skin.albedo_tint_linear);
+    if (scene.skin.specular_reduces_diffuse) hasher.add("specular reduces diffuse");
 }
 
 }  // namespace

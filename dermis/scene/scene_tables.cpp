@@ -226,6 +226,11 @@ const KeyTable<Skin>& skin_keys() {
             .number(&Skin::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
             .number(&Skin::specular,
                     {.name = "specular", .doc = "scales the reflectance at normal incidence", .max = 10})
+            .toggle(
+                &Skin::specular_reduces_diffuse,
+                {.name = "specular_reduces_diffuse",
+                 .doc = "what the surface reflects is taken from the diffuse light, by the angles of light "
+                        "and view, in every technique and in the ground truth"})
             .color(&Skin::albedo_tint_linear, {.name = "albedo_tint",
                                                .unit = "linear",
                                                .doc = "multiplies the colour of every skin material",

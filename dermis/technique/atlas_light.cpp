@@ -109,6 +109,7 @@ void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const F
                               .clear = nothing_written(settings.in_mm)}},
                   .constants = {{"space", settings.in_mm ? kSpaceMm : kSpaceTexels}},
                   .values = {{"pre_scatter", settings.pre_scatter}}};
+    reduce_diffuse(light, settings.specular, frame);
     read_shadow_channels(light, settings.shadow, frame);
     keep_unculled(light, settings.cull);
     list.passes.push_back(std::move(light));

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "dermis/technique/atlas_cull.h"
+#include "dermis/technique/forward.h"
 #include "dermis/technique/shadow_channels.h"
 #include "dermis/technique/transmission.h"
 
@@ -35,7 +36,8 @@ struct AtlasParams {
 struct AtlasLightSettings {
     ShadowChannelSettings shadow;
     AtlasCullSettings cull;
-    int size = 1024;  ///< of the light map
+    SpecularModel specular = SpecularModel::ggx;  ///< what the diffuse light is reduced by (forward.h)
+    int size = 1024;                              ///< of the light map
     bool in_mm = false;
     bool carry_seams = true;  ///< in mm: blurs cross UV seams; else taps that leave a chart are dropped
     float pre_scatter = 0;    ///< the map takes base colour ^ this

@@ -32,16 +32,22 @@ void read_shadows(Pass& pass, int shadow_map_count, bool has_translucent) {
     pass.constants.emplace_back("shadow_map_count", int32_t(shadow_map_count));
 }
 
+void reduce_diffuse(Pass& pass, SpecularModel specular, const FrameContext& frame) {
+    pass.constants.emplace_back("specular_model", int32_t(specular));
+    pass.constants.emplace_back("reduced_diffuse",
+                                int32_t(frame.reduced_diffuse && specular != SpecularModel::none));
+}
+
 Pass forward_skin_pass(std::string shader, SpecularModel specular, const FrameContext& frame,
                        std::string_view own_view) {
-    Pass pass = {
-        .name = "skin",
-        .kind = PassKind::geometry_screen,
-        .shader = std::move(shader),
-        .colors = {{.image = "radiance", .load = LoadOp::load}},
-        .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
-        .geometry = GeometryFilter::skin,
-        .constants = {{"specular_model", int32_t(specular)}, {"view", view_constant(frame.view, own_view)}}};
+    Pass pass = {.name = "skin",
+                 .kind = PassKind::geometry_screen,
+                 .shader = std::move(shader),
+                 .colors = {{.image = "radiance", .load = LoadOp::load}},
+                 .depth = DepthTarget{.image = "depth", .load = LoadOp::load},
+                 .geometry = GeometryFilter::skin,
+                 .constants = {{"view", view_constant(frame.view, own_view)}}};
+    reduce_diffuse(pass, specular, frame);
     read_shadows(pass, frame.shadow_map_count, frame.has_translucent);
     return pass;
 }

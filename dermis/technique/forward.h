@@ -21,6 +21,10 @@ enum class SpecularModel : int32_t {
 /// For a pass whose shader calls light_through() of shaders/include/shadow.glsl: its reads and constants.
 void read_shadows(Pass& pass, int shadow_map_count, bool has_translucent);
 
+/// For a pass whose shader includes shaders/include/reduced_diffuse.glsl: how much of light `specular`
+/// reflects, where the scene asks for it.
+void reduce_diffuse(Pass& pass, SpecularModel specular, const FrameContext& frame);
+
 /// "shadow_map" and "shadow_tint", or with _1, _2 ... behind.
 [[nodiscard]] std::string shadow_image(std::string_view name, int index);
 

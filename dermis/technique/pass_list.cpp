@@ -1,6 +1,7 @@
 #include "dermis/technique/pass_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "dermis/base/text.h"
@@ -137,6 +138,25 @@ std::string_view format_name(ImageFormat format) {
 size_t bytes_per_texel(ImageFormat format) {
     static constexpr size_t kBytes[] = {1, 4, 8, 2, 4, 8, 4, 16, 4};
     return kBytes[size_t(format)];
+}
+
+TexelSize size_in_frame(const ImageSize& size, int frame_width, int frame_height) {
+    if (size.width > 0 && size.height > 0) return {size.width, size.height};
+    const auto scaled = [&](int side) {
+        return int(std::max(1L, std::lround(float(side) * size.frame_scale)));
+    };
+    return {scaled(frame_width), scaled(frame_height)};
+}
+
+uint64_t bytes_in_frame(const ImageDeclaration& image, int frame_width, int frame_height) {
+    TexelSize level = size_in_frame(image.size, frame_width, frame_height);
+    uint64_t texels = 0;
+    for (int mip = 0; image.mips == 0 || mip < image.mips; ++mip) {
+        texels += uint64_t(level.width) * uint64_t(level.height);
+        if (level.width == 1 && level.height == 1) break;
+        level = {std::max(level.width / 2, 1), std::max(level.height / 2, 1)};
+    }
+    return texels * bytes_per_texel(image.format) * uint64_t(image.samples);
 }
 
 const ImageDeclaration* PassList::find_image(std::string_view name) const {

@@ -43,6 +43,14 @@ struct ImageDeclaration {
     friend bool operator==(const ImageDeclaration&, const ImageDeclaration&) = default;
 };
 
+struct TexelSize {
+    int width = 0, height = 0;
+};
+/// Of an image in a frame of this size.
+[[nodiscard]] TexelSize size_in_frame(const ImageSize& size, int frame_width, int frame_height);
+/// Of all its levels and samples.
+[[nodiscard]] uint64_t bytes_in_frame(const ImageDeclaration& image, int frame_width, int frame_height);
+
 /// What a pass rasterises. geometry_screen: through the camera; geometry_uv_atlas: at uv * 2 - 1;
 /// geometry_light: from the key light. resolve, generate_mips and copy are transfers from reads[0] (to
 /// colors[0]).
@@ -125,6 +133,9 @@ struct SeamRequest {
 struct PassList {
     std::vector<ImageDeclaration> images;
     std::vector<Pass> passes;
+    /// Specialisation constants of the whole frame: a shader takes those that it declares, unless its pass
+    /// has them. Where neither has on_cpu, it is 1 on a software device.
+    std::vector<std::pair<std::string, int32_t>> constants;
     std::optional<SeamRequest> seams;
     /// Textures of material maps without which these settings show nothing; a skin material without one is a
     /// warning.

@@ -2,7 +2,7 @@
 
 namespace dermis {
 
-void add_screen_light(PassList& list, const FrameContext& frame) {
+void add_screen_light(PassList& list, SpecularModel specular, const FrameContext& frame) {
     list.images.push_back({.name = "skin_light", .format = ImageFormat::rgba32f});
     list.images.push_back({.name = "skin_z", .format = ImageFormat::r32f});
     list.images.push_back({.name = "skin_key_visibility", .format = ImageFormat::r16f});
@@ -13,6 +13,7 @@ void add_screen_light(PassList& list, const FrameContext& frame) {
                   .colors = {{.image = "skin_light"}, {.image = "skin_z"}, {.image = "skin_key_visibility"}},
                   .depth = DepthTarget{.image = "skin_depth"},
                   .geometry = GeometryFilter::skin};
+    reduce_diffuse(light, specular, frame);
     read_shadows(light, frame.shadow_map_count, frame.has_translucent);
     list.passes.push_back(std::move(light));
 }

@@ -13,7 +13,7 @@ namespace dermis {
 /// Declares and fills, one sample a pixel: "skin_light", exitance over albedo with alpha 1 on skin, else 0;
 /// "skin_z", the distance in mm along the camera's axis, 0 where there is no skin; and "skin_key_visibility",
 /// how much of the key light arrives.
-void add_screen_light(PassList& list, const FrameContext& frame);
+void add_screen_light(PassList& list, SpecularModel specular, const FrameContext& frame);
 
 /// Draws the skin with the diffuse light of `blurred`, an image as "skin_light" is, but without meaning in
 /// its alpha. `own_view` shows that light alone.

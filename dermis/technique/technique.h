@@ -31,6 +31,7 @@ struct FrameContext {
     bool has_other = false;        ///< the scene has opaque surfaces that are not skin, which shade skin
     bool has_translucent = false;  ///< the scene has translucent surfaces, which tint the key light
     bool has_second_light = false;
+    bool reduced_diffuse = false;  ///< the scene's Skin::specular_reduces_diffuse
     /// Longest step in UV that a millimetre on the skin takes, in 99 % of its area.
     float densest_uv_per_mm = 0.004f;
     /// The median by area of the mean step over all directions.

@@ -106,7 +106,10 @@ Result<nlohmann::json> add_environment(Binary& binary, const Environment& enviro
         binary.put(
             shared_exponent({from_half(halves[i]), from_half(halves[i + 1]), from_half(halves[i + 2])}));
     made["brdf"] = {{"offset", binary.begin_block()}, {"side", kBrdfTableSize}};
-    for (const std::byte byte : *brdf) binary.put(byte);
+    // Of GGX, scale and bias: the first half of each texel.
+    constexpr size_t kTexel = 4 * sizeof(uint16_t), kTexels = size_t(kBrdfTableSize) * kBrdfTableSize;
+    for (size_t i = 0; i < kTexels * kTexel; ++i)
+        if (i % kTexel < kTexel / 2) binary.put((*brdf)[i]);
     return made;
 }
 

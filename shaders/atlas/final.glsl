@@ -89,14 +89,14 @@ struct PixelLight {
 
 PixelLight light_pixel(Surface s) {
     PixelLight sum = PixelLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));
-    for (int i = 0; i < light_count; ++i) {
+    [[unroll]] for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         float n_dot_l = dot(s.n_world, light.to_light_world);
         // Skin that faces away takes in and reflects nothing, whatever is before it.
         vec3 arriving = n_dot_l > 0.0 ? passing(s, i, light.to_light_world) : vec3(0.0);
         vec3 specular = light.irradiance_linear *
                         specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
-        sum.direct += light.irradiance_linear * max(n_dot_l, 0.0) * shadow_factor(arriving);
+        sum.direct += light.irradiance_linear * max(n_dot_l, 0.0) * diffuse_entry(s, n_dot_l) * shadow_factor(arriving);
         sum.transmitted += transmitted_past(s, i, light, arriving);
         if (i == key_light) {
             sum.key_specular = specular;

@@ -29,11 +29,11 @@ float levels_to_the_pixel(Surface s) {
 
 vec3 direct_exitance(Surface s) {
     vec3 direct = vec3(0.0);
-    for (int i = 0; i < light_count; ++i) {
+    [[unroll]] for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         float n_dot_l = dot(s.n_world, light.to_light_world);
         if (n_dot_l <= 0.0) continue;
-        direct += light.irradiance_linear * n_dot_l * shadow_factor(passing(s, i, light.to_light_world));
+        direct += light.irradiance_linear * n_dot_l * diffuse_entry(s, n_dot_l) * shadow_factor(passing(s, i, light.to_light_world));
     }
     return direct;
 }

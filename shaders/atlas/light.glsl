@@ -5,6 +5,7 @@
 #include "shaders/include/environment.glsl"
 #include "shaders/include/lights.glsl"
 #include "shaders/atlas/shadow_channels.glsl"
+#include "shaders/include/reduced_diffuse.glsl"
 #include "shaders/include/surface.glsl"
 
 // Of dermis::AtlasParams, what shaders need.

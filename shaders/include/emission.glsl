@@ -4,10 +4,11 @@
 
 #include "shaders/include/surface.glsl"
 
+layout(constant_id = 55) const int has_emission_map = 1;
 uniform sampler2D emission_map;
 
 vec3 emitted_radiance() {
-    return emission_from_map != 0 ? emission_linear * texture(emission_map, uv_in).rgb : emission_linear;
+    return has_emission_map != 0 && emission_from_map != 0 ? emission_linear * texture(emission_map, uv_in).rgb : emission_linear;
 }
 
 #endif

@@ -5,7 +5,8 @@
 #include "shaders/include/frame.glsl"
 
 uniform textureCube environment_cube;
-// F0 scale and bias of the split sum: n.v from left to right, roughness from top to bottom (scene/brdf_table.h).
+// Of each lobe F0 scale and bias of the split sum, and their means: n.v from left to right, roughness from top to bottom
+// (scene/brdf_table.h).
 uniform texture2D environment_brdf;
 
 // Nine radiance coefficients, order (l, m): 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22, real orthonormal basis.
@@ -42,12 +43,25 @@ float specular_occlusion(float n_dot_v, float occlusion, float roughness) {
     return clamp(pow(n_dot_v + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion, 0.0, 1.0);
 }
 
-vec3 environment_specular(vec3 n_world, vec3 to_eye_world, float roughness, float f0, float occlusion) {
+vec4 brdf_terms(int lobe, float roughness, float cosine) {
+    float size = float(kBrdfTableSize);
+    float row = clamp(roughness * size, 0.5, size - 0.5) + float(lobe) * size;
+    return textureLod(sampler2D(environment_brdf, linear_clamp), vec2(cosine, row / (size * float(kBrdfLobes))), 0.0);
+}
+
+// The cube is prefiltered for GGX. Beckmann's lobe has shorter tails, as GGX has of another roughness.
+float roughness_in_cube(int lobe, float roughness) {
+    if (lobe == kBrdfLobeGgx) return roughness;
+    return min(roughness * clamp(kBeckmannAsGgxAt0 + kBeckmannAsGgxSlope * roughness, kBeckmannAsGgxLeast,
+                                 kBeckmannAsGgxMost), 1.0);
+}
+
+vec3 environment_specular(int lobe, vec3 n_world, vec3 to_eye_world, float roughness, float f0, float occlusion) {
     float n_dot_v = clamp(dot(n_world, to_eye_world), 1e-3, 1.0);
     vec3 r_world = reflect(-to_eye_world, n_world);
     vec3 radiance = textureLod(samplerCube(environment_cube, trilinear_clamp), to_environment(r_world),
-                               roughness * (environment_mip_count - 1.0)).rgb;
-    vec2 brdf = textureLod(sampler2D(environment_brdf, linear_clamp), vec2(n_dot_v, roughness), 0.0).rg;
+                               roughness_in_cube(lobe, roughness) * (environment_mip_count - 1.0)).rgb;
+    vec4 brdf = brdf_terms(lobe, roughness, n_dot_v);
     return radiance * environment_intensity * (f0 * brdf.x + brdf.y) *
            specular_occlusion(n_dot_v, occlusion, roughness);
 }

@@ -11,8 +11,8 @@
 
 #include "shaders/include/environment.glsl"
 #include "shaders/include/lights.glsl"
+#include "shaders/include/reduced_diffuse.glsl"
 #include "shaders/include/shadow.glsl"
-#include "shaders/include/specular.glsl"
 #include "shaders/include/surface.glsl"
 #ifdef DERMIS_TRANSMISSION
 #include "shaders/include/transmission.glsl"
@@ -53,6 +53,20 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility);
 // Irradiance from the environment behind what occludes it, as the skin answers to it.
 vec3 ambient_response(Surface s);
 
+// Scattered light entered around the point. The response without shadows is the mean cosine there; that of the light is
+// larger where part of it is dark. For a Gaussian at the terminator it is 3.1 times the response (1.25 over 0.4 standard
+// deviations), on lit skin nearly the response itself.
+vec3 entered_part(Surface s, vec3 to_light_world) {
+#ifdef DERMIS_TRANSMISSION
+    if (reduced_diffuse == 0) return vec3(1.0);
+    vec3 cosine = direct_response(s, to_light_world, 1.0);
+    cosine += 2.1 * max(cosine - max(dot(s.n_world, to_light_world), 0.0), vec3(0.0));
+    return vec3(diffuse_entry(s, cosine.r), diffuse_entry(s, cosine.g), diffuse_entry(s, cosine.b));
+#else
+    return vec3(diffuse_entry(s, dot(s.n_world, to_light_world)));
+#endif
+}
+
 void main() {
     Surface s = load_surface();
 #ifdef DERMIS_PREPARE_SURFACE
@@ -65,13 +79,14 @@ void main() {
     vec3 exitance = ambient_response(s);
     vec3 specular_radiance =
         reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
-    for (int i = 0; i < light_count; ++i) {
+    [[unroll]] for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         LightThrough through =
             light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, DERMIS_SHADOW_WIDTH_MM);
         float visibility = through.visibility;
         light.irradiance_linear *= through.tint;
-        vec3 direct = light.irradiance_linear * direct_response(s, light.to_light_world, visibility);
+        vec3 response = direct_response(s, light.to_light_world, visibility);
+        vec3 direct = light.irradiance_linear * entered_part(s, light.to_light_world) * response;
 #ifdef DERMIS_TRANSMISSION
         // Both are estimates of the same integral; each misses light where the other is right.
         float n_dot_l = dot(s.n_geometry_world, light.to_light_world), way_mm = own_way_mm(s, light.to_light_world);
@@ -81,7 +96,7 @@ void main() {
         specular_radiance += light.irradiance_linear * visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
-    vec3 diffuse_radiance = s.albedo_linear * exitance / kPi;
+    vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, own_radiance), 1.0);
 }
 

@@ -20,7 +20,7 @@ layout(scalar) uniform Frame {
     float environment_intensity;
     float environment_yaw_rad;
     float environment_mip_count;
-    int light_count;
+    int frame_light_count;       // light_count of lights.glsl is to be used
     int key_light;               // index into lights, -1: none
     float shadow_texel_mm;       // of the shadow map, at the middle of the scene
     float penumbra_mm;           // full width of the key light's penumbra

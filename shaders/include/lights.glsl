@@ -4,6 +4,12 @@
 
 #include "shaders/include/frame.glsl"
 
+// 1 in a frame with one light. Loops over lights are marked [[unroll]]: then there is none, which a compiler would
+// otherwise keep around so long a body. A count that is not known is looped over as ever.
+#extension GL_EXT_control_flow_attributes : require
+layout(constant_id = 35) const int one_light = 0;
+int light_count = one_light != 0 ? 1 : frame_light_count;
+
 struct LightSample {
     vec3 irradiance_linear;  // on a surface that faces the light
     vec3 to_light_world;

@@ -3,6 +3,8 @@
 #ifndef DERMIS_SHADOW_GLSL
 #define DERMIS_SHADOW_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "shaders/include/frame.glsl"
 
 // Of the key light, then of the others that cast shadows: depth of opaque surfaces, and optical depth (minus the logarithm
@@ -13,6 +15,9 @@ uniform texture2D shadow_tint, shadow_tint_1, shadow_tint_2;
 layout(constant_id = 30) const int tinted_shadows = 0;
 // Where it is known to be 1, nothing is compiled that looks for another map: a software device takes every branch.
 layout(constant_id = 32) const int shadow_map_count = kMaxShadowMaps;
+
+// Given by the device.
+layout(constant_id = 34) const int on_cpu = 0;
 
 const int kTintTaps = 12;
 
@@ -77,11 +82,42 @@ vec3 shadow_tap_position(ShadowDisk disk, vec2 v) {
 
 float filter_radius_mm(float width_mm) { return max(0.5 * width_mm, shadow_texel_mm); }
 
-float disk_visibility(texture2D map, ShadowDisk disk) {
+// Most points are wholly lit or wholly dark, and the outermost taps, which lie around the disk, tell: where these agree
+// the others are not read. An edge that cuts off less of the disk than lies between two of them is missed: under one
+// tap's share.
+bool outer_taps_agree(float lit) { return lit == 0.0 || lit == float(kShadowOuterTaps); }
+
+float taps_lit(texture2D map, ShadowDisk disk, int first, int end) {
     float lit = 0.0;
-    for (int i = 0; i < kShadowTaps; ++i)
+    for (int i = first; i < end; ++i)
         lit += shadow_depth_tap(map, shadow_tap_position(disk, vogel_disk(i, kShadowTaps)));
-    return lit / float(kShadowTaps);
+    return lit;
+}
+
+// The same taps from the last to the first. A software device computes both sides of a branch, but leaves a loop when
+// all its pixels have: so they are read in rounds there, and the angle is turned from tap to tap.
+float disk_visibility_in_rounds(texture2D map, ShadowDisk disk) {
+    const float kLastAngle = float(kShadowTaps - 1) * kGoldenAngle;
+    const float kCos = cos(kGoldenAngle), kSin = sin(kGoldenAngle);
+    vec2 direction = vec2(cos(kLastAngle), sin(kLastAngle));
+    float lit = 0.0;
+    int count = kShadowTaps;
+    [[dont_unroll]] for (int done = 0; done < count; done += kShadowOuterTaps) {
+        for (int i = 0; i < kShadowOuterTaps; ++i) {
+            float radius = sqrt((float(kShadowTaps - 1 - done - i) + 0.5) / float(kShadowTaps));
+            lit += shadow_depth_tap(map, shadow_tap_position(disk, radius * direction));
+            direction = vec2(kCos * direction.x + kSin * direction.y, kCos * direction.y - kSin * direction.x);
+        }
+        if (done == 0 && outer_taps_agree(lit)) count = kShadowOuterTaps;
+    }
+    return lit / float(count);
+}
+
+float disk_visibility(texture2D map, ShadowDisk disk) {
+    if (on_cpu != 0) return disk_visibility_in_rounds(map, disk);
+    float outer = taps_lit(map, disk, kShadowTaps - kShadowOuterTaps, kShadowTaps);
+    if (outer_taps_agree(outer)) return outer / float(kShadowOuterTaps);
+    return (outer + taps_lit(map, disk, 0, kShadowTaps - kShadowOuterTaps)) / float(kShadowTaps);
 }
 
 vec3 disk_tint(texture2D map, ShadowDisk disk) {

@@ -31,10 +31,13 @@ float specular_reflection(vec3 n_world, vec3 to_eye_world, vec3 to_light_world, 
     return fresnel * ggx(n_dot_h, n_dot_l, n_dot_v, alpha);
 }
 
-// Of the environment: prefiltered for GGX, which every other model takes as its approximation; none reflects nothing.
+// ksk has its own lobe; blinn_phong and two_lobe_ggx take GGX's for theirs.
+int specular_lobe() { return specular_model == kSpecularKsk ? kBrdfLobeKsk : kBrdfLobeGgx; }
+
+// Of the environment; none reflects nothing.
 vec3 reflected_environment(vec3 n_world, vec3 to_eye_world, float roughness, float f0, float occlusion) {
     if (specular_model == kSpecularNone) return vec3(0.0);
-    return environment_specular(n_world, to_eye_world, roughness, f0, occlusion);
+    return environment_specular(specular_lobe(), n_world, to_eye_world, roughness, f0, occlusion);
 }
 
 #endif

@@ -31,6 +31,13 @@ layout(scalar) uniform Material {
     int emission_from_map;
 };
 
+// Whether any material of the scene has the map; where none has, 1 is not read but known.
+layout(constant_id = 50) const int has_albedo_map = 1;
+layout(constant_id = 51) const int has_normal_map = 1;
+layout(constant_id = 52) const int has_specular_map = 1;
+layout(constant_id = 53) const int has_roughness_map = 1;
+layout(constant_id = 54) const int has_occlusion_map = 1;
+
 uniform sampler2D albedo_map;
 uniform sampler2D normal_map;
 uniform sampler2D specular_map;
@@ -70,7 +77,7 @@ vec3 mean_of_normal_map(vec2 uv, float lod_bias) {
 }
 
 vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
-    if (normal_space == kNormalSpaceAbsent) return n_geometry_world;
+    if (has_normal_map == 0 || normal_space == kNormalSpaceAbsent) return n_geometry_world;
     vec3 n = mean_of_normal_map(uv, lod_bias);
     if (normal_space == kNormalSpaceObject) return mix(n_geometry_world, n, normal_scale);
     n.xy *= normal_scale;
@@ -88,11 +95,11 @@ Surface load_surface() {
     s.n_mean_world = mean_normal_world(s.n_geometry_world, uv_in, 0.0);
     s.n_world = normalize(s.n_mean_world);
     s.albedo_linear =
-        albedo_linear * color_linear_in.rgb * texture(albedo_map, uv_in).rgb;
-    s.roughness = clamp(roughness * texture(roughness_map, uv_in).r, 0.03, 1.0);
-    s.f0 = f0 * specular * texture(specular_map, uv_in).r;
+        albedo_linear * color_linear_in.rgb * (has_albedo_map != 0 ? texture(albedo_map, uv_in).rgb : vec3(1.0));
+    s.roughness = clamp(roughness * (has_roughness_map != 0 ? texture(roughness_map, uv_in).r : 1.0), 0.03, 1.0);
+    s.f0 = f0 * specular * (has_specular_map != 0 ? texture(specular_map, uv_in).r : 1.0);
     // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
-    s.occlusion = min(occlusion_in, texture(occlusion_map, uv_in).r);
+    s.occlusion = min(occlusion_in, has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
     s.occlusion_vertex = occlusion_in;
     s.occlusion_blurred = occlusion_blurred_in;
     s.curvature_diagonal_per_mm = curvature_diagonal_per_mm_in;

@@ -28,8 +28,8 @@ void main() {
     vec3 specular_tint = mix(vec3(1.0), s.albedo_linear, metal);
     vec3 exitance = environment_irradiance(s.n_world) * s.occlusion;
     vec3 specular_radiance =
-        environment_specular(s.n_world, s.to_eye_world, s.roughness, f0_one, s.occlusion);
-    for (int i = 0; i < light_count; ++i) {
+        environment_specular(kBrdfLobeGgx, s.n_world, s.to_eye_world, s.roughness, f0_one, s.occlusion);
+    [[unroll]] for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         LightThrough through =
             light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);

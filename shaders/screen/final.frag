@@ -65,7 +65,7 @@ void main() {
     float key_visibility;
     if (!read_blurred(s.p_world_mm, exitance, key_visibility)) exitance = unblurred_exitance(s, key_visibility);
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
-    for (int i = 0; i < light_count; ++i) {
+    [[unroll]] for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
         vec3 arriving = light.irradiance_linear;
         float visibility = key_visibility;
@@ -82,5 +82,6 @@ void main() {
         specular_radiance += arriving *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
-    radiance_out = vec4(shown_radiance(s.albedo_linear * exitance / kPi, specular_radiance, exitance / kPi), 1.0);
+    vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
+    radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);
 }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "dermis/mesh/weld.h"
 #include "dermis/scene/placement.h"
 #include "subjects/spheres/spheres.h"
 #include "support/built_in.h"
@@ -40,6 +41,24 @@ TEST(Spheres, are_four_of_radius_2_4_8_16_that_touch_one_plane) {
         const Mesh& mesh = scene->objects[i].mesh;
         ASSERT_EQ(mesh.curvatures_per_mm.size(), mesh.positions_mm.size());
         EXPECT_NEAR(mesh.curvatures_per_mm[100], 1 / kSphereRadiiMm[i], 1e-6);
+    }
+}
+
+// What looks for neighbours (blurs over the atlas, cavities) finds them by equal positions.
+TEST(Spheres, are_closed_at_the_seam_and_the_poles) {
+    const Result<Scene> scene = load_built_in_scene("builtin:spheres");
+    ASSERT_TRUE(scene);
+    for (const SceneObject& object : scene->objects) {
+        const Mesh& mesh = object.mesh;
+        const Weld weld = weld_positions(mesh.positions_mm);
+        EXPECT_EQ(weld.count(), 47u * 96 + 2);
+        std::map<std::pair<uint32_t, uint32_t>, int> sides;
+        for (size_t i = 0; i < mesh.indices.size(); ++i) {
+            const size_t next = i % 3 == 2 ? i - 2 : i + 1;
+            const auto [a, b] = std::minmax(weld.ids[mesh.indices[i]], weld.ids[mesh.indices[next]]);
+            ++sides[{a, b}];
+        }
+        for (const auto& [edge, count] : sides) ASSERT_EQ(count, 2) << object.name;
     }
 }
 

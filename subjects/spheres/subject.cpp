@@ -26,9 +26,10 @@ Mesh make_latitude_sphere(float radius_mm, Vec3 center_mm) {
     for (int row = 0; row <= kRows; ++row)
         for (int column = 0; column <= kColumns; ++column) {
             const float u = float(column) / kColumns, v = float(row) / kRows;
-            const float azimuth = u * 2 * kPi, polar = v * kPi;
-            const Vec3 n = {-std::sin(polar) * std::sin(azimuth), std::cos(polar),
-                            -std::sin(polar) * std::cos(azimuth)};
+            // At the seam and the poles the same numbers: positions that differ are no shared edge.
+            const float azimuth = float(column % kColumns) / kColumns * 2 * kPi, polar = v * kPi;
+            const float ring = row % kRows == 0 ? 0 : std::sin(polar);
+            const Vec3 n = {-ring * std::sin(azimuth), std::cos(polar), -ring * std::cos(azimuth)};
             mesh.positions_mm.push_back(center_mm + n * radius_mm);
             mesh.normals.push_back(n);
             mesh.tangents.push_back({-std::cos(azimuth), 0, std::sin(azimuth), 1});

@@ -173,6 +173,7 @@ vec3 scattered_occlusion(Surface s) {
     vec3 weight_0 = occlusion_weight_0, weight_1 = occlusion_weight_1, weight_2 = occlusion_weight_2;
     vec3 of_vertices = (1.0 - weight_0 - weight_1 - weight_2) * s.occlusion_vertex + weight_0 * s.occlusion_blurred.x +
                        weight_1 * s.occlusion_blurred.y + weight_2 * s.occlusion_blurred.z;
+    if (has_occlusion_map == 0) return of_vertices;
     float levels = smooth_levels + magnification_levels(occlusion_map, s.uv);
     float sharp = texture(occlusion_map, s.uv).r;
     if (normals == kNormalsSharp) return min(of_vertices, vec3(sharp));

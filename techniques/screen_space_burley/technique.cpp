@@ -36,7 +36,7 @@ ParameterTable parameters() {
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const auto params = values.as<Params>();
     PassList list;
-    add_screen_light(list, frame);
+    add_screen_light(list, params.specular, frame);
     list.images.push_back({.name = "skin_light_gathered", .format = ImageFormat::rgba32f});
     list.passes.push_back(
         {.name = "gather",

@@ -63,7 +63,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const auto params = values.as<Params>();
     const float reach = reach_mm(kernel_of(params, frame.skin_gaussians), params.width);
     PassList list;
-    add_screen_light(list, frame);
+    add_screen_light(list, params.specular, frame);
     for (const char* name : {"skin_light_x", "skin_light_xy"})
         list.images.push_back({.name = name, .format = ImageFormat::rgba32f});
     for (const bool along_v : {false, true})

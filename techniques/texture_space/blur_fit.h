@@ -30,7 +30,8 @@ struct TapRing {
 
 struct BlurFitSettings {
     int passes = 3;
-    /// Without the centre; by default those of the filter gaussian.
+    /// Of the filter, without the centre. These are those of filter=gaussian; the technique passes those of
+    /// its filter, poisson by default.
     std::vector<TapRing> rings = {{1, 2.0 / 3}, {std::numbers::sqrt2, 1.0 / 3}};
     double texel_mm = 0.3;   ///< of the light map: reading between texels blurs too
     bool read_blurs = true;  ///< the last reading too; not where the pixel has what it takes away

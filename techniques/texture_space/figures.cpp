@@ -188,12 +188,30 @@ Figure millimetres_figure() {
             .rows = {row}};
 }
 
+Figure seams_figure() {
+    // Seen from where the sphere's chart begins and ends, with the terminator there.
+    FigureRow row =
+        with_and_without(cell("seams=drop", "drop", {{"seams", "drop"}, {"transmission", "none"}}),
+                         cell("seams=carry", "carry", {{"transmission", "none"}}), 4);
+    for (FigureCell& one : row.cells) {
+        one.view = "light_map";
+        one.camera = "yaw_deg=180 pitch_deg=0";
+        one.light = "yaw_deg=100 pitch_deg=0";
+    }
+    return {.id = "seams",
+            .title = "The blurred light of a sphere of 4 mm at its UV seam",
+            .source = "not in the source",
+            .scene = "unit",
+            .only_in_its_scene = true,
+            .rows = {row}};
+}
+
 }  // namespace
 
 std::vector<Figure> texture_space_figures() {
-    return {blur_figure(),   light_map_figure(),  shadow_map_figure(), translucent_figure(),
-            kernel_figure(), ear_figure(),        dilation_figure(),   specular_figure(),
-            cull_figure(),   millimetres_figure()};
+    return {blur_figure(),   light_map_figure(),   shadow_map_figure(), translucent_figure(),
+            kernel_figure(), ear_figure(),         dilation_figure(),   specular_figure(),
+            cull_figure(),   millimetres_figure(), seams_figure()};
 }
 
 }  // namespace dermis

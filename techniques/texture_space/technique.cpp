@@ -43,6 +43,7 @@ AtlasLightSettings atlas_settings(const Params& params, const BlurPlan& plan, co
     AtlasLightSettings settings = atlas_light_settings(params.atlas);
     settings.size = settings.cull.size = plan.size;
     settings.in_mm = plan.in_mm;
+    settings.specular = params.specular;
     settings.shadow.second_light = params.second_light_shadow;
     settings.shadow.single_channel = params.single_channel_opacity;
     settings.shadow.lookup = params.shadow_lookup;

@@ -4,7 +4,7 @@
 // blur follow shear as well as stretch and agree across seams (shaders/atlas/blur_mm.glsl); gutter texels
 // hold the light from across the UV seam; the sum is accumulated by blending, so that any number of Gaussians
 // needs four images; what is too small for the texels is lit at the pixel (detail=pixel); transmission is
-// summed from the shadow map itself. Not here: the energy that the specular takes.
+// summed from the shadow map itself. The energy that the specular takes is an option of the scene.
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +101,7 @@ AtlasLightSettings atlas_settings(const Params& params, const std::vector<Step>&
     settings.cull.across_seams = settings.carry_seams = params.carry_seams;
     settings.in_mm = true;
     settings.pre_scatter = params.pre_scatter;
+    settings.specular = params.specular;
     settings.longest_texels = longest_step_texels(1 + params.atlas.kernel_growth, settings.size, frame);
     // Taps go to 3 sigma along each of two steps; a bilinear neighbour each, and one of the final mesh.
     double reach = 2;

@@ -151,7 +151,8 @@ TEST_F(Figures, of_every_technique_can_be_drawn) {
 
 // A figure of with and without whose pictures agree shows nothing.
 TEST_F(Figures, of_texture_space_show_what_they_are_about) {
-    for (const char* id : {"kernel_ear", "specular_shadow", "translucent_shadow", "blur", "dilation"}) {
+    for (const char* id :
+         {"kernel_ear", "specular_shadow", "translucent_shadow", "blur", "dilation", "seams"}) {
         const auto figures = figures_of(built_in_technique("texture_space"), id);
         ASSERT_TRUE(figures);
         const Result<FigureResult> result = draw_figure(renderer_, font_, figures->front(), 64);

@@ -64,6 +64,22 @@ void main() { color = vec4(kTaps, kFlip ? 1 : 0, 0, 0); })";
     EXPECT_THAT(result_of(shader, list({}, {{"kTaps", 9}, {"kFlip", 1}})), ElementsAre(9, 1, 0, 0));
 }
 
+TEST_F(BindingTest, a_constant_of_the_list_reaches_each_shader_that_has_it_and_a_pass_own_one_wins) {
+    const std::string shader = R"(
+layout(constant_id = 7) const int kTaps = 5;
+layout(constant_id = 8) const int on_cpu = 7;
+layout(location = 0) out vec4 color;
+void main() { color = vec4(kTaps, on_cpu, 0, 0); })";
+    PassList with = list();
+    with.constants = {{"kTaps", 6}, {"no_shader_has_this", 1}};
+    const float on_cpu = device().info().is_cpu ? 1 : 0;
+    EXPECT_THAT(result_of(shader, with), ElementsAre(6, on_cpu, 0, 0));
+    with.passes[0].constants = {{"kTaps", 9}};
+    EXPECT_THAT(result_of(shader, with), ElementsAre(9, on_cpu, 0, 0));
+    with.constants.emplace_back("on_cpu", 3);
+    EXPECT_THAT(result_of(shader, with), ElementsAre(9, 3, 0, 0));
+}
+
 TEST_F(BindingTest, a_specialisation_constant_that_no_shader_has_is_an_error) {
     const std::string shader = R"(
 layout(constant_id = 7) const int kTaps = 5;

@@ -84,6 +84,26 @@ TEST_F(TextureTest, mip_levels_can_be_generated) {
     EXPECT_EQ(sample(kLod, *map, {{"lod", 1.f}})[0], 3);
 }
 
+// 5000 x 2000 texels of 4 bytes are 38 MiB, more than the staging buffer.
+TEST_F(TextureTest, large_ones_arrive_in_several_strips) {
+    std::vector<float> texels(5000 * 2000);
+    for (size_t y = 0; y < 2000; ++y) texels[5000 * y + 7] = float(y);
+    Result<Texture> map = Texture::upload(device(), {.name = "large",
+                                                     .format = ImageFormat::r32f,
+                                                     .width = 5000,
+                                                     .height = 2000,
+                                                     .bytes = bytes_of(texels)});
+    ASSERT_TRUE(map) << map.error().message;
+    const std::string shader = R"(
+uniform texture2D map;
+uniform sampler nearest_clamp;
+layout(push_constant) uniform Push { int y; };
+layout(location = 0) out vec4 color;
+void main() { color = texelFetch(sampler2D(map, nearest_clamp), ivec2(7, y), 0); })";
+    for (const int y : {0, 1000, 1676, 1677, 1678, 1999})
+        EXPECT_EQ(sample(shader, *map, {{"y", y}})[0], float(y));
+}
+
 TEST_F(TextureTest, each_texture_has_its_own_address_modes) {
     const std::string shader = R"(
 uniform sampler2D map;

@@ -147,6 +147,7 @@ TEST_F(CutOut, leaves_skin_whole) {
         m.alpha_mode = AlphaMode::mask;
     });
     scene.objects[1].classes = {MaterialClass::skin};
+    scene.objects[1].mesh.materials[0].opacity = 0.5f;
     expect_at(pictures(scene), {10, 0, 20}, kCardColor * kLit);
 }
 
@@ -165,6 +166,18 @@ TEST_F(CutOut, surfaces_emit_what_their_map_says) {
     const Pictures of_skin = pictures(scene);
     expect_at(of_skin, {-10, 0, 20}, {2, 1, 0.5f});
     expect_at(of_skin, {10, 0, 20}, {});
+}
+
+// What is no metal reflects its colour diffusely; a metal does not.
+TEST_F(CutOut, a_map_of_metal_counts_by_its_red_channel) {
+    Scene scene = card_over_skin([](Material& m) {
+        m.metallic = 1;
+        m.metallic_map = halves("metal", {255, 0, 0}, {0, 255, 255});
+        m.metallic_roughness_map = halves("replaced", {0, 255, 0}, {0, 255, 255});
+    });
+    const Pictures p = pictures(scene);
+    EXPECT_LT(p.truth.at(24, 32, 0), 0.01f);
+    expect_at(p, {10, 0, 20}, kCardColor * kLit);
 }
 
 // u runs over the card three times; the map is bright in its left half.

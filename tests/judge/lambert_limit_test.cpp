@@ -87,6 +87,15 @@ TEST_F(LambertLimit, of_the_spheres_is_the_lambert_picture) {
     EXPECT_LT(std::abs(d.bias), 1e-4);
 }
 
+TEST_F(LambertLimit, with_the_diffuse_light_reduced_by_the_specular_is_the_lambert_picture_too) {
+    Scene scene = load("spheres");
+    scene.skin.specular_reduces_diffuse = true;
+    const Difference d = limit(scene, 96, 2048, "final");
+    EXPECT_GT(d.pixels, 1000u);
+    EXPECT_LT(d.relative_rms, 1e-3);
+    EXPECT_LT(std::abs(d.bias), 1e-4);
+}
+
 // Environment light and reflections alone: no shadow map between the two.
 TEST_F(LambertLimit, of_the_bust_under_its_environment_is_the_lambert_picture) {
     Scene scene = load("bust");

@@ -78,6 +78,19 @@ TEST(Scoreboard, survives_its_own_file_and_keeps_the_rows_of_other_scenes) {
     EXPECT_EQ(both[1].captured.all.share, 0.125);
 }
 
+TEST(Scoreboard, every_prefix_is_read_or_refused_in_one_line) {
+    const std::string text = scores_csv({row("a", "lambert", 0), row("a, \"b\"", "wrap", 0.5)});
+    for (size_t length = 0; length < text.size(); ++length) {
+        const auto rows = parse_scores(std::string_view(text).substr(0, length));
+        if (rows) {
+            EXPECT_LE(rows->size(), 2u) << length;
+        } else {
+            EXPECT_TRUE(rows.error().message.starts_with("scores line ")) << rows.error().message;
+            EXPECT_EQ(rows.error().message.find('\n'), std::string::npos) << length;
+        }
+    }
+}
+
 TEST(Scoreboard, a_file_that_is_no_scoreboard_is_named_by_line) {
     const std::string good = scores_csv({row("bust", "lambert", 0.5)});
     EXPECT_THAT(parse_scores("a,b\n").error().message, HasSubstr("line 1"));

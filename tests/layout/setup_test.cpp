@@ -156,7 +156,7 @@ TEST_F(Setup, fresh_machine_removes_its_folder_when_it_fails_and_when_it_is_ende
     EXPECT_EQ(folders_left(), 0u);
 }
 
-// The tests that it runs to record exist in the repository, of both kinds (goldens and scores).
+// The tests that it runs to record exist in the repository, of all kinds (goldens, scores and costs).
 TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
     write("root/tools/packages_checks.txt", "");
     program("cmake", "exit 0");
@@ -171,6 +171,7 @@ TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
     test_program("test_judge",
                  "[ \"$DERMIS_UPDATE_SCORES\" = missing ] || exit 0\n"
                  "echo spheres,my_skin,,0 >> ../tests/judge/recorded_scores.csv");
+    test_program("test_cost", "[ \"$DERMIS_UPDATE_COSTS\" = missing ]");
     fs::create_directories(path("root/tests/golden"));
     write("root/tests/judge/recorded_scores.csv", "scene,technique,settings,captured\n");
 
@@ -186,6 +187,8 @@ TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
     EXPECT_TRUE(has_test("render/golden_test.cpp", R"(TEST_F\(Goldens, of_the_bust_with_every_technique\))"));
     EXPECT_THAT(made.out, HasSubstr("test_judge --gtest_brief=1 --gtest_filter=Scoreboards.*\n"));
     EXPECT_TRUE(has_test("judge/scoreboard_test.cpp", R"(TEST_F\(Scoreboards, \w+\))"));
+    EXPECT_THAT(made.out, HasSubstr("test_cost --gtest_brief=1 --gtest_filter=RecordedCosts.*\n"));
+    EXPECT_TRUE(has_test("cost/recorded_test.cpp", R"(TEST_F\(RecordedCosts, \w+\))"));
 
     test_program("test_judge", "");
     const ProgramResult no_scores = shell("tools/new_technique second_skin x");

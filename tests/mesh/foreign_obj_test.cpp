@@ -112,9 +112,12 @@ TEST(ForeignMtl, options_before_a_map_are_no_part_of_its_name) {
 
 TEST(ForeignMtl, maps_of_the_pbr_additions_are_read) {
     const Material m =
-        with_mtl("Ke 0 0 0\nPr 0\nmap_Pr r.png\nmap_Ke e.png\nnorm -bm 0.25 n.png\n").mesh.materials[0];
+        with_mtl("Ke 0 0 0\nPr 0\nmap_Pr r.png\nPm 0\nmap_Pm p.png\nmap_Ke e.png\nnorm -bm 0.25 n.png\n")
+            .mesh.materials[0];
     EXPECT_EQ(m.roughness_map.name, "dir/r.png");
     EXPECT_EQ(m.roughness, 1) << "the map alone counts";
+    EXPECT_EQ(m.metallic_map.name, "dir/p.png");
+    EXPECT_EQ(m.metallic, 1);
     EXPECT_EQ(m.emission_map.name, "dir/e.png");
     EXPECT_EQ(m.emission_linear, (Vec3{1, 1, 1}));
     EXPECT_EQ(m.normal_map.name, "dir/n.png");
@@ -135,11 +138,11 @@ TEST(ForeignMtl, a_map_of_opacity_cuts_the_surface_out) {
 
 TEST(ForeignMtl, maps_that_are_not_used_are_named_once) {
     const LoadedMesh loaded =
-        with_mtl("map_Pm m.png\nmap_Ns n.png\nmap_Ka a.png\nnewmtl other\nmap_Pm m2.png\nillum 2\n");
-    EXPECT_TRUE(any_contains(loaded.warnings, "dir/m.mtl: map_pm is not used"));
+        with_mtl("map_Tf m.png\nmap_Ns n.png\nmap_Ka a.png\nnewmtl other\nmap_Tf m2.png\nillum 2\n");
+    EXPECT_TRUE(any_contains(loaded.warnings, "dir/m.mtl: map_tf is not used"));
     EXPECT_TRUE(any_contains(loaded.warnings, "dir/m.mtl: map_ns is not used"));
     EXPECT_FALSE(any_contains(loaded.warnings, "map_ka"));
     EXPECT_EQ(std::ranges::count_if(loaded.warnings,
-                                    [](const std::string& w) { return w.find("map_pm") != w.npos; }),
+                                    [](const std::string& w) { return w.find("map_tf") != w.npos; }),
               1);
 }

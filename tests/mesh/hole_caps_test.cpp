@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <vector>
 
 namespace dermis {
 namespace {
@@ -51,6 +52,16 @@ TEST(HoleCaps, a_ring_has_an_inner_and_an_outer_border) {
     EXPECT_EQ(loops[0].size(), 40u);
     EXPECT_EQ(loops[1].size(), 40u);
     EXPECT_NEAR(length(loops[0][0]), 10, 1e-4);
+}
+
+TEST(HoleCaps, thousands_of_long_borders_are_filled_in_bounded_time) {
+    const Rim rim(200);
+    const BorderLoop loop = border_loops(rim.positions_mm, rim.indices, rim.triangles)[0];
+    EXPECT_EQ(affordable_exact(std::vector<BorderLoop>(100, loop)), kLargestExactLoop)
+        << "a mesh as heads are";
+    const size_t exact = affordable_exact(std::vector<BorderLoop>(100000, loop));
+    EXPECT_LE(100000.0 * double(exact * exact * exact) / 6, 2e9);
+    EXPECT_NEAR(area_of(cap_of(loop, exact)), area_of(cap_of(loop)), 1e-3 * area_of(cap_of(loop)));
 }
 
 TEST(HoleCaps, a_flat_opening_is_filled_once_and_faces_as_its_surface_does) {

@@ -98,6 +98,28 @@ TEST_F(AtlasMm, a_seam_a_millimetre_from_the_shadow_is_not_visible) {
     }
 }
 
+// Looked at from the side where its chart begins and ends, lit so that the terminator lies there.
+TEST_F(AtlasMm, a_sphere_shows_no_seam_at_the_terminator) {
+    Scene scene = load("builtin:unit");
+    scene.camera.eye_mm.z = -scene.camera.eye_mm.z;
+    scene.lights[0].to_light_world = direction_from_yaw_pitch(1.75f, 0);
+    const auto step = [&](const Blur& blur, const Settings& more) {
+        Settings settings = {{"transmission", "none"}, {"detail", "map"}};
+        settings.insert(settings.end(), more.begin(), more.end());
+        const Image image = draw(scene, blur, settings);
+        double largest = 0;
+        for (int y = 30; y < 66; ++y)
+            largest = std::max(largest, double(std::abs(image.at(47, y, 0) - image.at(48, y, 0))));
+        return largest * 3.14159265;
+    };
+    for (const Blur& blur : blurs_in_mm()) {
+        const bool gaussians = std::string(blur.technique) == "texture_space_gaussians";
+        const Settings drop = {gaussians ? std::pair<std::string, std::string>("carry_seams", "off")
+                                         : std::pair<std::string, std::string>("seams", "drop")};
+        EXPECT_LT(step(blur, {}), 0.5 * step(blur, drop)) << blur.technique;
+    }
+}
+
 TEST_F(AtlasMm, twice_the_scene_with_twice_the_millimetres_is_the_same_picture) {
     for (const Blur& blur : blurs_in_mm()) {
         const bool gaussians = std::string(blur.technique) == "texture_space_gaussians";

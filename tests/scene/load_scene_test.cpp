@@ -81,6 +81,17 @@ TEST(LoadScene, keys_without_effect_are_named) {
               std::string::npos);
     EXPECT_NE(warnings("displacement = \"a.png\"\n").find("without displacement_amplitude_mm"),
               std::string::npos);
+    const std::string light = "[[light]]\nyaw_deg = 10\ninner_angle_deg = 10\n";
+    EXPECT_NE(warnings(light).find("inner_angle_deg and outer_angle_deg have no effect"), std::string::npos);
+    EXPECT_EQ(warnings(light + "kind = \"spot\"\ndistance_mm = 500\n").find("no effect"), std::string::npos);
+    const std::string none = "[environment]\nkind = \"none\"\n";
+    EXPECT_EQ(warnings(none).find("no effect"), std::string::npos);
+    for (const char* key : {"yaw_deg = 5\n", "intensity = 2\n", "visible = true\n"})
+        EXPECT_NE(warnings(none + key).find("keys of [environment] have no effect"), std::string::npos)
+            << key;
+    const std::string metal = "[material.face]\nmetallic = 1\n";
+    EXPECT_NE(warnings(metal).find("material.face.metallic has no effect"), std::string::npos);
+    EXPECT_EQ(warnings(metal + "class = \"other\"\n").find("no effect"), std::string::npos);
 }
 
 TEST(LoadScene, materials_that_alpha_cuts_out_are_not_skin) {

@@ -114,6 +114,13 @@ TEST(ViewLine, names_what_was_changed_of_the_look_and_nothing_else) {
     ASSERT_TRUE(apply_view_line(other.model, line));
     EXPECT_EQ(other.scene.exposure_ev, viewed.scene.exposure_ev);
     EXPECT_EQ(other.scene.environment.file, around);
+    for (size_t length = 0; length < line.size(); ++length) {
+        Viewed third;
+        const Result<void> taken = apply_view_line(third.model, std::string_view(line).substr(0, length));
+        if (!taken) {
+            EXPECT_EQ(taken.error().message.find('\n'), std::string::npos) << length;
+        }
+    }
 }
 
 TEST(ViewLine, comes_back_by_pasting) {

@@ -141,14 +141,14 @@ Result<int> run(const JobsOptions& options) {
 
 void add_jobs_command(CommandLine& line) {
     const auto options = std::make_shared<JobsOptions>();
-    Command* command = line.add(
-        "jobs", "Splits commands into jobs, and runs them on this machine or a cluster",
-        "dermis jobs commands.txt --folder out/jobs --parts 64 --runner slurm --sbatch=--partition=long\n"
-        "  commands.txt has one command a line:\n"
-        "    reference head_scan --size 3840x2160 --samples 1024 -o out/head.exr\n"
-        "    render head_scan -t preintegrated --frames 240 --turn 360 -o out/turn/%04d.png\n"
-        "    compare head_scan -o out/compare\n"
-        "  Samples and frames are split, a comparison is one job. What is done is not done again.");
+    Command* command =
+        line.add("jobs", "Splits commands into jobs, and runs them on this machine or a cluster",
+                 "dermis jobs commands.txt --folder out/jobs --parts 64 --runner slurm --sbatch=\"-p long\"\n"
+                 "  commands.txt has one command a line:\n"
+                 "    reference head_scan --size 3840x2160 --samples 1024 -o out/head.exr\n"
+                 "    render head_scan -t preintegrated --frames 240 --turn 360 -o out/turn/%04d.png\n"
+                 "    compare head_scan -o out/compare\n"
+                 "  Samples and frames are split, a comparison is one job. What is done is not done again.");
     command->add_option("commands", options->commands, "file with a command a line")->required();
     command->add_option("--folder", options->folder, "folder for lists, parts and logs")
         ->capture_default_str();
@@ -162,8 +162,7 @@ void add_jobs_command(CommandLine& line) {
         ->capture_default_str();
     command->add_option("--program", options->program,
                         "dermis on the machines that run the lines (default: this one)");
-    command->add_option("--sbatch", options->sbatch,
-                        "slurm: options for sbatch, such as \"--partition=long\"");
+    command->add_option("--sbatch", options->sbatch, "slurm: options for sbatch: --sbatch=\"-p long\"");
     command->add_flag("--no-wait", options->no_wait, "slurm: return when the jobs are submitted");
     line.when_chosen(command, [options] { return run(*options); });
 }

@@ -1,0 +1,115 @@
+// dermis cost: what techniques would cost on graphics cards that need not be there, by a model.
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "catalog/catalog.h"
+#include "command.h"
+#include "cost_text.h"
+#include "dermis/base/text.h"
+#include "dermis/render/complete_scene.h"
+#include "scene_choice.h"
+
+namespace dermis::cli {
+namespace {
+
+struct CostOptions {
+    std::vector<std::string> techniques;
+    std::string gpus = "navi21", size = "1920x1080", scene = "bust", device;
+    bool json = false;
+};
+
+Result<std::vector<Contestant>> chosen_techniques(const std::vector<std::string>& texts) {
+    const std::span<const Technique> techniques = built_in_catalog().techniques;
+    if (texts.empty()) return default_contestants(techniques);
+    Result<std::vector<Contestant>> chosen = parse_technique_list(techniques, join(texts, ","));
+    if (!chosen) return chosen.error();
+    const bool has_base =
+        std::ranges::any_of(*chosen, [](const Contestant& one) { return one.name() == kCostBase; });
+    if (has_base) return chosen;
+    const Result<const Technique*> base = find_technique(techniques, kCostBase);
+    if (!base) return base.error();
+    chosen->insert(chosen->begin(), {.technique = *base, .values = ParameterValues((*base)->parameters)});
+    return chosen;
+}
+
+Result<Counted> count(const CostOptions& options) {
+    Counted counted;
+    const Result<Size> size = parse_size(options.size);
+    if (!size) return size.error();
+    counted.size = *size;
+    for (const std::string_view chip : split(options.gpus, ',')) {
+        const Result<const Card*> card = find_card(trim(chip));
+        if (!card) return card.error().within("--gpu");
+        counted.cards.push_back(*card);
+    }
+    Result<std::vector<Contestant>> contestants = chosen_techniques(options.techniques);
+    if (!contestants) return contestants.error();
+    counted.contestants = std::move(*contestants);
+    Result<Scene> scene = SceneChoice{.name = options.scene}.load();
+    if (!scene) return scene.error();
+    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    counted.scene = scene->name, counted.credit = scene->credit;
+
+    Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
+    if (!device) return device.error();
+    counted.device = device->info().name;
+    Result<Renderer> renderer =
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), *scene);
+    if (!renderer) return renderer.error();
+    for (const Contestant& contestant : counted.contestants) {
+        Result<FrameWork> work = count_work(*renderer, contestant, size->width, size->height);
+        if (!work) return work.error();
+        counted.frames.push_back(std::move(*work));
+    }
+    return counted;
+}
+
+Result<int> print_costs(const CostOptions& options) {
+    const Result<Counted> counted = count(options);
+    if (!counted) return counted.error();
+    nlohmann::ordered_json json = {
+        {"scene", counted->scene},       {"credit", counted->credit},
+        {"width", counted->size.width},  {"height", counted->size.height},
+        {"counted_on", counted->device}, {"gpus", nlohmann::ordered_json::array()}};
+    for (const Card* card : counted->cards) {
+        const Result<std::vector<FrameCost>> costs =
+            model_frames(counted->frames, *card, gpu::embedded_shaders(built_in_catalog().shaders));
+        if (!costs) return costs.error();
+        if (options.json)
+            json["gpus"].push_back(to_json(*counted, *card, *costs));
+        else
+            print_card(*counted, *card, *costs);
+    }
+    if (options.json) std::printf("%s\n", json.dump(2).c_str());
+    if (!options.json)
+        std::printf(
+            "Fragments counted on %s.\nThis is a model, not a measurement: docs/performance.md has its "
+            "assumptions.\n",
+            counted->device.c_str());
+    return 0;
+}
+
+}  // namespace
+
+void add_cost_command(CommandLine& line) {
+    const auto options = std::make_shared<CostOptions>();
+    Command* command =
+        line.add("cost", "Models what techniques cost on graphics cards that need not be there",
+                 "dermis cost lambert \"preintegrated[shadow=plain]\" --gpu navi21,gfx1100");
+    command->add_option("techniques", options->techniques,
+                        "technique or technique[name=value,...]; several; all when none is given");
+    std::string chips;
+    for (const Card& card : cards()) chips += (chips.empty() ? "" : ", ") + std::string(card.chip);
+    command->add_option("--gpu", options->gpus, "chips to compile for, separated by commas: " + chips)
+        ->capture_default_str();
+    command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    command->add_option("--scene", options->scene, "scene whose fragments are counted")
+        ->capture_default_str();
+    command->add_option("--device", options->device, "count on the Vulkan device with this text in its name");
+    command->add_flag("--json", options->json, "print one JSON object instead");
+    line.when_chosen(command, [options] { return print_costs(*options); });
+}
+
+}  // namespace dermis::cli

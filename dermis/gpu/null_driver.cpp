@@ -1,0 +1,64 @@
+#include "dermis/gpu/null_driver.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+namespace dermis::gpu {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A variable of the environment, put back at the end.
+class ScopedVariable {
+  public:
+    ScopedVariable(const char* name, const std::string& value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        setenv(name, value.c_str(), 1);
+    }
+    ~ScopedVariable() {
+        if (before_)
+            setenv(name_, before_->c_str(), 1);
+        else
+            unsetenv(name_);
+    }
+    ScopedVariable(const ScopedVariable&) = delete;
+    ScopedVariable& operator=(const ScopedVariable&) = delete;
+
+  private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
+// radeon_icd.x86_64.json in one of the loader's directories. An empty path: none.
+fs::path radv_manifest() {
+    for (const char* directory :
+         {"/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/usr/share/vulkan/icd.d"}) {
+        std::error_code ec;
+        for (const fs::directory_entry& entry : fs::directory_iterator(directory, ec))
+            if (entry.path().filename().string().starts_with("radeon_icd")) return entry.path();
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<Device> open_null_driver(std::string_view chip) {
+    const fs::path manifest = radv_manifest();
+    if (manifest.empty())
+        return Error{
+            "no radeon_icd*.json in /usr/share/vulkan/icd.d: Mesa's RADV compiles for the chip and is not "
+            "installed (Debian: apt-get install mesa-vulkan-drivers)"};
+    // The loader reads the first two when an instance is made (the newer name wins where it is known), the
+    // driver the third when devices are listed.
+    const ScopedVariable driver("VK_DRIVER_FILES", manifest.string());
+    const ScopedVariable icd("VK_ICD_FILENAMES", manifest.string());
+    const ScopedVariable family("RADV_FORCE_FAMILY", std::string(chip));
+    Result<Device> device = Device::create({.keep_statistics = true});
+    if (!device)
+        return device.error().within("RADV (" + manifest.string() + ") without hardware, as '" +
+                                     std::string(chip) + "'");
+    return device;
+}
+
+}  // namespace dermis::gpu

@@ -1,0 +1,136 @@
+#include "dermis/gpu/statistics.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "dermis/gpu/null_driver.h"
+#include "dermis/gpu/pass_pipeline.h"
+#include "dermis/gpu/plan.h"
+
+namespace dermis::gpu {
+namespace {
+
+std::string_view stage_name(VkShaderStageFlags stages) {
+    if (stages & VK_SHADER_STAGE_COMPUTE_BIT) return "compute";
+    return stages & VK_SHADER_STAGE_FRAGMENT_BIT ? "fragment" : "vertex";
+}
+
+uint64_t value_of(const VkPipelineExecutableStatisticKHR& statistic) {
+    if (statistic.format == VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR)
+        return uint64_t(std::max<int64_t>(statistic.value.i64, 0));
+    if (statistic.format == VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_FLOAT64_KHR)
+        return uint64_t(std::max(statistic.value.f64, 0.0));
+    return statistic.value.u64;
+}
+
+Result<ShaderStatistics> read_executable(const Context& context, VkPipeline pipeline, uint32_t index,
+                                         const VkPipelineExecutablePropertiesKHR& properties) {
+    const VkPipelineExecutableInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR,
+                                              .pipeline = pipeline,
+                                              .executableIndex = index};
+    uint32_t count = 0;
+    VkResult result = context.vk.vkGetPipelineExecutableStatisticsKHR(context.device, &info, &count, nullptr);
+    std::vector<VkPipelineExecutableStatisticKHR> read(
+        count, {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR});
+    if (result == VK_SUCCESS)
+        result = context.vk.vkGetPipelineExecutableStatisticsKHR(context.device, &info, &count, read.data());
+    if (Result<void> ok = check(result, "read the compiler's statistics"); !ok) return ok.error();
+    ShaderStatistics shader = {.stage = std::string(stage_name(properties.stages)),
+                               .subgroup_size = properties.subgroupSize};
+    for (const StatisticField& field : statistic_fields()) {
+        const auto found = std::ranges::find_if(
+            read, [&](const auto& one) { return !std::strcmp(one.name, field.driver_name); });
+        if (found == read.end())
+            return Error{"the driver does not report '" + std::string(field.driver_name) +
+                         "'; dermis reads the statistics of Mesa 22.3 and of later ones that keep its names"};
+        shader.*field.member = value_of(*found);
+    }
+    return shader;
+}
+
+Result<std::vector<ShaderStatistics>> read_pipeline(const Context& context, VkPipeline pipeline) {
+    const VkPipelineInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR, .pipeline = pipeline};
+    uint32_t count = 0;
+    VkResult result = context.vk.vkGetPipelineExecutablePropertiesKHR(context.device, &info, &count, nullptr);
+    std::vector<VkPipelineExecutablePropertiesKHR> properties(
+        count, {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR});
+    if (result == VK_SUCCESS)
+        result =
+            context.vk.vkGetPipelineExecutablePropertiesKHR(context.device, &info, &count, properties.data());
+    if (Result<void> ok = check(result, "list the shaders of a pipeline"); !ok) return ok.error();
+    std::vector<ShaderStatistics> shaders;
+    for (uint32_t i = 0; i < count; ++i) {
+        Result<ShaderStatistics> shader = read_executable(context, pipeline, i, properties[i]);
+        if (!shader) return shader.error();
+        shaders.push_back(std::move(*shader));
+    }
+    return shaders;
+}
+
+}  // namespace
+
+std::span<const StatisticField> statistic_fields() {
+    using S = ShaderStatistics;
+    static constexpr StatisticField kFields[] = {
+        {"instructions", "Instructions", &S::instructions},
+        {"copies", "Copies", &S::copies},
+        {"branches", "Branches", &S::branches},
+        {"vgprs", "VGPRs", &S::vgprs},
+        {"sgprs", "SGPRs", &S::sgprs},
+        {"spilled_vgprs", "Spilled VGPRs", &S::spilled_vgprs},
+        {"spilled_sgprs", "Spilled SGPRs", &S::spilled_sgprs},
+        {"subgroups_per_simd", "Subgroups per SIMD", &S::subgroups_per_simd},
+        {"code_bytes", "Code size", &S::code_bytes},
+        {"lds_bytes", "LDS size", &S::lds_bytes},
+        {"scratch_bytes", "Scratch size", &S::scratch_bytes},
+        {"vmem_clauses", "VMEM Clause", &S::vmem_clauses},
+        {"smem_clauses", "SMEM Clause", &S::smem_clauses},
+        {"latency_cycles", "Latency", &S::latency_cycles},
+        {"inverse_throughput_cycles", "Inverse Throughput", &S::inverse_throughput_cycles}};
+    return kFields;
+}
+
+struct NullDevice::State {
+    State(Device opened, ShaderSource source)
+        : device(std::move(opened)), shaders(std::move(source)), pipelines(device.state()) {}
+    Device device;
+    ShaderLibrary shaders;
+    PipelineStore pipelines;
+};
+
+Result<NullDevice> NullDevice::open(std::string_view chip, ShaderSource shaders) {
+    Result<Device> device = open_null_driver(chip);
+    if (!device) return device.error();
+    return NullDevice(std::make_unique<State>(std::move(*device), std::move(shaders)));
+}
+
+Result<std::vector<PassStatistics>> NullDevice::compile(const PassList& list) {
+    std::vector<PassStatistics> passes;
+    for (const Pass& pass : list.passes) {
+        PassStatistics& statistics = passes.emplace_back(PassStatistics{.pass = pass.name});
+        const Result<const Pipeline*> pipeline =
+            pass_pipeline(list, pass, state_->shaders, state_->pipelines);
+        if (!pipeline) return pipeline.error();
+        if (!*pipeline) continue;
+        Result<std::vector<ShaderStatistics>> shaders =
+            read_pipeline(state_->device.state().context, (*pipeline)->handle.get());
+        if (!shaders) return shaders.error().within(pass_label(pass));
+        statistics.shaders = std::move(*shaders);
+        for (const StageVariable& input : (*pipeline)->inputs)
+            statistics.vertex_bytes += uint32_t(input.components) * 4;
+        for (const Binding& binding : (*pipeline)->bindings)
+            if (binding.kind == BindingKind::texture) statistics.textures.push_back(binding.name);
+    }
+    return passes;
+}
+
+const DeviceInfo& NullDevice::info() const {
+    return state_->device.info();
+}
+
+NullDevice::NullDevice(std::unique_ptr<State> state) : state_(std::move(state)) {}
+NullDevice::~NullDevice() = default;
+NullDevice::NullDevice(NullDevice&&) noexcept = default;
+NullDevice& NullDevice::operator=(NullDevice&&) noexcept = default;
+
+}  // namespace dermis::gpu
