@@ -7,6 +7,7 @@
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -89,6 +90,18 @@ std::vector<Sum<Value>> refine(const std::vector<Value>& values, int level, Prog
     return current;
 }
 
+// OpenSubdiv sizes the weights of a limit tangent by the most edges of a vertex and fills in one for each
+// face (PrimvarRefiner::limit): where more faces than that meet, as with copies of a face, it writes out of
+// bounds.
+bool fits_tangent_masks(const Far::TopologyLevel& level) {
+    int most_edges = 0, most_faces = 0;
+    for (int vertex = 0; vertex < level.GetNumVertices(); ++vertex) {
+        most_edges = std::max(most_edges, int(level.GetVertexEdges(vertex).size()));
+        most_faces = std::max(most_faces, int(level.GetVertexFaces(vertex).size()));
+    }
+    return most_faces <= most_edges;
+}
+
 void evaluate_positions(const Far::TopologyRefiner& refiner, const std::vector<Vec3>& cage,
                         Progress& progress, PolygonMesh& out) {
     const Far::PrimvarRefiner primvars(refiner);
@@ -98,7 +111,14 @@ void evaluate_positions(const Far::TopologyRefiner& refiner, const std::vector<V
             primvars.Interpolate(level, from, to);
             return to;
         });
-    std::vector<PositionSum> limit(refined.size()), along_1(refined.size()), along_2(refined.size());
+    std::vector<PositionSum> limit(refined.size());
+    if (!fits_tangent_masks(refiner.GetLevel(refiner.GetMaxLevel()))) {
+        // Without normals: whoever reads the mesh computes them.
+        primvars.Limit(refined, limit);
+        for (const PositionSum& sum : limit) out.positions_mm.push_back(sum.value);
+        return;
+    }
+    std::vector<PositionSum> along_1(refined.size()), along_2(refined.size());
     primvars.Limit(refined, limit, along_1, along_2);
     for (size_t i = 0; i < limit.size(); ++i) {
         out.positions_mm.push_back(limit[i].value);
@@ -135,7 +155,7 @@ void copy_faces(const Far::TopologyRefiner& refiner, const PolygonMesh& cage, Po
         for (int l = last; l > 0; --l) parent = refiner.GetLevel(l).GetFaceParentFace(parent);
         out.face_materials.push_back(cage.face_materials[size_t(parent)]);
     }
-    out.corner_normals = out.corner_positions;
+    if (!out.normals.empty()) out.corner_normals = out.corner_positions;
 }
 
 void keep_quiet(Far::ErrorType, const char*) {}

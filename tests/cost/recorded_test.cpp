@@ -54,7 +54,9 @@ CostRecords parse_costs(std::string_view text) {
 
 std::vector<std::string> rises(const CostRecords& now, const CostRecords& before) {
     std::vector<std::string> found;
-    for (const auto& [key, r] : now) {
+    for (const auto& entry : now) {
+        const std::string& key = entry.first;
+        const CostRecord& r = entry.second;
         const auto old = before.find(key);
         if (old == before.end()) {
             found.push_back(key + " is not recorded");

@@ -114,6 +114,20 @@ TEST(Subdivide, what_cannot_be_refined_is_an_error) {
     }
 }
 
+TEST(Subdivide, copies_of_a_face_have_limits_but_no_normals) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int copy = 0; copy < 40; ++copy) text += "f 1 2 3\n";
+    for (const int level : {1, 2}) {
+        const auto refined = subdivide(cage_of(text), level);
+        ASSERT_TRUE(refined) << refined.error().message;
+        EXPECT_TRUE(refined->normals.empty());
+        Mesh mesh = triangulate(*refined);
+        complete_normals(mesh);
+        expect_sound(mesh);
+    }
+    EXPECT_FALSE(subdivide(cage_of(kCubeObj), 1)->normals.empty());
+}
+
 TEST(Subdivide, the_scanned_head_refines_with_its_uvs) {
     if (!std::filesystem::exists(asset("lee_perry_smith/head_quads.obj")))
         GTEST_SKIP() << "no test head here";
