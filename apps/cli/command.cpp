@@ -20,13 +20,16 @@ void print_warning(std::string_view text) {
     print_message("warning: " + std::string(text));
 }
 
-std::string shell_word(const std::string& word) {
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
+Result<IndexRange> parse_index_range(std::string_view flag, std::string_view text) {
+    constexpr double kMost = 1e6;
+    const std::vector<std::string_view> ends = split(text, ':');
+    std::vector<int> numbers;
+    for (const std::string_view end : ends)
+        if (const std::optional<double> number = parse_number(trim(end));
+            number && *number >= 0 && *number <= kMost && *number == std::floor(*number))
+            numbers.push_back(int(*number));
+    if (ends.size() == 2 && numbers.size() == 2) return IndexRange{numbers[0], numbers[1]};
+    return Error{std::string(flag) + " '" + std::string(text) + "': write BEGIN:END, such as 0:16"};
 }
 
 Result<Size> parse_size(std::string_view text) {
@@ -155,28 +158,48 @@ Command* CommandLine::find(const std::string& name) {
     return nullptr;
 }
 
-void CommandLine::when_chosen(Command* command, Action run) {
-    command->app_->callback([this, run = std::move(run)] { action = run; });
+void CommandLine::when_chosen(Command* command, Action run, Planner planner) {
+    command->app_->callback([this, run = std::move(run), planner = std::move(planner)] {
+        action = run;
+        plan = planner;
+    });
+}
+
+Result<void> CommandLine::parse_or_throw_help(std::vector<std::string> line) {
+    words = std::move(line);
+    // CLI11 would say only that a subcommand is missing.
+    if (!words.empty() && !words[0].starts_with('-') && !find(words[0])) {
+        std::vector<std::string> names;
+        for (const CLI::App* command : app_->get_subcommands({})) names.push_back(command->get_name());
+        return Error{unknown_name("command", words[0], names)};
+    }
+    try {
+        app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes the last first
+    } catch (const CLI::Success&) {                                           // --help, --version
+        throw;
+    } catch (const CLI::ParseError& wrong) {
+        return Error{std::string(wrong.what()) + " (see dermis --help)"};
+    }
+    return {};
 }
 
 std::optional<int> CommandLine::parse(int argc, char** argv) {
-    words.assign(argv + std::min(argc, 1), argv + argc);
-    // CLI11 would say only that a subcommand is missing.
-    if (argc >= 2 && argv[1][0] != '-' && !find(argv[1])) {
-        std::vector<std::string> names;
-        for (const CLI::App* command : app_->get_subcommands({})) names.push_back(command->get_name());
-        print_message(unknown_name("command", argv[1], names));
-        return 2;
-    }
     try {
-        app_->parse(argc, argv);
-    } catch (const CLI::Success& done) {  // --help, --version
-        return app_->exit(done);
-    } catch (const CLI::ParseError& wrong) {
-        print_message(std::string(wrong.what()) + " (see dermis --help)");
+        const Result<void> parsed = parse_or_throw_help({argv + std::min(argc, 1), argv + argc});
+        if (parsed) return std::nullopt;
+        print_message(parsed.error().message);
         return 2;
+    } catch (const CLI::Success& done) {
+        return app_->exit(done);
     }
-    return std::nullopt;
+}
+
+Result<void> CommandLine::parse_words(std::vector<std::string> line) {
+    try {
+        return parse_or_throw_help(std::move(line));
+    } catch (const CLI::Success&) {
+        return Error{"asks for help and does nothing"};
+    }
 }
 
 }  // namespace dermis::cli

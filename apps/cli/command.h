@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/jobs/job_list.h"
 
 namespace CLI {
 class App;
@@ -64,6 +65,9 @@ class Command {
     std::deque<Option> options_;  // a deque: pointers to its elements stay valid
 };
 
+/// How a command is split into jobs: into so many parts at most, with files in this folder.
+using Planner = std::function<Result<JobPlan>(int parts, const std::string& folder)>;
+
 /// Runs after parsing; the value is the exit code, an error is printed as one line and exits with 1.
 using Action = std::function<Result<int>()>;
 
@@ -80,16 +84,22 @@ class CommandLine {
                  Command* parent = nullptr);
     /// `dermis NAME` if it was added already, otherwise null.
     Command* find(const std::string& name);
-    void when_chosen(Command* command, Action run);
+    /// `plan` is for the commands that dermis jobs takes.
+    void when_chosen(Command* command, Action run, Planner plan = {});
 
     /// The exit code, or nothing when a command was chosen: then call `action`. Prints help and what was
     /// wrong.
     [[nodiscard]] std::optional<int> parse(int argc, char** argv);
+    /// A line of a file, without the program's name; prints nothing.
+    [[nodiscard]] Result<void> parse_words(std::vector<std::string> line);
     Action action;
+    Planner plan;
     /// What was parsed, without the program's name.
     std::vector<std::string> words;
 
   private:
+    Result<void> parse_or_throw_help(std::vector<std::string> line);
+
     std::unique_ptr<CLI::App> app_;
     std::deque<Command> commands_;
 };
@@ -105,8 +115,12 @@ struct Size {
 void print_message(std::string_view text);
 void print_warning(std::string_view text);
 
-/// Quoted for a shell where it has to be.
-[[nodiscard]] std::string shell_word(const std::string& word);
+/// begin <= i < end.
+struct IndexRange {
+    int begin = 0, end = 0;
+};
+/// "4:12", whole numbers from 0 to 10^6. The error names the flag.
+[[nodiscard]] Result<IndexRange> parse_index_range(std::string_view flag, std::string_view text);
 
 /// Generated: calls add_NAME_command of every commands/NAME.cpp.
 void add_all_commands(CommandLine& line);

@@ -1,6 +1,5 @@
 #include "reference_options.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "dermis/base/text.h"
@@ -117,15 +116,9 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
 
 Result<std::optional<SampleRange>> ReferenceOptions::range(const ReferenceSettings& settings) const {
     if (sample_range.empty()) return std::optional<SampleRange>();
-    const std::vector<std::string_view> ends = split(sample_range, ':');
-    std::vector<int> numbers;
-    for (const std::string_view text : ends)
-        if (const std::optional<double> number = parse_number(trim(text));
-            number && *number >= 0 && *number <= kMostSamples && *number == std::floor(*number))
-            numbers.push_back(int(*number));
-    if (ends.size() != 2 || numbers.size() != 2)
-        return Error{"--sample-range '" + sample_range + "': write BEGIN:END, such as 0:16"};
-    const SampleRange chosen = {numbers[0], numbers[1]};
+    const Result<IndexRange> parsed = parse_index_range("--sample-range", sample_range);
+    if (!parsed) return parsed.error();
+    const SampleRange chosen = {parsed->begin, parsed->end};
     if (Result<void> good = check_range(settings, chosen); !good)
         return Error{"--sample-range " + sample_range + ": " + good.error().message};
     if (!preview.empty())

@@ -16,6 +16,7 @@
 #include "dermis/base/text.h"
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/report.h"
+#include "job_hash.h"
 #include "render_options.h"
 
 namespace dermis::cli {
@@ -197,6 +198,30 @@ Result<int> run(const CompareOptions& options) {
     return 0;
 }
 
+// One job: the techniques share the ground truth.
+Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::string>& words) {
+    const bool is_set = set_of_scenes(options.scene.name) != nullptr;
+    if (const Result<ComparisonSettings> settings = settings_of(options, is_set ? kCaseSize : kSize);
+        !settings)
+        return settings.error();
+    if (!options.techniques.empty())
+        if (const auto known = parse_technique_list(built_in_catalog().techniques, options.techniques);
+            !known)
+            return known.error();
+    if (Result<void> good = try_directory(options.output); !good) return good.error();
+    const Result<ComparedScenes> scenes = compared_scenes(options.scene);
+    if (!scenes) return scenes.error();
+    std::vector<const Scene*> all;
+    for (const SubjectCase& one : scenes->all) all.push_back(&one.scene);
+    const Result<std::string> hash = hash_of_job(all, words);
+    if (!hash) return hash.error();
+    return JobPlan{.work = {{.name = options.output,
+                             .hash = *hash,
+                             .words = words,
+                             .results = {(fs::path(options.output) / "scores.csv").string(),
+                                         (fs::path(options.output) / "regions.csv").string()}}}};
+}
+
 }  // namespace
 
 void add_compare_command(CommandLine& line) {
@@ -239,7 +264,9 @@ void add_compare_command(CommandLine& line) {
         ->capture_default_str();
     command->add_option("--device", options->device, "use the Vulkan device with this text in its name");
     command->add_flag("--json", options->json, "print one JSON object");
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return run(*options); },
+        [options, &line](int, const std::string&) { return plan(*options, line.words); });
 }
 
 }  // namespace dermis::cli

@@ -1,66 +1,25 @@
 // `dermis reference`: the ground truth of a scene as a layered EXR.
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
-#include <cstdint>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
 #include "dermis/jobs/part.h"
 #include "dermis/judge/truth_version.h"
 #include "picture_text.h"
 #include "reference_options.h"
+#include "stop_on_signals.h"
 
 namespace dermis::cli {
 namespace {
 
 // Exit status: the picture is written, but noisier than asked for.
 constexpr int kNoiseMissed = 3;
-
-using SignalHandler = void (*)(int);
-
-std::atomic<int> g_signal = 0;
-std::atomic<bool> g_stop = false;
-std::atomic<int64_t> g_stopped_ms = 0;
-SignalHandler g_interrupt_before = SIG_DFL, g_terminate_before = SIG_DFL;
-
-// Ctrl-C or a request to end. The first signal ends the passes, the picture so far is written, then the
-// program ends; one that comes later ends the program at once. `timeout`, make and shells send the same
-// signal twice, to the process and to its group: what comes within a second is the first one again.
-extern "C" void stop_on_signal(int signal) {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    const int64_t now_ms = int64_t(now.tv_sec) * 1000 + now.tv_nsec / 1'000'000;
-    if (!g_stop) {
-        g_signal = signal;
-        g_stopped_ms = now_ms;
-        g_stop = true;
-    } else if (now_ms > g_stopped_ms + 1000) {
-        std::signal(signal, signal == SIGINT ? g_interrupt_before : g_terminate_before);
-        std::raise(signal);
-    }
-}
-
-// While an object exists, the first signal only sets g_stop.
-class StopOnSignals {
-  public:
-    StopOnSignals() {
-        g_interrupt_before = std::signal(SIGINT, stop_on_signal);
-        g_terminate_before = std::signal(SIGTERM, stop_on_signal);
-    }
-    ~StopOnSignals() {
-        std::signal(SIGINT, g_interrupt_before);
-        std::signal(SIGTERM, g_terminate_before);
-    }
-    StopOnSignals(const StopOnSignals&) = delete;
-    StopOnSignals& operator=(const StopOnSignals&) = delete;
-};
 
 // A progress line over calls with the share that is done.
 template <class Work>
@@ -75,18 +34,16 @@ auto with_progress(Work work) {
     });
 }
 
-// The shell line without output and range.
+// Of the words of the command line, those that all parts have in common.
+std::vector<std::string> common_words(const std::vector<std::string>& words) {
+    constexpr std::string_view kOptions[] = {"-o", "--output", "--sample-range", "--preview"};
+    constexpr std::string_view kFlags[] = {"--json"};
+    return words_without(words, kOptions, kFlags);
+}
+
 std::string command_of(const std::vector<std::string>& words) {
     std::string command = "dermis";
-    for (size_t i = 0; i < words.size(); ++i) {
-        const std::string& word = words[i];
-        const bool with_value = word == "-o" || word == "--output" || word == "--sample-range";
-        if (with_value) ++i;
-        if (with_value || word == "--json" || word.starts_with("--output=") ||
-            word.starts_with("--sample-range="))
-            continue;
-        command += " " + shell_word(word);
-    }
+    for (const std::string& word : common_words(words)) command += " " + shell_word(word);
     return command;
 }
 
@@ -96,11 +53,11 @@ Result<int> run_part(const ReferenceOptions& options, const ReferenceSettings& s
     if (!content) return content.error();
     const auto start = std::chrono::steady_clock::now();
     const Result<PictureSums> sums = with_progress([&](const ReferenceProgress& progress) {
-        return sum_samples(scene, settings, range, progress, &g_stop);
+        return sum_samples(scene, settings, range, progress, &stop_requested());
     });
-    if (!sums && g_stop) {
+    if (!sums && stop_requested()) {
         print_message(sums.error().message);
-        return 128 + g_signal;
+        return stopped_exit_code();
     }
     if (!sums) return sums.error();
     if (Result<void> written = write_part(options.output,
@@ -132,11 +89,11 @@ Result<int> run_part(const ReferenceOptions& options, const ReferenceSettings& s
 Result<int> run_picture(const ReferenceOptions& options, const ReferenceSettings& settings,
                         const Scene& scene) {
     const Result<ReferencePicture> picture = with_progress([&](const ReferenceProgress& progress) {
-        return render_reference(scene, settings, progress, &g_stop);
+        return render_reference(scene, settings, progress, &stop_requested());
     });
     if (!picture) return picture.error();
     const PictureFacts facts = options.facts(settings, scene);
-    const std::string text = described(facts, *picture, g_stop);
+    const std::string text = described(facts, *picture, stop_requested());
     if (Result<void> written = write_picture_file(options.output, facts, *picture, text); !written)
         return written.error();
     if (!options.preview.empty())
@@ -146,9 +103,9 @@ Result<int> run_picture(const ReferenceOptions& options, const ReferenceSettings
                    .text = text,
                    .credit = scene.credit,
                    .json = options.json,
-                   .stopped = g_stop},
+                   .stopped = stop_requested()},
                   *picture);
-    if (g_stop) return 128 + g_signal;
+    if (stop_requested()) return stopped_exit_code();
     if (picture->reached_noise) return 0;
     std::fprintf(stderr,
                  "dermis: the relative error is %.4f after %d samples a pixel, not the %g of --noise: raise "
@@ -170,6 +127,61 @@ Result<int> run(const ReferenceOptions& options, const std::vector<std::string>&
                   : run_picture(options, *settings, *scene);
 }
 
+// Ranges of whole blocks, as equal as they can be.
+std::vector<SampleRange> split_samples(int samples, int parts) {
+    const int blocks = samples / kSampleBlock;
+    parts = std::min(parts, blocks);
+    std::vector<SampleRange> ranges;
+    for (int i = 0; i < parts; ++i)
+        ranges.push_back({blocks * i / parts * kSampleBlock, blocks * (i + 1) / parts * kSampleBlock});
+    return ranges;
+}
+
+Result<JobPlan> plan(const ReferenceOptions& options, const std::vector<std::string>& words, int parts,
+                     const std::string& folder) {
+    const Result<ReferenceSettings> settings = options.settings();
+    if (!settings) return settings.error();
+    if (!options.sample_range.empty())
+        return Error{"--sample-range: dermis jobs chooses the ranges; leave it out"};
+    if (Result<void> good = check_range(*settings, {0, settings->samples}); !good) return good.error();
+    if (Result<void> tried = try_picture_files(options.output, options.preview); !tried) return tried.error();
+    const Result<Scene> scene = options.load_scene();
+    if (!scene) return scene.error();
+    const Result<std::string> content = content_hash(*scene, *settings);
+    if (!content) return content.error();
+    const PictureFacts facts = options.facts(*settings, *scene);
+    const std::string hash = Hasher()
+                                 .add(*content)
+                                 .add(settings->samples)
+                                 .add(facts.description)
+                                 .add(facts.tone_map)
+                                 .add(facts.exposure_ev)
+                                 .add(facts.credit)
+                                 .hex();
+    JobPlan plan;
+    Job merge{.name = options.output, .hash = hash, .words = {"merge"}, .results = {options.output}};
+    for (const SampleRange range : split_samples(settings->samples, parts)) {
+        const std::string text = std::to_string(range.begin) + ":" + std::to_string(range.end);
+        const std::string file = folder + "/parts/" + hash + "_" + std::to_string(range.begin) + "_" +
+                                 std::to_string(range.end) + ".exr";
+        Job job{.name = options.output + " samples " + text,
+                .hash = hash,
+                .words = common_words(words),
+                .results = {file},
+                .is_part = true};
+        job.words.insert(job.words.end(), {"--sample-range", text, "-o", file});
+        plan.work.push_back(std::move(job));
+        merge.words.push_back(file);
+    }
+    merge.words.insert(merge.words.end(), {"-o", options.output});
+    if (!options.preview.empty()) {
+        merge.words.insert(merge.words.end(), {"--preview", options.preview});
+        merge.results.push_back(options.preview);
+    }
+    plan.merge = std::move(merge);
+    return plan;
+}
+
 }  // namespace
 
 void add_reference_command(CommandLine& line) {
@@ -183,7 +195,11 @@ void add_reference_command(CommandLine& line) {
         "  Ctrl-C (or SIGTERM) writes the picture so far and prints its error\n"
         "  exit code 3: the picture is written, but --samples ended it before --noise was reached");
     options->add_to(*command);
-    line.when_chosen(command, [options, &line] { return run(*options, line.words); });
+    line.when_chosen(
+        command, [options, &line] { return run(*options, line.words); },
+        [options, &line](int parts, const std::string& folder) {
+            return plan(*options, line.words, parts, folder);
+        });
 }
 
 }  // namespace dermis::cli

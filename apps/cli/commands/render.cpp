@@ -10,6 +10,7 @@
 #include "command.h"
 #include "dermis/render/output.h"
 #include "dermis/scene/scene_words.h"
+#include "job_hash.h"
 #include "render_options.h"
 #include "turntable.h"
 
@@ -18,12 +19,30 @@ namespace {
 
 struct Options {
     RenderOptions render;
-    std::string output = "out/dermis.png";
+    std::string output = "out/dermis.png", frame_range;
     OutputSettings file;
     int frames = 1;
     double turn_deg = 0;
     bool timings = false, json = false;
 };
+
+// Of --frame-range; all frames without it.
+Result<IndexRange> frames_of(const Options& options) {
+    if (options.frames < 1 || options.frames > 100000)
+        return Error{"--frames " + std::to_string(options.frames) + ": 1 to 100000"};
+    const bool numbered = frame_path(options.output, 0) != options.output;
+    if (options.frames > 1 && !options.timings && !numbered)
+        return Error{"--frames " + std::to_string(options.frames) + " would write " + options.output +
+                     " again and again; number them: -o out/%04d.png"};
+    if (options.frame_range.empty()) return IndexRange{0, options.frames};
+    const Result<IndexRange> range = parse_index_range("--frame-range", options.frame_range);
+    if (!range) return range;
+    if (!numbered || range->begin >= range->end || range->end > options.frames)
+        return Error{"--frame-range " + options.frame_range + ": some of the " +
+                     std::to_string(options.frames) +
+                     " numbered frames (--frames, -o out/%04d.png), such as 0:1"};
+    return range;
+}
 
 // Medians over the frames after the first, which compiles pipelines.
 gpu::FrameResult median_timings(const std::vector<gpu::FrameResult>& frames) {
@@ -82,13 +101,14 @@ void print_timings(const gpu::FrameResult& timings, const gpu::Device& device) {
 }
 
 Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& prepared,
-                                                  const Options& options) {
+                                                  const Options& options, IndexRange range) {
     const bool numbered = frame_path(options.output, 0) != options.output;
     const Camera start = prepared.scene.camera;
     // Timings of a still need a few frames; the first compiles.
-    const int frames = options.timings && options.frames == 1 ? 4 : options.frames;
+    if (options.timings && options.frames == 1) range.end = 4;
+    const int frames = std::max(options.frames, range.end);
     std::vector<gpu::FrameResult> results;
-    for (int frame = 0; frame < frames; ++frame) {
+    for (int frame = range.begin; frame < range.end; ++frame) {
         const double turn_rad = options.turn_deg * 3.14159265358979 / 180 * frame / frames;
         turn_camera(prepared.scene, start, turn_rad);
         Result<gpu::FrameResult> drawn = renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
@@ -107,11 +127,8 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
 
 Result<int> render(Options options) {
     if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
-    if (options.frames < 1 || options.frames > 100000)
-        return Error{"--frames " + std::to_string(options.frames) + ": 1 to 100000"};
-    if (options.frames > 1 && !options.timings && frame_path(options.output, 0) == options.output)
-        return Error{"--frames " + std::to_string(options.frames) + " would write " + options.output +
-                     " again and again; number them: -o out/%04d.png"};
+    const Result<IndexRange> range = frames_of(options);
+    if (!range) return range.error();
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
     for (const std::string& warning : prepared->scene.warnings) print_warning(warning);
@@ -125,7 +142,7 @@ Result<int> render(Options options) {
     prepared->draw.deep = options.file.png_bits == 16;
     options.file.credit = prepared->scene.credit;
     options.file.description = prepared->scene.name + ", " + prepared->technique->id;
-    const Result<std::vector<gpu::FrameResult>> frames = draw_frames(*renderer, *prepared, options);
+    const Result<std::vector<gpu::FrameResult>> frames = draw_frames(*renderer, *prepared, options, *range);
     if (!frames) return frames.error();
 
     for (const std::string& warning : renderer->warnings()) print_warning(warning);
@@ -141,6 +158,37 @@ Result<int> render(Options options) {
         std::fprintf(stderr, "dermis: %s\n", message.c_str());
     if (!device->messages().empty()) return Error{"the validation layers reported errors (see above)"};
     return 0;
+}
+
+// Frames in as many jobs as there are parts.
+Result<JobPlan> plan(const Options& options, const std::vector<std::string>& words, int parts) {
+    if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
+    if (const Result<IndexRange> range = frames_of(options); !range) return range.error();
+    if (!options.frame_range.empty())
+        return Error{"--frame-range: dermis jobs chooses the ranges; leave it out"};
+    const Result<Prepared> prepared = prepare(options.render);
+    if (!prepared) return prepared.error();
+    const Result<std::string> hash = hash_of_job({&prepared->scene}, words);
+    if (!hash) return hash.error();
+    const bool numbered = frame_path(options.output, 0) != options.output;
+    const int count = numbered ? std::min(parts, options.frames) : 1;
+    JobPlan plan;
+    for (int i = 0; i < count; ++i) {
+        const int begin = options.frames * i / count, end = options.frames * (i + 1) / count;
+        const std::string text = std::to_string(begin) + ":" + std::to_string(end);
+        Job job{.name = options.output, .hash = *hash, .words = words};
+        if (numbered) {
+            job.name += " frames " + text;
+            job.hash += "_" + std::to_string(begin) + "_" + std::to_string(end);
+            job.words.insert(job.words.end(), {"--frame-range", text});
+            for (int frame = begin; frame < end; ++frame)
+                job.results.push_back(frame_path(options.output, frame));
+        } else {
+            job.results = {options.output};
+        }
+        plan.work.push_back(std::move(job));
+    }
+    return plan;
 }
 
 }  // namespace
@@ -159,12 +207,16 @@ void add_render_command(CommandLine& line) {
         ->capture_default_str();
     command->add_flag("--layers", options->file.layers, "all debug views as layers of the EXR");
     command->add_option("--frames", options->frames, "number of frames")->capture_default_str();
+    command->add_option("--frame-range", options->frame_range,
+                        "BEGIN:END: only these of the --frames, with the numbers that they have among all");
     command->add_option("--turn", options->turn_deg, "angle in degrees that the camera turns over all frames")
         ->capture_default_str();
     command->add_flag("--timings", options->timings,
                       "print the time of each pass (median, first frame left out)");
     command->add_flag("--json", options->json, "print one JSON object instead");
-    line.when_chosen(command, [options] { return render(*options); });
+    line.when_chosen(
+        command, [options] { return render(*options); },
+        [options, &line](int parts, const std::string&) { return plan(*options, line.words, parts); });
 }
 
 }  // namespace dermis::cli
