@@ -180,13 +180,18 @@ void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
         ++flesh.hidden_triangles;
         flesh.hidden_area_mm2 += triangles.area_mm2[t];
     }
-    flesh.mesh_openings = border_loops(mesh.positions_mm, mesh.indices, skin).size();
-    const std::vector<BorderLoop> loops = border_loops(mesh.positions_mm, mesh.indices, boundary);
+    const std::vector<BorderLoop> openings = border_loops(mesh.positions_mm, mesh.indices, skin);
+    flesh.mesh_openings = openings.size();
+    std::vector<BorderLoop> loops = border_loops(mesh.positions_mm, mesh.indices, boundary);
     const size_t largest_exact = affordable_exact(loops);
-    for (const BorderLoop& loop : loops) {
-        const std::vector<std::array<Vec3, 3>> cap = cap_of(loop, largest_exact);
+    const auto others = std::ranges::stable_partition(
+        loops, [&](const BorderLoop& loop) { return std::ranges::find(openings, loop) == openings.end(); });
+    for (auto loop = loops.begin(); loop != loops.end(); ++loop) {
+        if (loop == others.begin()) flesh.cavity_caps = flesh.caps.size();
+        const std::vector<std::array<Vec3, 3>> cap = cap_of(*loop, largest_exact);
         flesh.caps.insert(flesh.caps.end(), cap.begin(), cap.end());
     }
+    if (others.empty()) flesh.cavity_caps = flesh.caps.size();
 }
 
 // Hides what cannot be seen from outside: the steps of flesh.h, in their order.
@@ -250,12 +255,12 @@ std::string content_hash(const SceneObject& object, Cavities cavities) {
 
 // The stored form: the numbers, one byte per triangle, then the caps.
 struct Header {
-    uint64_t triangles = 0, hidden = 0, caps = 0, openings = 0;
+    uint64_t triangles = 0, hidden = 0, caps = 0, cavity_caps = 0, openings = 0;
     double hidden_area_mm2 = 0, skin_area_mm2 = 0;
 };
 
 std::vector<std::byte> pack(const Flesh& flesh) {
-    const Header header{flesh.faces.size(),  flesh.hidden_triangles, flesh.caps.size(),
+    const Header header{flesh.faces.size(),  flesh.hidden_triangles, flesh.caps.size(),  flesh.cavity_caps,
                         flesh.mesh_openings, flesh.hidden_area_mm2,  flesh.skin_area_mm2};
     std::vector<std::byte> bytes(sizeof header);
     std::memcpy(bytes.data(), &header, sizeof header);
@@ -272,10 +277,11 @@ std::optional<Flesh> unpack(std::span<const std::byte> bytes, size_t triangles) 
     using Cap = std::array<Vec3, 3>;
     const size_t rest = bytes.size() - sizeof header;
     if (header.triangles != triangles || rest < triangles || (rest - triangles) % sizeof(Cap) != 0 ||
-        (rest - triangles) / sizeof(Cap) != header.caps)
+        (rest - triangles) / sizeof(Cap) != header.caps || header.cavity_caps > header.caps)
         return std::nullopt;
     Flesh flesh{.faces = std::vector<SkinFace>(triangles),
                 .caps = std::vector<Cap>(header.caps),
+                .cavity_caps = header.cavity_caps,
                 .hidden_triangles = header.hidden,
                 .hidden_area_mm2 = header.hidden_area_mm2,
                 .skin_area_mm2 = header.skin_area_mm2,

@@ -25,7 +25,8 @@ enum class SkinFace : uint8_t { visible, cavity, buried };
 
 struct Flesh {
     std::vector<SkinFace> faces;            ///< one a triangle of the mesh; `visible` for what is not skin
-    std::vector<std::array<Vec3, 3>> caps;  ///< mm, facing out
+    std::vector<std::array<Vec3, 3>> caps;  ///< mm, facing out; those of cavities first
+    size_t cavity_caps = 0;                 ///< how many: the others close openings of the mesh
     size_t hidden_triangles = 0;
     double hidden_area_mm2 = 0, skin_area_mm2 = 0;  ///< the second with the hidden part
     size_t mesh_openings = 0;                       ///< closed borders of the skin as the mesh has it

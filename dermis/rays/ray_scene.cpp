@@ -34,16 +34,20 @@ struct TriangleSet {
     std::vector<Part> parts;  // by Embree's geometry number
 };
 
+bool bounds_flesh(RaySet set) {
+    return set == RaySet::flesh || set == RaySet::folds;
+}
+
 bool belongs(RaySet set, MaterialClass material_class) {
     if (set == RaySet::translucent) return material_class == MaterialClass::translucent;
-    if (set == RaySet::skin || set == RaySet::flesh) return material_class == MaterialClass::skin;
+    if (set == RaySet::skin || bounds_flesh(set)) return material_class == MaterialClass::skin;
     return material_class != MaterialClass::translucent;
 }
 
 // The set of drawn surfaces keeps all faces.
 bool left_out(RaySet set, SkinFace face) {
     return (set == RaySet::skin && face != SkinFace::visible) ||
-           (set == RaySet::flesh && face == SkinFace::cavity);
+           (bounds_flesh(set) && face == SkinFace::cavity);
 }
 
 MaterialClass class_of(std::span<const MaterialClass> classes, uint32_t material) {
@@ -103,10 +107,12 @@ std::vector<uint32_t> corners_of(const Mesh& mesh, const Part& part) {
     return corners;
 }
 
-std::vector<Vec3> cap_corners(std::span<const Flesh> flesh) {
+std::vector<Vec3> cap_corners(RaySet which, std::span<const Flesh> flesh) {
     std::vector<Vec3> corners;
     for (const Flesh& one : flesh)
-        for (const std::array<Vec3, 3>& cap : one.caps) corners.insert(corners.end(), cap.begin(), cap.end());
+        for (const std::array<Vec3, 3>& cap :
+             std::span(one.caps).first(which == RaySet::folds ? one.cavity_caps : one.caps.size()))
+            corners.insert(corners.end(), cap.begin(), cap.end());
     return corners;
 }
 
@@ -163,7 +169,7 @@ void collect(const RTCFilterFunctionNArguments* arguments) {
 
 struct RayScene::Impl {
     DevicePointer device;
-    std::array<TriangleSet, 4> sets;
+    std::array<TriangleSet, 5> sets;
     std::vector<const Mesh*> meshes;
     std::vector<std::vector<std::unique_ptr<CutOut>>> cut_outs;  // by mesh and material; null: it is whole
     float epsilon_mm = 1e-6f;
@@ -216,13 +222,13 @@ struct RayScene::Impl {
                         part.cut_out ? &part : nullptr))
                 return false;
         }
-        if (which == RaySet::flesh && !add_caps(set, flesh)) return false;
+        if (bounds_flesh(which) && !add_caps(which, set, flesh)) return false;
         rtcCommitScene(set.scene.get());
         return rtcGetDeviceError(device.get()) == RTC_ERROR_NONE;
     }
 
-    bool add_caps(TriangleSet& set, std::span<const Flesh> flesh) {
-        const std::vector<Vec3> corners = cap_corners(flesh);
+    bool add_caps(RaySet which, TriangleSet& set, std::span<const Flesh> flesh) {
+        const std::vector<Vec3> corners = cap_corners(which, flesh);
         if (corners.empty()) return true;
         std::vector<uint32_t> indices(corners.size());
         std::iota(indices.begin(), indices.end(), 0u);
@@ -249,8 +255,9 @@ struct RayScene::Impl {
             return Error{"no thread can be started; raise the limit on processes (ulimit -u)"};
         device.reset(rtcNewDevice(nullptr));
         if (!device) return Error{"the ray library (Embree) does not start on this machine"};
-        for (const RaySet which : {RaySet::opaque, RaySet::skin, RaySet::translucent, RaySet::flesh})
-            if ((which != RaySet::flesh || !flesh.empty()) && !add_set(which, classes, flesh))
+        for (const RaySet which :
+             {RaySet::opaque, RaySet::skin, RaySet::translucent, RaySet::flesh, RaySet::folds})
+            if ((!bounds_flesh(which) || !flesh.empty()) && !add_set(which, classes, flesh))
                 return Error{"the ray library (Embree) has not enough memory for this scene"};
         return {};
     }

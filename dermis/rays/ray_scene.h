@@ -19,9 +19,9 @@
 
 namespace dermis {
 
-/// Skin and other | skin that is not hidden | translucent | skin that is not hidden and the caps of its
-/// openings.
-enum class RaySet { opaque, skin, translucent, flesh };
+/// Skin and other | skin that is not hidden | translucent | what bounds the flesh: skin but the inner faces
+/// of cavities, and all caps | the same with the caps of cavities alone, as a sheet of skin is no body.
+enum class RaySet { opaque, skin, translucent, flesh, folds };
 
 /// RayHit::object of a cap, which is no mesh's triangle.
 inline constexpr uint32_t kCapObject = ~0u;
@@ -63,8 +63,8 @@ class RayScene {
   public:
     /// Rays pass what the alpha maps of materials of class `other` cut out.
     /// Errors: no triangle at all, the ray library cannot start, or an alpha map cannot be read.
-    /// With `flesh` (one an object, of find_flesh) hidden skin is no skin, and the set `flesh` exists;
-    /// without it all skin is.
+    /// With `flesh` (one an object, of find_flesh) hidden skin is no skin, and the sets `flesh` and `folds`
+    /// exist; without it all skin is.
     [[nodiscard]] static Result<RayScene> build(std::span<const SceneObject> objects,
                                                 std::span<const Flesh> flesh = {});
     /// One mesh, all of it skin.

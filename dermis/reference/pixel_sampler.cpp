@@ -135,11 +135,11 @@ UvFootprint PixelSampler::footprint(const Seen& seen, Vec3 p_mm) const {
 
 Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footprint,
                             const LightingRandom& random, uint32_t seed, PixelSample& sample) const {
-    const DiffusePoint diffuse{point.p_mm, point.n_geometry, footprint};
+    const DiffusePoint diffuse{point.p_mm, point.n_geometry, point.n_face, footprint};
     const bool skin = point.material_class == MaterialClass::skin;
     if (skin && surface_) return surface_->exitance(diffuse, seed);
     if (skin && walk_) {
-        const WalkIntegrator::Result walked = walk_->exitance(diffuse, point.n_face, seed);
+        const WalkIntegrator::Result walked = walk_->exitance(diffuse, seed);
         sample.walks += settings_.probes;
         sample.lost_walks += walked.lost;
         return walked.exitance;

@@ -6,6 +6,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/rays/random.h"
 #include "dermis/rays/sampling.h"
+#include "dermis/reference/way_through_flesh.h"
 
 namespace dermis {
 namespace {
@@ -79,7 +80,10 @@ void SurfaceIntegrator::probe(const DiffusePoint& point, const LocalFrame& frame
         const Vec3 offset_mm = surface.p_world_mm - point.p_mm;
         const float density = probe_density(frame, offset_mm, hit.n_face);
         if (density <= 0) continue;
-        Vec3 weight = profile_.reflectance(length(offset_mm)) * (1 / density);
+        const float way_mm = way_through_flesh_mm(rays_, {point.p_mm, point.n_face},
+                                                  {surface.p_world_mm, hit.n_face}, profile_.max_mm());
+        if (way_mm > profile_.max_mm()) continue;
+        Vec3 weight = profile_.reflectance(way_mm) * (1 / density);
         const float survival = std::min(1.0f, most(weight) / kFullWeight);
         if (survival <= 0 || chance.next_1d() >= survival) continue;
         weight *= 1 / survival;

@@ -2,11 +2,11 @@
 // The diffuse transport as a surface integral: light enters at y, spreads by the diffusion profile, leaves at
 // x.
 //
-//     M(x) = integral E(y) R(|x - y|) dA_y / integral R(|x - y|) dA_y
+//     M(x) = integral E(y) R(d(x, y)) dA_y / integral R(d(x, y)) dA_y
 //
-// over all skin, |x - y| being the straight distance, so that light also crosses an ear. E is the shadowed
-// irradiance on the shading normal of y, normal map included: what a technique reads from its maps the ground
-// truth reads from the same ones. dA is the area of the triangles.
+// over all skin, d being the way through flesh (way_through_flesh.h): straight through an ear, around a fold.
+// E is the shadowed irradiance on the shading normal of y, normal map included: what a technique reads from
+// its maps the ground truth reads from the same ones. dA is the area of the triangles.
 //
 // Estimated by probes (King, Kulla, Conty, Fajardo 2013, BSSRDF Importance Sampling): a disk around x takes a
 // radius from the profile, a segment through it finds the surface, and the three axes the disk may have are
@@ -29,7 +29,8 @@ struct SurfaceIntegratorSettings {
 /// A visible point of skin.
 struct DiffusePoint {
     Vec3 p_mm;
-    Vec3 n_geometry;
+    Vec3 n_geometry;  ///< interpolated
+    Vec3 n_face;
     UvFootprint footprint = {};  ///< of the pixel that sees it: the maps around it are read as smoothly
 };
 

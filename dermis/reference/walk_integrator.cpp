@@ -52,7 +52,7 @@ class FleshBoundary {
 
 }  // namespace
 
-WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, Vec3 n_face, uint32_t seed) const {
+WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, uint32_t seed) const {
     Result result;
     Vec3 sum;
     // The channels lead in turn, the first by chance: each leads any walk as often.
@@ -61,9 +61,9 @@ WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, Vec3 
         FleshBoundary boundary(rays_);
         Pcg32 random(seed, uint32_t(i));
         const auto hero = int((first_hero + uint32_t(i)) % 3);
-        const Vec3 direction = sample_entry_direction(n_face, medium_.eta, random);
+        const Vec3 direction = sample_entry_direction(point.n_face, medium_.eta, random);
         const WalkEnd end =
-            guided_walk(medium_, guide_, boundary, point.p_mm, n_face, direction, hero, random);
+            guided_walk(medium_, guide_, boundary, point.p_mm, point.n_face, direction, hero, random);
         result.lost += end.lost;
         if (end.lost || end.throughput == Vec3{}) continue;
         SurfaceAttributes surface = rays_.surface_at(boundary.last());

@@ -30,7 +30,7 @@ class WalkIntegrator {
         Vec3 exitance;
         int lost = 0;  ///< walks that found no way out
     };
-    [[nodiscard]] Result exitance(const DiffusePoint& point, Vec3 n_face, uint32_t seed) const;
+    [[nodiscard]] Result exitance(const DiffusePoint& point, uint32_t seed) const;
 
   private:
     const RayScene& rays_;

@@ -78,6 +78,7 @@ TEST(Flesh, a_cavity_with_a_narrow_opening_is_hidden_up_to_the_opening_and_close
         if (flesh.faces[t] == SkinFace::visible) visible.push_back(t);
     EXPECT_EQ(border_loops(object.mesh.positions_mm, object.mesh.indices, visible).size(), 1u);
     EXPECT_EQ(flesh.caps.size(), 46u);
+    EXPECT_EQ(flesh.cavity_caps, 46u);
 }
 
 TEST(Flesh, an_open_bowl_and_a_crease_are_skin) {
@@ -106,6 +107,7 @@ TEST(Flesh, an_open_border_is_an_opening_with_a_cap) {
     const Flesh flesh = flesh_of(skin(cut));
     EXPECT_EQ(flesh.mesh_openings, 1u);
     EXPECT_EQ(flesh.hidden_triangles, 0u);
+    EXPECT_EQ(flesh.cavity_caps, 0u);
     Vec3 facing;
     for (const auto& [a, b, c] : flesh.caps) facing += cross(b - a, c - a) * 0.5f;
     EXPECT_LT(facing.y, -0.9 * M_PI * 300);

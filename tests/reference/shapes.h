@@ -133,4 +133,42 @@ inline Mesh joined(Mesh a, const Mesh& b) {
     return a;
 }
 
+/// A block, x and z from -side / 2 to side / 2, its top at y = 0, with a groove along z whose flat walls meet
+/// at (0, -depth, z) and part by twice the angle.
+inline Mesh grooved_block(float side_mm, float depth_mm, float half_angle_rad) {
+    const float a = side_mm / 2, w = depth_mm * std::tan(half_angle_rad), low = -2 * depth_mm;
+    Mesh mesh;
+    const auto face = [&](std::initializer_list<Vec3> corners) {
+        const Vec3* c = corners.begin();
+        const Vec3 n = normalize(cross(c[1] - c[0], c[2] - c[0]));
+        const auto first = uint32_t(mesh.positions_mm.size());
+        for (const Vec3& p : corners) {
+            mesh.positions_mm.push_back(p);
+            mesh.normals.push_back(n);
+        }
+        for (uint32_t i = 2; i < corners.size(); ++i)
+            for (const uint32_t corner : {first, first + i - 1, first + i}) mesh.indices.push_back(corner);
+    };
+    const auto strip = [&](Vec3 p,
+                           Vec3 q) {  // as seen with z towards the eye, the block to the left of p to q
+        face({{p.x, p.y, -a}, {p.x, p.y, a}, {q.x, q.y, a}, {q.x, q.y, -a}});
+    };
+    const Vec3 outline[] = {{a, 0, 0},  {w, 0, 0},    {0, -depth_mm, 0}, {-w, 0, 0},
+                            {-a, 0, 0}, {-a, low, 0}, {0, low, 0},       {a, low, 0}};
+    for (size_t i = 0; i < std::size(outline); ++i) strip(outline[(i + 1) % 8], outline[i]);
+    for (const float z : {-a, a})
+        for (const float side : {-1.0f, 1.0f}) {
+            const Vec3 corners[] = {
+                {0, low, z}, {side * a, low, z}, {side * a, 0, z}, {side * w, 0, z}, {0, -depth_mm, z}};
+            const Vec3* c = corners;
+            if (side * z > 0)
+                face({c[0], c[1], c[2], c[3], c[4]});
+            else
+                face({c[4], c[3], c[2], c[1], c[0]});
+        }
+    mesh.submeshes = {{.name = "all", .index_count = uint32_t(mesh.indices.size())}};
+    mesh.materials = {{.base_color_linear = {1, 1, 1}}};
+    return mesh;
+}
+
 }  // namespace dermis::test

@@ -39,7 +39,7 @@ struct Stage {
     [[nodiscard]] DiffusePoint point_towards(Vec3 from) const {
         const Vec3 n = normalize(from);
         const auto hit = rays->closest_hit(RaySet::skin, {.origin_mm = n * 1000.0f, .direction = -n});
-        return {rays->surface_at(*hit).p_world_mm, n};
+        return {rays->surface_at(*hit).p_world_mm, n, hit->n_face};
     }
 };
 
@@ -136,7 +136,7 @@ TEST(SurfaceIntegrator, constant_light_is_returned_without_noise) {
     const Stage stage(test::plane(200, 0, 20), {0, 0, 1});
     const SurfaceIntegrator integrator = stage.integrator(*find_profile("gpu_gems_3"), {.probes = 4});
     for (uint32_t seed = 0; seed < 20; ++seed) {
-        const Vec3 m = integrator.exitance({{1, 2, 0}, {0, 0, 1}}, seed);
+        const Vec3 m = integrator.exitance({{1, 2, 0}, {0, 0, 1}, {0, 0, 1}}, seed);
         EXPECT_NEAR(m.x, 1, 1e-5);
         EXPECT_NEAR(m.z, 1, 1e-5);
     }
@@ -147,7 +147,7 @@ TEST(SurfaceIntegrator, without_normalisation_a_plane_returns_the_albedo) {
     const Profile profile = *find_profile("jensen_skin1");
     const SurfaceIntegrator integrator =
         stage.integrator(profile, {.probes = 64, .normalisation = Normalisation::none});
-    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}}, 200, 3);
+    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, 200, 3);
     EXPECT_NEAR(m.mean.x, diffuse_albedo(profile, kRed), 4 * m.standard_error.x + 1e-4);
     EXPECT_NEAR(m.mean.y, diffuse_albedo(profile, kGreen), 4 * m.standard_error.y + 1e-4);
     EXPECT_NEAR(m.mean.z, diffuse_albedo(profile, kBlue), 4 * m.standard_error.z + 1e-4);
@@ -168,7 +168,7 @@ TEST(SurfaceIntegrator, a_shadow_s_edge_is_blurred_by_the_integral_of_the_profil
     const double sigma_mm = 1.5;
     const SurfaceIntegrator integrator = stage.integrator(sum_of({{sigma_mm * sigma_mm, {1, 1, 1}}}));
     for (const float x_mm : {-2.0f, -0.5f, 0.0f, 1.0f, 3.0f}) {
-        const Estimate m = estimate_exitance(integrator, {{x_mm, 0, 0}, {0, 0, 1}}, 100, 5);
+        const Estimate m = estimate_exitance(integrator, {{x_mm, 0, 0}, {0, 0, 1}, {0, 0, 1}}, 100, 5);
         const double exact = 0.5 * std::erfc(-x_mm / sigma_mm / std::sqrt(2.0));
         EXPECT_NEAR(m.mean.x, exact, 4 * m.standard_error.x + 1e-4) << x_mm;
     }
@@ -182,7 +182,7 @@ TEST(SurfaceIntegrator, light_is_transmitted_through_a_thin_slab) {
     const Stage stage(sheet, {0, 0, -1});
     const double v = 3;
     const SurfaceIntegrator integrator = stage.integrator(sum_of({{v, {1, 1, 1}}}), {.probes = 64});
-    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}}, 200, 5);
+    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, 200, 5);
     const double through = std::exp(-h_mm * h_mm / (2 * v));
     EXPECT_NEAR(m.mean.x, through / (1 + through), 4 * m.standard_error.x + 2e-5);
     EXPECT_LT(m.standard_error.x, 0.01);
