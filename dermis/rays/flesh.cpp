@@ -184,14 +184,15 @@ void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
     flesh.mesh_openings = openings.size();
     std::vector<BorderLoop> loops = border_loops(mesh.positions_mm, mesh.indices, boundary);
     const size_t largest_exact = affordable_exact(loops);
-    const auto others = std::ranges::stable_partition(
-        loops, [&](const BorderLoop& loop) { return std::ranges::find(openings, loop) == openings.end(); });
+    // Ranges' own partition returns a subrange, which clang 14 does not compile.
+    const auto openings_from = std::stable_partition(loops.begin(), loops.end(), [&](const BorderLoop& loop) {
+        return std::ranges::find(openings, loop) == openings.end();
+    });
     for (auto loop = loops.begin(); loop != loops.end(); ++loop) {
-        if (loop == others.begin()) flesh.cavity_caps = flesh.caps.size();
         const std::vector<std::array<Vec3, 3>> cap = cap_of(*loop, largest_exact);
         flesh.caps.insert(flesh.caps.end(), cap.begin(), cap.end());
+        if (loop < openings_from) flesh.cavity_caps = flesh.caps.size();
     }
-    if (others.empty()) flesh.cavity_caps = flesh.caps.size();
 }
 
 // Hides what cannot be seen from outside: the steps of flesh.h, in their order.

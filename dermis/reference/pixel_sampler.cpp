@@ -52,7 +52,7 @@ PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings
 
 void PixelSampler::use_profile(const Profile& profile) {
     surface_.emplace(
-        rays_, materials_, lighting_, ProfileSampler(profile, settings_.width_scale),
+        rays_, lighting_, ProfileSampler(profile, settings_.width_scale),
         SurfaceIntegratorSettings{.probes = settings_.probes, .normalisation = settings_.normalisation});
 }
 
@@ -63,7 +63,7 @@ void PixelSampler::use_medium(const ScatteringMedium& medium) {
         for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z})
             walk.normalisation.*c = std::max(walk.normalisation.*c, 1e-6f);
     }
-    walk_.emplace(rays_, materials_, lighting_, medium, walk);
+    walk_.emplace(rays_, lighting_, medium, walk);
 }
 
 Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,

@@ -37,13 +37,9 @@ struct DiffusePoint {
 /// Everything given must outlive it. Safe from any thread.
 class SurfaceIntegrator {
   public:
-    SurfaceIntegrator(const RayScene& rays, const MaterialSet& materials, const Lighting& lighting,
-                      ProfileSampler profile, const SurfaceIntegratorSettings& settings)
-        : rays_(rays),
-          materials_(materials),
-          lighting_(lighting),
-          profile_(std::move(profile)),
-          settings_(settings) {}
+    SurfaceIntegrator(const RayScene& rays, const Lighting& lighting, ProfileSampler profile,
+                      const SurfaceIntegratorSettings& settings)
+        : rays_(rays), lighting_(lighting), profile_(std::move(profile)), settings_(settings) {}
 
     /// Radiant exitance over albedo, linear, by one set of probes. Estimates with different seeds are
     /// independent.
@@ -58,7 +54,6 @@ class SurfaceIntegrator {
     [[nodiscard]] float probe_density(const LocalFrame& frame, Vec3 offset_mm, Vec3 n_face) const;
 
     const RayScene& rays_;
-    const MaterialSet& materials_;
     const Lighting& lighting_;
     ProfileSampler profile_;
     SurfaceIntegratorSettings settings_;

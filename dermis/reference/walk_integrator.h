@@ -17,10 +17,9 @@ struct WalkIntegratorSettings {
 /// the medium's. The rays were built with find_flesh(), which closes the skin. Safe from any thread.
 class WalkIntegrator {
   public:
-    WalkIntegrator(const RayScene& rays, const MaterialSet& materials, const Lighting& lighting,
-                   const ScatteringMedium& medium, const WalkIntegratorSettings& settings)
+    WalkIntegrator(const RayScene& rays, const Lighting& lighting, const ScatteringMedium& medium,
+                   const WalkIntegratorSettings& settings)
         : rays_(rays),
-          materials_(materials),
           lighting_(lighting),
           medium_(walk_medium(medium)),
           guide_(walk_guide(medium)),
@@ -34,7 +33,6 @@ class WalkIntegrator {
 
   private:
     const RayScene& rays_;
-    const MaterialSet& materials_;
     const Lighting& lighting_;
     WalkMedium medium_;
     WalkGuide guide_;

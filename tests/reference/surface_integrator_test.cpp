@@ -33,7 +33,7 @@ struct Stage {
     [[nodiscard]] SurfaceIntegrator integrator(const Profile& profile,
                                                const SurfaceIntegratorSettings& settings = {},
                                                double width_scale = 1) const {
-        return {*rays, *materials, *lighting, ProfileSampler(profile, width_scale), settings};
+        return {*rays, *lighting, ProfileSampler(profile, width_scale), settings};
     }
     // The point of the surface that a line towards the origin of `from` meets first.
     [[nodiscard]] DiffusePoint point_towards(Vec3 from) const {
