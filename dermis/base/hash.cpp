@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include <cstdio>
+#include <new>
 
 namespace dermis {
 namespace {
@@ -12,6 +13,7 @@ XXH3_state_t* as_state(void* state) {
 }  // namespace
 
 Hasher::Hasher() : state_(XXH3_createState()) {
+    if (!state_) throw std::bad_alloc();
     XXH3_128bits_reset(as_state(state_));
 }
 Hasher::~Hasher() {

@@ -44,7 +44,7 @@ const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
 const float kShadowConcavity = 0.1;  // curvature times the disk's radius, up to which the disk is lifted
 const float kShadowFacetLift = 0.3;  // in radii: the tangent plane of a smooth normal cuts through the facets
 const float kShadowMaxSlope = 4.0;   // of the plane against the light: 76 degrees
-const int kShadowTaps = 24;
+const int kShadowTaps = 24, kShadowOuterTaps = 8;
 
 // Between the points of a Vogel spiral, radians (Vogel 1979).
 const float kGoldenAngle = 2.39996323;

@@ -41,7 +41,7 @@ constexpr Case kCases[] = {
     {"bake_png", "bake lut --size 32x32 --storage 8 -o out/a.png", "out/a.png", "out/a.png.json"},
     {"plot", "bake lut --size 16x16 -o out/a.exr --plot out/a.svg", "out/a.svg"},
     {"profile", "profile show gpu_gems_3"},
-    {"info", "info cube.obj --json", nullptr, nullptr, kRays},
+    {"info", "info cube.obj", nullptr, nullptr, kRays},
     {"reference", "reference scene.toml --size 8x8 --samples 2 --probes 2 -o out/a.exr", "out/a.exr", nullptr,
      kRays},
     {"part", "reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 4:8 -o out/a.exr",
