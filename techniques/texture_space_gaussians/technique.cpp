@@ -46,7 +46,8 @@ struct Step {
 };
 
 // Terms narrower than this part of a texel take one blur together: a texel cannot tell them apart. Captured
-// share of the bust .822 without, .821 with .5, .803 with .8 (light map 512, texel 1.0 mm).
+// share of the bust .822 without, .821 with .5, .803 with .8 (light map 512, texel 1.0 mm, light crossing
+// folds).
 constexpr double kToldApartTexels = 0.5;
 
 // Those up to `variance_mm2` as one, of their mean variance over all channels.
