@@ -119,7 +119,8 @@ Result<std::vector<PassStatistics>> NullDevice::compile(const PassList& list) {
         for (const StageVariable& input : (*pipeline)->inputs)
             statistics.vertex_bytes += uint32_t(input.components) * 4;
         for (const Binding& binding : (*pipeline)->bindings)
-            if (binding.kind == BindingKind::texture) statistics.textures.push_back(binding.name);
+            if (binding.kind == BindingKind::texture || binding.kind == BindingKind::sampled_texture)
+                statistics.textures.push_back(binding.name);
     }
     return passes;
 }

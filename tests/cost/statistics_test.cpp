@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "cost/null_device.h"
@@ -42,6 +43,17 @@ TEST_F(CostStatistics, every_pass_of_every_technique_has_statistics) {
             EXPECT_GT(shader.latency_cycles, shader.inverse_throughput_cycles / 64);
         }
     }
+}
+
+// A map of the material and the shadow map are bound in different ways; both are bytes that the pass reads.
+TEST_F(CostStatistics, a_pass_lists_each_texture_that_it_reads) {
+    for (const gpu::PassStatistics& pass : compile(frame_of("lambert"))) {
+        if (pass.pass != "skin") continue;
+        for (const char* name : {"albedo_map", "normal_map", "shadow_map"})
+            EXPECT_EQ(std::ranges::count(pass.textures, name), 1) << name;
+        return;
+    }
+    FAIL() << "lambert has no skin pass";
 }
 
 TEST_F(CostStatistics, more_work_has_more_instructions_and_cycles) {
