@@ -21,9 +21,9 @@ vec3 lobe_light(float n_dot_l, vec3 kappa) {
     // A parabola from -reach to reach around the terminator, a line beyond.
     vec3 crossing = clamp(kHillBend * n_dot_l + reach, vec3(0.0), 2.0 * reach);
     vec3 lit = crossing * crossing / root + max(n_dot_l - reach / kHillBend, vec3(0.0));
-    vec3 light = (1.0 + 2.0 * e2 - inverse) * lit + (e - e2) * inverse - e2;
+    vec3 blurred = (1.0 + 2.0 * e2 - inverse) * lit + (e - e2) * inverse - e2;
     vec3 part = low * (15.0 - low * low) / (kLeastSharpness * (15.0 - kLeastSharpness * kLeastSharpness));
-    return mix(vec3(0.25), light, part);
+    return mix(vec3(0.25), blurred, part);
 }
 
 #endif
