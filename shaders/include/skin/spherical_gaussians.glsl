@@ -1,7 +1,7 @@
-// Diffuse light by spherical Gaussians (Pettineo 2020, "Approximating Subsurface Scattering with Spherical Gaussians"). A
-// Gaussian of variance v, taken along the chord of a sphere of radius r, is the lobe exp(-kappa (1 - cos x)), kappa =
-// r^2 / v. So light that it scatters is the clamped cosine blurred by that lobe, which is the irradiance that a light as
-// wide as the lobe gives. Normalised: the lobe's integral over the sphere is 1.
+// Diffuse light by spherical Gaussians (Pettineo 2020, "Approximating Subsurface Scattering with Spherical Gaussians").
+// A Gaussian of variance v, taken along the chord of a sphere of radius r, is the lobe exp(-kappa (1 - cos x)), kappa =
+// r^2 / v. So light that it scatters is the clamped cosine blurred by that lobe, which is the irradiance that a light
+// as wide as the lobe gives. Normalised: the lobe's integral over the sphere is 1.
 #ifndef DERMIS_SKIN_SPHERICAL_GAUSSIANS_GLSL
 #define DERMIS_SKIN_SPHERICAL_GAUSSIANS_GLSL
 
