@@ -14,10 +14,12 @@ using Words = std::map<std::string, std::string>;
 struct Engine {
     std::string_view name;  ///< also of the templates' folder
 
-    /// The shading functions with the skin's coefficients, in one language each.
+    /// The shading functions with the skin's coefficients, in one language each: a file, or with `constant` a
+    /// JavaScript module's constant of that name. Several constants may have the same path.
     struct SkinText {
         std::string_view path;
         shading::Language language;
+        std::string_view constant = {};
     };
     std::vector<SkinText> texts;
 
@@ -39,6 +41,7 @@ inline constexpr int kTableWidth = 256, kTableHeight = 128;
 inline constexpr double kTableMaxCurvaturePerMm = 1;
 
 [[nodiscard]] Engine godot();
+[[nodiscard]] Engine three();
 [[nodiscard]] Engine unity();
 [[nodiscard]] Engine unreal();
 

@@ -60,6 +60,12 @@ const std::vector<Needed> kUnreal = {
     {"    \"max_texture_size\": 0,"},
 };
 
+const std::vector<Needed> kThree = {
+    {"  colorSpace: NoColorSpace,"},   {"  type: HalfFloatType,"},     {"  wrapS: ClampToEdgeWrapping,"},
+    {"  wrapT: ClampToEdgeWrapping,"}, {"  minFilter: LinearFilter,"},  // no mip levels
+    {"  magFilter: LinearFilter,"},    {"  generateMipmaps: false,"},  {"  anisotropy: 1,"},
+};
+
 struct Settings {
     std::string engine, path;
     std::vector<Needed> needed;
@@ -71,6 +77,7 @@ const std::vector<Settings>& all_settings() {
         {"godot", "addons/dermis_skin/skin_table.exr.import", kGodot},
         {"godot", "addons/dermis_skin/skin.gdshader", kGodotShader},
         {"unreal", "DermisSkin/Content/Python/dermis_skin.py", kUnreal},
+        {"three", "SkinTable.js", kThree},
     };
     return all;
 }
