@@ -1,11 +1,12 @@
 // All techniques against the ground truth, as docs/scoreboard.csv, .md and .svg. Run it by tools/scoreboard.
 //
-//     build/bench/scoreboard_bench DIRECTORY [SIZE] [SCENE...] [--techniques LIST]
+//     build/bench/scoreboard_bench DIRECTORY [SIZE] [SCENE...] [--techniques LIST] [--models]
 //
-// --techniques takes a list as `dermis compare` does; a scene then has rows of these alone.
-// A missing scene is skipped with a message and its old rows are kept. The rows of a scene are cached under a
-// hash of this program, the scene and the settings: a run that was stopped continues with the scene it was
-// at, and with its ground truth.
+// --techniques takes a list as `dermis compare` does; a scene then has rows of these alone. --models keeps
+// all rows and computes their modelled costs again, in minutes; SIZE is then the one that the board was made
+// with. A missing scene is skipped with a message and its old rows are kept. The rows of a scene are cached
+// under a hash of this program, the scene and the settings: a run that was stopped continues with the scene
+// it was at, and with its ground truth.
 
 #include <algorithm>
 #include <chrono>
@@ -20,6 +21,8 @@
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
+#include "dermis/cost/ratios.h"
+#include "dermis/gpu/null_driver.h"
 #include "dermis/judge/reference_cache.h"
 #include "dermis/judge/scoreboard.h"
 #include "dermis/render/complete_scene.h"
@@ -32,6 +35,9 @@ using namespace dermis;
 constexpr const char* kScenes[] = {"spheres", "unit", "bust", "head_scan", "face", "backlit"};
 // Of each unit scene, whose subject fills the picture.
 constexpr int kCaseSize = 96;
+// What costs are modelled for: the frame of docs/performance.md.
+constexpr const char* kModelChip = "navi21";
+constexpr int kModelWidth = 1920, kModelHeight = 1080;
 
 constexpr const char* kText =
     "# Scoreboard\n\n"
@@ -45,9 +51,12 @@ constexpr const char* kText =
     "(linear radiance over the\n"
     "skin), FLIP and ΔE 2000 (tone-mapped picture) also hold what the two renderers do differently for other "
     "reasons.\n"
-    "Cost is the frame over lambert's in the same rounds of one run, %s, %d x %d (unit scenes 96 x 96);\n"
-    "memory is what "
-    "only this technique needs: tables and images of its own passes.\n\n"
+    "Both costs are a frame over lambert's. **Measured**: in the same rounds of one run, %s,\n"
+    "%d x %d (unit scenes 96 x 96). **Modelled**: by the compiler's statistics for a %s at %d x %d, a model "
+    "and no\n"
+    "measurement ([assumptions](performance.md)); empty where Mesa's RADV was not installed. Memory is what "
+    "only this\n"
+    "technique needs: tables and images of its own passes.\n\n"
     "`tools/scoreboard` makes this page, [scoreboard.csv](scoreboard.csv) and the plot again.\n\n"
     "![Captured share over cost](scoreboard.svg)\n\n";
 
@@ -109,6 +118,11 @@ struct Job {
     std::optional<SubjectCase> made;
 };
 
+// The table of a set of test scenes has shares alone.
+bool shows_cost(const Job& job) {
+    return !job.made;
+}
+
 Result<std::vector<Job>> jobs_of(const std::vector<std::string>& names) {
     const std::span<const Subject> subjects = built_in_catalog().subjects;
     std::vector<Job> jobs;
@@ -168,10 +182,20 @@ Result<std::vector<ScoreRow>> kept_rows(const std::filesystem::path& csv) {
     return parse_scores(*text);
 }
 
+// Of one scene; never cached, as they follow the shaders and take seconds.
+Result<void> set_models(gpu::Device& device, const Scene& scene, std::span<ScoreRow> rows) {
+    const Result<const Card*> card = find_card(kModelChip);
+    if (!card) return card.error();
+    return set_model_ratios(device, built_in_catalog(), scene, rows, kModelWidth, kModelHeight, **card);
+}
+
 Result<void> write(const std::filesystem::path& directory, const std::vector<ScoreRow>& rows,
                    const std::string& device, int size) {
     char heading[2048];
-    std::snprintf(heading, sizeof heading, kText, device.c_str(), size, size);
+    const Result<const Card*> card = find_card(kModelChip);
+    if (!card) return card.error();
+    std::snprintf(heading, sizeof heading, kText, device.c_str(), size, size,
+                  std::string((*card)->name).c_str(), kModelWidth, kModelHeight);
     if (auto done = write_text_file(directory / "scoreboard.csv", scores_csv(rows)); !done) return done;
     if (auto done = write_plot(directory / "scoreboard.svg", scoreboard_plot(rows)); !done) return done;
     return write_text_file(directory / "scoreboard.md", heading + scoreboard_markdown(rows));
@@ -211,8 +235,11 @@ Result<void> make_board(gpu::Device& device, const std::filesystem::path& direct
             continue;
         }
         own.exact = one->exact;
-        const Result<MadeRows> now = rows_of(device, one->name, one->scene, contestants, own);
+        Result<MadeRows> now = rows_of(device, one->name, one->scene, contestants, own);
         if (!now) return Error{one->name + ": " + now.error().message};
+        if (shows_cost(jobs[i]) && gpu::null_driver_installed())
+            if (Result<void> set = set_models(device, one->scene, now->rows); !set)
+                return set.error().within(one->name);
         rows = merged(std::move(*rows), now->rows);
         if (Result<void> written = write(directory, *rows, device.info().name, size); !written)
             return written;
@@ -225,10 +252,32 @@ Result<void> make_board(gpu::Device& device, const std::filesystem::path& direct
     return {};
 }
 
+// The modelled costs of rows that are kept as they are.
+Result<void> model_board(gpu::Device& device, const std::filesystem::path& directory, int size,
+                         std::vector<Job> jobs) {
+    Result<std::vector<ScoreRow>> rows = kept_rows(directory / "scoreboard.csv");
+    if (!rows) return rows.error();
+    for (Job& job : jobs) {
+        if (!shows_cost(job)) continue;
+        const auto is_own = [&job](const ScoreRow& row) { return row.scene == job.name; };
+        // Rows of a scene are together (merged()).
+        const auto first = std::ranges::find_if(*rows, is_own);
+        const std::span own(first, std::find_if_not(first, rows->end(), is_own));
+        if (own.empty()) continue;
+        const std::string name = job.name;
+        const Result<SubjectCase> one = scene_of(job);
+        if (!one) return one.error().within(name);
+        if (Result<void> set = set_models(device, one->scene, own); !set) return set.error().within(name);
+        std::printf("%s: costs modelled\n", name.c_str());
+    }
+    return write(directory, *rows, device.info().name, size);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
+    const bool models_only = std::erase(words, "--models") > 0;
     std::vector<Contestant> contestants = scoreboard_contestants(built_in_catalog().techniques);
     if (const auto flag = std::ranges::find(words, "--techniques"); flag != words.end()) {
         if (flag + 1 == words.end()) return fail("--techniques needs a list");
@@ -239,6 +288,7 @@ int main(int argc, char** argv) {
         words.erase(flag, flag + 2);
     }
     if (words.empty()) return fail("name the directory for scoreboard.csv, .md and .svg");
+    if (models_only && words.size() < 2) return fail("--models needs the size that the board was made with");
     const int size = words.size() > 1 ? std::atoi(words[1].c_str()) : 256;
     if (size < 16 || size > 4096) return fail("a size of 16 to 4096");
     std::vector<std::string> names(words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2),
@@ -249,6 +299,10 @@ int main(int argc, char** argv) {
     if (!device) return fail(device.error().message);
     Result<std::vector<Job>> jobs = jobs_of(names);
     if (!jobs) return fail(jobs.error().message);
-    const Result<void> done = make_board(*device, words[0], size, std::move(*jobs), contestants);
+    if (!gpu::null_driver_installed())
+        std::fprintf(stderr, "scoreboard: Mesa's RADV is not installed: no modelled costs\n");
+    const Result<void> done = models_only
+                                  ? model_board(*device, words[0], size, std::move(*jobs))
+                                  : make_board(*device, words[0], size, std::move(*jobs), contestants);
     return done ? 0 : fail(done.error().message);
 }

@@ -6,16 +6,13 @@
 #include <vector>
 
 #include "command.h"
-#include "dermis/cost/model.h"
+#include "dermis/cost/ratios.h"
 
 namespace dermis::cli {
 
-/// Costs are stated as a multiple of this technique's with its defaults; it is always among them.
-inline constexpr std::string_view kCostBase = "lambert";
-
 /// What is asked for, and what a frame of each technique has to do.
 struct Counted {
-    std::vector<Contestant> contestants;
+    std::vector<Contestant> contestants;  ///< kCostBase is among them
     std::vector<const Card*> cards;
     Size size;
     std::string scene, credit;

@@ -43,6 +43,10 @@ fs::path radv_manifest() {
 
 }  // namespace
 
+bool null_driver_installed() {
+    return !radv_manifest().empty();
+}
+
 Result<Device> open_null_driver(std::string_view chip) {
     const fs::path manifest = radv_manifest();
     if (manifest.empty())

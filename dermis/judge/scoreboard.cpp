@@ -75,6 +75,10 @@ std::string share_and_error_text(const CapturedShare& share) {
     return share_text(share) + (share.known() ? " ± " + figures(share.error, "%.2f") : "");
 }
 
+std::string ratio_text(std::optional<double> ratio) {
+    return ratio ? figures(*ratio, "%.2f") : "";
+}
+
 std::string markdown_row(const ScoreRow& row) {
     const Scores& s = row.scores;
     const Captured& captured = row.captured;
@@ -83,9 +87,9 @@ std::string markdown_row(const ScoreRow& row) {
         settings.insert(at + 1, " ");
     std::string text = "| `" + row.technique + "`" + settings + " | " + share_and_error_text(captured.all);
     for (const CapturedShare& channel : captured.channels) text += " | " + share_text(channel);
-    return text + " | " + figures(row.time_ratio, "%.2f") + " | " + memory_text(row.bytes) + " | " +
-           figures(s.rmse, "%.4f") + " | " + figures(s.flip, "%.4f") + " | " +
-           figures(s.delta_e_2000, "%.2f") + " |\n";
+    return text + " | " + figures(row.time_ratio, "%.2f") + " | " + ratio_text(row.model_ratio) + " | " +
+           memory_text(row.bytes) + " | " + figures(s.rmse, "%.4f") + " | " + figures(s.flip, "%.4f") +
+           " | " + figures(s.delta_e_2000, "%.2f") + " |\n";
 }
 
 // A row a scene and a column a technique with its defaults, the exact answer first.
@@ -169,8 +173,9 @@ std::string scoreboard_markdown(const std::vector<ScoreRow>& rows) {
         text += "## " + scene + "\n\nScattering changes the picture by " +
                 figures(effect.effect_rms, "%.2g") +
                 " (RMS); noise of the ground truth: " + figures(effect.truth_noise, "%.2g") +
-                ".\n\n| technique | captured | R | G | B | × lambert | memory | RMSE | FLIP | ΔE 2000 |\n"
-                "|---|---|---|---|---|---|---|---|---|---|\n";
+                ".\n\n| technique | captured | R | G | B | × lambert measured | modelled | memory | RMSE | "
+                "FLIP | "
+                "ΔE 2000 |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
         for (const ScoreRow& row : own) text += markdown_row(row);
         text += "\n";
     }

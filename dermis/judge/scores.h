@@ -59,10 +59,12 @@ struct ScoreRow {
     size_t bytes = 0;
     double time_ratio = 0;      ///< frame time over lambert's in the same rounds; 0: not known
     double reference_rmse = 0;  ///< noise of the ground truth that the raw errors are measured with
+    /// A frame over lambert's by the model of dermis/cost; missing where it was not computed.
+    std::optional<double> model_ratio;
 };
 
-/// A numeric column of scores.csv. A missing value is a share whose truth is too noisy, or a part that the
-/// scene has not.
+/// A numeric column of scores.csv. A missing value is a share whose truth is too noisy, a part that the
+/// scene has not, or a cost that was not modelled.
 struct ScoreColumn {
     std::string_view name;
     std::optional<double> (*get)(const ScoreRow& row);
@@ -72,13 +74,14 @@ struct ScoreColumn {
 
 /// In order: captured, captured_r, captured_g, captured_b, captured_error (half of the 95 % interval of
 /// captured), effect_rms, truth_noise, rmse, rel_mse, psnr_db, ssim, delta_e_2000, flip, terminator_rmse,
-/// penumbra_rmse, time_ms, bytes, time_ratio, reference_rmse.
+/// penumbra_rmse, time_ms, bytes, time_ratio, reference_rmse, model_ratio.
 [[nodiscard]] std::span<const ScoreColumn> score_columns();
 
 /// scene,technique,settings and score_columns(); fields with commas are quoted, a missing value is empty.
 [[nodiscard]] std::string scores_csv(const std::vector<ScoreRow>& rows);
 
-/// The inverse. Errors name line and column: another heading, too few columns, no number.
+/// The inverse. A heading may lack columns that may be missing, as files of before a column was added do.
+/// Errors name line and column: another heading, too few columns, no number.
 [[nodiscard]] Result<std::vector<ScoreRow>> parse_scores(std::string_view text);
 
 }  // namespace dermis

@@ -81,7 +81,9 @@ constexpr ScoreColumn kColumns[] = {
          row.bytes = size_t(std::clamp(*value, 0.0, kMostBytes));
      }},
     row_column<&ScoreRow::time_ratio>("time_ratio"),
-    row_column<&ScoreRow::reference_rmse>("reference_rmse")};
+    row_column<&ScoreRow::reference_rmse>("reference_rmse"),
+    {"model_ratio", [](const ScoreRow& row) { return row.model_ratio; },
+     [](ScoreRow& row, Value value) { row.model_ratio = value; }, true}};
 
 constexpr std::string_view kNames[] = {"scene", "technique", "settings"};
 
@@ -124,17 +126,39 @@ std::vector<std::string> csv_fields(std::string_view line) {
     return fields;
 }
 
-Result<ScoreRow> parse_row(std::string_view line, size_t line_number) {
+// The columns of a file in order. None: the heading lacks one that no row may be without, or has another.
+std::vector<const ScoreColumn*> columns_of(std::string_view line) {
+    const std::vector<std::string_view> names = split(line, ',');
+    size_t at = 0;
+    const auto next_is = [&](std::string_view name) { return at < names.size() && names[at] == name; };
+    for (const std::string_view name : kNames) {
+        if (!next_is(name)) return {};
+        ++at;
+    }
+    std::vector<const ScoreColumn*> columns;
+    for (const ScoreColumn& column : kColumns) {
+        if (next_is(column.name)) {
+            columns.push_back(&column);
+            ++at;
+        } else if (!column.may_be_missing) {
+            return {};
+        }
+    }
+    return at == names.size() ? columns : std::vector<const ScoreColumn*>();
+}
+
+Result<ScoreRow> parse_row(std::string_view line, size_t line_number,
+                           const std::vector<const ScoreColumn*>& columns) {
     const std::vector<std::string> fields = csv_fields(line);
     const auto wrong = [&](const std::string& what) {
         return Error{"scores line " + std::to_string(line_number) + ": " + what};
     };
-    const size_t expected = std::size(kNames) + std::size(kColumns);
+    const size_t expected = std::size(kNames) + columns.size();
     if (fields.size() != expected)
         return wrong("has " + std::to_string(fields.size()) + " columns, not " + std::to_string(expected));
     ScoreRow row{.scene = fields[0], .technique = fields[1], .settings = fields[2]};
-    for (size_t i = 0; i < std::size(kColumns); ++i) {
-        const ScoreColumn& column = kColumns[i];
+    for (size_t i = 0; i < columns.size(); ++i) {
+        const ScoreColumn& column = *columns[i];
         const std::string& field = fields[std::size(kNames) + i];
         const Value value = parse_number(field);
         const auto place = "'" + field + "' under " + std::string(column.name);
@@ -186,13 +210,16 @@ std::string regions_csv(const std::string& scene, const Comparison& comparison) 
 
 Result<std::vector<ScoreRow>> parse_scores(std::string_view text) {
     std::vector<ScoreRow> rows;
+    std::vector<const ScoreColumn*> columns;
     size_t line_number = 0;
     for (const std::string_view line : split(text, '\n')) {
         ++line_number;
-        if (line_number == 1 && trim(line) != heading())
-            return Error{"scores line 1: the heading is not " + heading()};
+        if (line_number == 1) {
+            columns = columns_of(trim(line));
+            if (columns.empty()) return Error{"scores line 1: the heading is not " + heading()};
+        }
         if (line_number == 1 || trim(line).empty()) continue;
-        Result<ScoreRow> row = parse_row(trim(line), line_number);
+        Result<ScoreRow> row = parse_row(trim(line), line_number, columns);
         if (!row) return row.error();
         rows.push_back(std::move(*row));
     }

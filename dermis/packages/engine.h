@@ -14,16 +14,21 @@ using Words = std::map<std::string, std::string>;
 struct Engine {
     std::string_view name;  ///< also of the templates' folder
 
-    /// The shading functions with the skin's coefficients, in one language each.
+    /// The shading functions with the skin's coefficients, in one language each: a file, or with `constant` a
+    /// JavaScript module's constant of that name. Several constants may have the same path.
     struct SkinText {
         std::string_view path;
         shading::Language language;
+        std::string_view constant = {};
     };
     std::vector<SkinText> texts;
 
+    /// The end of the path of functions that are not printed; empty: all are.
+    std::string_view left_out = {};
+
     std::string_view license_path = "LICENSE";
     std::string_view picture_path = "picture.png";
-    std::string_view table_path = {};     ///< the diffuse table as EXR; empty: none
+    std::string_view table_path = {};     ///< the diffuse table, .exr or .dds; empty: none
     VOrigin v_origin = VOrigin::top;      ///< where the engine has v = 0 in a picture
     void (*add_words)(Words&) = nullptr;  ///< beyond the common ones
     /// What is made from the other files, as Unity's .meta.
@@ -38,7 +43,9 @@ struct Engine {
 inline constexpr int kTableWidth = 256, kTableHeight = 128;
 inline constexpr double kTableMaxCurvaturePerMm = 1;
 
+[[nodiscard]] Engine babylon();
 [[nodiscard]] Engine godot();
+[[nodiscard]] Engine three();
 [[nodiscard]] Engine unity();
 [[nodiscard]] Engine unreal();
 

@@ -50,7 +50,8 @@ using packages::to_bytes;
 using packages::Words;
 
 const std::vector<Engine>& engines() {
-    static const std::vector<Engine> all = {packages::unity(), packages::unreal(), packages::godot()};
+    static const std::vector<Engine> all = {packages::unity(), packages::unreal(), packages::godot(),
+                                            packages::three(), packages::babylon()};
     return all;
 }
 
@@ -98,8 +99,10 @@ Words common_words(const Profile& profile) {
 }
 
 // packages/common: functions for the packages alone, which are printed with the skin's.
-std::vector<shading::Source> all_functions(const PackageInput& input) {
-    std::vector<shading::Source> sources(input.functions.begin(), input.functions.end());
+std::vector<shading::Source> functions_for(const Engine& engine, const PackageInput& input) {
+    std::vector<shading::Source> sources;
+    for (const shading::Source& source : input.functions)
+        if (engine.left_out.empty() || !source.path.ends_with(engine.left_out)) sources.push_back(source);
     for (const PackageTemplate& file : input.templates)
         if (file.path.starts_with("packages/common/") && file.path.ends_with(".glsl"))
             sources.push_back({file.path, file.text});
@@ -116,6 +119,33 @@ Result<void> add_templates(const Engine& engine, const PackageInput& input, std:
         const Result<std::string> text = packages::filled(file, words);
         if (!text) return text.error();
         files.push_back({file.path.substr(folder.size()), to_bytes(*text)});
+    }
+    return {};
+}
+
+// A text between backticks: what JavaScript reads as something else there gets a backslash.
+std::string javascript_constant(std::string_view name, std::string_view text) {
+    std::string constant = "export const " + std::string(name) + " = `\n";
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '`' || text[i] == '\\' || text.substr(i, 2) == "${") constant += '\\';
+        constant += text[i];
+    }
+    return constant + "`;\n";
+}
+
+Result<void> add_skin_texts(const Engine& engine, const PackageInput& input,
+                            std::vector<PackageFile>& files) {
+    const std::vector<shading::Source> functions = functions_for(engine, input);
+    for (const Engine::SkinText& skin : engine.texts) {
+        const Result<std::string> text = skin_text(input.profile, functions, skin.language);
+        if (!text) return text.error();
+        const std::vector<std::byte> bytes =
+            to_bytes(skin.constant.empty() ? *text : javascript_constant(skin.constant, *text));
+        const auto same = std::ranges::find(files, skin.path, &PackageFile::path);
+        if (same == files.end())
+            files.push_back({std::string(skin.path), bytes});
+        else
+            same->bytes.insert(same->bytes.end(), bytes.begin(), bytes.end());
     }
     return {};
 }
@@ -139,12 +169,7 @@ Result<std::vector<PackageFile>> make_package(std::string_view name, const Packa
     if (!found) return found.error();
     const Engine& engine = **found;
     std::vector<PackageFile> files;
-    const std::vector<shading::Source> functions = all_functions(input);
-    for (const Engine::SkinText& skin : engine.texts) {
-        const Result<std::string> text = skin_text(input.profile, functions, skin.language);
-        if (!text) return text.error();
-        files.push_back({std::string(skin.path), to_bytes(*text)});
-    }
+    if (const Result<void> added = add_skin_texts(engine, input, files); !added) return added.error();
     if (const Result<void> added = add_table_and_picture(engine, input.profile, files); !added)
         return added.error();
     if (const Result<void> added = add_templates(engine, input, files); !added) return added.error();

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "dermis/base/file.h"
+#include "dermis/gpu/null_driver.h"
 #include "dermis/judge/scoreboard.h"
 #include "test_paths.h"
 
@@ -36,7 +37,7 @@ class ScoreboardProgram : public testing::Test {
 
     /// The board of two scenes at the smallest size, with a cache of its own. A line that holds `stop_at`
     /// stops it by SIGTERM.
-    [[nodiscard]] Run run(const std::string& stop_at = "") const {
+    [[nodiscard]] Run run(const std::string& stop_at = "", std::vector<std::string> words = {}) const {
         int ends[2];
         EXPECT_EQ(::pipe(ends), 0);
         const pid_t child = ::fork();
@@ -44,8 +45,12 @@ class ScoreboardProgram : public testing::Test {
             ::dup2(ends[1], STDOUT_FILENO);
             ::close(ends[0]);
             ::setenv("DERMIS_CACHE", (directory_ / "cache").c_str(), 1);
-            ::execl(kProgram, kProgram, directory_.c_str(), "16", "spheres", "backlit", "--techniques",
-                    "lambert,wrap", nullptr);
+            words.insert(words.begin(), {kProgram, directory_.string(), "16", "spheres", "backlit",
+                                         "--techniques", "lambert,wrap"});
+            std::vector<char*> arguments;
+            for (std::string& word : words) arguments.push_back(word.data());
+            arguments.push_back(nullptr);
+            ::execv(kProgram, arguments.data());
             ::_exit(127);
         }
         ::close(ends[1]);
@@ -93,4 +98,32 @@ TEST_F(ScoreboardProgram, goes_on_where_it_was_stopped) {
 
     const Run third = run();
     EXPECT_THAT(third.output, HasSubstr("backlit: was made before"));
+}
+
+TEST_F(ScoreboardProgram, fills_in_modelled_costs_and_keeps_the_shares) {
+    if (!std::filesystem::exists(kProgram)) GTEST_SKIP() << "built without benchmarks";
+    if (!gpu::null_driver_installed()) GTEST_SKIP() << "RADV is not installed";
+    std::vector<ScoreRow> rows = {{.scene = "spheres", .technique = "lambert", .time_ratio = 1},
+                                  {.scene = "spheres", .technique = "screen_space_burley", .time_ratio = 3},
+                                  {.scene = "spheres", .technique = "exact"}};
+    rows[1].captured.all.share = 0.25;
+    ASSERT_TRUE(write_text_file(directory_ / "scoreboard.csv", scores_csv(rows)));
+    const Run models = run("", {"--models"});
+    EXPECT_EQ(models.status, 0) << models.output;
+    const auto text = read_text_file(directory_ / "scoreboard.csv");
+    ASSERT_TRUE(text);
+    const auto now = parse_scores(*text);
+    ASSERT_TRUE(now) << now.error().message;
+    ASSERT_EQ(now->size(), 3u);
+    EXPECT_EQ((*now)[0].model_ratio, 1);
+    ASSERT_TRUE((*now)[1].model_ratio);
+    EXPECT_GT(*(*now)[1].model_ratio, 1.01);
+    EXPECT_LT(*(*now)[1].model_ratio, 3);
+    EXPECT_EQ((*now)[1].captured.all.share, 0.25);
+    EXPECT_EQ((*now)[1].time_ratio, 3);
+    EXPECT_FALSE((*now)[2].model_ratio);
+    const auto page = read_text_file(directory_ / "scoreboard.md");
+    ASSERT_TRUE(page);
+    EXPECT_THAT(*page, HasSubstr("(performance.md)"));
+    EXPECT_THAT(*page, HasSubstr("| 1.00 | 1.00 |"));
 }

@@ -102,6 +102,26 @@ TEST(Scoreboard, a_file_that_is_no_scoreboard_is_named_by_line) {
     EXPECT_THAT(parse_scores(bad).error().message, HasSubstr("is not finite"));
 }
 
+TEST(Scoreboard, a_file_of_before_the_modelled_cost_is_read_and_rows_without_one_have_an_empty_cell) {
+    ScoreRow modelled = row("bust", "wrap", 0.5);
+    modelled.model_ratio = 1.75;
+    const std::string text = scores_csv({modelled});
+    EXPECT_TRUE(text.ends_with(",1.75\n")) << text;
+    const auto again = parse_scores(text);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_THAT(scoreboard_markdown(*again), HasSubstr("| 1.25 | 1.75 |"));
+
+    std::string before = text;
+    before.erase(before.find(",model_ratio"), std::string(",model_ratio").size());
+    before.erase(before.rfind(",1.75"), 5);
+    const auto rows = parse_scores(before);
+    ASSERT_TRUE(rows) << rows.error().message;
+    EXPECT_FALSE((*rows)[0].model_ratio);
+    EXPECT_THAT(scoreboard_markdown(*rows), HasSubstr("| 1.25 |  |"));
+    before.replace(before.find(",bytes"), 6, "");
+    EXPECT_THAT(parse_scores(before).error().message, HasSubstr("line 1"));
+}
+
 TEST(Scoreboard, the_table_is_sorted_by_captured_share_and_the_plot_has_a_panel_a_scene) {
     const std::vector<ScoreRow> rows = {row("bust", "wrap", -0.5), row("bust", "lambert", 0),
                                         row("spheres", "wrap", 0.1)};

@@ -123,9 +123,9 @@ TEST(Scores, the_table_has_the_stated_columns_and_quotes_settings) {
     EXPECT_EQ(scores_csv({row}),
               "scene,technique,settings,captured,captured_r,captured_g,captured_b,captured_error,effect_rms,"
               "truth_noise,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,time_ms,"
-              "bytes,time_ratio,reference_rmse\n"
+              "bytes,time_ratio,reference_rmse,model_ratio\n"
               "\"head, scanned\",wrap,\"wrap=0.4,specular=ggx\",0.25,0,,0,0.01,0.5,0.125,0,0,inf,0,0,0,0.125,"
-              ",0,7,0,0\n");
+              ",0,7,0,0,\n");
 }
 
 TEST(HeatMap, lightness_rises_with_the_value_and_what_is_outside_is_grey) {

@@ -35,7 +35,7 @@ TEST(Packages, hold_a_readme_a_licence_and_no_word_left_to_replace) {
         size_t licences = 0;
         for (const auto& [path, text] : files) {
             licences += text.starts_with("MIT License");
-            if (path.ends_with(".exr") || path.ends_with(".png")) continue;
+            if (path.ends_with(".exr") || path.ends_with(".dds") || path.ends_with(".png")) continue;
             EXPECT_THAT(text, Not(testing::ContainsRegex("@[a-z_]+@"))) << engine << ": " << path;
             EXPECT_TRUE(text.ends_with('\n')) << engine << ": " << path;
         }
@@ -60,24 +60,27 @@ Rgb sample(const Image& image, double u, double v) {
     return value;
 }
 
-// Read as the engine reads it, at the coordinates of diffuse_coordinate(). Unity has v = 0 at the bottom.
+// Read as the engine reads it, at the coordinates of diffuse_coordinate(). Unity, three.js and Babylon.js
+// have v = 0 at the bottom.
 TEST(Packages, tables_give_the_light_of_the_skin) {
     const auto skin = find_profile("openpbr_skin_5");
     ASSERT_TRUE(skin);
     const GaussianSum gaussians = to_gaussian_sum(*skin).sum;
-    for (const std::string& engine : engine_names())
+    for (const std::string& engine : engine_names()) {
+        const bool from_bottom = engine == "unity" || engine == "three";
         for (const auto& [path, bytes] : package_of(engine, "openpbr_skin_5")) {
-            if (!path.ends_with(".exr")) continue;
+            if (!path.ends_with(".exr") && !path.ends_with(".dds")) continue;
             const auto table = decode_image(as_bytes(bytes), path, ImageUse::data);
             ASSERT_TRUE(table) << path;
             for (const double k : {0.02, 0.125, 0.5})
                 for (const double n_dot_l : {-0.4, 0.0, 0.3, 0.9}) {
                     const Rgb exact = preintegrated_diffuse(gaussians, n_dot_l, 1 / k, {});
-                    const Rgb read = sample(table->image, n_dot_l * 0.5 + 0.5, engine == "unity" ? 1 - k : k);
+                    const Rgb read = sample(table->image, n_dot_l * 0.5 + 0.5, from_bottom ? 1 - k : k);
                     for (size_t c = 0; c < 3; ++c)
                         EXPECT_NEAR(read[c], exact[c], 0.002) << engine << " " << n_dot_l << " " << k;
                 }
         }
+    }
 }
 
 TEST(Packages, refuse_an_unknown_engine_with_the_closest) {

@@ -12,26 +12,34 @@ namespace dermis {
 namespace {
 
 // A character a cell of 4 pixels.
-const std::string kLetters =
+const std::string kMissingTable =
     "##. ###     ### #.# ### ##.     ### ### ##. #.. ###\n"
     "#.# #.#     #.. #.# .#. #.#     .#. #.# #.# #.. #..\n"
     "#.# #.#     ### ##. .#. #.#     .#. ### ##. #.. ##.\n"
     "#.# #.#     ..# #.# .#. #.#     .#. #.# #.# #.. #..\n"
     "#.# ###     ### #.# ### #.#     .#. #.# ##. ### ###\n";
 
+const std::string kMissingCurvature =
+    "##. ###     ### #.# ### #.# ### ### #.# ### ###    \n"
+    "#.# #.#     #.. #.# #.# #.# #.# .#. #.# #.# #..    \n"
+    "#.# #.#     #.. #.# ##. #.# ### .#. #.# ##. ##.    \n"
+    "#.# #.#     #.. #.# #.# #.# #.# .#. #.# #.# #..    \n"
+    "#.# ###     ### ### #.# .#. #.# .#. ### #.# ###    \n";
+
 // The text as the function draws it, row by row, of the first repetition but its empty cells at the right.
-std::string drawn(const std::string& source) {
+std::string drawn(const std::string& source, const std::string& function) {
     const auto units = shading::read_sources(std::vector<shading::Source>{{"sign.glsl", source}});
     EXPECT_TRUE(units) << units.error().message;
     if (!units) return "";
     const TemporaryDirectory directory;
     EXPECT_TRUE(
         write_text_file(directory.path / "sign.h", shading::print(*units, shading::Language::cpp, {})));
-    EXPECT_TRUE(write_text_file(directory.path / "main.cpp",
-                                "#include <cstdio>\n#include \"sign.h\"\nint main() {\n"
-                                "    for (int y = 0; y < 5; ++y)\n        for (int x = 0; x < 52; ++x)\n"
-                                "            std::putchar(x == 51 ? '\\n' : skin::sign_of_missing_table("
-                                "skin::float2(4.0f * x + 1.5f, 4.0f * y + 1.5f)) > 0.5f ? '#' : '.');\n}\n"));
+    EXPECT_TRUE(write_text_file(
+        directory.path / "main.cpp",
+        "#include <cstdio>\n#include \"sign.h\"\nint main() {\n"
+        "    for (int y = 0; y < 5; ++y)\n        for (int x = 0; x < 52; ++x)\n"
+        "            std::putchar(x == 51 ? '\\n' : skin::" +
+            function + "(skin::float2(4.0f * x + 1.5f, 4.0f * y + 1.5f)) > 0.5f ? '#' : '.');\n}\n"));
     const std::string program = (directory.path / "sign").string();
     EXPECT_EQ(
         run_program({DERMIS_COMPILER, "-std=c++17", (directory.path / "main.cpp").string(), "-o", program},
@@ -48,11 +56,14 @@ std::string sign_source() {
     return "";
 }
 
-TEST(Sign, of_a_missing_table_is_legible) {
-    std::string expected = kLetters;
-    for (char& c : expected)
-        if (c == ' ') c = '.';
-    EXPECT_EQ(drawn(sign_source()), expected);
+TEST(Sign, of_what_is_missing_is_legible) {
+    for (const auto& [function, letters] : {std::pair("sign_of_missing_table", kMissingTable),
+                                            {"sign_of_missing_curvature", kMissingCurvature}}) {
+        std::string expected = letters;
+        for (char& c : expected)
+            if (c == ' ') c = '.';
+        EXPECT_EQ(drawn(sign_source(), function), expected) << function;
+    }
 }
 
 }  // namespace

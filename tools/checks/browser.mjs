@@ -27,11 +27,12 @@ export function serve(folder) {
 }
 
 // { call(method, params), load(url), evaluate(expression), requests, problems, close() }; it ends after two minutes.
-export async function openBrowser(chromium, { width, height, phone = false }) {
+// `flags` are further ones of Chromium's.
+export async function openBrowser(chromium, { width, height, phone = false, flags = [] }) {
   const profile = mkdtempSync(join(tmpdir(), "dermis-page-"));
   const browser = spawn(chromium, ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run",
     "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader",
-    `--user-data-dir=${profile}`, "--remote-debugging-pipe"], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+    `--user-data-dir=${profile}`, "--remote-debugging-pipe", ...flags], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
   const gone = new Promise(done => browser.on("exit", done));
   const late = setTimeout(() => {
     console.error("the browser did not answer within two minutes");

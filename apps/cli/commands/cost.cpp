@@ -1,6 +1,5 @@
 // dermis cost: what techniques would cost on graphics cards that need not be there, by a model.
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -24,14 +23,7 @@ Result<std::vector<Contestant>> chosen_techniques(const std::vector<std::string>
     const std::span<const Technique> techniques = built_in_catalog().techniques;
     if (texts.empty()) return default_contestants(techniques);
     Result<std::vector<Contestant>> chosen = parse_technique_list(techniques, join(texts, ","));
-    if (!chosen) return chosen.error();
-    const bool has_base =
-        std::ranges::any_of(*chosen, [](const Contestant& one) { return one.name() == kCostBase; });
-    if (has_base) return chosen;
-    const Result<const Technique*> base = find_technique(techniques, kCostBase);
-    if (!base) return base.error();
-    chosen->insert(chosen->begin(), {.technique = *base, .values = ParameterValues((*base)->parameters)});
-    return chosen;
+    return chosen ? with_cost_base(std::move(*chosen), techniques) : chosen;
 }
 
 Result<Counted> count(const CostOptions& options) {

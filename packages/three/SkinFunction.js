@@ -1,0 +1,51 @@
+// The functions of skin.js as nodes: their text is added to the shader in the language of the renderer's back end.
+
+import { Node } from "three/webgpu";
+import { code, float } from "three/tsl";
+import { glslText, wgslText } from "./skin.js";
+
+const glslCode = /*@__PURE__*/ code(glslText), wgslCode = /*@__PURE__*/ code(wgslText);
+
+class SkinFunctionNode extends Node {
+  static get type() { return "SkinFunctionNode"; }
+
+  constructor(name, type, inputs, inputTypes) {
+    super(type);
+    this.functionName = name;
+    this.inputs = inputs;
+    this.inputTypes = inputTypes;
+  }
+
+  customCacheKey() { return [...this.functionName].reduce((sum, letter) => (31 * sum + letter.charCodeAt(0)) | 0, 7); }
+
+  generate(builder) {
+    const text = builder.renderer.backend.isWebGPUBackend ? wgslCode : glslCode;
+    text.build(builder, "void");
+    const inputs = this.inputs.map((input, i) => input.build(builder, this.inputTypes[i]));
+    return `${this.functionName}(${inputs.join(", ")})`;
+  }
+}
+
+// A function of nodes or numbers: its name, what it returns, what it takes.
+const skinFunction = (name, type, ...inputTypes) => (...inputs) => {
+  if (inputs.length !== inputTypes.length) throw new Error(`${name} takes ${inputTypes.length} arguments, not ${inputs.length}`);
+  return new SkinFunctionNode(name, type, inputs.map(input => typeof input === "number" ? float(input) : input), inputTypes);
+};
+
+// Light of one direction: in place of max(N.L, 0), 0 to 1. N.L from -1 to 1; curvature in 1/mm, 0 to 1. Needs no table.
+export const skinDiffuse = /*@__PURE__*/ skinFunction("skin_diffuse", "vec3", "float", "float");
+// Where the table is read: N.L, curvature, the table's largest curvature.
+export const diffuseCoordinate = /*@__PURE__*/ skinFunction("diffuse_coordinate", "vec2", "float", "float", "float");
+// In 1/mm: fwidth() of the normal and of the position in mm.
+export const curvatureFromDerivatives = /*@__PURE__*/ skinFunction("curvature_from_derivatives", "float", "vec3", "vec3");
+// Transmission through thin geometry, 0 to 1, by its thickness in mm.
+export const skinTransmittance = /*@__PURE__*/ skinFunction("skin_transmittance", "vec3", "float");
+// Light in a penumbra 3 mm wide, by the share of the light that is visible, 0 to 1.
+export const skinShadowEdge = /*@__PURE__*/ skinFunction("skin_shadow_edge", "vec3", "float");
+// BRDF times N.L, per steradian, without Fresnel: N.H, N.L, N.V, perceptual roughness.
+export const twoLobeGgx = /*@__PURE__*/ skinFunction("two_lobe_ggx", "float", "float", "float", "float", "float");
+// Reflectance: at normal incidence, cosine of the half vector and the view.
+export const fresnelSchlick = /*@__PURE__*/ skinFunction("fresnel_schlick", "float", "float", "float");
+// Words over the screen, 1 on their letters. A position in pixels, y downwards.
+export const signOfMissingTable = /*@__PURE__*/ skinFunction("sign_of_missing_table", "float", "vec2");
+export const signOfMissingCurvature = /*@__PURE__*/ skinFunction("sign_of_missing_curvature", "float", "vec2");
