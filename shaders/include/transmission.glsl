@@ -147,8 +147,8 @@ float transmission_reach() { return transmission_texel(0.0).a; }
 
 // Sum over the four pixels of a quad, numbered from 0, row by row. All four must come here together.
 vec4 sum_of_quad(int lane, vec4 v) {
-    vec4 pair = 2.0 * v + ((lane & 1) != 0 ? -1.0 : 1.0) * dFdxFine(v);
-    return 2.0 * pair + ((lane & 2) != 0 ? -1.0 : 1.0) * dFdyFine(pair);
+    vec4 across = dFdxFine(v), pair = 2.0 * v + ((lane & 1) != 0 ? -across : across), down = dFdyFine(pair);
+    return 2.0 * pair + ((lane & 2) != 0 ? -down : down);
 }
 
 // Taps are in rings at even steps of radius, which is closer than even cover where R is large; each counts for its

@@ -22,12 +22,21 @@ FigureRow with_and_without(FigureCell without, FigureCell with, float gain) {
     return {"", {std::move(without), std::move(with), std::move(difference)}};
 }
 
+// A head, and from near: where the blur shows.
 Figure blur_figure() {
+    const FigureCell without = cell("without", "without", {{"blur_passes", "0"}}),
+                     with = cell("with", "with", {});
+    FigureRow near = with_and_without(without, with, 4);
+    for (FigureCell& one : near.cells) {
+        if (!one.id.empty()) one.id += "_near";
+        if (!one.compare_to.empty()) one.compare_to += "_near";
+        if (!one.subject.empty()) one.subject += "_near";
+        one.camera = "target_mm=-12,6,85 distance_mm=400 fov_deg=12";
+    }
     return {.id = "blur",
             .title = "With and without the texture-space blur",
             .source = kSource + "2.8.1",
-            .rows = {with_and_without(cell("without", "without", {{"blur_passes", "0"}}),
-                                      cell("with", "with", {}), 8)}};
+            .rows = {with_and_without(without, with, 4), std::move(near)}};
 }
 
 FigureCell image_cell(std::string label, std::string image, FigureImageChannels channels, Settings settings) {
@@ -153,18 +162,28 @@ Figure specular_figure() {
 }
 
 Figure cull_figure() {
-    const Settings off = {{"cull_back_face", "off"}, {"cull_frustum", "off"}};
+    // The source's blur: what is culled keeps clear of the reach of all passes, and that of the profile is
+    // wide. An even number of passes: the last is light_map_a.
+    const Settings on = {{"blur", "source"}, {"blur_passes", "2"}};
+    Settings off = on, exempt = on;
+    off.insert(off.end(), {{"cull_back_face", "off"}, {"cull_frustum", "off"}});
     // Around the ears of the head scan's UV layout.
-    const Settings exempt = {{"exempt_1_u", "0.24"}, {"exempt_1_v", "0.38"}, {"exempt_1_radius", "0.08"},
-                             {"exempt_2_u", "0.76"}, {"exempt_2_v", "0.38"}, {"exempt_2_radius", "0.08"}};
+    exempt.insert(exempt.end(), {{"exempt_1_u", "0.24"},
+                                 {"exempt_1_v", "0.38"},
+                                 {"exempt_1_radius", "0.08"},
+                                 {"exempt_2_u", "0.76"},
+                                 {"exempt_2_v", "0.38"},
+                                 {"exempt_2_radius", "0.08"}});
     FigureRow maps = {"The light map",
                       {image_cell("not culled", "light_map_a", FigureImageChannels::rgb, off),
-                       image_cell("culled", "light_map_a", FigureImageChannels::rgb, {}),
+                       image_cell("culled", "light_map_a", FigureImageChannels::rgb, on),
                        image_cell("culled, ears exempt", "light_map_a", FigureImageChannels::rgb, exempt)}};
     FigureRow pictures = {"The picture",
-                          {cell("not culled", "off", off), cell("culled", "on", {}),
+                          {cell("not culled", "off", off), cell("culled", "on", on),
                            cell("culled, ears exempt", "exempt", exempt)}};
     pictures.cells[1].compare_to = pictures.cells[2].compare_to = "off";
+    for (FigureRow* row : {&maps, &pictures})
+        for (FigureCell& one : row->cells) one.camera = "yaw_deg=-60 pitch_deg=0";
     return {.id = "culling",
             .title = "The texture-space computation is culled on back-facing regions",
             .source = kSource + "2.8.8",

@@ -131,9 +131,8 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     // In mm, charts and gutters must agree to 1/1000; half floats lose that in a few passes.
     const ImageFormat format = plan.in_mm ? ImageFormat::rgba32f : ImageFormat::rgba16f;
     PassList list;
-    const bool keeps_lit = plan.keeps_lit && !plan.passes.empty();
     for (const std::string name : {"light_map_a", "light_map_b", "light_map_c"}) {
-        const bool read_later = name == result || (keeps_lit && name == "light_map_a");
+        const bool read_later = name == result || (plan.keeps_lit && name == "light_map_a");
         const bool passed = name == "light_map_c" ? plan.keeps_lit && plan.passes.size() > 1
                                                   : !plan.passes.empty() || plan.in_mm;
         if (!read_later && (kept || !passed)) continue;
@@ -145,10 +144,10 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     if (!kept) add_light_map(list, params, plan, atlas, frame);
 
     Pass skin = forward_skin_pass("texture_space/final.frag", params.specular, frame, kOwnView);
-    skin.reads = {{"light_map", result}, {"light_map_lit", keeps_lit ? "light_map_a" : result}};
+    skin.reads = {{"light_map", result}, {"light_map_lit", plan.keeps_lit ? "light_map_a" : result}};
     skin.constants.insert(skin.constants.end(), {{"specular_shadow", int32_t(params.specular_shadow)},
                                                  {"light_map_texels", texels_of(params, plan)},
-                                                 {"detail", keeps_lit ? kDetailPixel : kDetailMap}});
+                                                 {"detail", plan.keeps_lit ? kDetailPixel : kDetailMap}});
     read_shadow_channels(skin, atlas.shadow, frame);
     read_transmission(skin, params.atlas.transmission, frame);
     list.passes.push_back(std::move(skin));
@@ -164,13 +163,16 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
     return transmission_tables(values.as<Params>().atlas.transmission, skin);
 }
 
-// A blur that is set takes the place of the profile.
+// A blur that is set takes the place of the profile. Without passes nothing is blurred, and all detail is
+// kept.
 Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
     const Params params = values.as<Params>();
     const GaussianSum blur = params.blur == Blur::profile ? skin.gaussians : texture_space::set_blur(params);
     const bool in_texels = params.blur == Blur::set && params.space == Space::texels;
-    return detail_values(
-        [&](double texel_mm) { return kept_of_shortest_wave(blur, in_texels ? 1.0 : texel_mm); });
+    return detail_values([&](double texel_mm) {
+        return params.blur_passes == 0 ? Vec3{1, 1, 1}
+                                       : kept_of_shortest_wave(blur, in_texels ? 1.0 : texel_mm);
+    });
 }
 
 }  // namespace

@@ -80,7 +80,8 @@ TEST_F(Transmissions, every_technique_that_scatters_has_it) {
     for (const Technique* technique : transmitting()) ids.push_back(technique->id);
     std::ranges::sort(ids);
     EXPECT_EQ(ids, (std::vector<std::string>{"preintegrated", "screen_space_burley", "screen_space_separable",
-                                             "texture_space", "texture_space_gaussians", "wrap"}));
+                                             "spherical_gaussians", "texture_space",
+                                             "texture_space_gaussians", "wrap"}));
 }
 
 // The profiles' own albedo is 1, .44 and .4 in red: it must not enter, since the albedo map multiplies too.
