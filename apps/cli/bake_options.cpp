@@ -31,15 +31,7 @@ void TableOutput::add_to(Command* command) {
 }
 
 Result<TableStorage> TableOutput::chosen_storage(TableStorage preferred) const {
-    static const std::vector<std::string> kNames = {"auto", "8", "16", "half", "float"};
-    for (size_t i = 0; i < kNames.size(); ++i)
-        if (kNames[i] == storage) {
-            // The storage of a published convention is the default where the file format allows it.
-            if (i == 0 && preferred != TableStorage::automatic && storage_for(path, preferred))
-                return preferred;
-            return storage_for(path, TableStorage(i));
-        }
-    return Error{unknown_name("storage", storage, kNames)};
+    return find_storage(path, storage, preferred);
 }
 
 Result<Range> parse_range(const std::string& option, const std::string& text) {
@@ -64,8 +56,10 @@ std::string fit_where_needed(Profile& profile, const Preintegration& how, Integr
     return text.data();
 }
 
-Result<int> deliver(const Table& table, const Profile& profile, const TableOutput& output,
-                    TableStorage storage) {
+Result<int> deliver(MadeTable made, const TableOutput& output, TableStorage storage) {
+    const Table& table = made.table;
+    const Profile& profile = made.profile;
+    choose_encoding(made.table, storage);
     const Result<LookupError> error = lookup_error(quantised(table, storage), exact_function(table, profile));
     if (!error) return error.error();
     if (!output.plot_path.empty()) {
@@ -79,6 +73,7 @@ Result<int> deliver(const Table& table, const Profile& profile, const TableOutpu
     std::printf("largest error of a lookup %.2g (%s %.3g, %s %.3g), rms %.2g\n", error->max,
                 convention.axes[0].name.c_str(), error->u, convention.axes[1].name.c_str(), error->v,
                 error->rms);
+    std::printf("%s", made.note.c_str());
     return 0;
 }
 

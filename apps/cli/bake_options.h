@@ -7,6 +7,7 @@
 #include "command.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/optics/profile.h"
+#include "table_options.h"
 
 namespace dermis::cli {
 
@@ -32,8 +33,7 @@ struct Range {
                                            Integration integration);
 
 /// Writes the table, the plot if one is asked for, and prints what was written and how exact a lookup in it
-/// is.
-[[nodiscard]] Result<int> deliver(const Table& table, const Profile& profile, const TableOutput& output,
-                                  TableStorage storage);
+/// is, then the table's note.
+[[nodiscard]] Result<int> deliver(MadeTable made, const TableOutput& output, TableStorage storage);
 
 }  // namespace dermis::cli

@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "dermis/base/text.h"
-#include "dermis/image/io.h"
 
 namespace dermis {
 namespace {
@@ -59,8 +58,10 @@ Result<std::vector<ImageLayer>> collect_layers(Renderer& renderer, const Techniq
     return layers;
 }
 
-// Linear. Views of the G-buffer have no radiance: their numbers are what is written.
+}  // namespace
+
 Result<Image> linear_picture(Renderer& renderer, const std::string& view) {
+    // Views of the G-buffer have no radiance: their numbers are what is written.
     const auto layer = std::ranges::find(kGbufferLayers, std::string_view(view), &GbufferLayer::view);
     if (layer == std::end(kGbufferLayers)) return renderer.radiance();
     const Result<Image> image = renderer.read(layer->image);
@@ -73,7 +74,20 @@ Result<Image> linear_picture(Renderer& renderer, const std::string& view) {
     return padded;
 }
 
-}  // namespace
+Result<Image> display_picture(Renderer& renderer, int png_bits) {
+    Result<Image> display = renderer.display();
+    if (!display) return display;
+    Image picture = png_bits == 16 ? convert(channels_of(*display, 0, 3), PixelFormat::u16, Encoding::linear)
+                                   : std::move(*display);
+    picture.encoding = Encoding::srgb;  // the tone map pass encoded it
+    return picture;
+}
+
+ImageText picture_text(const OutputSettings& settings) {
+    ImageText text = {{"Software", "dermis"}, {"Description", settings.description}};
+    if (!settings.credit.empty()) text["Copyright"] = settings.credit;
+    return text;
+}
 
 Result<void> check_output(const std::filesystem::path& path, const OutputSettings& settings) {
     const std::string extension = to_lower(path.extension().string());
@@ -88,8 +102,7 @@ Result<void> check_output(const std::filesystem::path& path, const OutputSetting
 Result<void> write_output(Renderer& renderer, const Technique& technique, const ParameterValues& values,
                           const DrawSettings& draw, const std::filesystem::path& path,
                           const OutputSettings& settings) {
-    ImageText text = {{"Software", "dermis"}, {"Description", settings.description}};
-    if (!settings.credit.empty()) text["Copyright"] = settings.credit;
+    const ImageText text = picture_text(settings);
     if (settings.layers) {
         const Result<std::vector<ImageLayer>> layers = collect_layers(renderer, technique, values, draw);
         if (!layers) return layers.error();
@@ -99,13 +112,8 @@ Result<void> write_output(Renderer& renderer, const Technique& technique, const 
         const Result<Image> picture = linear_picture(renderer, draw.view);
         return picture ? write_image(path, *picture, text) : picture.error();
     }
-    Result<Image> display = renderer.display();
-    if (!display) return display.error();
-    Image picture = settings.png_bits == 16
-                        ? convert(channels_of(*display, 0, 3), PixelFormat::u16, Encoding::linear)
-                        : std::move(*display);
-    picture.encoding = Encoding::srgb;  // the tone map pass encoded it
-    return write_image(path, picture, text);
+    const Result<Image> picture = display_picture(renderer, settings.png_bits);
+    return picture ? write_image(path, *picture, text) : picture.error();
 }
 
 }  // namespace dermis

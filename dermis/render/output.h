@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "dermis/image/io.h"
 #include "dermis/render/renderer.h"
 
 namespace dermis {
@@ -17,6 +18,12 @@ struct OutputSettings {
 
 /// Whether `path` and the settings go together, before anything expensive runs.
 [[nodiscard]] Result<void> check_output(const std::filesystem::path& path, const OutputSettings& settings);
+
+/// What a picture of the last frame is made of: its linear numbers (radiance, or a view of the G-buffer), the
+/// tone-mapped picture in the bits of a PNG, and the text that files of both carry.
+[[nodiscard]] Result<Image> linear_picture(Renderer& renderer, const std::string& view);
+[[nodiscard]] Result<Image> display_picture(Renderer& renderer, int png_bits);
+[[nodiscard]] ImageText picture_text(const OutputSettings& settings);
 
 /// PNG: the tone-mapped picture. EXR: linear radiance (half), layered when asked; layers draw the frame again
 /// for each view. Uses the renderer's last draw, whose arguments these are.

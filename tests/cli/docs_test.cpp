@@ -67,6 +67,7 @@ std::string wrong_call(const std::string& code, const KnownCommands& commands) {
     const std::vector<std::string> words = matches(match[1].str(), std::regex("[a-z][a-z0-9_-]*"));
     if (words.empty()) return {};
     std::string command = words[0];
+    if (command == "python") return {};  // of ./run: an interpreter
     if (!commands.contains(command)) return "no command '" + command + "'";
     const bool has_inner =
         std::ranges::any_of(commands, [&](const auto& c) { return c.first.starts_with(command + " "); });
@@ -90,7 +91,8 @@ Flags every_known_flag() {
 
 bool runs_another_program(const std::string& code) {
     static const std::regex other(
-        "^ *(sudo |\\$ |[A-Z_]+=\\S* )*(cmake|ctest|apt-get|git|clang\\S*|npm|cpack|sbatch)\\b");
+        "^ *(sudo |\\$ |[A-Z_]+=\\S* "
+        ")*(\\S*/)?(pip|python3|cmake|ctest|apt-get|git|clang\\S*|npm|cpack|sbatch)\\b");
     return std::regex_search(code, other);
 }
 

@@ -62,6 +62,11 @@ constexpr Evidence kPackageEvidence[] = {
     {"libclang-rt-14-dev", "", "", "libclang-rt-14-dev"},
     {"dpkg-dev", "dpkg-shlibdeps", "", ""},
     {"file", "file", "", ""},
+    {"pybind11-dev", "pybind11", "pybind11/", ""},
+    {"python3-dev", "Python", "", ""},
+    {"python3-numpy", "", "", "import numpy"},
+    {"python3-venv", "", "", "\"venv\""},
+    {"python3-matplotlib", "", "", "import matplotlib"},
 };
 
 // These need no package: they are part of CMake, optional, or of the repository.

@@ -48,9 +48,12 @@ std::string texts_under(const std::vector<std::string>& trees, const std::set<st
 PackageUse repository() {
     const std::vector<std::string> trees = {"dermis", "subjects", "techniques", "apps",
                                             "tests",  "bench",    "cmake",      "CMakeLists.txt"};
-    const std::string programs = texts_under({"tools", "run", "test"}, {"", ".mjs"});
+    const std::string programs =
+        texts_under({"tools", "run", "test", "apps", "tests", "docs/python"}, {"", ".mjs", ".py"});
     const std::string sources = texts_under(trees, {".cpp", ".h"});
-    return {.lists = read_text(kTree / "tools/packages.txt") + read_text(kTree / "tools/packages_checks.txt"),
+    return {.lists = read_text(kTree / "tools/packages.txt") +
+                     read_text(kTree / "tools/packages_checks.txt") +
+                     read_text(kTree / "tools/packages_python.txt"),
             .readme = read_text(kTree / "README.md"),
             .cmake = texts_under(trees, {".cmake", ".in", "CMakeLists.txt"}),
             .sources = sources,
@@ -126,8 +129,7 @@ TEST(Packages, what_cmake_looks_for_and_what_is_included_must_be_known) {
 TEST(Packages, files_that_cmake_packages_check_come_with_the_listed_packages) {
     if (std::system("command -v dpkg-query >/dev/null") != 0) GTEST_SKIP() << "no dpkg here";
     const DebianPackages system = installed_packages();
-    const std::set<std::string> listed = listed_packages(read_text(kTree / "tools/packages.txt") +
-                                                         read_text(kTree / "tools/packages_checks.txt"));
+    const std::set<std::string> listed = listed_packages(repository().lists);
     std::vector<std::string> files;
     for (const fs::path& folder : package_folders(read_text(DERMIS_BINARY_DIR "/CMakeCache.txt")))
         for (const std::string& file : checked_files(folder)) files.push_back(file);

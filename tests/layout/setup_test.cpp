@@ -127,6 +127,27 @@ TEST_F(Setup, run_builds_again_when_any_source_changed_and_not_otherwise) {
     EXPECT_THAT(shell("./run x").err, HasSubstr("CALLED cmake --build"));
 }
 
+TEST_F(Setup, run_installs_and_builds_the_python_module_only_when_it_is_asked_for) {
+    write("root/tools/packages_python.txt", "libsnake-dev  # for the module\n");
+    program("cmake", "echo \"CALLED cmake $*\" >&2");
+    write("root/build/build.ninja", "");
+    write("root/build/dermis", "#!/bin/bash\necho drawn\n");
+    fs::permissions(path("root/build/dermis"), fs::perms::owner_all);
+    const ProgramResult drawn = shell("python=1 ./run x");
+    EXPECT_EQ(drawn.out, "drawn\n");
+    EXPECT_THAT(drawn.err, HasSubstr("--target dermis\n"));
+    EXPECT_THAT(drawn.err, Not(HasSubstr("snake")));
+    EXPECT_THAT(drawn.err, Not(HasSubstr("dermis_python")));
+
+    const std::string command = "./run python -c 'import sys; print(sys.path[1], sys.argv[1:])' a 'b c'";
+    const ProgramResult first = shell(command);
+    EXPECT_THAT(first.err, HasSubstr("libone-dev libtwo-dev libsnake-dev\n"));
+    EXPECT_THAT(first.err, HasSubstr("-DDERMIS_PYTHON=ON"));
+    EXPECT_THAT(first.err, HasSubstr("--target dermis_python_package\n"));
+    EXPECT_EQ(first.out, path("root/build/python").string() + " ['a', 'b c']\n");
+    EXPECT_THAT(shell(command).err, IsEmpty());
+}
+
 TEST_F(Setup, fresh_machine_has_help_with_an_example_and_refuses_what_it_does_not_know) {
     const ProgramResult help = shell(kFreshMachine + " --help");
     EXPECT_EQ(help.exit_code, 0);
@@ -159,6 +180,7 @@ TEST_F(Setup, fresh_machine_removes_its_folder_when_it_fails_and_when_it_is_ende
 // The tests that it runs to record exist in the repository, of all kinds (goldens, scores and costs).
 TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
     write("root/tools/packages_checks.txt", "");
+    write("root/tools/packages_python.txt", "");
     program("cmake", "exit 0");
     const auto test_program = [&](const std::string& name, const std::string& text) {
         write("root/build/tests/" + name, "#!/bin/bash\necho \"CALLED " + name + " $*\"\n" + text + "\n");

@@ -26,9 +26,9 @@ Result<int> run(const BakeBeckmannOptions& options) {
     if (!storage) return storage.error();
     if (linear && (*storage == TableStorage::u8 || *storage == TableStorage::u16))
         return Error{options.output.path + ": Beckmann's values exceed 1; write .exr, or --layout gems"};
-    const Result<Table> table = bake_beckmann(beckmann);
+    Result<Table> table = bake_beckmann(beckmann);
     if (!table) return table.error();
-    return deliver(*table, Profile{}, options.output, *storage);
+    return deliver({.table = std::move(*table), .profile = {}}, options.output, *storage);
 }
 
 }  // namespace

@@ -5,49 +5,35 @@
 #include <memory>
 
 #include "bake_options.h"
-#include "catalog/catalog.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
-#include "dermis/optics/presets.h"
-#include "dermis/rays/bake_map.h"
 #include "dermis/rays/map_file.h"
-#include "dermis/scene/load_scene.h"
-#include "dermis/scene/scene.h"
+#include "map_options.h"
 
 namespace dermis::cli {
 namespace {
 
 struct BakeMapsOptions {
-    std::string mesh, output, profile, material;
-    float unit_mm = 0;
-    BakeMapSettings settings;
+    MapChoice map;
+    std::string output;
 };
 
-Result<int> run(BakeMapsOptions options) {
-    SceneOptions scene_options = {.subjects = built_in_catalog().subjects};
-    if (options.unit_mm > 0) scene_options.mesh_unit_mm = options.unit_mm;
-    const Result<Scene> scene = load_scene(options.mesh, scene_options);
-    if (!scene) return scene.error();
-    BakeMapSettings& settings = options.settings;
-    if (!options.material.empty()) settings.material = options.material;
-    if (settings.kind == MapKind::kernel_size) {
-        Result<Profile> profile =
-            find_profile(options.profile.empty() ? scene->skin.profile : options.profile);
-        if (!profile) return profile.error();
-        settings.profile = std::move(*profile);
-    }
+Result<int> run(const BakeMapsOptions& options) {
+    const Result<MapRequest> request = options.map.request();
+    if (!request) return request.error();
+    const BakeMapSettings& settings = request->settings;
     const Result<BakedMap> map = [&] {
         constexpr double kSteps = 1000;
         Progress line(std::string(map_kind_name(settings.kind)), size_t(kSteps));
         std::atomic<size_t> shown = 0;
-        return bake_map(scene->objects, settings, [&](double done) {
+        return bake_map(request->scene.objects, settings, [&](double done) {
             const auto now = size_t(done * kSteps);
             const size_t before = shown.exchange(now);
             if (now > before) line.advance(now - before);
         });
     }();
     if (!map) return map.error();
-    if (Result<void> written = write_map(options.output, *map, {options.mesh, settings}); !written)
+    if (Result<void> written = write_map(options.output, *map, {options.map.mesh, settings}); !written)
         return written.error();
     for (const std::string& warning : map->warnings) print_warning(warning);
     std::printf("%s: %s, %dx%d, %s to %s %s\n%s\n", options.output.c_str(),
@@ -58,8 +44,8 @@ Result<int> run(BakeMapsOptions options) {
 }
 
 void add_common(Command* command, BakeMapsOptions& options) {
-    BakeMapSettings& s = options.settings;
-    command->add_option("mesh", options.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
+    BakeMapSettings& s = options.map.settings;
+    command->add_option("mesh", options.map.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
     command
         ->add_option("-o,--output", options.output,
                      "file to write, .exr; FILE.exr.json and FILE_preview.png are written too")
@@ -67,8 +53,8 @@ void add_common(Command* command, BakeMapsOptions& options) {
     command->add_option("--size", s.size, "side of the map in texels")->capture_default_str();
     command->add_option("--gutter", s.gutter_texels, "width of the gutter around UV islands in texels")
         ->capture_default_str();
-    command->add_option("--material", options.material, "bake this material only (default: all skin)");
-    command->add_option("--unit-mm", options.unit_mm, "length of one unit of the mesh file in mm");
+    command->add_option("--material", options.map.material, "bake this material only (default: all skin)");
+    command->add_option("--unit-mm", options.map.unit_mm, "length of one unit of the mesh file in mm");
 }
 
 void add_rays(Command* command, BakeMapSettings& s) {
@@ -85,10 +71,9 @@ void add_rays(Command* command, BakeMapSettings& s) {
 void add_map(CommandLine& line, Command* group, MapKind kind, const std::string& summary,
              const std::string& example) {
     auto options = std::make_shared<BakeMapsOptions>();
-    BakeMapSettings& s = options->settings;
-    s.kind = kind;
+    BakeMapSettings& s = options->map.settings;
+    s = usual_map_settings(kind);
     const bool depth = kind == MapKind::thickness || kind == MapKind::kernel_size;
-    if (kind == MapKind::occlusion) s.max_mm = 0;
     Command* command = line.add(std::string(map_kind_name(kind)), summary, example, group);
     add_common(command, *options);
     if (depth || kind == MapKind::occlusion) add_rays(command, s);
@@ -100,7 +85,7 @@ void add_map(CommandLine& line, Command* group, MapKind kind, const std::string&
             ->add_option("--smoothing-mm", s.smoothing_mm, "averages features narrower than about twice this")
             ->capture_default_str();
     if (kind == MapKind::kernel_size)
-        command->add_option("--profile", options->profile, "diffusion profile instead of the scene's");
+        command->add_option("--profile", options->map.profile, "diffusion profile instead of the scene's");
     line.when_chosen(command, [options] { return run(*options); });
 }
 

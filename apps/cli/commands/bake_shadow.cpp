@@ -1,40 +1,23 @@
 #include <memory>
 
 #include "bake_options.h"
-#include "dermis/bake/shadow_table.h"
-#include "dermis/optics/presets.h"
 
 namespace dermis::cli {
 namespace {
 
 struct BakeShadowOptions {
-    std::string profile = "gpu_gems_3", size = "256x64", range = "1,40", warp = "linear";
-    double sharpening = 3;
+    ShadowChoice shadow;
     TableOutput output;
 };
 
 Result<int> run(const BakeShadowOptions& options) {
-    Result<Profile> profile = find_profile(options.profile);
-    if (!profile) return profile.error();
-    const Result<Size> size = parse_size(options.size);
-    if (!size) return size.error();
-    const Result<Range> range = parse_range("--range", options.range);
-    if (!range) return range.error();
-    const Result<AxisWarp> warp = find_warp(options.warp);
-    if (!warp) return warp.error();
+    const Result<ShadowOptions> shadow = options.shadow.options();
+    if (!shadow) return shadow.error();
     const Result<TableStorage> storage = options.output.chosen_storage();
     if (!storage) return storage.error();
-    const ShadowOptions shadow{.profile = std::move(*profile),
-                               .width = size->width,
-                               .height = size->height,
-                               .min_width_mm = range->min,
-                               .max_width_mm = range->max,
-                               .width_warp = *warp,
-                               .sharpening = options.sharpening};
-    Result<Table> table = bake_shadow(shadow);
-    if (!table) return table.error();
-    table->convention.encoding = encoding_for(TableKind::shadow, *storage);
-    return deliver(*table, shadow.profile, options.output, *storage);
+    Result<MadeTable> made = make_table(*shadow);
+    if (!made) return made.error();
+    return deliver(std::move(*made), options.output, *storage);
 }
 
 }  // namespace
@@ -44,11 +27,12 @@ void add_bake_shadow_command(CommandLine& line) {
     Command* command = line.add(
         "shadow", "Light that scatters into a penumbra, over its position and width",
         "dermis bake shadow --range 1,40 --sharpening 3 -o shadow.exr --plot shadow.svg", bake_group(line));
-    command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");
-    command->add_option("--size", options->size, "WIDTHxHEIGHT");
-    command->add_option("--range", options->range, "MIN,MAX of the penumbra's width in mm");
-    command->add_option("--warp", options->warp, "spacing of the rows: linear, or squared (finer near MIN)");
-    command->add_option("--sharpening", options->sharpening,
+    command->add_option("--profile", options->shadow.profile, "preset, CSV file or burley:R,G,B");
+    command->add_option("--size", options->shadow.size, "WIDTHxHEIGHT");
+    command->add_option("--range", options->shadow.range, "MIN,MAX of the penumbra's width in mm");
+    command->add_option("--warp", options->shadow.warp,
+                        "spacing of the rows: linear, or squared (finer near MIN)");
+    command->add_option("--sharpening", options->shadow.sharpening,
                         "width of the filter divided by the width of the light's edge");
     options->output.add_to(command);
     line.when_chosen(command, [options] { return run(*options); });

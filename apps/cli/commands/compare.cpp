@@ -1,7 +1,6 @@
 // dermis compare: techniques compared with the ground truth, as a page and a table.
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,64 +8,25 @@
 
 #include "catalog/catalog.h"
 #include "command.h"
+#include "compare_options.h"
 #include "compare_scenes.h"
 #include "compare_text.h"
 #include "dermis/base/file.h"
 #include "dermis/base/progress.h"
-#include "dermis/base/text.h"
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/report.h"
 #include "job_hash.h"
-#include "render_options.h"
 
 namespace dermis::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostGrid = 16;
-constexpr const char *kSize = "512x512", *kCaseSize = "96x96";
-
 struct CompareOptions {
-    SceneChoice scene;
-    std::string techniques, output, size, device;  // empty: kSize, or kCaseSize of each of a set
-    std::string integrator = "surface", ambient = "renderer";
-    ComparisonSettings defaults;
-    double noise = defaults.noise;
-    int samples = defaults.samples, samples_per_pixel = defaults.grid * defaults.grid,
-        frames = defaults.frames;
+    CompareChoice choice;
+    std::string output;
     bool json = false;
 };
-
-Result<ComparisonSettings> settings_of(const CompareOptions& options, const char* default_size) {
-    const Result<Size> size = parse_size(options.size.empty() ? default_size : options.size);
-    if (!size) return size.error();
-    ComparisonSettings settings = comparison_settings(size->width, size->height);
-    settings.frames = options.frames;
-    settings.noise = options.noise;
-    settings.samples = options.samples;
-    settings.grid = int(std::lround(std::sqrt(double(std::max(options.samples_per_pixel, 0)))));
-    if (options.frames < 1 || options.frames > 1000)
-        return Error{"--frames " + std::to_string(options.frames) + ": 1 to 1000"};
-    if (settings.grid < 1 || settings.grid > kMostGrid ||
-        settings.grid * settings.grid != options.samples_per_pixel)
-        return Error{"--samples-per-pixel " + std::to_string(options.samples_per_pixel) +
-                     ": a square number, 1, 4, 9, 16 ... " + std::to_string(kMostGrid * kMostGrid)};
-    if (!(options.noise > 0 && options.noise <= 1))
-        return Error{"--noise " + to_text(options.noise) + ": above 0, at most 1"};
-    if (options.samples < 2 * options.samples_per_pixel || options.samples > 1 << 20)
-        return Error{"--samples " + std::to_string(options.samples) +
-                     ": at least twice --samples-per-pixel (" +
-                     std::to_string(2 * options.samples_per_pixel) + "), at most " + std::to_string(1 << 20)};
-    const std::vector<std::string> integrators = {"surface", "walk"}, ambients = {"renderer", "traced"};
-    if (std::ranges::find(integrators, options.integrator) == integrators.end())
-        return Error{unknown_name("integrator", options.integrator, integrators)};
-    if (std::ranges::find(ambients, options.ambient) == ambients.end())
-        return Error{unknown_name("ambient model", options.ambient, ambients)};
-    if (options.integrator == "walk") settings.reference.integrator = Integrator::walk;
-    if (options.ambient == "traced") settings.reference.lighting.ambient = AmbientModel::traced;
-    return settings;
-}
 
 // Tries before minutes of work whether the directory can be written. The trial file and the directories made
 // for it are removed again, so that a failed comparison leaves nothing.
@@ -98,18 +58,6 @@ Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const st
              }});
 }
 
-// What limits the numbers.
-std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {
-    std::vector<std::string> warnings = comparison.truth.warnings;
-    const EffectNoise& noise = comparison.truth.noise;
-    if (!comparison.truth.reached)
-        warnings.push_back("the ground truth stopped at its limit of " + std::to_string(settings.samples) +
-                           " samples a pixel with a noise of " +
-                           to_text(float(std::round(1000 * noise.noise_rms / noise.effect_rms) / 1000)) +
-                           " of the effect, not " + to_text(settings.noise) + "; raise --samples");
-    return warnings;
-}
-
 // report.html in the directory; for a set, one per scene in a folder of its own.
 fs::path report_path(const CompareOptions& options, const ComparedScenes& scenes, const SubjectCase& one) {
     const fs::path directory(options.output);
@@ -120,7 +68,7 @@ fs::path report_path(const CompareOptions& options, const ComparedScenes& scenes
 Result<std::vector<Comparison>> compare_all(const CompareOptions& options, const ComparedScenes& scenes,
                                             const std::vector<Contestant>& contestants,
                                             ComparisonSettings settings) {
-    Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
+    Result<gpu::Device> device = gpu::Device::create({.name_contains = options.choice.device});
     if (!device) return device.error();
     std::vector<Comparison> comparisons;
     for (const SubjectCase& one : scenes.all) {
@@ -179,16 +127,12 @@ void print_results(const CompareOptions& options, const ComparedScenes& scenes,
 }
 
 Result<int> run(const CompareOptions& options) {
-    const bool is_set = set_of_scenes(options.scene.name) != nullptr;
-    const Result<ComparisonSettings> settings = settings_of(options, is_set ? kCaseSize : kSize);
+    const Result<ComparisonSettings> settings = options.choice.settings();
     if (!settings) return settings.error();
-    const std::span<const Technique> techniques = built_in_catalog().techniques;
-    const Result<std::vector<Contestant>> contestants =
-        options.techniques.empty() ? default_contestants(techniques)
-                                   : parse_technique_list(techniques, options.techniques);
+    const Result<std::vector<Contestant>> contestants = options.choice.contestants();
     if (!contestants) return contestants.error();
     if (Result<void> good = try_directory(options.output); !good) return good.error();
-    const Result<ComparedScenes> scenes = compared_scenes(options.scene);
+    const Result<ComparedScenes> scenes = compared_scenes(options.choice.scene);
     if (!scenes) return scenes.error();
     const Result<std::vector<Comparison>> comparisons =
         compare_all(options, *scenes, *contestants, *settings);
@@ -200,16 +144,11 @@ Result<int> run(const CompareOptions& options) {
 
 // One job: the techniques share the ground truth.
 Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::string>& words) {
-    const bool is_set = set_of_scenes(options.scene.name) != nullptr;
-    if (const Result<ComparisonSettings> settings = settings_of(options, is_set ? kCaseSize : kSize);
-        !settings)
+    if (const Result<ComparisonSettings> settings = options.choice.settings(); !settings)
         return settings.error();
-    if (!options.techniques.empty())
-        if (const auto known = parse_technique_list(built_in_catalog().techniques, options.techniques);
-            !known)
-            return known.error();
+    if (const auto contestants = options.choice.contestants(); !contestants) return contestants.error();
     if (Result<void> good = try_directory(options.output); !good) return good.error();
-    const Result<ComparedScenes> scenes = compared_scenes(options.scene);
+    const Result<ComparedScenes> scenes = compared_scenes(options.choice.scene);
     if (!scenes) return scenes.error();
     std::vector<const Scene*> all;
     for (const SubjectCase& one : scenes->all) all.push_back(&one.scene);
@@ -233,36 +172,40 @@ void add_compare_command(CommandLine& line) {
                  "\"lambert,wrap,preintegrated[diffuse=curve_2015,shadow=plain]\" "
                  "-o out/compare\n"
                  "  dermis compare unit -o out/unit   (small scenes with exact answers)");
-    options->scene.add_to(*command)->required();
-    command->add_option("-t,--techniques", options->techniques,
+    options->choice.scene.add_to(*command)->required();
+    command->add_option("-t,--techniques", options->choice.techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
     command
         ->add_option("-o,--output", options->output, "directory for report.html, scores.csv and regions.csv")
         ->required();
-    command->add_option("--size", options->size,
+    command->add_option("--size", options->choice.size,
                         "WIDTHxHEIGHT in pixels (512x512; of the unit scenes 96x96)");
     command
-        ->add_option("--integrator", options->integrator, "integrator of the ground truth: surface or walk")
+        ->add_option("--integrator", options->choice.integrator,
+                     "integrator of the ground truth: surface or walk")
         ->capture_default_str();
     command
-        ->add_option("--ambient", options->ambient,
+        ->add_option("--ambient", options->choice.ambient,
                      "environment in the ground truth: renderer (the renderer's approximation) or traced")
         ->capture_default_str();
     command
-        ->add_option("--samples-per-pixel", options->samples_per_pixel,
+        ->add_option("--samples-per-pixel", options->choice.samples_per_pixel,
                      "sample points in each pixel, the same in both pictures; a square number")
         ->capture_default_str();
     command
-        ->add_option("--noise", options->noise,
+        ->add_option("--noise", options->choice.noise,
                      "noise at which the ground truth stops, over the effect of scattering")
         ->capture_default_str();
-    command->add_option("--samples,--spp", options->samples, "maximum samples a pixel of the ground truth")
+    command
+        ->add_option("--samples,--spp", options->choice.samples,
+                     "maximum samples a pixel of the ground truth")
         ->capture_default_str();
     command
-        ->add_option("--frames", options->frames,
+        ->add_option("--frames", options->choice.frames,
                      "frames that are timed, after a first one that compiles the shaders")
         ->capture_default_str();
-    command->add_option("--device", options->device, "use the Vulkan device with this text in its name");
+    command->add_option("--device", options->choice.device,
+                        "use the Vulkan device with this text in its name");
     command->add_flag("--json", options->json, "print one JSON object");
     line.when_chosen(
         command, [options] { return run(*options); },

@@ -6,37 +6,26 @@
 
 #include "command.h"
 #include "dermis/bake/profile_report.h"
-#include "dermis/base/text.h"
-#include "dermis/optics/conversions.h"
 #include "dermis/optics/presets.h"
+#include "profile_options.h"
 
 namespace dermis::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Rgb = std::array<double, 3>;
 
 struct ProfileOptions {
-    std::string name, plot, from, to, albedo;
-    std::vector<std::string> assignments;
+    ConversionChoice conversion;
+    std::string name, plot;
     int terms = 6;
     bool json = false;
 };
-
-Rgb of_channels(const Profile& profile, double (*property)(const Profile&, int)) {
-    return {property(profile, 0), property(profile, 1), property(profile, 2)};
-}
-
-Rgb radii_at(const Profile& profile, double fraction) {
-    return {inverse_cdf_mm(profile, 0, fraction), inverse_cdf_mm(profile, 1, fraction),
-            inverse_cdf_mm(profile, 2, fraction)};
-}
 
 void print(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
 
-void print_row(const std::string& what, const Rgb& value) {
+void print_row(const std::string& what, const ChannelValues& value) {
     std::printf("  %-34s %10s %10s %10s\n", what.c_str(), number_text(value[0]).c_str(),
                 number_text(value[1]).c_str(), number_text(value[2]).c_str());
 }
@@ -69,23 +58,6 @@ Result<int> list(const ProfileOptions& options) {
 
 // ---- show ------------------------------------------------------------------------------------------------
 
-Json profile_json(const Profile& profile, const GaussianFit& fit) {
-    Json json = {{"name", profile.name},
-                 {"source", profile.source},
-                 {"model", model_name(profile)},
-                 {"albedo", of_channels(profile, diffuse_albedo)},
-                 {"mean_radius_mm", of_channels(profile, mean_radius_mm)},
-                 {"mean_square_radius_mm2", of_channels(profile, mean_square_radius_mm2)},
-                 {"burley_d_mm", burley_equivalent(profile).d_mm}};
-    for (const double fraction : kReportedFractions)
-        json["radius_mm"][number_text(fraction)] = radii_at(profile, fraction);
-    for (const GaussianTerm& term : fit.sum.terms)
-        json["gaussians"].push_back({{"variance_mm2", term.variance_mm2}, {"weight", term.weight}});
-    json["fit_max_error"] = fit.max_error;
-    json["fit_rms_error"] = fit.rms_error;
-    return json;
-}
-
 void print_profile(const Profile& profile, const GaussianFit& fit) {
     print(profile.name + ": " + model_name(profile) + "\n" + profile.source + "\n\n");
     std::printf("  %-34s %10s %10s %10s\n", "", "red", "green", "blue");
@@ -96,12 +68,12 @@ void print_profile(const Profile& profile, const GaussianFit& fit) {
         print_row("radius of " + number_text(100 * fraction) + " % of the light (mm)",
                   radii_at(profile, fraction));
     for (const double thickness_mm : {1.0, 3.0}) {
-        Rgb passed;
+        ChannelValues passed;
         for (int c = 0; c < 3; ++c) passed[size_t(c)] = slab_transmittance(profile, c, thickness_mm);
         print_row("transmittance of " + number_text(thickness_mm) + " mm", passed);
     }
     if (const auto* dipole = std::get_if<DipoleProfile>(&profile.model)) {
-        Rgb length;
+        ChannelValues length;
         for (int c = 0; c < 3; ++c) length[size_t(c)] = diffuse_mean_free_path_mm(dipole->medium, c);
         print_row("diffuse mean free path (mm)", length);
     }
@@ -116,10 +88,9 @@ void print_profile(const Profile& profile, const GaussianFit& fit) {
 Result<int> show(const ProfileOptions& options) {
     const Result<Profile> profile = find_profile(options.name);
     if (!profile) return profile.error();
-    if (options.terms < 1 || options.terms > kMaxGaussianFitTerms)
-        return Error{"--terms is " + std::to_string(options.terms) + "; it must be 1 to " +
-                     std::to_string(kMaxGaussianFitTerms)};
-    const GaussianFit fit = to_gaussian_sum(*profile, options.terms);
+    const Result<GaussianFit> fitted = fit_gaussians(*profile, options.terms);
+    if (!fitted) return fitted.error();
+    const GaussianFit& fit = *fitted;
     if (options.json)
         print(profile_json(*profile, fit).dump(2) + "\n");
     else
@@ -131,73 +102,6 @@ Result<int> show(const ProfileOptions& options) {
 }
 
 // ---- convert ---------------------------------------------------------------------------------------------
-
-// "1,0.5,0.2"
-Result<std::vector<double>> parse_numbers(std::string_view text, const std::string& place) {
-    std::vector<double> numbers;
-    for (const std::string_view part : split(text, ',')) {
-        const auto number = parse_number(part);
-        if (!number) return Error{place + ": '" + std::string(part) + "' is not a number"};
-        numbers.push_back(*number);
-    }
-    return numbers;
-}
-
-// "key=1,0.5,0.2"
-Result<void> assign(ToolSettings& settings, const std::string& assignment) {
-    const size_t equals = assignment.find('=');
-    if (equals == std::string::npos)
-        return Error{"--set '" + assignment + "': write KEY=NUMBER or KEY=RED,GREEN,BLUE"};
-    const auto numbers =
-        parse_numbers(std::string_view(assignment).substr(equals + 1), "--set '" + assignment + "'");
-    if (!numbers) return numbers.error();
-    return set_value(settings, trim(std::string_view(assignment).substr(0, equals)), *numbers);
-}
-
-Result<BurleyProfile> source_of(const ProfileOptions& options) {
-    if (options.name.empty() == options.from.empty())
-        return Error{"convert needs either a profile's name or --from TOOL"};
-    if (options.from.empty()) {
-        if (!options.assignments.empty())
-            return Error{"--set changes the numbers of --from TOOL; name a tool"};
-        const Result<Profile> profile = find_profile(options.name);
-        if (!profile) return profile.error();
-        const BurleyProfile burley = burley_equivalent(*profile);
-        // A channel without reflectance has no length to convert.
-        if (const auto checked = check(Profile{profile->name, "", burley}); !checked) return checked.error();
-        return burley;
-    }
-    const Result<ToolId> tool = find_tool(options.from);
-    if (!tool) return tool.error();
-    ToolSettings settings = default_settings(*tool);
-    for (const std::string& assignment : options.assignments)
-        if (const auto set = assign(settings, assignment); !set) return set.error();
-    return to_canonical(settings);
-}
-
-// A profile with the albedo 1 is a blur only; --albedo gives the surface's own.
-Result<BurleyProfile> with_albedo(BurleyProfile burley, const std::string& text) {
-    if (text.empty()) return burley;
-    const auto numbers = parse_numbers(text, "--albedo");
-    if (!numbers) return numbers.error();
-    if (numbers->size() != 1 && numbers->size() != 3) return Error{"--albedo takes one number or three"};
-    for (size_t c = 0; c < 3; ++c) burley.albedo[c] = (*numbers)[numbers->size() == 1 ? 0 : c];
-    if (const auto checked = check(Profile{"--albedo", "", burley}); !checked) return checked.error();
-    return burley;
-}
-
-Json settings_json(const ToolSettings& settings) {
-    const ToolConvention& tool = convention_of(settings.tool);
-    Json json = {
-        {"tool", tool.name}, {"length", tool.length}, {"boundary", tool.boundary}, {"not_kept", tool.lost}};
-    for (size_t k = 0; k < tool.keys.size(); ++k) {
-        const ToolKey& key = tool.keys[k];
-        Json value = settings.values[k];
-        if (key.count == 1) value = settings.values[k][0];
-        json["values"][std::string(key.name)] = {{"value", value}, {"unit", key.unit}};
-    }
-    return json;
-}
 
 void print_settings(const ToolSettings& settings) {
     const ToolConvention& tool = convention_of(settings.tool);
@@ -214,34 +118,20 @@ void print_settings(const ToolSettings& settings) {
 }
 
 Result<int> convert(const ProfileOptions& options) {
-    const Result<BurleyProfile> stated = source_of(options);
-    if (!stated) return stated.error();
-    const Result<BurleyProfile> source = with_albedo(*stated, options.albedo);
-    if (!source) return source.error();
-    std::vector<ToolId> targets;
-    if (options.to == "all") {
-        for (const ToolConvention& tool : tool_conventions()) targets.push_back(tool.id);
-    } else {
-        const Result<ToolId> tool = find_tool(options.to);
-        if (!tool) return tool.error();
-        targets.push_back(*tool);
+    const Result<Conversion> converted = options.conversion.convert();
+    if (!converted) return converted.error();
+    const BurleyProfile& source = converted->source;
+    if (options.json) {
+        print(conversion_json(*converted).dump(2) + "\n");
+        return 0;
     }
-    Json json = {{"canonical", {{"albedo", source->albedo}, {"burley_d_mm", source->d_mm}}}};
-    if (!options.json)
-        print("albedo " + value_text(source->albedo) + ", Burley d " + value_text(source->d_mm) +
-              " mm (red, green, blue)\n");
-    if (!options.json && source->albedo == Rgb{1, 1, 1})
+    print("albedo " + value_text(source.albedo) + ", Burley d " + value_text(source.d_mm) +
+          " mm (red, green, blue)\n");
+    if (source.albedo == ChannelValues{1, 1, 1})
         print(
             "This profile is a pure blur (albedo 1). Lengths that depend on the albedo need that of the "
             "surface: --albedo R,G,B\n");
-    for (const ToolId target : targets) {
-        const ToolSettings settings = to_tool(target, *source);
-        if (options.json)
-            json["settings"].push_back(settings_json(settings));
-        else
-            print_settings(settings);
-    }
-    if (options.json) print(json.dump(2) + "\n");
+    for (const ToolSettings& settings : converted->settings) print_settings(settings);
     return 0;
 }
 
@@ -279,14 +169,15 @@ void add_profile_command(CommandLine& line) {
     Command* convert_command = line.add(
         "convert", "Converts a profile to another tool's parameters, with quantity, unit and boundary",
         "dermis profile convert --from unreal --set mean_free_path_distance=3 --to blender_burley", profile);
-    convert_command->add_option("name", options->name, name_help);
-    convert_command->add_option("--from", options->from,
+    convert_command->add_option("name", options->conversion.name, name_help);
+    convert_command->add_option("--from", options->conversion.from,
                                 "read the settings of this tool instead of a profile");
     convert_command->add_option(
-        "--set", options->assignments,
+        "--set", options->conversion.assignments,
         "KEY=NUMBER or KEY=R,G,B of --from; what is not set keeps the tool's default");
-    convert_command->add_option("--to", options->to, tool_list() + "or all")->required();
-    convert_command->add_option("--albedo", options->albedo, "R,G,B: replaces the albedo, keeps Burley's d");
+    convert_command->add_option("--to", options->conversion.to, tool_list() + "or all")->required();
+    convert_command->add_option("--albedo", options->conversion.albedo,
+                                "R,G,B: replaces the albedo, keeps Burley's d");
     convert_command->add_flag("--json", options->json, "print JSON");
     line.when_chosen(convert_command, [options] { return convert(*options); });
 

@@ -1,0 +1,61 @@
+#include "compare_options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "catalog/catalog.h"
+#include "compare_scenes.h"
+#include "dermis/base/text.h"
+
+namespace dermis::cli {
+namespace {
+
+constexpr int kMostGrid = 16;
+constexpr const char *kSize = "512x512", *kCaseSize = "96x96";
+
+}  // namespace
+
+Result<ComparisonSettings> CompareChoice::settings() const {
+    const char* usual_size = set_of_scenes(scene.name) != nullptr ? kCaseSize : kSize;
+    const Result<Size> pixels = parse_size(size.empty() ? usual_size : size);
+    if (!pixels) return pixels.error();
+    ComparisonSettings settings = comparison_settings(pixels->width, pixels->height);
+    settings.frames = frames;
+    settings.noise = noise;
+    settings.samples = samples;
+    settings.grid = int(std::lround(std::sqrt(double(std::max(samples_per_pixel, 0)))));
+    if (frames < 1 || frames > 1000) return Error{"--frames " + std::to_string(frames) + ": 1 to 1000"};
+    if (settings.grid < 1 || settings.grid > kMostGrid || settings.grid * settings.grid != samples_per_pixel)
+        return Error{"--samples-per-pixel " + std::to_string(samples_per_pixel) +
+                     ": a square number, 1, 4, 9, 16 ... " + std::to_string(kMostGrid * kMostGrid)};
+    if (!(noise > 0 && noise <= 1)) return Error{"--noise " + to_text(noise) + ": above 0, at most 1"};
+    if (samples < 2 * samples_per_pixel || samples > 1 << 20)
+        return Error{"--samples " + std::to_string(samples) + ": at least twice --samples-per-pixel (" +
+                     std::to_string(2 * samples_per_pixel) + "), at most " + std::to_string(1 << 20)};
+    const std::vector<std::string> integrators = {"surface", "walk"}, ambients = {"renderer", "traced"};
+    if (std::ranges::find(integrators, integrator) == integrators.end())
+        return Error{unknown_name("integrator", integrator, integrators)};
+    if (std::ranges::find(ambients, ambient) == ambients.end())
+        return Error{unknown_name("ambient model", ambient, ambients)};
+    if (integrator == "walk") settings.reference.integrator = Integrator::walk;
+    if (ambient == "traced") settings.reference.lighting.ambient = AmbientModel::traced;
+    return settings;
+}
+
+Result<std::vector<Contestant>> CompareChoice::contestants() const {
+    const std::span<const Technique> known = built_in_catalog().techniques;
+    return techniques.empty() ? default_contestants(known) : parse_technique_list(known, techniques);
+}
+
+std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {
+    std::vector<std::string> warnings = comparison.truth.warnings;
+    const EffectNoise& noise = comparison.truth.noise;
+    if (!comparison.truth.reached)
+        warnings.push_back("the ground truth stopped at its limit of " + std::to_string(settings.samples) +
+                           " samples a pixel with a noise of " +
+                           to_text(float(std::round(1000 * noise.noise_rms / noise.effect_rms) / 1000)) +
+                           " of the effect, not " + to_text(settings.noise) + "; raise --samples");
+    return warnings;
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,29 @@
+#pragma once
+// The flags of `dermis compare` that say what is compared and how.
+
+#include <string>
+#include <vector>
+
+#include "dermis/judge/comparison.h"
+#include "scene_choice.h"
+
+namespace dermis::cli {
+
+struct CompareChoice {
+    SceneChoice scene;
+    std::string techniques, size, device;  ///< empty: every technique; 512x512, or 96x96 of each of a set
+    std::string integrator = "surface", ambient = "renderer";
+    ComparisonSettings defaults;
+    double noise = defaults.noise;
+    int samples = defaults.samples, samples_per_pixel = defaults.grid * defaults.grid,
+        frames = defaults.frames;
+
+    [[nodiscard]] Result<ComparisonSettings> settings() const;
+    [[nodiscard]] Result<std::vector<Contestant>> contestants() const;
+};
+
+/// What limits the numbers of a comparison, a line each.
+[[nodiscard]] std::vector<std::string> warnings_of(const Comparison& comparison,
+                                                   const ComparisonSettings& settings);
+
+}  // namespace dermis::cli

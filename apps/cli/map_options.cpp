@@ -1,0 +1,36 @@
+#include "map_options.h"
+
+#include "catalog/catalog.h"
+#include "dermis/optics/presets.h"
+#include "dermis/scene/load_scene.h"
+
+namespace dermis::cli {
+
+BakeMapSettings usual_map_settings(MapKind kind) {
+    BakeMapSettings settings{.kind = kind};
+    if (kind == MapKind::occlusion) settings.max_mm = 0;
+    return settings;
+}
+
+Result<BakeMapSettings> MapChoice::settings_for(const std::string& scene_profile) const {
+    BakeMapSettings chosen = settings;
+    if (!material.empty()) chosen.material = material;
+    if (chosen.kind == MapKind::kernel_size) {
+        Result<Profile> found = find_profile(profile.empty() ? scene_profile : profile);
+        if (!found) return found.error();
+        chosen.profile = std::move(*found);
+    }
+    return chosen;
+}
+
+Result<MapRequest> MapChoice::request() const {
+    SceneOptions options = {.subjects = built_in_catalog().subjects};
+    if (unit_mm > 0) options.mesh_unit_mm = unit_mm;
+    Result<Scene> scene = load_scene(mesh, options);
+    if (!scene) return scene.error();
+    Result<BakeMapSettings> chosen = settings_for(scene->skin.profile);
+    if (!chosen) return chosen.error();
+    return MapRequest{std::move(*scene), std::move(*chosen)};
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,28 @@
+#pragma once
+// The options of `dermis bake curvature` and the other maps of a mesh.
+
+#include <string>
+
+#include "dermis/rays/bake_map.h"
+
+namespace dermis::cli {
+
+struct MapRequest {
+    Scene scene;
+    BakeMapSettings settings;
+};
+
+struct MapChoice {
+    std::string mesh, profile, material;  ///< empty profile: the scene's; empty material: all skin
+    float unit_mm = 0;                    ///< of a mesh file; 0: as its format has it
+    BakeMapSettings settings;
+
+    /// The scene that `mesh` names, and the settings with their profile.
+    [[nodiscard]] Result<MapRequest> request() const;
+    /// The settings for a scene that is there already.
+    [[nodiscard]] Result<BakeMapSettings> settings_for(const std::string& scene_profile) const;
+};
+
+[[nodiscard]] BakeMapSettings usual_map_settings(MapKind kind);
+
+}  // namespace dermis::cli

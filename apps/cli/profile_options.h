@@ -1,0 +1,39 @@
+#pragma once
+// What `dermis profile show` and `dermis profile convert` ask for, and their answers as JSON.
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dermis/optics/conversions.h"
+#include "dermis/optics/gaussian_fit.h"
+
+namespace dermis::cli {
+
+/// Errors: --terms out of its range.
+[[nodiscard]] Result<GaussianFit> fit_gaussians(const Profile& profile, int terms);
+[[nodiscard]] nlohmann::ordered_json profile_json(const Profile& profile, const GaussianFit& fit);
+
+/// One number for each channel.
+using ChannelValues = std::array<double, 3>;
+[[nodiscard]] ChannelValues of_channels(const Profile& profile, double (*property)(const Profile&, int));
+/// Within which such a part of the light leaves.
+[[nodiscard]] ChannelValues radii_at(const Profile& profile, double fraction);
+
+struct Conversion {
+    BurleyProfile source;
+    std::vector<ToolSettings> settings;  ///< one for each target
+};
+
+/// A profile (itself or by its name) or another tool's settings, to one tool or to "all".
+struct ConversionChoice {
+    std::optional<Profile> profile;
+    std::string name, from, to, albedo;
+    std::vector<std::string> assignments;  ///< KEY=NUMBER or KEY=R,G,B of `from`
+
+    [[nodiscard]] Result<Conversion> convert() const;
+};
+[[nodiscard]] nlohmann::ordered_json conversion_json(const Conversion& conversion);
+
+}  // namespace dermis::cli

@@ -1,0 +1,109 @@
+// compare(): techniques against the ground truth.
+
+#include <nlohmann/json.hpp>
+
+#include "arrays.h"
+#include "catalog/catalog.h"
+#include "compare_options.h"
+#include "compare_scenes.h"
+#include "compare_text.h"
+#include "module.h"
+#include "scene_arguments.h"
+
+namespace dermis::python {
+namespace {
+
+struct OneComparison {
+    Comparison comparison;
+    std::string json;  ///< an object of `dermis compare --json`
+    std::vector<std::string> warnings;
+};
+
+Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
+                                  const std::vector<Contestant>& contestants, ComparisonSettings settings,
+                                  Watch& watch, double from, double share) {
+    // The ground truth takes most of the time.
+    constexpr double kTruth = 0.8;
+    settings.exact = one.exact;
+    Result<Comparison> compared = compare_techniques(
+        device, built_in_catalog(), one.scene, contestants, settings,
+        {.reference = [&](double done, bool) { watch.report(from + share * kTruth * done); },
+         .techniques =
+             [&](double done, const std::string&) {
+                 watch.report(from + share * (kTruth + (1 - kTruth) * done));
+             },
+         .stop = &watch.stopped()});
+    if (!compared) return compared.error();
+    OneComparison made{.comparison = std::move(*compared), .json = {}, .warnings = one.scene.warnings};
+    made.json =
+        cli::to_json("", one, made.comparison).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    for (std::string& warning : cli::warnings_of(made.comparison, settings))
+        made.warnings.push_back(std::move(warning));
+    return made;
+}
+
+Result<std::vector<OneComparison>> compare_all(const cli::CompareChoice& choice,
+                                               const ComparisonSettings& settings, Watch& watch) {
+    const Result<std::vector<Contestant>> contestants = choice.contestants();
+    if (!contestants) return contestants.error();
+    const Result<cli::ComparedScenes> scenes = cli::compared_scenes(choice.scene);
+    if (!scenes) return scenes.error();
+    Result<gpu::Device> device = gpu::Device::create({.name_contains = choice.device});
+    if (!device) return device.error();
+    std::vector<OneComparison> made;
+    const double share = 1 / double(scenes->all.size());
+    for (const SubjectCase& one : scenes->all) {
+        Result<OneComparison> compared =
+            compare_one(*device, one, *contestants, settings, watch, share * double(made.size()), share);
+        if (!compared) return scenes->is_set ? compared.error().within(one.name) : compared.error();
+        made.push_back(std::move(*compared));
+    }
+    return made;
+}
+
+std::vector<OneComparison> compare(const SceneArguments& scene, const std::string& techniques,
+                                   const py::dict& given, const py::object& progress) {
+    cli::CompareChoice choice;
+    choice.scene = scene_choice(scene);
+    choice.techniques = techniques;
+    take(choice.size, given, "size");
+    take(choice.device, given, "device");
+    take(choice.integrator, given, "integrator");
+    take(choice.ambient, given, "ambient");
+    take(choice.samples, given, "samples");
+    take(choice.samples_per_pixel, given, "samples_per_pixel");
+    take(choice.frames, given, "frames");
+    take(choice.noise, given, "noise");
+    const ComparisonSettings settings = value_of(choice.settings());
+    return watched(progress, [&](Watch& watch) { return compare_all(choice, settings, watch); });
+}
+
+// Of a technique's row, or the ground truth's.
+py::array picture(const py::object& self, int row, const std::string& name) {
+    const Comparison& comparison = self.cast<const OneComparison&>().comparison;
+    if (row < 0) return view_of(name == "skin" ? comparison.masks.skin : comparison.truth_radiance, self);
+    const Compared& compared = comparison.rows.at(size_t(row));
+    return view_of(name == "effect" ? compared.effect
+                   : name == "flip" ? compared.flip
+                                    : compared.radiance,
+                   self);
+}
+
+std::vector<std::string> row_names(const OneComparison& made) {
+    std::vector<std::string> names;
+    for (const Compared& row : made.comparison.rows) names.push_back(row.contestant.name());
+    return names;
+}
+
+}  // namespace
+
+void add_comparisons(py::module_& module) {
+    py::class_<OneComparison>(module, "Comparison")
+        .def_readonly("json", &OneComparison::json)
+        .def_readonly("warnings", &OneComparison::warnings)
+        .def_property_readonly("names", row_names);
+    module.def("compare", compare);
+    module.def("comparison_picture", picture);
+}
+
+}  // namespace dermis::python

@@ -1,0 +1,146 @@
+"""Techniques against the ground truth, and metrics."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+from dermis import _dermis
+from dermis._words import given, scene_arguments, size_text, whole
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    import numpy
+    from numpy.typing import ArrayLike, NDArray
+    from dermis._words import Path, Size, Words
+
+
+class Comparison:
+    """Techniques and the ground truth of one scene. The arrays are read-only views, no copies."""
+
+    __slots__ = ("_comparison", "_json")
+
+    def __init__(self, handle):
+        if not isinstance(handle, _dermis.Comparison):
+            raise TypeError("use compare()")
+        self._comparison = handle
+        self._json = json.loads(handle.json)
+
+    @property
+    def scene(self) -> str:
+        """The scene's name."""
+        return self._json["scene"]
+
+    @property
+    def rows(self) -> list[dict]:
+        """A dict for each technique: captured (the share of the effect of scattering), captured_error, rmse, ...
+
+        The same as the rows of `dermis compare --json`. A share whose ground truth is too noisy is None.
+        """
+        return self._json["rows"]
+
+    @property
+    def names(self) -> list[str]:
+        """Of the rows: the technique, with its settings in brackets."""
+        return self._comparison.names
+
+    @property
+    def credit(self) -> str:
+        """The line that goes wherever the pictures go, or ""."""
+        return self._json["credit"]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What limits the numbers, a line each."""
+        return self._comparison.warnings
+
+    @property
+    def truth(self) -> NDArray[numpy.float32]:
+        """The ground truth, linear radiance, float32, height x width x 3."""
+        return _dermis.comparison_picture(self._comparison, -1, "radiance")[..., :3]
+
+    @property
+    def skin(self) -> NDArray[numpy.float32]:
+        """1 where a pixel counts, float32, height x width."""
+        return _dermis.comparison_picture(self._comparison, -1, "skin")
+
+    def radiance(self, name: str) -> NDArray[numpy.float32]:
+        """The picture of one of `names`, linear radiance, float32, height x width x 3."""
+        return _dermis.comparison_picture(self._comparison, self._row(name), "radiance")[..., :3]
+
+    def effect(self, name: str) -> NDArray[numpy.float32]:
+        """That picture less lambert's, float32, height x width x 3."""
+        return _dermis.comparison_picture(self._comparison, self._row(name), "effect")
+
+    def flip(self, name: str) -> NDArray[numpy.float32]:
+        """FLIP of the tone-mapped picture against the ground truth's, 0 to 1, float32, height x width."""
+        return _dermis.comparison_picture(self._comparison, self._row(name), "flip")
+
+    def _row(self, name):
+        if name not in self.names:
+            raise KeyError(f"{name}: none of {', '.join(self.names)}")
+        return self.names.index(name)
+
+
+def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: Size | None=None,
+            integrator: str='surface', ambient: str='renderer', samples_per_pixel: int=36, noise: float=0.2,
+            samples: int=2048, frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None,
+            progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison]:
+    """Techniques compared with the ground truth of the same scene, as `dermis compare`.
+
+    techniques: "lambert,wrap[wrap=0.4]", a list of such texts, or None for all. size: pixels (512x512, of a set
+    of test scenes 96x96). noise: of the ground truth at which it stops, over the effect of scattering. samples:
+    of the ground truth a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
+    number. frames: that are timed. The ground truth is kept in the cache. Returns a Comparison; of a set of
+    scenes, such as "unit", a list.
+    """
+    listed = techniques if isinstance(techniques, str) else ",".join(techniques or [])
+    least, most = -2**31, 2**31 - 1
+    options = given(size=None if size is None else size_text(size), integrator=integrator, ambient=ambient,
+                    samples_per_pixel=whole(samples_per_pixel, "samples_per_pixel", least, most), noise=noise,
+                    samples=whole(samples, "samples", least, most), frames=whole(frames, "frames", least, most),
+                    device=device)
+    arguments = scene_arguments(scene, keys, camera, light)
+    made = [Comparison(one) for one in _dermis.compare(arguments, listed, options, progress)]
+    return made[0] if len(made) == 1 else made
+
+
+def max_abs_error(image: ArrayLike, reference: ArrayLike, mask: ArrayLike | None=None) -> float:
+    """Largest difference of any channel of linear values. Pictures: floats, height x width x 3 (or no 3)."""
+    return _dermis.max_abs_error(image, reference, mask)
+
+
+def rmse(image: ArrayLike, reference: ArrayLike, mask: ArrayLike | None=None) -> float:
+    """Root of the mean square difference of linear values. mask: height x width, above 0 where pixels count."""
+    return _dermis.rmse(image, reference, mask)
+
+
+def rel_mse(image: ArrayLike, reference: ArrayLike, mask: ArrayLike | None=None) -> float:
+    """Mean of (image - reference)^2 / (reference^2 + 0.01) of linear values."""
+    return _dermis.rel_mse(image, reference, mask)
+
+
+def psnr_db(image: ArrayLike, reference: ArrayLike, mask: ArrayLike | None=None) -> float:
+    """10 log10(1 / mean square) in dB of what a display shows: linear values in, clamped to 0..1, as sRGB."""
+    return _dermis.psnr_db(image, reference, mask)
+
+
+def ssim(image: ArrayLike, reference: ArrayLike, mask: ArrayLike | None=None) -> float:
+    """Mean structural similarity of what a display shows, 1 for equal pictures."""
+    return _dermis.ssim(image, reference, mask)
+
+
+def ciede2000(image: ArrayLike, reference: ArrayLike, mask: ArrayLike | None=None) -> float:
+    """Mean CIEDE2000 colour difference of what a display shows; about 1 is just noticeable."""
+    return _dermis.ciede2000(image, reference, mask)
+
+
+def flip(image: ArrayLike, reference: ArrayLike, mask: ArrayLike | None=None,
+         pixels_per_degree: float=67.02) -> float:
+    """Mean LDR FLIP of what a display shows, 0 (equal) to 1. pixels_per_degree: of the observer's visual angle."""
+    return _dermis.flip(image, reference, mask, pixels_per_degree)
+
+
+def flip_map(image: ArrayLike, reference: ArrayLike, pixels_per_degree: float=67.02) -> NDArray[numpy.float32]:
+    """FLIP at each pixel, float32, height x width, an array of its own."""
+    return _dermis.flip_map(image, reference, pixels_per_degree)

@@ -1,0 +1,203 @@
+"""Meshes as arrays, and maps over their UV atlas."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from dermis import _dermis
+from dermis._profiles import Profile
+from dermis._words import given, text_path
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    import numpy
+    from numpy.typing import ArrayLike, NDArray
+    from dermis._words import Path
+
+
+class Mesh:
+    """A triangle mesh in mm, right-handed, Y up, counter-clockwise fronts, UV origin top-left.
+
+    From arrays: positions_mm V x 3, indices T x 3 (whole numbers), normals V x 3 (computed if None), uvs V x 2
+    or None. The arrays are copied; V and its order stay. From files: load_mesh(), scene_meshes().
+    """
+
+    __slots__ = ("_mesh",)
+
+    def __init__(self, positions_mm: ArrayLike, indices: ArrayLike, normals: ArrayLike | None=None,
+                 uvs: ArrayLike | None=None):
+        self._mesh = _dermis.mesh_of_arrays(positions_mm, indices, normals, uvs)
+
+    @classmethod
+    def _of(cls, handle):
+        mesh = cls.__new__(cls)
+        mesh._mesh = handle
+        return mesh
+
+    def __repr__(self):
+        return f"<dermis.Mesh {self.name}: {len(self.positions_mm)} vertices, {len(self.indices)} triangles>"
+
+    @property
+    def name(self) -> str:
+        """The file, or the object's name in its scene."""
+        return self._mesh.name
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was doubtful in the file, a line each."""
+        return self._mesh.warnings
+
+    @property
+    def positions_mm(self) -> NDArray[numpy.float32]:
+        """float32, V x 3, in mm. A read-only view, no copy."""
+        return _dermis.mesh_attribute(self._mesh, "positions_mm")
+
+    @property
+    def normals(self) -> NDArray[numpy.float32]:
+        """Unit normals, float32, V x 3. A read-only view, no copy."""
+        return _dermis.mesh_attribute(self._mesh, "normals")
+
+    @property
+    def tangents(self) -> NDArray[numpy.float32] | None:
+        """Unit tangents along +u and the bitangent's sign, float32, V x 4, or None. A read-only view, no copy."""
+        return _dermis.mesh_attribute(self._mesh, "tangents")
+
+    @property
+    def uvs(self) -> NDArray[numpy.float32] | None:
+        """float32, V x 2, origin top-left, or None. A read-only view, no copy."""
+        return _dermis.mesh_attribute(self._mesh, "uvs")
+
+    @property
+    def indices(self) -> NDArray[numpy.uint32]:
+        """Three vertices a triangle, uint32, T x 3. A read-only view, no copy."""
+        return _dermis.mesh_attribute(self._mesh, "indices")
+
+    def curvature(self, smoothing_mm: float=0.0) -> NDArray[numpy.float32]:
+        """Signed mean curvature at each vertex in 1/mm, positive where convex: 1/R on a sphere. float32, V.
+
+        smoothing_mm: averages features narrower than about twice this, 0 for none.
+        """
+        return _dermis.mesh_curvature(self._mesh, smoothing_mm)
+
+    def curvature_tensors(self, smoothing_mm: float=0.0) -> NDArray[numpy.float32]:
+        """The curvature tensor at each vertex in 1/mm: xx, yy, zz, yz, xz, xy. float32, V x 6."""
+        return _dermis.mesh_curvature_tensors(self._mesh, smoothing_mm)
+
+    def occlusion(self, rays: int=64) -> NDArray[numpy.float32]:
+        """The share of a white sky's light that arrives at each vertex, 0 to 1. float32, V."""
+        return _dermis.mesh_occlusion(self._mesh, rays)
+
+    def save(self, path: Path) -> None:
+        """Writes .glb (metres, as glTF has it) or .obj (mm)."""
+        _dermis.write_mesh(self._mesh, text_path(path))
+
+
+def load_mesh(path: Path, unit_mm: float | None=None) -> Mesh:
+    """A .obj, .gltf or .glb file. unit_mm: length of one unit of the file in mm (None: glTF 1000, OBJ 1)."""
+    return Mesh._of(_dermis.read_mesh(text_path(path), 0 if unit_mm is None else unit_mm))
+
+
+def scene_meshes(scene: Path) -> list[Mesh]:
+    """The meshes of a scene by its name or file, placed as the scene has them, in mm."""
+    return [Mesh._of(handle) for handle in _dermis.scene_meshes(text_path(scene))]
+
+
+class Map:
+    """A map of a mesh over its UV atlas, gutter included, rows from the top. Made by bake_curvature() and others."""
+
+    __slots__ = ("_map",)
+
+    def __init__(self, handle):
+        if not isinstance(handle, _dermis.Map):
+            raise TypeError("use bake_curvature(), bake_thickness(), ...")
+        self._map = handle
+
+    @property
+    def values(self) -> NDArray[numpy.float32]:
+        """float32, size x size (stretch: x 3), in `unit`. A read-only view, no copy."""
+        return self._map.values
+
+    @property
+    def coverage(self) -> NDArray[numpy.uint8]:
+        """uint8, size x size: 255 where a triangle lies. A read-only view, no copy."""
+        return self._map.coverage
+
+    @property
+    def unit(self) -> str:
+        """"1/mm", "mm", or "1" for ratios."""
+        return self._map.unit
+
+    @property
+    def min(self) -> float:
+        """Least value over the covered texels (of the first channel)."""
+        return self._map.min
+
+    @property
+    def max(self) -> float:
+        """Largest value over the covered texels (of the first channel)."""
+        return self._map.max
+
+    @property
+    def warnings(self) -> list[str]:
+        """What limits the map, a line each."""
+        return self._map.warnings
+
+    def save(self, path: Path) -> None:
+        """Writes the files of `dermis bake ... -o PATH`: PATH (.exr, half), PATH.json and a preview."""
+        _dermis.write_map(self._map, text_path(path))
+
+
+def _bake(kind, mesh, progress, **options):
+    chosen = given(**options)
+    if isinstance(mesh, Mesh):
+        return Map(_dermis.bake_map_of_mesh(kind, mesh._mesh, chosen, progress))
+    return Map(_dermis.bake_map_of_scene(kind, text_path(mesh), chosen, progress))
+
+
+def bake_curvature(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
+                   unit_mm: float | None=None, smoothing_mm: float=0.0,
+                   progress: Callable[[float], object] | None=None) -> Map:
+    """Signed mean curvature in 1/mm, as `dermis bake curvature`. mesh: a Mesh, a mesh file or a scene.
+
+    size: texels a side. gutter: texels around UV islands. unit_mm: of a mesh file. smoothing_mm: averages
+    features narrower than about twice this.
+    """
+    return _bake("curvature", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+                 smoothing_mm=smoothing_mm)
+
+
+def bake_thickness(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
+                   unit_mm: float | None=None, rays: int=32, ray_size: int=1024, max_mm: float=200.0,
+                   cone_rad: float=0.7853982, progress: Callable[[float], object] | None=None) -> Map:
+    """Thickness of the body behind the surface in mm, as `dermis bake thickness`.
+
+    rays: a texel. ray_size: largest side of the grid that rays are traced on. max_mm: thickness where no ray
+    finds the far side. cone_rad: half angle of the cone of inward rays.
+    """
+    return _bake("thickness", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+                 rays=rays, ray_size=ray_size, max_mm=max_mm, cone_rad=cone_rad)
+
+
+def bake_kernel_size(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
+                     unit_mm: float | None=None, rays: int=32, ray_size: int=1024, max_mm: float=200.0,
+                     cone_rad: float=0.7853982, profile: str | None=None,
+                     progress: Callable[[float], object] | None=None) -> Map:
+    """Kernel size for texture_space, 0 to 0.996, as `dermis bake kernel-size`. profile: a name (None: the scene's)."""
+    if isinstance(profile, Profile):
+        raise TypeError("profile: give its name, or a CSV file of it")
+    return _bake("kernel-size", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+                 rays=rays, ray_size=ray_size, max_mm=max_mm, cone_rad=cone_rad, profile=profile)
+
+
+def bake_stretch(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
+                 unit_mm: float | None=None, progress: Callable[[float], object] | None=None) -> Map:
+    """Stretch: mm per unit of u, mm per unit of v, cosine between both directions, as `dermis bake stretch`."""
+    return _bake("stretch", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm)
+
+
+def bake_occlusion(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
+                   unit_mm: float | None=None, rays: int=32, ray_size: int=1024, max_mm: float=0.0,
+                   progress: Callable[[float], object] | None=None) -> Map:
+    """Ambient visibility, 0 to 1, as `dermis bake occlusion`. max_mm: how far it looks in mm, 0 for no limit."""
+    return _bake("occlusion", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+                 rays=rays, ray_size=ray_size, max_mm=max_mm)

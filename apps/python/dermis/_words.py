@@ -1,0 +1,82 @@
+"""Python's values as the texts that the command line has: the parsers and their tables are the program's own."""
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Union
+
+import numpy
+
+from dermis import _dermis
+
+Path = Union[str, "os.PathLike[str]"]
+Size = Union[int, str, "tuple[int, int]"]
+"""Of a picture or a table in pixels: 512, "1024x768" or (1024, 768)."""
+Words = Union["Mapping[str, object]", "Iterable[str]", str, None]
+"""{key: value}, or the command line's texts KEY=VALUE."""
+
+
+def number_text(value):
+    """A number, a text, a bool, or several numbers with commas between."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (bool, numpy.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (int, numpy.integer)):
+        return str(int(value))
+    if isinstance(value, (float, numpy.floating)):
+        return repr(float(value))
+    try:
+        return ",".join(number_text(item) for item in value)
+    except TypeError:
+        raise TypeError(f"{value!r}: must be a text, a number, a bool or several numbers") from None
+
+
+def words(values, option):
+    """KEY=VALUE texts of a mapping, or the texts of a list."""
+    if values is None:
+        return []
+    if isinstance(values, str):
+        return [values]
+    if hasattr(values, "items"):
+        return [f"{key}={number_text(value)}" for key, value in values.items()]
+    texts = list(values)
+    if not all(isinstance(text, str) for text in texts):
+        raise TypeError(f"{option}: must be a mapping, or texts KEY=VALUE")
+    return texts
+
+
+def scene_arguments(scene, keys, camera, light):
+    """What the command line takes as SCENE, --scene, --camera and --light."""
+    return (text_path(scene), words(keys, "keys"), " ".join(words(camera, "camera")),
+            " ".join(words(light, "light")))
+
+
+def size_text(size):
+    """512, "1024x768" or (width, height)."""
+    if isinstance(size, (str, int, numpy.integer)):
+        return str(size)
+    return "x".join(str(side) for side in size)
+
+
+def range_text(ends):
+    """(min, max) as MIN,MAX."""
+    return "" if ends is None else number_text(ends)
+
+
+def text_path(path):
+    """A path or a name as text."""
+    return os.fspath(path)
+
+
+def given(**options):
+    """Only those that are not None."""
+    return {name: value for name, value in options.items() if value is not None}
+
+
+def whole(value, option, least, most):
+    """A whole number within C's range; the parsers check the rest."""
+    if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, (int, numpy.integer)):
+        raise TypeError(f"{option}: {value!r} is no whole number")
+    if not least <= value <= most:
+        raise _dermis.Error(f"--{option.replace('_', '-')} {value}: must be {least} to {most}")
+    return int(value)

@@ -1,0 +1,165 @@
+// render() and reference(): pictures of a scene as arrays and as files.
+
+#include "arrays.h"
+#include "catalog/catalog.h"
+#include "dermis/gpu/device.h"
+#include "dermis/jobs/picture_file.h"
+#include "dermis/render/output.h"
+#include "module.h"
+#include "reference_options.h"
+#include "render_options.h"
+#include "scene_arguments.h"
+
+namespace dermis::python {
+namespace {
+
+// ---- render
+// --------------------------------------------------------------------------------------------------
+
+struct RenderedPicture {
+    Image linear, display;  ///< f16 or f32; u8 or u16
+    OutputSettings file;
+    std::vector<std::string> warnings;
+    std::string technique;
+};
+
+Result<RenderedPicture> draw(const cli::RenderOptions& options, int bits) {
+    Result<cli::Prepared> prepared = cli::prepare(options);
+    if (!prepared) return prepared.error();
+    Result<gpu::Device> device =
+        gpu::Device::create({.validation = options.validation, .name_contains = options.device});
+    if (!device) return device.error();
+    Result<Renderer> renderer =
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
+    if (!renderer) return renderer.error();
+    prepared->draw.deep = bits == 16;
+    if (const auto drawn = renderer->draw(*prepared->technique, *prepared->values, prepared->draw); !drawn)
+        return drawn.error();
+    Result<Image> linear = linear_picture(*renderer, prepared->draw.view);
+    if (!linear) return linear.error();
+    Result<Image> display = display_picture(*renderer, bits);
+    if (!display) return display.error();
+    RenderedPicture picture{.linear = std::move(*linear),
+                            .display = std::move(*display),
+                            .file = {.png_bits = bits,
+                                     .credit = prepared->scene.credit,
+                                     .description = prepared->scene.name + ", " + prepared->technique->id},
+                            .warnings = prepared->scene.warnings,
+                            .technique = prepared->technique->id};
+    picture.warnings.insert(picture.warnings.end(), renderer->warnings().begin(), renderer->warnings().end());
+    return picture;
+}
+
+RenderedPicture render(const SceneArguments& scene, const std::string& technique,
+                       const std::vector<std::string>& settings, const std::string& size,
+                       const std::string& view, int samples, int bits, const std::string& device) {
+    if (bits != 8 && bits != 16) throw Failure({"--bits " + std::to_string(bits) + ": 8 or 16"});
+    const cli::RenderOptions options{.scene = scene_choice(scene),
+                                     .technique = technique,
+                                     .size = size,
+                                     .view = view,
+                                     .device = device,
+                                     .settings = settings,
+                                     .samples = samples};
+    return watched(py::none(), [&](Watch&) { return draw(options, bits); });
+}
+
+// The same file as `dermis render -o PATH` writes.
+void write_rendered(const RenderedPicture& picture, const std::string& path) {
+    check(check_output(path, picture.file));
+    const bool linear = std::filesystem::path(path).extension() != ".png";
+    check(unlocked([&] {
+        return write_image(path, linear ? picture.linear : picture.display, picture_text(picture.file));
+    }));
+}
+
+// ---- reference
+// -----------------------------------------------------------------------------------------------
+
+struct TruePicture {
+    ReferencePicture picture;
+    PictureFacts facts;
+};
+
+// Options of the command line by their names; what is absent keeps its default.
+cli::ReferenceOptions options_of(const SceneArguments& scene, const py::dict& given) {
+    cli::ReferenceOptions options;
+    options.scene = scene_choice(scene);
+    take(options.size, given, "size");
+    take(options.integrator, given, "integrator");
+    take(options.profile, given, "profile");
+    take(options.medium, given, "medium");
+    take(options.normalisation, given, "normalisation");
+    take(options.cavities, given, "cavities");
+    take(options.filter, given, "filter");
+    take(options.shadows, given, "shadows");
+    take(options.ambient, given, "ambient");
+    take(options.specular, given, "specular");
+    take(options.samples, given, "samples");
+    take(options.probes, given, "probes");
+    take(options.seed, given, "seed");
+    take(options.noise, given, "noise");
+    take(options.width_scale, given, "width_scale");
+    take(options.penumbra_mm, given, "penumbra_mm");
+    return options;
+}
+
+TruePicture reference(const SceneArguments& scene, const py::dict& given, const py::object& progress) {
+    const cli::ReferenceOptions options = options_of(scene, given);
+    const ReferenceSettings settings = value_of(options.settings());
+    return watched(progress, [&](Watch& watch) -> Result<TruePicture> {
+        const Result<Scene> loaded = options.load_scene();
+        if (!loaded) return loaded.error();
+        Result<ReferencePicture> picture = render_reference(
+            *loaded, settings, [&](double done) { watch.report(done); }, &watch.stopped());
+        if (!picture) return picture.error();
+        return TruePicture{std::move(*picture), options.facts(settings, *loaded)};
+    });
+}
+
+// The same files as `dermis reference -o PATH --preview PREVIEW` writes.
+void write_true(const TruePicture& made, const std::string& path, const std::string& preview) {
+    check(try_picture_files(path, preview));
+    check(unlocked([&] {
+        return write_picture_file(path, made.facts, made.picture, described(made.facts, made.picture, false));
+    }));
+    if (!preview.empty())
+        check(unlocked([&] { return write_preview_file(preview, made.facts, made.picture); }));
+}
+
+py::array layer(const py::object& self, const std::string& name) {
+    const ReferencePicture& picture = self.cast<const TruePicture&>().picture;
+    const std::pair<std::string_view, const Image*> layers[] = {
+        {"radiance", &picture.radiance}, {"diffuse", &picture.diffuse}, {"specular", &picture.specular},
+        {"variance", &picture.variance}, {"samples", &picture.samples}, {"skin", &picture.skin}};
+    return view_of(
+        *std::ranges::find(layers, std::string_view(name), &std::pair<std::string_view, const Image*>::first)
+             ->second,
+        self);
+}
+
+}  // namespace
+
+void add_pictures(py::module_& module) {
+    py::class_<RenderedPicture>(module, "Picture")
+        .def_property_readonly("linear",
+                               [](const RenderedPicture& picture) { return array_of(picture.linear); })
+        .def_property_readonly(
+            "display",
+            [](const py::object& self) { return view_of(self.cast<const RenderedPicture&>().display, self); })
+        .def_property_readonly("credit", [](const RenderedPicture& picture) { return picture.file.credit; })
+        .def_readonly("technique", &RenderedPicture::technique)
+        .def_readonly("warnings", &RenderedPicture::warnings);
+    module.def("render", render);
+    module.def("write_rendered", write_rendered);
+    py::class_<TruePicture>(module, "ReferencePicture")
+        .def_property_readonly(
+            "description", [](const TruePicture& made) { return described(made.facts, made.picture, false); })
+        .def_property_readonly("credit", [](const TruePicture& made) { return made.facts.credit; })
+        .def_property_readonly("time_ms", [](const TruePicture& made) { return made.picture.time_ms; });
+    module.def("reference", reference);
+    module.def("reference_layer", layer);
+    module.def("write_reference", write_true);
+}
+
+}  // namespace dermis::python
