@@ -10,7 +10,6 @@
 #include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/skin_tone.h"
-#include "dermis/scene/load_scene.h"
 #include "techniques/preintegrated/constants.h"
 
 namespace dermis::cli {
@@ -92,8 +91,8 @@ Result<std::vector<WebTone>> make_tones(const Scene& scene) {
 
 }  // namespace
 
-Result<WebPage> make_web_page(const std::string& scene_name, const std::string& profile) {
-    Result<Scene> scene = load_scene(scene_name, {.subjects = built_in_catalog().subjects});
+Result<WebPage> make_web_page(const SceneChoice& choice, const std::string& profile) {
+    Result<Scene> scene = choice.load();
     if (!scene) return scene.error();
     if (!profile.empty()) scene->skin.profile = profile;
     if (const Result<void> completed = complete_scene(*scene); !completed) return completed.error();

@@ -4,11 +4,12 @@
 #include <string>
 
 #include "dermis/web/web.h"
+#include "scene_choice.h"
 
 namespace dermis::cli {
 
-/// `profile` replaces the scene's; empty: the scene's own. Errors as load_scene(), find_profile() and
+/// `profile` replaces the scene's; empty: the scene's own. Errors as SceneChoice::load(), find_profile() and
 /// dermis::make_web_page().
-[[nodiscard]] Result<WebPage> make_web_page(const std::string& scene_name, const std::string& profile);
+[[nodiscard]] Result<WebPage> make_web_page(const SceneChoice& choice, const std::string& profile);
 
 }  // namespace dermis::cli

@@ -23,9 +23,12 @@ struct Engine {
     };
     std::vector<SkinText> texts;
 
+    /// The end of the path of functions that are not printed; empty: all are.
+    std::string_view left_out = {};
+
     std::string_view license_path = "LICENSE";
     std::string_view picture_path = "picture.png";
-    std::string_view table_path = {};     ///< the diffuse table as EXR; empty: none
+    std::string_view table_path = {};     ///< the diffuse table, .exr or .dds; empty: none
     VOrigin v_origin = VOrigin::top;      ///< where the engine has v = 0 in a picture
     void (*add_words)(Words&) = nullptr;  ///< beyond the common ones
     /// What is made from the other files, as Unity's .meta.
@@ -40,6 +43,7 @@ struct Engine {
 inline constexpr int kTableWidth = 256, kTableHeight = 128;
 inline constexpr double kTableMaxCurvaturePerMm = 1;
 
+[[nodiscard]] Engine babylon();
 [[nodiscard]] Engine godot();
 [[nodiscard]] Engine three();
 [[nodiscard]] Engine unity();

@@ -51,7 +51,7 @@ using packages::Words;
 
 const std::vector<Engine>& engines() {
     static const std::vector<Engine> all = {packages::unity(), packages::unreal(), packages::godot(),
-                                            packages::three()};
+                                            packages::three(), packages::babylon()};
     return all;
 }
 
@@ -99,8 +99,10 @@ Words common_words(const Profile& profile) {
 }
 
 // packages/common: functions for the packages alone, which are printed with the skin's.
-std::vector<shading::Source> all_functions(const PackageInput& input) {
-    std::vector<shading::Source> sources(input.functions.begin(), input.functions.end());
+std::vector<shading::Source> functions_for(const Engine& engine, const PackageInput& input) {
+    std::vector<shading::Source> sources;
+    for (const shading::Source& source : input.functions)
+        if (engine.left_out.empty() || !source.path.ends_with(engine.left_out)) sources.push_back(source);
     for (const PackageTemplate& file : input.templates)
         if (file.path.starts_with("packages/common/") && file.path.ends_with(".glsl"))
             sources.push_back({file.path, file.text});
@@ -133,7 +135,7 @@ std::string javascript_constant(std::string_view name, std::string_view text) {
 
 Result<void> add_skin_texts(const Engine& engine, const PackageInput& input,
                             std::vector<PackageFile>& files) {
-    const std::vector<shading::Source> functions = all_functions(input);
+    const std::vector<shading::Source> functions = functions_for(engine, input);
     for (const Engine::SkinText& skin : engine.texts) {
         const Result<std::string> text = skin_text(input.profile, functions, skin.language);
         if (!text) return text.error();

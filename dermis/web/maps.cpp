@@ -51,6 +51,28 @@ class MapWriter {
     int side_;
 };
 
+constexpr std::string_view wrap_name(TextureWrap wrap) {
+    return wrap == TextureWrap::clamp ? "clamp" : wrap == TextureWrap::mirror ? "mirror" : "repeat";
+}
+
+// What the maps in one picture have beyond their edges, as names along u and v. Error: they differ.
+Result<nlohmann::json> wrap_of(const Material& material, std::span<const std::string_view> textures) {
+    nlohmann::json wrap;
+    for (const std::string_view texture : textures) {
+        const auto map = std::ranges::find(material_maps(), texture, &MaterialMap::texture);
+        const ImageSource* source = map_source(*map, material);
+        if (!source) continue;
+        const nlohmann::json found = {wrap_name(source->wrap_u), wrap_name(source->wrap_v)};
+        if (!wrap.is_null() && wrap != found)
+            return Error{
+                "material '" + material.name +
+                "': its maps of roughness, specular and occlusion are one picture on the page, but do "
+                "not wrap alike; give them the same wrap mode"};
+        wrap = found;
+    }
+    return wrap;
+}
+
 // Three channels of 8 bits; what is missing is 1.
 Image three_channels(const Image& image) {
     const Image bytes = image.format == PixelFormat::u8
@@ -84,30 +106,38 @@ Image packed(const std::array<Image, 3>& singles) {
 Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& material, const Mesh& mesh,
                                 const std::string& prefix, int map_side) {
     const MapWriter maps(material, mesh, map_side);
-    nlohmann::json made = nlohmann::json::object();
-    const auto add = [&](const std::string& name, const Image& image) -> Result<void> {
+    nlohmann::json made = {{"maps", nlohmann::json::object()}};
+    const auto add = [&](const std::string& name, const Image& image,
+                         std::span<const std::string_view> textures) -> Result<void> {
+        const Result<nlohmann::json> wrap = wrap_of(material, textures);
+        if (!wrap) return wrap.error();
+        if (*wrap != nlohmann::json{"repeat", "repeat"}) made["wraps"][name] = *wrap;
         Result<std::vector<std::byte>> jpeg = encode_jpeg(image, kQuality);
         if (!jpeg) return jpeg.error();
         const std::string path = "maps/" + prefix + "_" + name + ".jpg";
-        made[name] = path;
+        made["maps"][name] = path;
         files.push_back({path, std::move(*jpeg)});
         return {};
     };
     for (const std::string name : {"albedo", "normal"}) {
-        const Result<Image> image = maps.load(name + "_map");
+        const std::string texture = name + "_map";
+        const Result<Image> image = maps.load(texture);
         if (!image) return image.error();
         if (image->empty()) continue;
-        if (const Result<void> added = add(name, three_channels(*image)); !added) return added.error();
+        const std::string_view textures[] = {texture};
+        if (const Result<void> added = add(name, three_channels(*image), textures); !added)
+            return added.error();
     }
     std::array<Image, 3> singles;
-    const char* const names[] = {"roughness_map", "specular_map", "occlusion_map"};
+    constexpr std::string_view kTextures[] = {"roughness_map", "specular_map", "occlusion_map"};
     for (size_t i = 0; i < singles.size(); ++i) {
-        Result<Image> image = maps.load(names[i]);
+        Result<Image> image = maps.load(kTextures[i]);
         if (!image) return image.error();
         singles[i] = std::move(*image);
     }
     if (std::ranges::any_of(singles, [](const Image& image) { return !image.empty(); }))
-        if (const Result<void> added = add("surface", packed(singles)); !added) return added.error();
+        if (const Result<void> added = add("surface", packed(singles), kTextures); !added)
+            return added.error();
     return made;
 }
 

@@ -154,7 +154,7 @@ Result<json> object_json(const WebInput& input, size_t index, web::Binary& binar
             const std::string prefix = std::to_string(index) + "_" + std::to_string(number);
             Result<json> maps = web::add_maps(page.files, material, object.mesh, prefix, input.map_side);
             if (!maps) return maps.error();
-            materials[number]["maps"] = std::move(*maps);
+            materials[number].update(*maps);
         }
         json part = (*made)["parts"][i];
         part["material"] = materials[number];
@@ -204,6 +204,10 @@ bool has_skin(const Scene& scene) {
 
 Result<WebPage> make_web_page(const WebInput& input) {
     if (!has_skin(input.scene)) return Error{input.scene.name + " has no skin to show"};
+    if (input.scene.skin.specular_reduces_diffuse)
+        return Error{input.scene.name +
+                     ": skin.specular_reduces_diffuse is not drawn by the page; export with --scene "
+                     "skin.specular_reduces_diffuse=false"};
     if (input.tones.empty() || input.tones.size() > kMaxTones)
         return Error{"a page has 1 to " + std::to_string(kMaxTones) + " skins"};
     WebPage page;

@@ -42,8 +42,12 @@ function createTexture(gl, target, filter, wrap) {
   return texture;
 }
 
-export function mapTexture(gl, image, isColor) {
+// `wrap`: what the map has beyond its edges along u and v.
+export function mapTexture(gl, image, isColor, wrap) {
   const texture = createTexture(gl, gl.TEXTURE_2D, gl.LINEAR_MIPMAP_LINEAR, gl.REPEAT);
+  const modes = { repeat: gl.REPEAT, clamp: gl.CLAMP_TO_EDGE, mirror: gl.MIRRORED_REPEAT };
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, modes[wrap[0]]);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, modes[wrap[1]]);
   gl.texImage2D(gl.TEXTURE_2D, 0, isColor ? gl.SRGB8_ALPHA8 : gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, image);
   gl.generateMipmap(gl.TEXTURE_2D);
   const anisotropy = gl.getExtension("EXT_texture_filter_anisotropic");

@@ -14,6 +14,25 @@ vec3 shadow_map_position(vec3 p) {
     return clip.xyz * 0.5 + 0.5;
 }
 
+// The disk of a filtered shadow, in the shadow map.
+struct ShadowDisk {
+    vec3 center, axis_x, axis_y;
+    vec3 lift;          // a millimetre along the normal
+    vec3 concavity_mm;  // lift of x^2, y^2, xy
+};
+
+float taps_lit(ShadowDisk disk, int first, int end) {
+    float lit = 0.0;
+    for (int i = first; i < end; ++i) {
+        float angle = float(i) * kGoldenAngle;
+        vec2 v = sqrt((float(i) + 0.5) / float(kShadowTaps)) * vec2(cos(angle), sin(angle));
+        vec3 tap = disk.center + v.x * disk.axis_x + v.y * disk.axis_y +
+                   dot(disk.concavity_mm, vec3(v * v, v.x * v.y)) * disk.lift;
+        lit += texture(shadow_map, vec3(tap.xy, min(tap.z, 1.0)));
+    }
+    return lit;
+}
+
 // Share of a disk, `width_mm` across, that sees the light. The disk lies in the tangent plane, round as the light sees it; at
 // grazing light, where it would be endless, the lookup is lifted.
 float shadow_visibility(vec3 p, vec3 n, vec3 to_light, float width_mm) {
@@ -27,17 +46,13 @@ float shadow_visibility(vec3 p, vec3 n, vec3 to_light, float width_mm) {
     y = radius_mm * (y - slope.y * to_light);
     float lift_mm = max(1.5 * shadow_texel_mm, kShadowFacetLift * radius_mm) + lacking * min(radius_mm, 0.5 * penumbra_mm);
     vec3 origin_mm = p + lift_mm * n, center = shadow_map_position(origin_mm);
-    vec3 axis_x = shadow_map_position(origin_mm + x) - center, axis_y = shadow_map_position(origin_mm + y) - center;
-    vec3 lift = shadow_map_position(origin_mm + n) - center;
-    vec3 concavity_mm = 0.5 * kShadowConcavity / radius_mm * vec3(dot(x, x), dot(y, y), 2.0 * dot(x, y));
-    float lit = 0.0;
-    for (int i = 0; i < kShadowTaps; ++i) {
-        float angle = float(i) * kGoldenAngle;
-        vec2 v = sqrt((float(i) + 0.5) / float(kShadowTaps)) * vec2(cos(angle), sin(angle));
-        vec3 tap = center + v.x * axis_x + v.y * axis_y + dot(concavity_mm, vec3(v * v, v.x * v.y)) * lift;
-        lit += texture(shadow_map, vec3(tap.xy, min(tap.z, 1.0)));
-    }
-    return lit / float(kShadowTaps);
+    ShadowDisk disk = ShadowDisk(center, shadow_map_position(origin_mm + x) - center, shadow_map_position(origin_mm + y) - center,
+                                 shadow_map_position(origin_mm + n) - center,
+                                 0.5 * kShadowConcavity / radius_mm * vec3(dot(x, x), dot(y, y), 2.0 * dot(x, y)));
+    // The outermost taps first: where they agree the others are not read (shaders/include/shadow.glsl).
+    float outer = taps_lit(disk, kShadowTaps - kShadowOuterTaps, kShadowTaps);
+    if (outer == 0.0 || outer == float(kShadowOuterTaps)) return outer / float(kShadowOuterTaps);
+    return (outer + taps_lit(disk, 0, kShadowTaps - kShadowOuterTaps)) / float(kShadowTaps);
 }
 
 vec3 to_environment(vec3 d) {

@@ -23,9 +23,10 @@ async function loadMaps(gl, objects) {
   const paths = new Map();
   for (const object of objects)
     for (const part of object.parts)
-      for (const [name, path] of Object.entries(part.material.maps)) paths.set(path, name);
-  const textures = await Promise.all([...paths].map(async ([path, name]) =>
-    [path, gpu.mapTexture(gl, await load.image(path), name === "albedo")]));
+      for (const [name, path] of Object.entries(part.material.maps))
+        paths.set(path, { isColor: name === "albedo", wrap: part.material.wraps?.[name] ?? ["repeat", "repeat"] });
+  const textures = await Promise.all([...paths].map(async ([path, { isColor, wrap }]) =>
+    [path, gpu.mapTexture(gl, await load.image(path), isColor, wrap)]));
   return new Map(textures);
 }
 

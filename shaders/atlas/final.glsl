@@ -66,18 +66,18 @@ vec3 scattered_exitance(texture2D map, texture2D map_lit, Surface s, vec3 direct
 // have normals that differ little; opposite walls of a thin part have opposite ones. On the dark side of
 // spheres of 4 mm blur and transmission then come to 0.65 (texture_space) and 0.86 (Gaussians) times the integral, of 2 mm to
 // 1.05 and 1.11, where a point that counts in full wherever it is would come to 1.3 to 2.
-float part_not_counted(Surface s, LitPoint lit) {
-    float turned = turned_away(s, lit);
+float part_not_counted(LightMap map, LitPoint lit) {
+    float turned = turned_away(map, lit);
     return turned * turned;
 }
 
-// `passing`: what arrives of the light past opaque and translucent surfaces.
+// transmitted_part(). `passing`: what arrives of the light past opaque and translucent surfaces.
 vec3 transmitted_past(Surface s, int i, LightSample light, vec3 passing) {
     if (transmission == kTransmissionNone) return vec3(0.0);
     float n_dot_l = max(dot(s.n_world, light.to_light_world), 0.0), visibility = passing.r;
     if (tinted_shadows != 0 && n_dot_l > 0.0)
         visibility = light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm).visibility;
-    return transmitted_exitance(s, i, light, n_dot_l, visibility, -1.0);
+    return transmitted_part(s, i, light.to_light_world, n_dot_l, visibility, -1.0);
 }
 
 // What the lights give a pixel; shadows are looked up once for all of it.
@@ -87,17 +87,42 @@ struct PixelLight {
     vec3 key_passing;
 };
 
-PixelLight light_pixel(Surface s) {
+// What the taps in the light's maps give: they need geometry and normal alone.
+struct Arrival {
+    LightSample light;
+    vec3 passing, transmitted;
+};
+
+Arrival arrival(Surface s, int i) {
+    LightSample light = sample_light(i, s.p_world_mm);
+    // Skin that faces away takes in and reflects nothing, whatever is before it.
+    bool faces = dot(s.n_world, light.to_light_world) > 0.0;
+    vec3 arriving = faces ? passing(s, i, light.to_light_world) : vec3(0.0);
+    return Arrival(light, arriving, transmitted_past(s, i, light, arriving));
+}
+
+// Loads the surface too, after the taps of the one light.
+PixelLight light_pixel(out Surface s) {
+    s = load_geometry();
+    load_normal(s);
+    Arrival first;
+    if (one_light != 0) first = arrival(s, 0);
+    load_material(s);
+    load_albedo(s);
     PixelLight sum = PixelLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0));
     [[unroll]] for (int i = 0; i < light_count; ++i) {
-        LightSample light = sample_light(i, s.p_world_mm);
+        Arrival now;
+        if (one_light != 0)
+            now = first;
+        else
+            now = arrival(s, i);
+        LightSample light = now.light;
+        vec3 arriving = now.passing;
         float n_dot_l = dot(s.n_world, light.to_light_world);
-        // Skin that faces away takes in and reflects nothing, whatever is before it.
-        vec3 arriving = n_dot_l > 0.0 ? passing(s, i, light.to_light_world) : vec3(0.0);
         vec3 specular = light.irradiance_linear *
                         specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
         sum.direct += light.irradiance_linear * max(n_dot_l, 0.0) * diffuse_entry(s, n_dot_l) * shadow_factor(arriving);
-        sum.transmitted += transmitted_past(s, i, light, arriving);
+        sum.transmitted += light.irradiance_linear * s.occlusion * now.transmitted;
         if (i == key_light) {
             sum.key_specular = specular;
             sum.key_passing = arriving;

@@ -40,8 +40,7 @@ vec3 direct_exitance(Surface s) {
 
 void main() {
     Surface s = load_surface();
-    s.n_mean_world = mean_normal_world(s.n_geometry_world, s.uv, levels_to_the_pixel(s));
-    s.n_world = normalize(s.n_mean_world);
+    load_normal(s, levels_to_the_pixel(s));
     float kernel_size = texture(kernel_size_map, s.uv).r;
     vec3 exitance = unblurred_exitance(s, direct_exitance(s)).of_mean;
     if (pre_scatter > 0.0) exitance *= pow(s.albedo_linear, vec3(pre_scatter));

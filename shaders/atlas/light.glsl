@@ -35,7 +35,7 @@ struct Exitance {
 // Exitance over albedo; `direct` is that of the lights, by the shading normal.
 Exitance unblurred_exitance(Surface s, vec3 direct) {
     return Exitance(environment_irradiance(s.n_world) * s.occlusion + direct,
-                    environment_irradiance(s.n_mean_world) * s.occlusion + direct * length(s.n_mean_world));
+                    environment_irradiance(s.n_mean_length * s.n_world) * s.occlusion + direct * s.n_mean_length);
 }
 
 #endif

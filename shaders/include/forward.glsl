@@ -21,9 +21,10 @@
 
 layout(location = 0) out vec4 radiance_out;
 
-// With DERMIS_PREPARE_SURFACE defined: called once before anything else, to change the surface and to compute what does
-// not depend on the light.
+// With DERMIS_PREPARE_SURFACE defined: called once before anything that needs the geometry, or the material, to change it and
+// to compute what does not depend on the light.
 #ifdef DERMIS_PREPARE_SURFACE
+void prepare_geometry(Surface s);
 void prepare_surface(inout Surface s);
 #endif
 
@@ -36,7 +37,7 @@ vec3 own_view(Surface s);
 // All light that comes through the skin is gathered, and counts where it is more than the technique's own. Left out is
 // what faces as the point itself does, which at grazing light the shadow map's texels are too coarse for.
 const float kOwnSide = 0.15;
-float part_not_counted(Surface s, LitPoint lit) { return smoothstep(0.0, kOwnSide, turned_away(s, lit)); }
+float part_not_counted(LightMap map, LitPoint lit) { return smoothstep(0.0, kOwnSide, turned_away(map, lit)); }
 
 // With DERMIS_OWN_BODY defined: the light's way through the body that the technique's own model has light through.
 #ifdef DERMIS_OWN_BODY
@@ -67,8 +68,36 @@ vec3 entered_part(Surface s, vec3 to_light_world) {
 #endif
 }
 
+// What the taps in the light's maps give. They need the geometry alone.
+struct Arrival {
+    LightSample light;  // past translucent surfaces
+    float visibility;   // past opaque ones
+    vec3 transmitted;   // transmitted_part()
+};
+
+Arrival arrival(Surface s, int i) {
+    LightSample light = sample_light(i, s.p_world_mm);
+    LightThrough through =
+        light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, DERMIS_SHADOW_WIDTH_MM);
+    light.irradiance_linear *= through.tint;
+    Arrival a = Arrival(light, through.visibility, vec3(0.0));
+#ifdef DERMIS_TRANSMISSION
+    float n_dot_l = dot(s.n_geometry_world, light.to_light_world), way_mm = own_way_mm(s, light.to_light_world);
+    a.transmitted = transmitted_part(s, i, light.to_light_world, n_dot_l, a.visibility, way_mm);
+#endif
+    return a;
+}
+
 void main() {
-    Surface s = load_surface();
+    Surface s = load_geometry();
+#ifdef DERMIS_PREPARE_SURFACE
+    prepare_geometry(s);
+#endif
+    // The taps of the one light come before the material is read. Those of several are in the loop.
+    Arrival first;
+    if (one_light != 0) first = arrival(s, 0);
+    load_normal(s);
+    load_material(s);
 #ifdef DERMIS_PREPARE_SURFACE
     prepare_surface(s);
 #endif
@@ -80,22 +109,23 @@ void main() {
     vec3 specular_radiance =
         reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     [[unroll]] for (int i = 0; i < light_count; ++i) {
-        LightSample light = sample_light(i, s.p_world_mm);
-        LightThrough through =
-            light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, DERMIS_SHADOW_WIDTH_MM);
-        float visibility = through.visibility;
-        light.irradiance_linear *= through.tint;
-        vec3 response = direct_response(s, light.to_light_world, visibility);
+        Arrival arriving;
+        if (one_light != 0)
+            arriving = first;
+        else
+            arriving = arrival(s, i);
+        LightSample light = arriving.light;
+        vec3 response = direct_response(s, light.to_light_world, arriving.visibility);
         vec3 direct = light.irradiance_linear * entered_part(s, light.to_light_world) * response;
 #ifdef DERMIS_TRANSMISSION
         // Both are estimates of the same integral; each misses light where the other is right.
-        float n_dot_l = dot(s.n_geometry_world, light.to_light_world), way_mm = own_way_mm(s, light.to_light_world);
-        direct = max(direct, transmitted_exitance(s, i, light, n_dot_l, visibility, way_mm));
+        direct = max(direct, light.irradiance_linear * s.occlusion * arriving.transmitted);
 #endif
         exitance += direct;
-        specular_radiance += light.irradiance_linear * visibility *
+        specular_radiance += light.irradiance_linear * arriving.visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
+    load_albedo(s);
     vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, own_radiance), 1.0);
 }

@@ -48,7 +48,7 @@ struct Surface {
     vec3 p_world_mm;
     vec3 n_geometry_world;  // interpolated, without the normal map
     vec3 n_world;
-    vec3 n_mean_world;      // of the normal map over the pixel, shorter than 1 where its normals differ
+    float n_mean_length;    // of the mean of the normal map's normals over the pixel: below 1 where they differ
     vec3 to_eye_world;
     vec2 uv;
     vec3 albedo_linear;
@@ -86,24 +86,47 @@ vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
     return n.x * t + n.y * b + n.z * n_geometry_world;
 }
 
-Surface load_surface() {
+// What the vertices give. A shader whose taps need no more makes them before it loads the rest, and loads the albedo last:
+// registers that hold what comes later are not there for the taps.
+Surface load_geometry() {
     Surface s;
     s.p_world_mm = p_world_mm_in;
     s.n_geometry_world = normalize(n_world_in);
-    s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
     s.uv = uv_in;
-    s.n_mean_world = mean_normal_world(s.n_geometry_world, uv_in, 0.0);
-    s.n_world = normalize(s.n_mean_world);
-    s.albedo_linear =
-        albedo_linear * color_linear_in.rgb * (has_albedo_map != 0 ? texture(albedo_map, uv_in).rgb : vec3(1.0));
-    s.roughness = clamp(roughness * (has_roughness_map != 0 ? texture(roughness_map, uv_in).r : 1.0), 0.03, 1.0);
-    s.f0 = f0 * specular * (has_specular_map != 0 ? texture(specular_map, uv_in).r : 1.0);
-    // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
-    s.occlusion = min(occlusion_in, has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
     s.occlusion_vertex = occlusion_in;
     s.occlusion_blurred = occlusion_blurred_in;
     s.curvature_diagonal_per_mm = curvature_diagonal_per_mm_in;
     s.curvature_mixed_per_mm = curvature_mixed_per_mm_in;
+    return s;
+}
+
+// `lod_bias`: of the normal map.
+void load_normal(inout Surface s, float lod_bias) {
+    vec3 n_mean_world = mean_normal_world(s.n_geometry_world, uv_in, lod_bias);
+    s.n_mean_length = length(n_mean_world);
+    s.n_world = n_mean_world / s.n_mean_length;
+}
+void load_normal(inout Surface s) { load_normal(s, 0.0); }
+
+void load_albedo(inout Surface s) {
+    s.albedo_linear =
+        albedo_linear * color_linear_in.rgb * (has_albedo_map != 0 ? texture(albedo_map, uv_in).rgb : vec3(1.0));
+}
+
+// All but normal and albedo.
+void load_material(inout Surface s) {
+    s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
+    s.roughness = clamp(roughness * (has_roughness_map != 0 ? texture(roughness_map, uv_in).r : 1.0), 0.03, 1.0);
+    s.f0 = f0 * specular * (has_specular_map != 0 ? texture(specular_map, uv_in).r : 1.0);
+    // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
+    s.occlusion = min(occlusion_in, has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
+}
+
+Surface load_surface() {
+    Surface s = load_geometry();
+    load_normal(s);
+    load_material(s);
+    load_albedo(s);
     return s;
 }
 

@@ -9,7 +9,7 @@
 //
 // The includer says which lit points its own blur or model has left out, so that no light is counted twice:
 //
-//     float part_not_counted(Surface s, LitPoint lit);
+//     float part_not_counted(LightMap map, LitPoint lit);
 #ifndef DERMIS_TRANSMISSION_GLSL
 #define DERMIS_TRANSMISSION_GLSL
 
@@ -43,26 +43,34 @@ const float kTexelRise = 0.7, kSteepest = 12.0, kSlopesAway = 4.0;
 // Where a surface takes in more of the light than this, what comes through the skin is not added.
 const float kDark = 0.3;
 
-// The light's shadow map around the point that is shaded.
+// The light's shadow map around the point that is shaded. Lengths are parts of the profile's reach.
 struct LightMap {
     int index;
+    float reach_mm;
     vec3 to_light_world, x_world, y_world;
-    vec3 here;            // the point in the map
-    vec2 axis_x, axis_y;  // a millimetre along x_world and y_world in the map
-    vec2 texels;
-    vec2 slope_x, slope_y;  // of a surface along x_world and y_world, for a difference between two texels of the map
-    float mm_per_z;
+    vec3 n_in_light;      // the point's geometric normal along x_world, y_world and to_light_world
+    vec3 here;            // the point in the map, in texels, and its depth
+    vec2 axis_x, axis_y;  // the reach along x_world and y_world, in texels
+    vec2 texel;           // its size in texture coordinates
+    float reaches_per_z;
     bool valid;  // false behind a light, and beside the triangle where a driver loads nothing for such pixels
 };
 
 // Cosine to the normal from which on a lit point is of another wall.
 const float kOtherWall = 0.5;
 
+// Along x_world, y_world and to_light_world of the light's map.
 struct LitPoint {
-    vec3 p_world_mm, n_world;
+    vec3 offset;  // from the point that is shaded, over the reach
+    vec3 n;
 };
 
-float part_not_counted(Surface s, LitPoint lit);
+float part_not_counted(LightMap map, LitPoint lit);
+
+vec3 along_axes(LightMap map, vec3 v_world) {
+    return vec3(dot(v_world, map.x_world), dot(v_world, map.y_world), dot(v_world, map.to_light_world));
+}
+vec3 to_world(LightMap map, vec3 v) { return v.x * map.x_world + v.y * map.y_world + v.z * map.to_light_world; }
 
 vec2 map_texels(int map_index) {
     if (shadow_map_count == 1 || map_index == 0) return vec2(textureSize(sampler2D(shadow_map, nearest_clamp), 0));
@@ -76,24 +84,25 @@ vec3 in_light_map(mat4 light_from_world, vec4 here_clip, vec3 axis_world) {
     return (d.xyz - here_clip.xyz * (d.w / here_clip.w)) / here_clip.w * vec3(0.5, 0.5, 1.0);
 }
 
-LightMap light_map_around(int light, vec3 p_mm, vec3 to_light_world) {
+LightMap light_map_around(int light, vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, float reach_mm) {
     vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     mat4 light_from_world = lights[light].light_view_projection;
     LightMap map;
     map.index = lights[light].shadow_map_index;
+    map.reach_mm = reach_mm;
     map.to_light_world = to_light_world;
     map.x_world = normalize(cross(up, to_light_world));
     map.y_world = cross(to_light_world, map.x_world);
+    map.n_in_light = along_axes(map, n_geometry_world);
     vec4 here_clip = light_from_world * vec4(p_mm, 1.0);
     map.valid = here_clip.w > 0.0;
     if (!map.valid) here_clip = vec4(0.0, 0.0, 0.0, 1.0);
-    map.here = here_clip.xyz / here_clip.w * vec3(0.5, 0.5, 1.0) + vec3(0.5, 0.5, 0.0);
-    map.axis_x = in_light_map(light_from_world, here_clip, map.x_world).xy;
-    map.axis_y = in_light_map(light_from_world, here_clip, map.y_world).xy;
-    map.mm_per_z = -1.0 / in_light_map(light_from_world, here_clip, to_light_world).z;
-    map.texels = map_texels(map.index);
-    map.slope_x = 0.5 * map.mm_per_z * map.texels * map.axis_x;
-    map.slope_y = 0.5 * map.mm_per_z * map.texels * map.axis_y;
+    vec2 texels = map_texels(map.index);
+    map.texel = 1.0 / texels;
+    map.here = (here_clip.xyz / here_clip.w * vec3(0.5, 0.5, 1.0) + vec3(0.5, 0.5, 0.0)) * vec3(texels, 1.0);
+    map.axis_x = reach_mm * texels * in_light_map(light_from_world, here_clip, map.x_world).xy;
+    map.axis_y = reach_mm * texels * in_light_map(light_from_world, here_clip, map.y_world).xy;
+    map.reaches_per_z = -1.0 / (reach_mm * in_light_map(light_from_world, here_clip, to_light_world).z);
     return map;
 }
 
@@ -111,20 +120,19 @@ vec4 lit_skin_z4(int map_index, vec2 map_uv) {
 }
 
 // The depth of the nearest of the four, without reading it again.
-float nearest_of(LightMap map, vec2 map_uv, vec4 z) {
-    vec2 f = fract(map_uv * map.texels - 0.5);
+float nearest_of(vec2 place_texels, vec4 z) {
+    vec2 f = fract(place_texels - 0.5);
     return f.x < 0.5 ? (f.y < 0.5 ? z.w : z.x) : (f.y < 0.5 ? z.z : z.y);
 }
 
-// From the depths of the four texels around it.
-vec3 lit_normal_world(LightMap map, vec4 z) {
+// From the depths of the four texels around it: a difference between two of them over the way between them.
+vec3 lit_normal(LightMap map, vec4 z) {
     vec2 across = vec2(z.y - z.x + z.z - z.w, z.x - z.w + z.y - z.z);
-    return normalize(map.to_light_world + dot(across, map.slope_x) * map.x_world +
-                     dot(across, map.slope_y) * map.y_world);
+    return normalize(vec3(0.5 * map.reaches_per_z * vec2(dot(across, map.axis_x), dot(across, map.axis_y)), 1.0));
 }
 
 // 0 where the lit point faces as the point that it shines on does, 1 where it faces the other way, as an opposite wall.
-float turned_away(Surface s, LitPoint lit) { return 0.5 - 0.5 * dot(s.n_geometry_world, lit.n_world); }
+float turned_away(LightMap map, LitPoint lit) { return 0.5 - 0.5 * dot(map.n_in_light, lit.n); }
 
 #ifndef DERMIS_TRANSMISSION_EXPRESSION
 uniform texture2D skin_transmission;  // distance from 0 to the reach, read without interpolation; the reach in alpha
@@ -137,74 +145,73 @@ vec3 transmission_profile(float distance_over_reach) { return transmission_texel
 float transmission_reach() { return transmission_texel(0.0).a; }
 #endif
 
-// Sum over the four pixels of a quad. All four must come here together.
-vec4 sum_of_quad(vec4 v) {
-    vec2 side = 1.0 - 2.0 * mod(floor(gl_FragCoord.xy), 2.0);
-    vec4 pair = 2.0 * v + side.x * dFdxFine(v);
-    return 2.0 * pair + side.y * dFdyFine(pair);
+// Sum over the four pixels of a quad, numbered from 0, row by row. All four must come here together.
+vec4 sum_of_quad(int lane, vec4 v) {
+    vec4 across = dFdxFine(v), pair = 2.0 * v + ((lane & 1) != 0 ? -across : across), down = dFdyFine(pair);
+    return 2.0 * pair + ((lane & 2) != 0 ? -down : down);
 }
 
 // Taps are in rings at even steps of radius, which is closer than even cover where R is large; each counts for its
 // ring's area, and they are turned from quad to quad: noise instead of bands. What of it lies off the tangent plane adds
 // to the integral of R.
-vec3 gathered_light(Surface s, LightMap map, float reach_mm, bool needed) {
+vec3 gathered_light(LightMap map, bool needed) {
     // One decision for all four pixels of a quad. Those beside the triangle are no part of the picture: they take none.
-    bool together = length(dFdxCoarse(s.p_world_mm)) + length(dFdyCoarse(s.p_world_mm)) < 2.0 * kSharedStep * reach_mm;
+    bool together =
+        length(dFdxCoarse(p_world_mm_in)) + length(dFdyCoarse(p_world_mm_in)) < 2.0 * kSharedStep * map.reach_mm;
     ivec2 in_quad = ivec2(gl_FragCoord.xy) & 1;
     int lane = in_quad.x + 2 * in_quad.y;
     vec4 drawn = vec4(equal(ivec4(lane), ivec4(0, 1, 2, 3))) * float(map.valid);
-    bool any_needs = sum_of_quad(vec4(needed && map.valid)).x > 0.5;
-    drawn = sum_of_quad(drawn);
+    bool any_needs = sum_of_quad(lane, vec4(needed && map.valid)).x > 0.5;
+    drawn = sum_of_quad(lane, drawn);
     float stride = together ? dot(drawn, vec4(1.0)) : 2.0;
     float first = together ? dot(drawn, vec4(lessThan(ivec4(0, 1, 2, 3), ivec4(lane)))) : 0.0;
-    float end = any_needs && map.valid ? float(kTransmissionTaps) : 0.0;
-    float ring_mm = kWidestRing * reach_mm / float(kTransmissionTaps);
     float turn = pixel_turn(together ? floor(0.5 * gl_FragCoord.xy) : gl_FragCoord.xy) + first * kGoldenAngle;
     float step_angle = stride * kGoldenAngle;
     vec2 direction = vec2(cos(turn), sin(turn)), step = vec2(cos(step_angle), sin(step_angle));
+    const float kRing = kWidestRing / float(kTransmissionTaps);
     vec3 light = vec3(0.0), behind = vec3(0.0);
-    for (float i = first; i < end; i += stride) {
-        float radius_mm = (i + 0.5) * ring_mm;
-        vec2 across_mm = radius_mm * direction;
-        direction = vec2(direction.x * step.x - direction.y * step.y, direction.x * step.y + direction.y * step.x);
-        vec2 map_uv = map.here.xy + across_mm.x * map.axis_x + across_mm.y * map.axis_y;
-        vec4 z4 = lit_skin_z4(map.index, map_uv);
-        float z = nearest_of(map, map_uv, z4);
-        vec3 offset_mm = across_mm.x * map.x_world + across_mm.y * map.y_world +
-                         (map.here.z - z) * map.mm_per_z * map.to_light_world;
-        float distance_mm = length(offset_mm);
-        LitPoint lit = LitPoint(s.p_world_mm + offset_mm, lit_normal_world(map, z4));
-        float weight = z == 1.0 ? 0.0 : radius_mm * part_not_counted(s, lit);  // 1: no lit skin
-        vec3 r = weight * transmission_profile(distance_mm / reach_mm);
-        light += r;
-        behind += r * smoothstep(0.0, kOtherWall, abs(dot(s.n_geometry_world, offset_mm)) / max(distance_mm, 1e-6));
+    if (any_needs && map.valid) {
+        for (float i = first; i < float(kTransmissionTaps); i += stride) {
+            float radius = (i + 0.5) * kRing;
+            vec2 across = radius * direction;
+            direction = vec2(direction.x * step.x - direction.y * step.y, direction.x * step.y + direction.y * step.x);
+            vec2 place_texels = map.here.xy + across.x * map.axis_x + across.y * map.axis_y;
+            vec4 z4 = lit_skin_z4(map.index, place_texels * map.texel);
+            float z = nearest_of(place_texels, z4);
+            LitPoint lit = LitPoint(vec3(across, (map.here.z - z) * map.reaches_per_z), lit_normal(map, z4));
+            float way = length(lit.offset);
+            float weight = z == 1.0 ? 0.0 : radius * part_not_counted(map, lit);  // 1: no lit skin
+            vec3 r = weight * transmission_profile(way);
+            light += r;
+            behind += r * smoothstep(0.0, kOtherWall, abs(dot(map.n_in_light, lit.offset)) / max(way, 1e-9));
+        }
     }
-    float ring = 2.0 * kPi * ring_mm * (together ? 1.0 : stride);
+    float ring_mm2 = 2.0 * kPi * kRing * map.reach_mm * map.reach_mm * (together ? 1.0 : stride);
     if (together) {
-        light = sum_of_quad(vec4(light, 0.0)).rgb;
-        behind = sum_of_quad(vec4(behind, 0.0)).rgb;
+        light = sum_of_quad(lane, vec4(light, 0.0)).rgb;
+        behind = sum_of_quad(lane, vec4(behind, 0.0)).rgb;
     }
-    // In a crease, between lips or lids, there is more skin around a point than flat skin has. It is unlit, so that the
-    // taps do not find it: the occlusion says how much.
-    return s.occlusion * light * ring / (1.0 + behind * ring);
+    return light * ring_mm2 / (1.0 + behind * ring_mm2);
 }
 
 // Of the light's way through the body that the includer's own model takes the skin for: past the first nothing is
 // gathered.
 const float kOwnBody = 0.9, kOtherBody = 0.5;
 
-// Exitance over albedo. own_way_mm is the light's way through the body that the includer's own model has light through,
+// Exitance over albedo, over the light's irradiance and over Surface::occlusion, which the includer multiplies by: in a crease, between lips or lids,
+// there is more skin around a point than flat skin has. It is unlit, so that the taps do not find it: the occlusion says
+// how much. Of the surface load_geometry() is enough. own_way_mm is the light's way through the body that the includer's own model has light through,
 // as far as the light is visible; below 0 for none. Where no lit skin is near along the light, as on most of a head's
 // dark side, one tap is all.
-vec3 transmitted_exitance(Surface s, int light, LightSample arriving, float n_dot_l, float visibility,
-                          float own_way_mm) {
+vec3 transmitted_part(Surface s, int light, vec3 to_light_world, float n_dot_l, float visibility, float own_way_mm) {
     if (transmission == kTransmissionNone) return vec3(0.0);
     float lit = max(n_dot_l, 0.0) * visibility;
-    LightMap map = light_map_around(light, s.p_world_mm, arriving.to_light_world);
     float reach_mm = transmission_reach();
-    float depth_mm = (map.here.z - shadow_z(map.index, map.here.xy)) * map.mm_per_z;
+    LightMap map = light_map_around(light, s.p_world_mm, s.n_geometry_world, to_light_world, reach_mm);
+    vec3 here = vec3(map.here.xy * map.texel, map.here.z);
+    float depth_mm = (here.z - shadow_z(map.index, here.xy)) * map.reaches_per_z * reach_mm;
     // The map's texel may be of the point's own surface: where that slopes, nearer to the light by its rise.
-    float cosine = dot(s.n_geometry_world, arriving.to_light_world);
+    float cosine = dot(s.n_geometry_world, to_light_world);
     float slope = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(max(cosine, -kSlopesAway * cosine), 1e-3);
     float rise_mm = kTexelRise * shadow_texel_mm * min(slope, kSteepest);
     float part = smoothstep(kThinnest * reach_mm, 4.0 * kThinnest * reach_mm, depth_mm - rise_mm) *
@@ -213,9 +220,9 @@ vec3 transmitted_exitance(Surface s, int light, LightSample arriving, float n_do
         float own = (depth_mm - kOtherBody * own_way_mm) / max((kOwnBody - kOtherBody) * own_way_mm, 1e-4);
         part *= 1.0 - visibility * clamp(own, 0.0, 1.0);
     }
-    if (!map.valid || map.index < 0 || outside_shadow_map(map.here)) part = 0.0;
+    if (!map.valid || map.index < 0 || outside_shadow_map(here)) part = 0.0;
     // No return before it: it is for all pixels of a quad, or none.
-    return part * arriving.irradiance_linear * gathered_light(s, map, reach_mm, part > 0.0);
+    return part * gathered_light(map, part > 0.0);
 }
 
 #endif

@@ -44,8 +44,9 @@ bool read_blurred(vec3 p_world_mm, out vec3 exitance, out float key_visibility) 
 float pixel_mm;
 const float kFacesAway = 0.3;  // cosine
 
-float part_not_counted(Surface s, LitPoint lit) {
-    vec4 p_clip = view_projection * vec4(lit.p_world_mm, 1.0);
+float part_not_counted(LightMap map, LitPoint lit) {
+    vec3 p_world_mm = p_world_mm_in + to_world(map, map.reach_mm * lit.offset);
+    vec4 p_clip = view_projection * vec4(p_world_mm, 1.0);
     ivec2 size = textureSize(sampler2D(skin_z, nearest_clamp), 0);
     ivec2 pixel = ivec2(floor((p_clip.xy / p_clip.w * 0.5 + 0.5) * vec2(size)));
     bool outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size));
@@ -54,34 +55,39 @@ float part_not_counted(Surface s, LitPoint lit) {
     // Past the border of the picture the blur takes the light to go on as it is inside.
     float hidden = z_mm == 0.0 ? float(!outside) : smoothstep(margin_mm, 2.0 * margin_mm, p_clip.w - z_mm);
     if (hidden == 1.0) return 1.0;
-    float away = dot(lit.n_world, normalize(lit.p_world_mm - eye_world_mm));
+    float away = dot(to_world(map, lit.n), normalize(p_world_mm - eye_world_mm));
     return max(hidden, smoothstep(0.0, kFacesAway, away));
 }
 
 void main() {
-    Surface s = load_surface();
+    Surface s = load_geometry();
+    load_normal(s);
+    load_material(s);
     pixel_mm = length(fwidth(s.p_world_mm));
     vec3 exitance;
     float key_visibility;
     if (!read_blurred(s.p_world_mm, exitance, key_visibility)) exitance = unblurred_exitance(s, key_visibility);
-    vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
+    vec3 specular_radiance = vec3(0.0);
     [[unroll]] for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(i, s.p_world_mm);
-        vec3 arriving = light.irradiance_linear;
         float visibility = key_visibility;
+        vec3 tint = vec3(1.0);
         // The first pass stored the key light's visibility, but not the tint of its shadow.
-        if (i == key_light && tinted_shadows == 0) {
-            arriving *= key_visibility;
-        } else {
+        if (i != key_light || tinted_shadows != 0) {
             LightThrough through =
                 light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
-            arriving *= through.visibility * through.tint;
+            tint = through.tint;
             visibility = through.visibility;
         }
-        exitance += transmitted_exitance(s, i, light, dot(s.n_world, light.to_light_world), visibility, -1.0);
-        specular_radiance += arriving *
+        // Before the reflection, so that less is live during its taps.
+        vec3 transmitted =
+            transmitted_part(s, i, light.to_light_world, dot(s.n_world, light.to_light_world), visibility, -1.0);
+        exitance += light.irradiance_linear * (s.occlusion * transmitted);
+        specular_radiance += light.irradiance_linear * visibility * tint *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
+    specular_radiance += reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
+    load_albedo(s);
     vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);
 }

@@ -51,11 +51,14 @@ layout(constant_id = 5) const int normals = kNormalsBlended;
 layout(constant_id = 6) const int ambient = kAmbientLut;
 
 uniform sampler2D curvature_map;
-// Set by prepare_surface(); the same for every light.
+// Set by prepare_geometry() and prepare_surface(); the same for every light.
 vec3 skin_diagonal_per_mm, skin_mixed_per_mm;  // the curvature tensor
 float curvature_around_per_mm;
 vec3 n_mean_world;    // of the normals that the smoother read covers: shorter than 1 where they differ
 vec3 smooth_weight;   // of the light that these normals get; the sharp normal's has the rest
+// Of what needs derivatives of the texture coordinates, which would be live from the geometry on.
+float sharp_normal_mm;  // on the skin, of the sharp read of the normal map
+float normal_magnification, occlusion_magnification;  // magnification_levels()
 float smooth_levels;  // mip levels from the sharp normal to the smooth one
 float bumps;          // variance of the normals over which the smoother read means
 
@@ -77,28 +80,33 @@ void choose_curvature(Surface s) {
     skin_mixed_per_mm = sphere_mixed(curvature_gain * k, s.n_geometry_world);
 }
 
-float normal_texel_mm(Surface s) {
+float texel_of_normal_map_mm(Surface s) {
     vec2 map_size = vec2(textureSize(normal_map, 0));
     return texel_mm(dFdx(s.p_world_mm), dFdy(s.p_world_mm), dFdx(s.uv) * map_size, dFdy(s.uv) * map_size);
 }
 
-void blend_normals(Surface s) {
+void prepare_geometry(Surface s) {
+    choose_curvature(s);
+    curvature_around_per_mm = min(curvature_around(skin_diagonal_per_mm, skin_mixed_per_mm), kMaxCurvaturePerMm);
+    if (normals == kNormalsSharp) return;
     float lod = max(textureQueryLod(normal_map, s.uv).x, 0.0);
-    vec4 blend = normal_blend(max(normal_texel_mm(s), 1e-8) * exp2(lod));
-    smooth_weight = blend.rgb;
-    smooth_levels = blend.a;
+    sharp_normal_mm = max(texel_of_normal_map_mm(s), 1e-8) * exp2(lod);
+    normal_magnification = magnification_levels(normal_map, s.uv);
+    if (has_occlusion_map != 0) occlusion_magnification = magnification_levels(occlusion_map, s.uv);
 }
 
 void prepare_surface(inout Surface s) {
     s.f0 *= oiliness;
     s.roughness = clamp(s.roughness * roughness_scale, 0.03, 1.0);
-    choose_curvature(s);
-    curvature_around_per_mm = min(curvature_around(skin_diagonal_per_mm, skin_mixed_per_mm), kMaxCurvaturePerMm);
     if (normals == kNormalsSharp) return;
     smooth_weight = vec3(1.0);
     smooth_levels = normal_lod_bias;
-    if (normals == kNormalsBlended || normals == kNormalsLerp) blend_normals(s);
-    float bias = smooth_levels + magnification_levels(normal_map, s.uv);
+    if (normals == kNormalsBlended || normals == kNormalsLerp) {
+        vec4 blend = normal_blend(sharp_normal_mm);
+        smooth_weight = blend.rgb;
+        smooth_levels = blend.a;
+    }
+    float bias = smooth_levels + normal_magnification;
     n_mean_world = mean_normal_world(s.n_geometry_world, s.uv, bias);
     bumps = 0.0;
     if (normal_space == kNormalSpaceAbsent) return;
@@ -174,7 +182,7 @@ vec3 scattered_occlusion(Surface s) {
     vec3 of_vertices = (1.0 - weight_0 - weight_1 - weight_2) * s.occlusion_vertex + weight_0 * s.occlusion_blurred.x +
                        weight_1 * s.occlusion_blurred.y + weight_2 * s.occlusion_blurred.z;
     if (has_occlusion_map == 0) return of_vertices;
-    float levels = smooth_levels + magnification_levels(occlusion_map, s.uv);
+    float levels = smooth_levels + occlusion_magnification;
     float sharp = texture(occlusion_map, s.uv).r;
     if (normals == kNormalsSharp) return min(of_vertices, vec3(sharp));
     vec3 of_map = mix(vec3(sharp), texture(occlusion_map, s.uv, levels).rrr, smooth_weight);

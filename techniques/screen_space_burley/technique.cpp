@@ -2,9 +2,13 @@
 // Real-Time" (SIGGRAPH course), after Christensen, Burley 2015, "Approximate Reflectance Profiles for
 // Efficient Subsurface Scattering": the skin's diffuse light on the picture, before the base colour, is
 // gathered from a disk whose samples follow the profile. Changed: any profile, sampled by the mean of its
-// channels; the part that leaves within the pixel is computed, not sampled.
+// channels; the part that leaves within the pixel is computed, not sampled. The number of samples can follow
+// the variance, after Xie, Olano, Karis, Narkowicz 2020, "Real-Time Subsurface Scattering with Single Pass
+// Variance-Guided Adaptive Importance Sampling": that of a few samples of this frame, where the source has
+// that of earlier frames. Nothing lags behind a light that moves.
 
 #include "dermis/technique/screen_light.h"
+#include "techniques/screen_space_burley/constants.h"
 #include "techniques/screen_space_burley/tables.h"
 
 namespace dermis {
@@ -12,11 +16,16 @@ namespace {
 
 using namespace screen_space_burley;
 
-constexpr const char* kOwnView = "gathered_light";
+constexpr const char* kLightView = "gathered_light";
+constexpr const char* kCountView = "sample_count";
 constexpr int kTexels = 512;
 
+enum class Count : int32_t { fixed, adaptive };
+
 struct Params {
+    Count count = Count::fixed;
     int32_t samples = 16;
+    float noise = 0.003f;
     float width = 1;
     bool rotate = true;
     Transmission transmission = Transmission::shadow_map;
@@ -25,7 +34,12 @@ struct Params {
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
-        .integer(&Params::samples, "samples", "", 4, 2048, "samples of the disk")
+        .choice(&Params::count, "count", {"fixed", "adaptive"},
+                "samples of the disk: as many at every pixel, or as the light around it varies")
+        .integer(&Params::samples, "samples", "", 4, 2048,
+                 "samples of the disk; count=adaptive: the most at a pixel")
+        .number(&Params::noise, "noise", "", 0.0001, 1,
+                "count=adaptive: standard deviation aimed at, over the brightest light within reach")
         .number(&Params::width, "width", "", 0.01, 10, "scales the profile's lengths")
         .toggle(&Params::rotate, "rotate", "turns the disk from pixel to pixel: noise instead of bands")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
@@ -33,19 +47,41 @@ ParameterTable parameters() {
         .build();
 }
 
+// A pass over the picture that samples the disk.
+Pass disk_pass(const Params& params, const char* name, const char* shader, int32_t samples) {
+    return {.name = name,
+            .kind = PassKind::fullscreen,
+            .shader = shader,
+            .reads = {{"light", "skin_light"}, "skin_z", "skin_density", "skin_radius"},
+            .constants = {{"sample_count", samples}, {"rotate", int32_t(params.rotate)}}};
+}
+
+void add_pilot(PassList& list, const Params& params) {
+    list.images.push_back({.name = "pilot", .format = ImageFormat::rgba32f, .size = {.frame_scale = 0.5f}});
+    Pass pilot = disk_pass(params, "pilot", "screen_space_burley/pilot.frag", kPilotSamples);
+    pilot.colors = {{.image = "pilot", .load = LoadOp::discard}};
+    list.passes.push_back(std::move(pilot));
+}
+
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const auto params = values.as<Params>();
+    const bool adaptive = params.count == Count::adaptive, shows_count = frame.view == kCountView;
     PassList list;
     add_screen_light(list, params.specular, frame);
     list.images.push_back({.name = "skin_light_gathered", .format = ImageFormat::rgba32f});
-    list.passes.push_back(
-        {.name = "gather",
-         .kind = PassKind::fullscreen,
-         .shader = "screen_space_burley/gather.frag",
-         .reads = {{"light", "skin_light"}, "skin_z", "skin_density", "skin_radius"},
-         .colors = {{.image = "skin_light_gathered", .load = LoadOp::discard}},
-         .constants = {{"sample_count", params.samples}, {"rotate", int32_t(params.rotate)}}});
-    add_screen_skin(list, "skin_light_gathered", params.specular, params.transmission, frame, kOwnView);
+    if (adaptive) add_pilot(list, params);
+    Pass gather = disk_pass(
+        params, "gather", adaptive ? "screen_space_burley/adaptive.frag" : "screen_space_burley/gather.frag",
+        params.samples);
+    if (adaptive) {
+        gather.reads.push_back("pilot");
+        gather.values = {{"noise", params.noise}};
+    }
+    gather.constants.emplace_back("show_count", int32_t(shows_count));
+    gather.colors = {{.image = "skin_light_gathered", .load = LoadOp::discard}};
+    list.passes.push_back(std::move(gather));
+    add_screen_skin(list, "skin_light_gathered", params.specular, params.transmission, frame,
+                    shows_count ? kCountView : kLightView);
     return list;
 }
 
@@ -79,7 +115,7 @@ Technique make_screen_space_burley_technique() {
             .summary = "diffuse light gathered on the picture from a disk of samples",
             .source = "Golubev 2018, Efficient Screen-Space Subsurface Scattering; Christensen, Burley 2015",
             .parameters = parameters(),
-            .views = {kOwnView},
+            .views = {kLightView, kCountView},
             .build = build,
             .tables = tables,
             .coarse = coarse};

@@ -25,7 +25,7 @@ vec3 key_specular_shadow(Surface s, vec3 passing, vec3 exitance) {
 }
 
 void main() {
-    Surface s = load_surface();
+    Surface s;
     PixelLight light = light_pixel(s);
     vec3 exitance = scattered_exitance(light_map, light_map_lit, s, light.direct, light_map_texels, 0.0);
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion) +

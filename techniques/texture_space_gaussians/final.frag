@@ -7,7 +7,7 @@ layout(scalar) uniform Params { float pre_scatter; };
 uniform texture2D light_map_lit;  // before the blur
 
 void main() {
-    Surface s = load_surface();
+    Surface s;
     PixelLight light = light_pixel(s);
     vec3 exitance = scattered_exitance(light_map, light_map_lit, s, light.direct, kTexelsPremultiplied, pre_scatter);
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion) +

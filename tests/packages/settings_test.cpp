@@ -66,6 +66,17 @@ const std::vector<Needed> kThree = {
     {"  magFilter: LinearFilter,"},    {"  generateMipmaps: false,"},  {"  anisotropy: 1,"},
 };
 
+const std::vector<Needed> kBabylon = {
+    {"  gammaSpace: false,"},
+    {"  wrapU: Constants.TEXTURE_CLAMP_ADDRESSMODE,"},
+    {"  wrapV: Constants.TEXTURE_CLAMP_ADDRESSMODE,"},
+    {"  anisotropicFilteringLevel: 1,"},
+    {"  noMipmap: true,"},
+    {"  samplingMode: Constants.TEXTURE_BILINEAR_SAMPLINGMODE,"},
+    {"  textureType: Constants.TEXTURETYPE_HALF_FLOAT,"},
+    {"      invertY: false,"},
+};
+
 struct Settings {
     std::string engine, path;
     std::vector<Needed> needed;
@@ -78,6 +89,7 @@ const std::vector<Settings>& all_settings() {
         {"godot", "addons/dermis_skin/skin.gdshader", kGodotShader},
         {"unreal", "DermisSkin/Content/Python/dermis_skin.py", kUnreal},
         {"three", "SkinTable.js", kThree},
+        {"babylon", "SkinTable.js", kBabylon},
     };
     return all;
 }

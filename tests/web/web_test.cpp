@@ -55,7 +55,7 @@ class WebPageFolder : public ::testing::Test {
     fs::path write_page(const std::string& scene) {
         const fs::path folder = directory_.path / "page";
         const ProgramResult result =
-            run_dermis("export --web --scene " + scene + " -o " + folder.string(), directory_.path);
+            run_dermis("export --web " + scene + " -o " + folder.string(), directory_.path);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return folder;
     }
@@ -107,8 +107,8 @@ TEST_F(WebPageFolder, has_all_that_it_names_and_the_same_bytes_twice) {
 
 TEST_F(WebPageFolder, has_the_profile_that_was_asked_for) {
     const fs::path folder = directory_.path / "page";
-    const ProgramResult result = run_dermis(
-        "export --web --scene spheres --profile openpbr_skin_5 -o " + folder.string(), directory_.path);
+    const ProgramResult result =
+        run_dermis("export --web spheres --profile openpbr_skin_5 -o " + folder.string(), directory_.path);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(scene_of(folder)["tones"][0]["description"], "openpbr_skin_5");
 }
@@ -123,11 +123,51 @@ TEST_F(WebPageFolder, carries_the_credit_of_a_scan) {
     EXPECT_NE(credit.find(kCredit), std::string::npos) << credit;
 }
 
+// What an image has beyond its edges; maps that are packed into one picture have to agree.
+TEST_F(WebPageFolder, keeps_the_wrap_modes_of_maps_and_refuses_those_that_it_cannot) {
+    const fs::path folder = directory_.path;
+    Image image(8, 8, 3, PixelFormat::u8);
+    ASSERT_TRUE(write_image(folder / "map.png", image));
+    ASSERT_TRUE(
+        write_text_file(folder / "quad.obj",
+                        "mtllib quad.mtl\nv -5 -5 0\nv 5 -5 0\nv 5 5 0\nv -5 5 0\nvt 0 0\nvt 2 0\nvt 2 2\n"
+                        "vt 0 2\nvn 0 0 1\nusemtl skin\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"));
+    const auto write_material = [&](const std::string& lines) {
+        ASSERT_TRUE(write_text_file(folder / "quad.mtl", "newmtl skin\n" + lines));
+    };
+    ASSERT_TRUE(
+        write_text_file(folder / "quad.toml",
+                        "[[mesh]]\nfile = \"quad.obj\"\nunit_mm = 1\n[skin]\nprofile = \"gpu_gems_3\"\n"
+                        "[[light]]\nyaw_deg = 20\n"));
+    write_material("map_Kd -clamp on map.png\nmap_Pr map.png\n");
+    const nlohmann::json material =
+        scene_of(write_page((folder / "quad.toml").string()))["objects"][0]["parts"][0]["material"];
+    EXPECT_EQ(material["wraps"], (nlohmann::json{{"albedo", {"clamp", "clamp"}}}));
+    EXPECT_TRUE(material["maps"].contains("surface"));
+
+    write_material("map_Pr -clamp on map.png\nmap_Ks map.png\n");
+    const ProgramResult refused = run_dermis(
+        "export --web " + (folder / "quad.toml").string() + " -o " + (folder / "b").string(), folder);
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_NE(refused.err.find("do not wrap alike"), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(folder / "b/index.html"));
+}
+
+TEST_F(WebPageFolder, refuses_a_skin_whose_reflection_takes_from_its_diffuse_light) {
+    const fs::path folder = directory_.path / "page";
+    const ProgramResult refused =
+        run_dermis("export --web spheres --scene skin.specular_reduces_diffuse=true -o " + folder.string(),
+                   directory_.path);
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_NE(refused.err.find("skin.specular_reduces_diffuse=false"), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(folder / "index.html"));
+}
+
 TEST_F(WebPageFolder, a_folder_that_cannot_be_written_is_refused_before_any_work) {
     const fs::path file = directory_.path / "file";
     ASSERT_TRUE(write_text_file(file, "in the way"));
     const ProgramResult result =
-        run_dermis("export --web --scene no_such_scene -o " + file.string(), directory_.path);
+        run_dermis("export --web no_such_scene -o " + file.string(), directory_.path);
     EXPECT_NE(result.exit_code, 0);
     EXPECT_NE(result.err.find(file.string()), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find("no_such_scene"), std::string::npos) << result.err;
@@ -135,7 +175,7 @@ TEST_F(WebPageFolder, a_folder_that_cannot_be_written_is_refused_before_any_work
 
 TEST_F(WebPageFolder, unknown_scenes_and_profiles_leave_nothing_behind) {
     const fs::path folder = directory_.path / "page";
-    for (const char* wrong : {"--scene no_such_scene", "--scene spheres --profile no_such_profile"}) {
+    for (const char* wrong : {"no_such_scene", "spheres --profile no_such_profile"}) {
         const ProgramResult result =
             run_dermis("export --web " + std::string(wrong) + " -o " + folder.string(), directory_.path);
         EXPECT_NE(result.exit_code, 0);

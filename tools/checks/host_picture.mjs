@@ -12,6 +12,8 @@ const [chromium, folder, path, output, side] = process.argv.slice(2);
 // Without these a canvas of WebGPU loses its device when it is shown.
 const kFlags = ["--enable-features=Vulkan", "--use-vulkan=swiftshader"];
 
+const kMaxCharacters = 600;  // of a message: engines print whole shaders
+
 const server = await serve(folder);
 const page = await openBrowser(chromium, { width: Number(side), height: Number(side), flags: kFlags });
 try {
@@ -21,15 +23,15 @@ try {
     process.exitCode = 3;
   } else {
     const message = "document.getElementById('message').textContent";
-    await until(page, `document.querySelector("canvas") !== null || ${message} !== ""`, "a canvas");
+    await until(page, `document.body.dataset.state === "drawn" || ${message} !== ""`, "a picture");
     await page.evaluate("new Promise(done => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 500))");
     writeFileSync(output, Buffer.from((await page.call("Page.captureScreenshot", { format: "png" })).data, "base64"));
     const foreign = page.requests.filter(url => !url.startsWith(server.origin) && !/^(data|blob):/.test(url));
     for (const said of [await page.evaluate(message), ...page.problems, ...foreign.map(url => `the page asks for ${url}`)])
-      if (said) console.log(said);
+      if (said) console.log(said.slice(0, kMaxCharacters));
   }
 } catch (error) {
-  console.log(error.message, ...page.problems);
+  for (const said of [error.message, ...page.problems]) console.log(said.slice(0, kMaxCharacters));
   process.exitCode = 1;
 }
 await page.close();

@@ -15,7 +15,8 @@ namespace {
 
 struct CostOptions {
     std::vector<std::string> techniques;
-    std::string gpus = "navi21", size = "1920x1080", scene = "bust", device;
+    std::string gpus = "navi21", size = "1920x1080", device;
+    SceneChoice scene = {.name = "bust"};
     bool json = false;
 };
 
@@ -39,7 +40,7 @@ Result<Counted> count(const CostOptions& options) {
     Result<std::vector<Contestant>> contestants = chosen_techniques(options.techniques);
     if (!contestants) return contestants.error();
     counted.contestants = std::move(*contestants);
-    Result<Scene> scene = SceneChoice{.name = options.scene}.load();
+    Result<Scene> scene = options.scene.load();
     if (!scene) return scene.error();
     if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     counted.scene = scene->name, counted.credit = scene->credit;
@@ -97,8 +98,11 @@ void add_cost_command(CommandLine& line) {
     command->add_option("--gpu", options->gpus, "chips to compile for, separated by commas: " + chips)
         ->capture_default_str();
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command->add_option("--scene", options->scene, "scene whose fragments are counted")
+    command
+        ->add_option("--fragments-of", options->scene.name,
+                     "scene file, mesh or name of a scene whose fragments are counted")
         ->capture_default_str();
+    options->scene.add_options_to(*command);
     command->add_option("--device", options->device, "count on the Vulkan device with this text in its name");
     command->add_flag("--json", options->json, "print one JSON object instead");
     line.when_chosen(command, [options] { return print_costs(*options); });

@@ -11,6 +11,7 @@
 #include "dermis/export/profile_source.h"
 #include "dermis/optics/presets.h"
 #include "dermis/packages/package.h"
+#include "scene_choice.h"
 #include "web_export.h"
 
 namespace dermis::cli {
@@ -19,7 +20,8 @@ namespace {
 constexpr const char *kDefaultScene = "bust", *kDefaultProfile = "gpu_gems_3";
 
 struct ExportOptions {
-    std::string language, engine, profile, scene = kDefaultScene, output;
+    std::string language, engine, profile, output;
+    SceneChoice scene = {.name = kDefaultScene};
     bool web = false;
 };
 
@@ -88,7 +90,9 @@ Result<int> run(const ExportOptions& options) {
         return Error{
             "give one of --language for a file of functions, --engine for a folder, --web for a page"};
     if (options.web) return export_web(options);
-    if (options.scene != kDefaultScene) return Error{"--scene is for --web"};
+    const SceneChoice& scene = options.scene;
+    if (scene.name != kDefaultScene || !scene.words.empty() || !scene.camera.empty() || !scene.light.empty())
+        return Error{"a scene and --scene, --camera, --light are for --web"};
     const Result<Profile> profile = find_profile(options.profile.empty() ? kDefaultProfile : options.profile);
     if (!profile) return profile.error();
     return options.engine.empty() ? export_texts(options, *profile) : export_package(options, *profile);
@@ -101,7 +105,7 @@ void add_export_command(CommandLine& line) {
     Command* command = line.add(
         "export", "A skin for other programs: shading functions as text, a package for an engine, a web page",
         "dermis export --engine godot --profile openpbr_skin_5 -o package/\n"
-        "  dermis export --web -o page/\n"
+        "  dermis export --web head_scan --scene light.key.intensity=2 -o page/\n"
         "  dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl");
     command->add_option("--language", options->language,
                         join(shading::language_names(), ", ") + ", or all: a file of each in a folder");
@@ -114,8 +118,7 @@ void add_export_command(CommandLine& line) {
     command->add_option("--profile", options->profile,
                         "preset, CSV file or burley:R,G,B; default: " + std::string(kDefaultProfile) +
                             ", or with --web the scene's");
-    command->add_option("--scene", options->scene, "with --web: scene file, mesh or name of a scene")
-        ->capture_default_str();
+    options->scene.add_to(*command)->capture_default_str();
     command
         ->add_option("-o,--output", options->output,
                      "file to write; with --engine, --web or --language all a folder")

@@ -9,7 +9,7 @@ import { loadSkinTable, SkinNodeMaterial } from "../SkinNodeMaterial.js";
 const query = new URLSearchParams(location.search), message = document.getElementById("message");
 
 const skin = new SkinNodeMaterial({ color: new Color().setRGB(0.48, 0.19, 0.11), closedForm: query.has("closed") });
-if (query.get("missing") !== "table")
+if (!skin.closedForm && query.get("missing") !== "table")
   skin.table = await loadSkinTable().catch(error => { message.textContent = error.message; return null; });
 if (query.get("missing") === "curvature") skin.curvatureAttribute = "curvature_per_mm";
 
@@ -37,3 +37,4 @@ const draw = () => {
 new OrbitControls(camera, renderer.domElement).addEventListener("change", draw);
 addEventListener("resize", draw);
 draw();
+document.body.dataset.state = "drawn";
