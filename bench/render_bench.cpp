@@ -49,7 +49,8 @@ Run run_of(const std::string& id, const std::string& parameter = "", const std::
 }
 
 // Lambert, then every technique (or one), those that have transmission without it too, and the settings of
-// preintegrated, spherical_gaussians and texture_space whose costs their READMEs state.
+// preintegrated, screen_space_separable, spherical_gaussians and texture_space whose costs their READMEs
+// state.
 std::vector<Run> runs(const std::string& only) {
     std::vector<Run> all = {run_of("lambert")};
     for (const Technique& technique : built_in_catalog().techniques) {
@@ -60,6 +61,7 @@ std::vector<Run> runs(const std::string& only) {
         if (without.values.set("transmission", "none")) all.push_back(std::move(without));
         if (technique.id == "spherical_gaussians")
             for (const char* lobes : {"1", "6"}) all.push_back(run_of(technique.id, "lobes", lobes));
+        if (technique.id == "screen_space_separable") all.push_back(run_of(technique.id, "kernel", "rank_2"));
         if (technique.id == "texture_space") all.push_back(run_of(technique.id, "filter", "gaussian"));
         if (technique.id != "preintegrated") continue;
         all.push_back(run_of(technique.id, "diffuse", "closed_form"));

@@ -3,6 +3,7 @@
 
 #include "dermis/base/vec.h"
 #include "dermis/optics/profile.h"
+#include "dermis/optics/separable_terms.h"
 
 namespace dermis::screen_space_separable {
 
@@ -16,6 +17,17 @@ struct TwoGaussians {
 /// As a profile, whose weights sum to 1 in each channel.
 [[nodiscard]] GaussianSum to_gaussian_sum(const TwoGaussians& kernel);
 
+/// The kernel of the source's own code: `strength` of the light is spread by the five wide Gaussians of GPU
+/// Gems 3 in red, widened by 0.001 + falloff, the rest stays where it is.
+struct Artistic {
+    Vec3 strength = {0.48f, 0.41f, 0.28f};
+    Vec3 falloff = {1, 0.37f, 0.3f};
+};
+
+/// As shares of the light along a line, summing to 1 in each channel: the published code takes Gaussians that
+/// are normalised over the plane, 1 / (2 pi v), on a line, so each counts as w / sqrt(v).
+[[nodiscard]] GaussianSum to_gaussian_sum(const Artistic& kernel);
+
 /// Where the kernel is cut off: a multiple of its widest standard deviation; 1 without any Gaussian.
 [[nodiscard]] float reach_mm(const GaussianSum& profile, float width);
 
@@ -24,5 +36,14 @@ struct TwoGaussians {
 /// sum of w. Lengths of the profile are multiplied by `width`. Source: Jimenez et al. 2015, Separable
 /// Subsurface Scattering, section 4 (pre-integrated kernel).
 [[nodiscard]] double share_within(const GaussianSum& profile, float width, int channel, double distance_mm);
+
+/// A term's light within `distance_mm`, as above; negative where it takes back what another gives.
+[[nodiscard]] double light_within(const SeparableTerm& term, const GaussianSum& profile, float width,
+                                  int channel, double distance_mm);
+
+/// Of all terms the light within a square of this half side, as its root: the root of the sum of squares of
+/// light_within(). 0 for a channel without reflectance.
+[[nodiscard]] double light_at(const SeparableTerms& terms, const GaussianSum& profile, float width,
+                              int channel, double distance_mm);
 
 }  // namespace dermis::screen_space_separable

@@ -41,3 +41,41 @@ TEST(SeparableKernel, of_two_gaussians_has_their_shares) {
     EXPECT_NEAR(share_within(sum, 1, kRed, 0.4), 0.4 + 0.6 * std::erf(0.4 / (2 * std::sqrt(2.0))), 1e-3);
     EXPECT_NEAR(share_within(sum, 1, kBlue, 0.4), 1, 1e-3);
 }
+
+// Strength .48, falloff 1 in red: the light that stays, and of the rest what the widest leaves beyond 5 mm.
+TEST(SeparableKernel, of_an_artist_keeps_what_strength_leaves_and_is_narrower_with_less_falloff) {
+    const GaussianSum sum = to_gaussian_sum(Artistic());
+    for (size_t c = 0; c < 3; ++c) {
+        double total = 0;
+        for (const GaussianTerm& term : sum.terms) total += term.weight[c];
+        EXPECT_NEAR(total, 1, 1e-6) << c;
+    }
+    EXPECT_NEAR(share_within(sum, 1, kRed, 1e-6), 0.52, 1e-4);
+    EXPECT_NEAR(share_within(sum, 1, kBlue, 1e-6), 0.72, 1e-4);
+    // .1 / .22 + .118 / .432 + .113 / .753 + .358 / 1.411 + .078 / 2.722 is 1.160.
+    EXPECT_NEAR(1 - share_within(sum, 1, kRed, 3.3),
+                0.48 *
+                    (0.2537 * std::erfc(3.3 / (1.411 * std::sqrt(2.0))) +
+                     0.02866 * std::erfc(3.3 / (2.722 * std::sqrt(2.0)))) /
+                    1.1602,
+                1e-4);
+    EXPECT_GT(share_within(sum, 1, kBlue, 0.5), share_within(sum, 1, kRed, 0.5));
+}
+
+// The light of a square, from the products and from the profile itself.
+TEST(SeparableKernel, of_all_products_is_the_profile_in_two_dimensions) {
+    const GaussianSum sum = gpu_gems_3_skin();
+    const SeparableTerms all = separable_terms(sum, 6), two = separable_terms(sum, 2);
+    for (const int channel : {kRed, kGreen, kBlue})
+        for (const double half_mm : {0.1, 0.5, 2.0}) {
+            double exact = 0;
+            for (const GaussianTerm& term : sum.terms) {
+                const double along = std::erf(half_mm / std::sqrt(2 * term.variance_mm2));
+                exact += term.weight[size_t(channel)] * along * along;
+            }
+            const double of_all = light_at(all, sum, 1, channel, half_mm),
+                         of_two = light_at(two, sum, 1, channel, half_mm);
+            EXPECT_NEAR(of_all * of_all, exact, 2e-3) << channel << " " << half_mm;
+            EXPECT_NEAR(of_two * of_two, exact, 0.035) << channel << " " << half_mm;
+        }
+}
