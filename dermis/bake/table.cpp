@@ -66,7 +66,8 @@ Table quantised(const Table& table, TableStorage storage) {
 Rgb lookup(const Table& table, double u_value, double v_value) {
     const auto centre_texel = [](TableAxis axis, double value, int count) {
         axis.sampling = TexelSampling::centre;
-        return std::clamp(axis.texel(value, count), 0.0, double(count - 1));
+        const double texel = axis.texel(value, count);
+        return texel > 0 ? std::min(texel, double(count - 1)) : 0.0;  // also where it is not a number
     };
     const double x = centre_texel(table.convention.axes[0], u_value, table.width);
     const double y = centre_texel(table.convention.axes[1], v_value, table.height);

@@ -35,7 +35,7 @@ enum class TableStorage { automatic, u8, u16, f16, f32 };
 [[nodiscard]] Table quantised(const Table& table, TableStorage storage);
 
 /// Bilinear lookup at axis values, clamped at the borders as a GPU's clamp-to-edge sampler does (which takes
-/// texels to be at their centres, whatever the convention evaluated).
+/// texels to be at their centres, whatever the convention evaluated). NaN reads the first texel.
 [[nodiscard]] Rgb lookup(const Table& table, double u_value, double v_value);
 
 }  // namespace dermis

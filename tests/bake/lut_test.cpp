@@ -162,6 +162,7 @@ TEST(Lut, lookups_interpolate_between_texel_centres) {
     EXPECT_DOUBLE_EQ(lookup(table, 0.75, 0.25)[0], 1);
     EXPECT_DOUBLE_EQ(lookup(table, 0.5, 0.5)[0], 1.5);
     EXPECT_DOUBLE_EQ(lookup(table, -3, 9)[0], 2);
+    EXPECT_DOUBLE_EQ(lookup(table, std::nan(""), 0.75)[0], lookup(table, 0, 0.75)[0]);
 }
 
 TEST(Lut, axes_map_texels_to_values_and_back) {
