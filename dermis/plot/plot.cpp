@@ -17,8 +17,8 @@ namespace dermis {
 namespace {
 
 // Dark enough for thin lines on white, alternating in lightness so that neighbours differ in a grey print.
-constexpr std::array<std::string_view, 8> kPalette = {"#1864ab", "#e8590c", "#2b8a3e", "#9c36b5",
-                                                      "#c92a2a", "#0b8fa3", "#7a5c00", "#495057"};
+constexpr std::array<std::string_view, 10> kPalette = {"#1864ab", "#e8590c", "#2b8a3e", "#9c36b5", "#c92a2a",
+                                                       "#0b8fa3", "#7a5c00", "#495057", "#e64980", "#5c940d"};
 constexpr double kMarginLeft = 66, kMarginRight = 18, kMarginBottom = 46, kLegendLine = 18;
 
 struct Rect {
