@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <ostream>
 
 #include "cli/run_program.h"
 #include "dermis/base/file.h"
@@ -27,6 +28,11 @@ struct Host {
     const char* library;  // in node_modules
     const char* device;   // webgl or webgpu: the example's query
 };
+
+// Without it GoogleTest prints the bytes, which are addresses.
+void PrintTo(const Host& host, std::ostream* out) {
+    *out << host.engine << " on " << host.device;
+}
 
 std::string chromium() {
     for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
