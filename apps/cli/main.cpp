@@ -4,11 +4,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <exception>
-#include <new>
 
 #include "command.h"
 #include "dermis/base/file.h"
+#include "end_on_failure.h"
 
 namespace dermis::cli {
 namespace {
@@ -26,25 +25,15 @@ int run(int argc, char** argv) {
     return 1;
 }
 
-// The libraries return errors as values; only failing memory and threads throw.
-int run_and_catch(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::bad_alloc&) {
-        print_message("out of memory; try a smaller size, fewer samples or smaller maps");
-    } catch (const std::exception& thrown) {
-        print_message(thrown.what());
-    }
-    return 1;
-}
-
 }  // namespace
 }  // namespace dermis::cli
 
 int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit on file sizes is then an error like any other
     dermis::remove_temporary_files_on_signals();
-    const int exit_code = dermis::cli::run_and_catch(argc, argv);
+    dermis::cli::end_on_failure();  // the libraries return errors as values; only failing memory and threads
+                                    // throw
+    const int exit_code = dermis::cli::run(argc, argv);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
     dermis::cli::print_message(std::string("standard output: cannot write: ") + std::strerror(errno));
     return exit_code == 0 ? 1 : exit_code;

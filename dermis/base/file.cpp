@@ -69,9 +69,8 @@ class TemporaryFile {
     Slot* slot_ = nullptr;
 };
 
-extern "C" void remove_temporary_files(int signal) {
-    for (const Slot& slot : g_slots)
-        if (slot.state == Slot::filled) ::unlink(slot.path);
+extern "C" void remove_temporary_files_and_end(int signal) {
+    remove_temporary_files();
     std::signal(signal, SIG_DFL);
     std::raise(signal);
 }
@@ -176,17 +175,18 @@ Result<void> write_files(std::span<const FileContent> files) {
         const Result<void> written = write_all(temporaries.emplace_back(file.path).path(), file.bytes);
         if (!written) return Error{file.path.string() + ": cannot write: " + written.error().message};
     }
-    std::vector<fs::path> made;  // did not exist before
+    std::vector<const fs::path*> made;  // did not exist before
+    made.reserve(renamed.size());       // from here on nothing allocates, so that the renames are all done
     for (size_t i = 0; i < renamed.size(); ++i) {
         const fs::path& path = renamed[i]->path;
         const bool is_new = !fs::exists(path, ec);
         fs::rename(temporaries[i].path(), path, ec);
         if (ec) {
-            const std::string reason = ec.message();
-            for (const fs::path& file : made) fs::remove(file, ec);
-            return Error{path.string() + ": cannot write: " + reason};
+            const std::error_code reason = ec;
+            for (const fs::path* file : made) fs::remove(*file, ec);
+            return Error{path.string() + ": cannot write: " + reason.message()};
         }
-        if (is_new) made.push_back(path);
+        if (is_new) made.push_back(&path);
     }
     return {};
 }
@@ -210,9 +210,15 @@ Result<void> try_output(const fs::path& path) {
     return tried;
 }
 
+void remove_temporary_files() noexcept {
+    for (const Slot& slot : g_slots)
+        if (slot.state == Slot::filled) ::unlink(slot.path);
+}
+
 void remove_temporary_files_on_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        if (std::signal(signal, remove_temporary_files) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup
+        if (std::signal(signal, remove_temporary_files_and_end) == SIG_IGN)
+            std::signal(signal, SIG_IGN);  // nohup
 }
 
 Result<void> write_text_file(const fs::path& path, std::string_view text) {

@@ -45,6 +45,10 @@ struct FileContent {
 /// it again with every directory that it needed. Errors as those of write_file().
 [[nodiscard]] Result<void> try_output(const std::filesystem::path& path);
 
+/// Removes the temporary files of the functions above that exist now. For the end of a program: it may be
+/// called by a signal handler, and where memory is exhausted.
+void remove_temporary_files() noexcept;
+
 /// From here on an interrupt, a hangup or a request to end removes the temporary files of the functions above
 /// before the program ends. For programs, not for libraries: it replaces the handlers of these signals.
 void remove_temporary_files_on_signals();

@@ -17,13 +17,20 @@ void set_thread_limit(unsigned threads) {
     g_limit = threads;
 }
 
-bool can_start_thread() {
+bool can_start_threads() {
+    const size_t count = std::max(1u, std::thread::hardware_concurrency()) + size_t{1};
+    std::vector<std::jthread> threads;
+    std::atomic<bool> counted = false;  // all of them exist at once
+    bool started = true;
     try {
-        std::jthread([] {});
-        return true;
+        while (threads.size() < count) threads.emplace_back([&] { counted.wait(false); });
     } catch (const std::system_error&) {
-        return false;
+        started = false;
     }
+    counted = true;
+    counted.notify_all();
+    threads.clear();
+    return started;
 }
 
 unsigned thread_limit() {

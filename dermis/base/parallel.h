@@ -13,8 +13,9 @@ namespace dermis {
 /// work.
 void parallel_for(size_t count, size_t grain, const std::function<void(size_t begin, size_t end)>& body);
 
-/// Whether the system gives this program one thread more.
-[[nodiscard]] bool can_start_thread();
+/// Whether the system gives this program a thread for each core, and one more, now: libraries and drivers
+/// with pools of their own end the program or wait for ever when it does not.
+[[nodiscard]] bool can_start_threads();
 
 /// At most this many threads from here on (0: all cores). For tests and benchmarks.
 void set_thread_limit(unsigned threads);

@@ -250,9 +250,10 @@ struct RayScene::Impl {
         }
         if (triangles == 0) return Error{"the scene has no triangle to trace rays against"};
         epsilon_mm = 2e-6f * extent_mm;
-        // Embree's thread pool ends the program when it cannot start a thread, so one is tried first.
-        if (!can_start_thread())
-            return Error{"no thread can be started; raise the limit on processes (ulimit -u)"};
+        // Embree's thread pool ends the program when it cannot start a thread, so they are tried first.
+        if (!can_start_threads())
+            return Error{
+                "the threads of the ray library cannot be started; raise the limit on processes (ulimit -u)"};
         device.reset(rtcNewDevice(nullptr));
         if (!device) return Error{"the ray library (Embree) does not start on this machine"};
         for (const RaySet which :
