@@ -1,5 +1,10 @@
 // render() and reference(): pictures of a scene as arrays and as files.
 
+#include <unistd.h>
+
+#include <memory>
+#include <mutex>
+
 #include "arrays.h"
 #include "catalog/catalog.h"
 #include "dermis/gpu/device.h"
@@ -23,14 +28,52 @@ struct RenderedPicture {
     std::string technique;
 };
 
+// One device for all pictures: a driver keeps some of what each new one takes (lavapipe 37 KB). A device is
+// not for several threads at once.
+struct KeptDevice {
+    std::mutex mutex;
+    std::string name_contains;
+    pid_t process = 0;
+    std::unique_ptr<gpu::Device> device;
+};
+
+KeptDevice& kept_device() {
+    static KeptDevice kept;
+    return kept;
+}
+
+// With the mutex locked. A process that was forked has no threads of the driver: it leaves the device it
+// inherited.
+Result<gpu::Device*> device_named(const std::string& name_contains) {
+    KeptDevice& kept = kept_device();
+    if (kept.process != getpid()) (void)kept.device.release();
+    if (!kept.device || kept.name_contains != name_contains) {
+        kept.device.reset();
+        Result<gpu::Device> opened = gpu::Device::create({.name_contains = name_contains});
+        if (!opened) return opened.error();
+        kept.device = std::make_unique<gpu::Device>(std::move(*opened));
+        kept.name_contains = name_contains;
+        kept.process = getpid();
+    }
+    return kept.device.get();
+}
+
+// While the driver is still loaded.
+void close_kept_device() {
+    KeptDevice& kept = kept_device();
+    const std::lock_guard lock(kept.mutex);
+    if (kept.process != getpid()) (void)kept.device.release();
+    kept.device.reset();
+}
+
 Result<RenderedPicture> draw(const cli::RenderOptions& options, int bits) {
     Result<cli::Prepared> prepared = cli::prepare(options);
     if (!prepared) return prepared.error();
-    Result<gpu::Device> device =
-        gpu::Device::create({.validation = options.validation, .name_contains = options.device});
+    const std::lock_guard lock(kept_device().mutex);
+    const Result<gpu::Device*> device = device_named(options.device);
     if (!device) return device.error();
     Result<Renderer> renderer =
-        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
+        Renderer::create(**device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
     if (!renderer) return renderer.error();
     prepared->draw.deep = bits == 16;
     if (const auto drawn = renderer->draw(*prepared->technique, *prepared->values, prepared->draw); !drawn)
@@ -151,6 +194,7 @@ void add_pictures(py::module_& module) {
         .def_readonly("technique", &RenderedPicture::technique)
         .def_readonly("warnings", &RenderedPicture::warnings);
     module.def("render", render);
+    py::module_::import("atexit").attr("register")(py::cpp_function(close_kept_device));
     module.def("write_rendered", write_rendered);
     py::class_<TruePicture>(module, "ReferencePicture")
         .def_property_readonly(

@@ -51,6 +51,28 @@ class Process(TestCase):
             growths = self.growths_kib(call, 4000)
             self.assertLess(growths[-1], 4000, growths)
 
+    def test_memory_of_many_pictures_does_not_grow(self):
+        def pictures(times):
+            for _ in range(times):
+                dermis.render("builtin:unit", "lambert", size=16)
+            return resident_kib()
+
+        before = pictures(30)
+        self.assertLess(pictures(100) - before, 2000)
+
+    def test_a_forked_process_draws_too(self):
+        code = """
+import os, signal, sys, dermis
+draw = lambda: dermis.render("builtin:unit", "lambert", size=16).radiance
+here = draw()
+child = os.fork()
+if child == 0:
+    signal.alarm(60)  # it waits without end for a thread that is not there
+    os._exit(0 if (draw() == here).all() else 1)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+        self.assertEqual(run_python(code).returncode, 0)
+
     def growths_kib(self, call, enough):
         """Of rounds of four calls, until one grows by less: a leak grows in each, the pools of the allocator and
         of the driver in the first ones only."""
