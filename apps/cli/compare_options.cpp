@@ -29,9 +29,11 @@ Result<ComparisonSettings> CompareChoice::settings() const {
         return Error{"--samples-per-pixel " + std::to_string(samples_per_pixel) +
                      ": a square number, 1, 4, 9, 16 ... " + std::to_string(kMostGrid * kMostGrid)};
     if (!(noise > 0 && noise <= 1)) return Error{"--noise " + to_text(noise) + ": above 0, at most 1"};
-    if (samples < 2 * samples_per_pixel || samples > 1 << 20)
-        return Error{"--samples " + std::to_string(samples) + ": at least twice --samples-per-pixel (" +
-                     std::to_string(2 * samples_per_pixel) + "), at most " + std::to_string(1 << 20)};
+    // Each half of the ground truth has two samples a pixel or more.
+    const int fewest = std::max(4, 2 * samples_per_pixel);
+    if (samples < fewest || samples > 1 << 20)
+        return Error{"--samples " + std::to_string(samples) + ": at least twice --samples-per-pixel and 4 (" +
+                     std::to_string(fewest) + "), at most " + std::to_string(1 << 20)};
     const std::vector<std::string> integrators = {"surface", "walk"}, ambients = {"renderer", "traced"};
     if (std::ranges::find(integrators, integrator) == integrators.end())
         return Error{unknown_name("integrator", integrator, integrators)};

@@ -31,7 +31,7 @@ Result<void> assign(ToolSettings& settings, const std::string& assignment) {
     return set_value(settings, trim(std::string_view(assignment).substr(0, equals)), *numbers);
 }
 
-Result<BurleyProfile> source_of(const ConversionChoice& options) {
+Result<Profile> source_of(const ConversionChoice& options) {
     const bool named = options.profile || !options.name.empty();
     if (named != options.from.empty()) return Error{"convert needs either a profile's name or --from TOOL"};
     if (options.from.empty()) {
@@ -39,22 +39,23 @@ Result<BurleyProfile> source_of(const ConversionChoice& options) {
             return Error{"--set changes the numbers of --from TOOL; name a tool"};
         const Result<Profile> profile = options.profile ? *options.profile : find_profile(options.name);
         if (!profile) return profile.error();
-        const BurleyProfile burley = burley_equivalent(*profile);
         // A channel without reflectance has no length to convert.
-        if (const auto checked = check(Profile{profile->name, "", burley}); !checked) return checked.error();
-        return burley;
+        if (const auto checked = check(Profile{profile->name, "", burley_equivalent(*profile)}); !checked)
+            return checked.error();
+        return profile;
     }
     const Result<ToolId> tool = find_tool(options.from);
     if (!tool) return tool.error();
     ToolSettings settings = default_settings(*tool);
     for (const std::string& assignment : options.assignments)
         if (const auto set = assign(settings, assignment); !set) return set.error();
-    return to_canonical(settings);
+    const Result<BurleyProfile> burley = to_canonical(settings);
+    if (!burley) return burley.error();
+    return Profile{options.from, "", *burley};
 }
 
 // A profile with the albedo 1 is a blur only; --albedo gives the surface's own.
 Result<BurleyProfile> with_albedo(BurleyProfile burley, const std::string& text) {
-    if (text.empty()) return burley;
     const auto numbers = parse_numbers(text, "--albedo");
     if (!numbers) return numbers.error();
     if (numbers->size() != 1 && numbers->size() != 3) return Error{"--albedo takes one number or three"};
@@ -111,19 +112,27 @@ nlohmann::ordered_json profile_json(const Profile& profile, const GaussianFit& f
     return json;
 }
 
+Result<Profile> ConversionChoice::source_profile() const {
+    Result<Profile> stated = source_of(*this);
+    if (!stated || albedo.empty()) return stated;
+    const Result<BurleyProfile> changed = with_albedo(burley_equivalent(*stated), albedo);
+    if (!changed) return changed.error();
+    stated->model = *changed;
+    return stated;
+}
+
 Result<Conversion> ConversionChoice::convert() const {
-    const Result<BurleyProfile> stated = source_of(*this);
-    if (!stated) return stated.error();
-    const Result<BurleyProfile> source = with_albedo(*stated, albedo);
-    if (!source) return source.error();
-    Conversion conversion{.source = *source};
+    const Result<Profile> profile_to_convert = source_profile();
+    if (!profile_to_convert) return profile_to_convert.error();
+    Conversion conversion{.source = burley_equivalent(*profile_to_convert),
+                          .origin = profile_to_convert->source};
     if (to == "all") {
         for (const ToolConvention& tool : tool_conventions())
-            conversion.settings.push_back(to_tool(tool.id, *source));
+            conversion.settings.push_back(to_tool(tool.id, conversion.source));
     } else {
         const Result<ToolId> tool = find_tool(to);
         if (!tool) return tool.error();
-        conversion.settings.push_back(to_tool(*tool, *source));
+        conversion.settings.push_back(to_tool(*tool, conversion.source));
     }
     return conversion;
 }
@@ -131,6 +140,7 @@ Result<Conversion> ConversionChoice::convert() const {
 nlohmann::ordered_json conversion_json(const Conversion& conversion) {
     const BurleyProfile& source = conversion.source;
     nlohmann::ordered_json json = {{"canonical", {{"albedo", source.albedo}, {"burley_d_mm", source.d_mm}}}};
+    if (!conversion.origin.empty()) json["source"] = conversion.origin;
     for (const ToolSettings& settings : conversion.settings)
         json["settings"].push_back(settings_json(settings));
     return json;

@@ -23,6 +23,7 @@ using ChannelValues = std::array<double, 3>;
 
 struct Conversion {
     BurleyProfile source;
+    std::string origin;  ///< of a profile its source, with what was assumed of its file; else empty
     std::vector<ToolSettings> settings;  ///< one for each target
 };
 
@@ -33,6 +34,8 @@ struct ConversionChoice {
     std::vector<std::string> assignments;  ///< KEY=NUMBER or KEY=R,G,B of `from`
 
     [[nodiscard]] Result<Conversion> convert() const;
+    /// What is converted, as a profile: with its own model where --albedo does not replace the albedo.
+    [[nodiscard]] Result<Profile> source_profile() const;
 };
 [[nodiscard]] nlohmann::ordered_json conversion_json(const Conversion& conversion);
 

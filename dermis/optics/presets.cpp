@@ -5,7 +5,9 @@
 
 #include "dermis/base/text.h"
 #include "dermis/optics/burley_scaling.h"
+#include "dermis/optics/mtlx.h"
 #include "dermis/optics/preintegration.h"
+#include "dermis/optics/primaries.h"
 #include "dermis/optics/profile_file.h"
 
 namespace dermis {
@@ -27,13 +29,6 @@ Profile jensen_skin1() {
 }
 Profile jensen_skin2() {
     return jensen("jensen_skin2", "skin2", {1.09, 1.59, 1.79}, {0.013, 0.070, 0.145});
-}
-
-// ACEScg (AP1, white D60) to linear Rec. 709 (white D65), Bradford-adapted.
-Rgb rec709_from_acescg(const Rgb& c) {
-    return {1.70505 * c[0] - 0.62179 * c[1] - 0.08326 * c[2],
-            -0.13026 * c[0] + 1.14080 * c[1] - 0.01055 * c[2],
-            -0.02400 * c[0] - 0.12897 * c[1] + 1.15297 * c[2]};
 }
 
 // The six skins of the OpenPBR examples. Their radius scales are Jensen's diffuse mean free paths in cm.
@@ -160,13 +155,19 @@ std::vector<std::string> profile_names() {
     return names;
 }
 
+bool is_profile_file(std::string_view name) {
+    const std::string extension = to_lower(std::filesystem::path(name).extension().string());
+    return extension == ".csv" || extension == ".mtlx";
+}
+
 Result<Profile> find_profile(std::string_view name) {
     for (const Preset& preset : presets())
         if (preset.name == name) return preset.make();
     if (name.starts_with("burley:")) return burley_from_lengths(name);
-    const std::filesystem::path path(name);
-    if (to_lower(path.extension().string()) == ".csv") return read_profile_csv(path);
-    return Error{unknown_name("profile", name, profile_names()) + ", or a .csv file, or burley:d_mm"};
+    if (is_profile_file(name))
+        return to_lower(name).ends_with(".csv") ? read_profile_csv(name) : read_mtlx(name);
+    return Error{unknown_name("profile", name, profile_names()) +
+                 ", or a .csv or .mtlx file, or burley:d_mm"};
 }
 
 }  // namespace dermis

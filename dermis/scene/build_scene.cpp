@@ -10,6 +10,7 @@
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
+#include "dermis/optics/presets.h"
 #include "dermis/scene/displacement.h"
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/place_mesh.h"
@@ -230,6 +231,10 @@ Result<Scene> build_scene(const SceneDescription& description, std::span<const S
         if (!table) return Error{description.file.string() + ": " + key + table.error().message};
         *path = table->string();
     }
+    // A profile that is a file; one that is not there is named when the profile is read.
+    if (is_profile_file(scene.skin.profile))
+        if (const Result<fs::path> file = resolve_path(scene.skin.profile, description.file))
+            scene.skin.profile = file->string();
     scene.credit = head.credit;
     scene.technique = head.technique;
     scene.settings = description.settings;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dermis/optics/presets.h"
 #include "dermis/scene/scene_paths.h"
 
 namespace dermis {
@@ -37,6 +38,7 @@ std::vector<fs::path> files_of(const Scene& scene) {
     if (scene.environment.kind == EnvironmentKind::file) files.push_back(scene.environment.file);
     for (const std::string& table : {scene.skin.diffuse_table, scene.skin.zonal_table})
         if (!table.empty()) files.emplace_back(table);
+    if (is_profile_file(scene.skin.profile)) files.emplace_back(scene.skin.profile);
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
     return files;

@@ -4,6 +4,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
+#include "dermis/optics/presets.h"
 
 namespace dermis {
 namespace {
@@ -111,8 +112,11 @@ Result<std::string> hash_of(const Scene& scene) {
     for (const SceneObject& object : scene.objects)
         if (Result<void> added = add(hasher, object); !added) return added.error();
     add_views(hasher, scene);
-    if (scene.environment.kind == EnvironmentKind::file) {
-        const Result<std::vector<std::byte>> file = read_file(scene.environment.file);
+    std::vector<std::filesystem::path> files;
+    if (scene.environment.kind == EnvironmentKind::file) files.push_back(scene.environment.file);
+    if (is_profile_file(scene.skin.profile)) files.emplace_back(scene.skin.profile);
+    for (const std::filesystem::path& path : files) {
+        const Result<std::vector<std::byte>> file = read_file(path);
         if (!file) return file.error();
         hasher.add(std::span(*file));
     }

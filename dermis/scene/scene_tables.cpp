@@ -212,9 +212,10 @@ const KeyTable<MaterialDescription>& material_keys() {
 const KeyTable<Skin>& skin_keys() {
     static const KeyTable<Skin> table =
         KeyTable<Skin>()
-            .text(&Skin::profile, {.name = "profile",
-                                   .doc = "name of the diffusion profile; see `dermis profile list`",
-                                   .changeable = true})
+            .text(&Skin::profile,
+                  {.name = "profile",
+                   .doc = "a diffusion profile: its name (`dermis profile list`) or its file, .csv or .mtlx",
+                   .changeable = true})
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})

@@ -195,6 +195,12 @@ TEST_F(BadInput, numbers_are_finite) {
     expect_error("passes lambert --view zz", "unknown view 'zz'");
 }
 
+TEST_F(BadInput, samples_too_few_for_two_halves_are_refused_by_the_flags_name) {
+    expect_error(
+        "compare spheres --size 16x16 -t lambert --samples-per-pixel 1 --samples 3 -o " + path("out"),
+        "--samples 3: at least twice --samples-per-pixel and 4 (4)");
+}
+
 TEST_F(BadInput, help_of_every_command_has_an_example) {
     const ProgramResult all = dermis("--help");
     EXPECT_EQ(all.exit_code, 0);

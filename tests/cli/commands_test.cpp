@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
@@ -163,4 +164,19 @@ TEST_F(Commands, a_new_technique_is_a_folder_that_compiles_as_it_is) {
             .exit_code,
         0);
     EXPECT_NE(shell(root + "/tools/new_technique 'Bad Name'").exit_code, 0);
+}
+
+TEST_F(Commands, a_profile_is_written_as_materialx_and_read_by_a_scene_beside_it) {
+    const ProgramResult written =
+        dermis("profile convert gpu_gems_3 --albedo 0.8,0.6,0.5 -o " + path("skin.mtlx"));
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+    EXPECT_THAT(written.out, HasSubstr("the shape of gpu_gems_3 (sum of Gaussians) is lost"));
+    ASSERT_EQ(dermis("profile show " + path("skin.mtlx")).exit_code, 0);
+    std::ofstream(path("a.toml"))
+        << "[[mesh]]\nfile = \"builtin:spheres\"\n[skin]\nprofile = \"skin.mtlx\"\n";
+    const ProgramResult drawn = dermis("render " + path("a.toml") + " --size 16x16 -o " + path("a.png"));
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    const ProgramResult refused = dermis("profile convert gpu_gems_3 -o " + path("skin.txt"));
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr(".mtlx"));
 }

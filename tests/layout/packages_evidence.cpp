@@ -27,6 +27,7 @@ constexpr Evidence kPackageEvidence[] = {
     {"libfmt-dev", "fmt", "fmt/", ""},
     {"nlohmann-json3-dev", "nlohmann_json", "nlohmann/", ""},
     {"libtomlplusplus-dev", "", "toml++/", ""},
+    {"libpugixml-dev", "pugixml", "pugixml.hpp", ""},
     {"libeigen3-dev", "Eigen3", "Eigen/", ""},
     {"libopenexr-dev", "OpenEXR", "Imf Iex.h half.h", ""},
     {"libpng-dev", "PNG", "png.h", ""},

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "dermis/base/file.h"
+#include "dermis/optics/mtlx.h"
+#include "dermis/optics/presets.h"
 #include "dermis/scene/scene_description.h"
+#include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_hash.h"
 #include "support/built_in.h"
 #include "support/temporary_directory.h"
@@ -73,6 +76,18 @@ TEST(SceneWords, the_hash_follows_every_key_but_those_of_the_display) {
     other.objects[0].mesh.positions_mm[3].x += 1;
     EXPECT_EQ(hash_of_views(other), views);
     EXPECT_NE(*hash_of(other), whole);
+}
+
+TEST(SceneWords, the_hash_follows_the_content_of_a_profile_file) {
+    const TemporaryDirectory directory;
+    const std::filesystem::path file = directory.path / "skin.mtlx";
+    Scene scene = spheres();
+    scene.skin.profile = file.string();
+    ASSERT_TRUE(write_text_file(file, mtlx_text(*find_profile("openpbr_skin_1"))));
+    const std::string before = *hash_of(scene);
+    EXPECT_THAT(files_of(scene), testing::Contains(file));
+    ASSERT_TRUE(write_text_file(file, mtlx_text(*find_profile("openpbr_skin_6"))));
+    EXPECT_NE(*hash_of(scene), before);
 }
 
 TEST(SceneWords, what_no_word_names_keeps_its_bits) {

@@ -1,11 +1,15 @@
 // dermis profile: the published skins, and their parameters in other tools.
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command.h"
 #include "dermis/bake/profile_report.h"
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/optics/mtlx.h"
 #include "dermis/optics/presets.h"
 #include "profile_options.h"
 
@@ -16,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 struct ProfileOptions {
     ConversionChoice conversion;
-    std::string name, plot;
+    std::string name, plot, output;
     int terms = 6;
     bool json = false;
 };
@@ -117,7 +121,31 @@ void print_settings(const ToolSettings& settings) {
     }
 }
 
+// A file of another tool, with what it means and what it does not keep, a line each.
+Result<int> write_converted(const ProfileOptions& options) {
+    const std::filesystem::path path = options.output;
+    if (to_lower(path.extension().string()) != ".mtlx")
+        return Error{options.output + ": profiles are written as .mtlx (MaterialX, OpenPBR)"};
+    if (!options.conversion.to.empty() && options.conversion.to != "openpbr")
+        return Error{"-o " + options.output + " holds OpenPBR; leave --to " + options.conversion.to +
+                     " away"};
+    if (options.json) return Error{"--json prints; give either it or -o"};
+    const Result<Profile> profile = options.conversion.source_profile();
+    if (!profile) return profile.error();
+    ConversionChoice as_it_was = options.conversion;
+    as_it_was.albedo.clear();
+    const Result<Profile> original = as_it_was.source_profile();
+    if (!original) return original.error();
+    if (const auto written = write_text_file(path, mtlx_text(*profile)); !written) return written.error();
+    print(options.output + ": " + profile->name + "\n");
+    if (!profile->source.empty()) print("  from " + profile->source + "\n");
+    for (const std::string& note : mtlx_notes(*original, *profile)) print("  " + note + "\n");
+    return 0;
+}
+
 Result<int> convert(const ProfileOptions& options) {
+    if (!options.output.empty()) return write_converted(options);
+    if (options.conversion.to.empty()) return Error{"convert needs --to TOOL, or -o FILE.mtlx"};
     const Result<Conversion> converted = options.conversion.convert();
     if (!converted) return converted.error();
     const BurleyProfile& source = converted->source;
@@ -125,6 +153,7 @@ Result<int> convert(const ProfileOptions& options) {
         print(conversion_json(*converted).dump(2) + "\n");
         return 0;
     }
+    if (!converted->origin.empty()) print("from " + converted->origin + "\n");
     print("albedo " + value_text(source.albedo) + ", Burley d " + value_text(source.d_mm) +
           " mm (red, green, blue)\n");
     if (source.albedo == ChannelValues{1, 1, 1})
@@ -149,7 +178,7 @@ void add_profile_command(CommandLine& line) {
                  "dermis profile convert jensen_skin1 --to hdrp");
     profile->require_subcommand();
     const auto options = std::make_shared<ProfileOptions>();
-    const char* name_help = "a preset's name, a CSV file, or burley:R,G,B (d in mm)";
+    const char* name_help = "a preset's name, a CSV or .mtlx file, or burley:R,G,B (d in mm)";
 
     Command* list_command =
         line.add("list", "Lists the built-in profiles", "dermis profile list --json", profile);
@@ -175,7 +204,9 @@ void add_profile_command(CommandLine& line) {
     convert_command->add_option(
         "--set", options->conversion.assignments,
         "KEY=NUMBER or KEY=R,G,B of --from; what is not set keeps the tool's default");
-    convert_command->add_option("--to", options->conversion.to, tool_list() + "or all")->required();
+    convert_command->add_option("--to", options->conversion.to, tool_list() + "or all");
+    convert_command->add_option("-o,--output", options->output,
+                                "file to write instead: .mtlx, an OpenPBR surface of MaterialX");
     convert_command->add_option("--albedo", options->conversion.albedo,
                                 "R,G,B: replaces the albedo, keeps Burley's d");
     convert_command->add_flag("--json", options->json, "print JSON");
