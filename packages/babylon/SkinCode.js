@@ -1,11 +1,16 @@
 // What the plugin puts into the shader of PBRMaterial: by place, a name of Babylon's, or an expression to be replaced ("!").
 // skinSettings: millimetres in a unit, factor on the curvature, reflectance at normal incidence, height of the picture in pixels.
+//
+// Light from all around: Babylon has computed an irradiance E(n) for Lambert, three bands of spherical harmonics (Ramamoorthi,
+// Hanrahan 2001). The even ones are in (E(n) + E(-n)) / 2, the odd one is (E(n) - E(-n)) / 2; skin multiplies those of order 1
+// and 2 by factors, which depend on its curvature.
 
 import { glslText, wgslText } from "./skin.js";
 
 // The light of one light of the scene, in the loop that Babylon unrolls; preInfo and diffuse0, diffuse1 ... are its words.
 const kDiffuseCall = "!computeDiffuseLighting\\(preInfo,(\\w+)\\.rgb\\);";
 const kSpecularCall = "!computeSpecularLighting\\(preInfo,normalW,[^;]*?,(\\w+)\\.rgb\\);";
+const kHemisphericCall = "!computeHemisphericDiffuseLighting\\(preInfo,(\\w+)\\.rgb,(\\w+)\\.vLightGround\\);";
 
 export const glslCode = {
   vertex: {
@@ -44,7 +49,29 @@ vec3 skinSpecularLight(preLightingInfo info, vec3 n, vec3 lightColor) {
   float nDotH = clamp(dot(n, info.H), 0.0, 1.0);
   float lobes = two_lobe_ggx(nDotH, info.NdotLUnclamped, max(info.NdotV, 1e-3), clamp(info.roughness, 0.03, 1.0));
   return lobes * fresnel_schlick(skinSettings.z, info.VdotH) * info.attenuation * lightColor;
-}`,
+}
+
+// What Lambert's bands are multiplied with.
+vec3 skinBand1(float curvature) { return skin_ambient_band_1(curvature) * (1.5 / kPi); }
+vec3 skinBand2(float curvature) { return skin_ambient_band_2(curvature) * (4.0 / kPi); }
+
+vec3 skinHemisphericLight(preLightingInfo info, float curvature, vec3 sky, vec3 ground) {
+  return mix(ground, sky, 0.5 + (info.NdotL - 0.5) * skinBand1(curvature));
+}
+
+#ifdef SKIN_ENVIRONMENT
+// What scattering changes in the environment's irradiance; n in its space.
+vec3 skinEnvironmentChange(vec3 n, float curvature) {
+#ifdef SPHERICAL_HARMONICS
+  vec3 mean = vSphericalL00;
+#else
+  vec3 mean = vSphericalZZ + (vSphericalXX_ZZ + vSphericalYY_ZZ) / 3.0;
+#endif
+  vec3 towards = computeEnvironmentIrradiance(n), away = computeEnvironmentIrradiance(-n);
+  return (towards - away) * 0.5 * (skinBand1(curvature) - 1.0) +
+         ((towards + away) * 0.5 - mean) * (skinBand2(curvature) - 1.0);
+}
+#endif`,
     // Of the mesh: a bump of the map is smaller than what scatters.
     CUSTOM_FRAGMENT_BEFORE_LIGHTS: `
 #ifdef SKIN_VERTEX_CURVATURE
@@ -55,8 +82,31 @@ float skinCurvature = curvature_from_derivatives(fwidth(geometricNormalW), fwidt
 skinCurvature = min(skinCurvature * skinSettings.y, kMaxCurvaturePerMm);`,
     [kDiffuseCall]: "skinDiffuseLight(preInfo, skinCurvature, $1.rgb);",
     [kSpecularCall]: "skinSpecularLight(preInfo, normalW, $1.rgb);",
+    [kHemisphericCall]: "skinHemisphericLight(preInfo, skinCurvature, $1.rgb, $2.vLightGround);",
+    CUSTOM_FRAGMENT_BEFORE_FINALCOLORCOMPOSITION: `
+#ifdef SKIN_ENVIRONMENT
+vec3 skinNormal = (reflectionMatrix * vec4(normalW, 0.0)).xyz;
+#ifdef REFLECTIONMAP_OPPOSITEZ
+skinNormal.z *= -1.0;
+#endif
+#ifdef INVERTCUBICMAP
+skinNormal.y *= -1.0;
+#endif
+finalIrradiance += skinEnvironmentChange(skinNormal, skinCurvature) * vReflectionColor * vReflectionInfos.x * surfaceAlbedo *
+                   vLightingIntensity.z * aoOut.ambientOcclusionColor;
+#endif
+#ifdef SKIN_REFLECTION
+vec3 skinReflectance = getReflectanceFromBRDFLookup(vec3(skinSettings.z), environmentBrdf);
+#if defined(RADIANCEOCCLUSION) && !defined(BENTNORMAL)
+skinReflectance *= seo;
+#endif
+#if defined(HORIZONOCCLUSION) && defined(BUMP) && defined(REFLECTIONMAP_3D)
+skinReflectance *= eho;
+#endif
+finalRadianceScaled += reflectionOut.environmentRadiance.rgb * skinReflectance * vLightingIntensity.z;
+#endif`,
     CUSTOM_FRAGMENT_BEFORE_FRAGCOLOR: `
-#if defined(SKIN_NO_TABLE) || defined(SKIN_NO_CURVATURE)
+#if defined(SKIN_NO_TABLE) || defined(SKIN_NO_CURVATURE) || defined(SKIN_CHANGED_ENGINE)
 vec2 skinPixel = vec2(gl_FragCoord.x, skinSettings.w - gl_FragCoord.y);
 #endif
 #ifdef SKIN_NO_TABLE
@@ -64,6 +114,9 @@ finalColor = vec4(vec3(mix(0.02, 1.0, sign_of_missing_table(skinPixel))), 1.0);
 #endif
 #ifdef SKIN_NO_CURVATURE
 finalColor = vec4(vec3(mix(0.02, 1.0, sign_of_missing_curvature(skinPixel))), 1.0);
+#endif
+#ifdef SKIN_CHANGED_ENGINE
+finalColor = vec4(vec3(mix(0.02, 1.0, sign_of_changed_engine(skinPixel))), 1.0);
 #endif`,
   },
 };
@@ -106,7 +159,28 @@ fn skinSpecularLight(info: preLightingInfo, n: vec3f, lightColor: vec3f) -> vec3
   let nDotH = clamp(dot(n, info.H), 0.0, 1.0);
   let lobes = two_lobe_ggx(nDotH, info.NdotLUnclamped, max(info.NdotV, 1e-3), clamp(info.roughness, 0.03, 1.0));
   return lobes * fresnel_schlick(uniforms.skinSettings.z, info.VdotH) * info.attenuation * lightColor;
-}`,
+}
+
+fn skinBand1(curvature: f32) -> vec3f { return skin_ambient_band_1(curvature) * (1.5 / kPi); }
+fn skinBand2(curvature: f32) -> vec3f { return skin_ambient_band_2(curvature) * (4.0 / kPi); }
+
+fn skinHemisphericLight(info: preLightingInfo, curvature: f32, sky: vec3f, ground: vec3f) -> vec3f {
+  return mix(ground, sky, 0.5 + (info.NdotL - 0.5) * skinBand1(curvature));
+}
+
+#ifdef SKIN_ENVIRONMENT
+fn skinEnvironmentChange(n: vec3f, curvature: f32) -> vec3f {
+#ifdef SPHERICAL_HARMONICS
+  let mean: vec3f = uniforms.vSphericalL00;
+#else
+  let mean: vec3f = uniforms.vSphericalZZ + (uniforms.vSphericalXX_ZZ + uniforms.vSphericalYY_ZZ) / 3.0;
+#endif
+  let towards: vec3f = computeEnvironmentIrradiance(n);
+  let away: vec3f = computeEnvironmentIrradiance(-n);
+  return (towards - away) * 0.5 * (skinBand1(curvature) - 1.0) +
+         ((towards + away) * 0.5 - mean) * (skinBand2(curvature) - 1.0);
+}
+#endif`,
     CUSTOM_FRAGMENT_BEFORE_LIGHTS: `
 #ifdef SKIN_VERTEX_CURVATURE
 var skinCurvature: f32 = abs(fragmentInputs.vSkinCurvature);
@@ -117,8 +191,31 @@ var skinCurvature: f32 = curvature_from_derivatives(fwidth(geometricNormalW),
 skinCurvature = min(skinCurvature * uniforms.skinSettings.y, kMaxCurvaturePerMm);`,
     [kDiffuseCall]: "skinDiffuseLight(preInfo, skinCurvature, $1.rgb);",
     [kSpecularCall]: "skinSpecularLight(preInfo, normalW, $1.rgb);",
+    [kHemisphericCall]: "skinHemisphericLight(preInfo, skinCurvature, $1.rgb, $2.vLightGround);",
+    CUSTOM_FRAGMENT_BEFORE_FINALCOLORCOMPOSITION: `
+#ifdef SKIN_ENVIRONMENT
+var skinNormal: vec3f = (uniforms.reflectionMatrix * vec4f(normalW, 0.0)).xyz;
+#ifdef REFLECTIONMAP_OPPOSITEZ
+skinNormal.z *= -1.0;
+#endif
+#ifdef INVERTCUBICMAP
+skinNormal.y *= -1.0;
+#endif
+finalIrradiance += skinEnvironmentChange(skinNormal, skinCurvature) * uniforms.vReflectionColor * uniforms.vReflectionInfos.x * surfaceAlbedo *
+                   uniforms.vLightingIntensity.z * aoOut.ambientOcclusionColor;
+#endif
+#ifdef SKIN_REFLECTION
+var skinReflectance: vec3f = getReflectanceFromBRDFLookup(vec3f(uniforms.skinSettings.z), environmentBrdf);
+#if defined(RADIANCEOCCLUSION) && !defined(BENTNORMAL)
+skinReflectance *= seo;
+#endif
+#if defined(HORIZONOCCLUSION) && defined(BUMP) && defined(REFLECTIONMAP_3D)
+skinReflectance *= eho;
+#endif
+finalRadianceScaled += reflectionOut.environmentRadiance.rgb * skinReflectance * uniforms.vLightingIntensity.z;
+#endif`,
     CUSTOM_FRAGMENT_BEFORE_FRAGCOLOR: `
-#if defined(SKIN_NO_TABLE) || defined(SKIN_NO_CURVATURE)
+#if defined(SKIN_NO_TABLE) || defined(SKIN_NO_CURVATURE) || defined(SKIN_CHANGED_ENGINE)
 let skinPixel = vec2f(fragmentInputs.position.x, uniforms.skinSettings.w - fragmentInputs.position.y);
 #endif
 #ifdef SKIN_NO_TABLE
@@ -126,6 +223,9 @@ finalColor = vec4f(vec3f(mix(0.02, 1.0, sign_of_missing_table(skinPixel))), 1.0)
 #endif
 #ifdef SKIN_NO_CURVATURE
 finalColor = vec4f(vec3f(mix(0.02, 1.0, sign_of_missing_curvature(skinPixel))), 1.0);
+#endif
+#ifdef SKIN_CHANGED_ENGINE
+finalColor = vec4f(vec3f(mix(0.02, 1.0, sign_of_changed_engine(skinPixel))), 1.0);
 #endif`,
   },
 };

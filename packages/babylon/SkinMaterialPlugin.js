@@ -1,5 +1,6 @@
-// Skin, pre-integrated (Penner 2011): diffuse light over N.L and curvature from skin_table.dds, two specular lobes. Every
-// light of the scene, with its shadow, on a PBRMaterial, in WebGL 2 and WebGPU. Made by dermis @version@ for @profile@.
+// Skin, pre-integrated (Penner 2011): diffuse light over N.L and curvature from skin_table.dds, two specular lobes, light from
+// all around by its bands of spherical harmonics. Every light of the scene, with its shadow, and its environment, on a
+// PBRMaterial, in WebGL 2 and WebGPU. Made by dermis @version@ for @profile@.
 //
 //     const material = new PBRMaterial("skin", scene);
 //     const skin = new SkinMaterialPlugin(material);
@@ -8,6 +9,7 @@
 import { MaterialPluginBase } from "@babylonjs/core/Materials/materialPluginBase.js";
 import { ShaderLanguage } from "@babylonjs/core/Materials/shaderLanguage.js";
 import { glslCode, wgslCode } from "./SkinCode.js";
+import { faultOfEngine } from "./SkinEngineText.js";
 import { faultOfTable } from "./SkinTable.js";
 
 export * from "./SkinTable.js";
@@ -19,11 +21,13 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
   constructor(material) {
     super(material, "DermisSkin", 200, {
       SKIN_TABLE: false, SKIN_VERTEX_CURVATURE: false, SKIN_NO_TABLE: false, SKIN_NO_CURVATURE: false,
+      SKIN_ENVIRONMENT: false, SKIN_REFLECTION: false, SKIN_CHANGED_ENGINE: false,
     });
     this._table = null;
     this._closedForm = false;
     this._curvatureFromVertices = false;
     this._said = "";
+    this._engineFault = null;  // null: not looked at yet
     this.mmPerUnit = 1000;   // millimetres in a unit of the scene: 1000 where units are metres
     this.curvatureGain = 1;  // factor on the curvature, 0 to 4: 1 is the skin as measured
     this.f0 = 0.028;         // reflectance at normal incidence, 0 to 0.08
@@ -33,7 +37,15 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
     material.brdf.useLegacySpecularEnergyConservation = true;
     material.brdf.useEnergyConservation = false;
     material.metallicF0Factor = 0;
+    material.forceIrradianceInFragment = true;
     this._enable(true);
+    const { shaderLanguage } = material;
+    faultOfEngine(shaderLanguage === ShaderLanguage.WGSL ? wgslCode : glslCode, shaderLanguage)
+      .catch(error => `the engine's shader cannot be read: ${error.message}`)
+      .then(fault => {
+        if (fault) console.warn(`SkinMaterialPlugin: ${fault}`);
+        this._change("_engineFault", fault);
+      });
   }
 
   // Of loadSkinTable().
@@ -61,6 +73,10 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
     const hasCurvature = mesh.isVerticesDataPresent(attribute);
     defines.SKIN_TABLE = !this._closedForm && fault === "";
     defines.SKIN_VERTEX_CURVATURE = this._curvatureFromVertices && hasCurvature;
+    // An irradiance texture in place of the harmonics stays Lambert's.
+    defines.SKIN_ENVIRONMENT = Boolean(defines.USESPHERICALFROMREFLECTIONMAP && !defines.REALTIME_FILTERING);
+    defines.SKIN_REFLECTION = Boolean(defines.REFLECTION && defines.ENVIRONMENTBRDF);
+    defines.SKIN_CHANGED_ENGINE = Boolean(this._engineFault);
     defines.SKIN_NO_TABLE = fault !== "";
     defines.SKIN_NO_CURVATURE = fault === "" && !hasCurvature;
     const said = fault ? `SkinMaterialPlugin.table: ${fault}. Set it to what loadSkinTable() gives.`
@@ -77,7 +93,7 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
     if (this._table) textures.push(this._table);
   }
   hasTexture(texture) { return texture === this._table; }
-  isReadyForSubMesh() { return !this._table || this._table.isReady(); }
+  isReadyForSubMesh() { return this._engineFault !== null && (!this._table || this._table.isReady()); }
 
   getUniforms(language) {
     const ubo = [{ name: "skinSettings", size: 4, type: "vec4" }];

@@ -38,6 +38,10 @@ export const skinDiffuse = /*@__PURE__*/ skinFunction("skin_diffuse", "vec3", "f
 export const diffuseCoordinate = /*@__PURE__*/ skinFunction("diffuse_coordinate", "vec2", "float", "float", "float");
 // In 1/mm: fwidth() of the normal and of the position in mm.
 export const curvatureFromDerivatives = /*@__PURE__*/ skinFunction("curvature_from_derivatives", "float", "vec3", "vec3");
+// Light from all around: what the bands of order 1 and 2 of the environment's radiance are multiplied with, in place of
+// Lambert's 2 pi / 3 and pi / 4. Curvature in 1/mm.
+export const skinAmbientBand1 = /*@__PURE__*/ skinFunction("skin_ambient_band_1", "vec3", "float");
+export const skinAmbientBand2 = /*@__PURE__*/ skinFunction("skin_ambient_band_2", "vec3", "float");
 // Transmission through thin geometry, 0 to 1, by its thickness in mm.
 export const skinTransmittance = /*@__PURE__*/ skinFunction("skin_transmittance", "vec3", "float");
 // Light in a penumbra 3 mm wide, by the share of the light that is visible, 0 to 1.

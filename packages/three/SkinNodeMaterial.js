@@ -1,5 +1,6 @@
-// Skin, pre-integrated (Penner 2011): diffuse light over N.L and curvature from skin_table.exr, two specular lobes. Every
-// light of the scene, with its shadow, in WebGPURenderer on WebGPU and on WebGL 2. Made by dermis @version@ for @profile@.
+// Skin, pre-integrated (Penner 2011): diffuse light over N.L and curvature from skin_table.exr, two specular lobes, light from
+// all around by its bands of spherical harmonics. Every light of the scene, with its shadow, and its environment, in
+// WebGPURenderer on WebGPU and on WebGL 2. Made by dermis @version@ for @profile@.
 //
 //     const skin = new SkinNodeMaterial({ table: await loadSkinTable(), map: albedo, normalMap: normals });
 
@@ -8,16 +9,17 @@ import {
   attribute, diffuseContribution, float, fwidth, materialReference, materialRoughness, mix, normalView, normalViewGeometry,
   positionView, positionViewDirection, screenCoordinate, specularColor, specularColorBlended, specularF90, texture, vec3,
 } from "three/tsl";
+import { changeOfEnvironment, changeOfLight } from "./SkinAmbient.js";
 import {
-  curvatureFromDerivatives, diffuseCoordinate, fresnelSchlick, signOfMissingCurvature, signOfMissingTable, skinDiffuse,
-  twoLobeGgx,
+  curvatureFromDerivatives, diffuseCoordinate, fresnelSchlick, signOfMissingCurvature, signOfMissingTable, skinAmbientBand1,
+  skinAmbientBand2, skinDiffuse, twoLobeGgx,
 } from "./SkinFunction.js";
 import { faultOfTable, maxCurvaturePerMm } from "./SkinTable.js";
 
 export * from "./SkinFunction.js";
 export * from "./SkinTable.js";
 
-// Direct light is the skin's; light from all around stays that of MeshStandardNodeMaterial (Lambert, GGX).
+// Reflections of the environment stay those of MeshStandardNodeMaterial (GGX).
 class SkinLightingModel extends PhysicalLightingModel {
   constructor(material) {
     super();
@@ -26,6 +28,8 @@ class SkinLightingModel extends PhysicalLightingModel {
 
   start(builder) {
     this.curvature = this.material.setupCurvature(builder).toVar("skinCurvature");
+    this.bands = [skinAmbientBand1(this.curvature).div(2 / 3 * Math.PI), skinAmbientBand2(this.curvature).div(Math.PI / 4)]
+      .map(band => band.toVar());
     super.start(builder);
   }
 
@@ -40,6 +44,19 @@ class SkinLightingModel extends PhysicalLightingModel {
       float(roughness).clamp(0.03, 1));
     const fresnel = fresnelSchlick(specularColor.r, positionViewDirection.dot(h).clamp());
     reflectedLight.directSpecular.addAssign(lightColor.mul(nDotL.greaterThan(0).select(lobes.mul(fresnel), 0)));
+  }
+
+  // Diffuse light is not lessened by what is reflected: the table has all of it.
+  indirect(builder) {
+    const { irradiance, iblIrradiance, radiance, reflectedLight } = builder.context;
+    for (const lightNode of builder.lightsNode.getLightNodes(builder)) {
+      const change = changeOfLight(lightNode, this.bands);
+      if (change) irradiance.addAssign(change);
+    }
+    const arriving = irradiance.add(iblIrradiance).max(0);
+    reflectedLight.indirectDiffuse.addAssign(arriving.mul(diffuseContribution).div(Math.PI));
+    reflectedLight.indirectSpecular.addAssign(radiance.mul(this.singleScatteringDielectric));
+    this.ambientOcclusion(builder);
   }
 }
 
@@ -68,6 +85,18 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
   customProgramCacheKey() {
     const table = this.closedForm ? "none" : this.table?.uuid ?? "missing";
     return `${super.customProgramCacheKey()} ${table} ${faultOfTable(this.table)} ${this.curvatureAttribute}`;
+  }
+
+  setupEnvironment(builder) {
+    const environment = super.setupEnvironment(builder);
+    if (!environment) return null;
+    const setup = environment.setup;
+
+    environment.setup = inner => {
+      setup.call(environment, inner);
+      inner.context.iblIrradiance.addAssign(changeOfEnvironment(environment, inner.context.lightingModel.bands));
+    };
+    return environment;
   }
 
   setupLightingModel() { return new SkinLightingModel(this); }

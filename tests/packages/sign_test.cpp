@@ -26,6 +26,13 @@ const std::string kMissingCurvature =
     "#.# #.#     #.. #.# #.# #.# #.# .#. #.# #.# #..    \n"
     "#.# ###     ### ### #.# .#. #.# .#. ### #.# ###    \n";
 
+const std::string kChangedEngine =
+    "### ##. ### ### ##. ###     ### #.# ### ##. ### ### ##.\n"
+    "#.. #.# #.. .#. #.# #..     #.. #.# #.# #.# #.. #.. #.#\n"
+    "##. #.# #.# .#. #.# ##.     #.. ### ### #.# #.# ##. #.#\n"
+    "#.. #.# #.# .#. #.# #..     #.. #.# #.# #.# #.# #.. #.#\n"
+    "### #.# ### ### #.# ###     ### #.# #.# #.# ### ### ##.\n";
+
 // The text as the function draws it, row by row, of the first repetition but its empty cells at the right.
 std::string drawn(const std::string& source, const std::string& function) {
     const auto units = shading::read_sources(std::vector<shading::Source>{{"sign.glsl", source}});
@@ -37,8 +44,8 @@ std::string drawn(const std::string& source, const std::string& function) {
     EXPECT_TRUE(write_text_file(
         directory.path / "main.cpp",
         "#include <cstdio>\n#include \"sign.h\"\nint main() {\n"
-        "    for (int y = 0; y < 5; ++y)\n        for (int x = 0; x < 52; ++x)\n"
-        "            std::putchar(x == 51 ? '\\n' : skin::" +
+        "    for (int y = 0; y < 5; ++y)\n        for (int x = 0; x < 56; ++x)\n"
+        "            std::putchar(x == 55 ? '\\n' : skin::" +
             function + "(skin::float2(4.0f * x + 1.5f, 4.0f * y + 1.5f)) > 0.5f ? '#' : '.');\n}\n"));
     const std::string program = (directory.path / "sign").string();
     EXPECT_EQ(
@@ -58,8 +65,11 @@ std::string sign_source() {
 
 TEST(Sign, of_what_is_missing_is_legible) {
     for (const auto& [function, letters] : {std::pair("sign_of_missing_table", kMissingTable),
-                                            {"sign_of_missing_curvature", kMissingCurvature}}) {
-        std::string expected = letters;
+                                            {"sign_of_missing_curvature", kMissingCurvature},
+                                            {"sign_of_changed_engine", kChangedEngine}}) {
+        std::string expected;
+        for (size_t at = 0, end; (end = letters.find('\n', at)) != std::string::npos; at = end + 1)
+            expected += letters.substr(at, end - at) + std::string(55 - (end - at), '.') + "\n";
         for (char& c : expected)
             if (c == ' ') c = '.';
         EXPECT_EQ(drawn(sign_source(), function), expected) << function;

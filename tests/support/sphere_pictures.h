@@ -9,38 +9,52 @@
 
 namespace dermis {
 
-/// Of the pixels on the sphere, more than two pixels from its edge: a browser smooths edges, the renderer's
-/// picture has one sample a pixel.
+/// Pixels on the sphere, more than two pixels from its edge: a browser smooths edges, the renderer's picture
+/// has one sample a pixel. The upper left pixel of the picture is background.
+class SpherePixels {
+  public:
+    explicit SpherePixels(const Image& picture) : picture_(picture) {}
+    [[nodiscard]] bool is_inside(int x, int y) const {
+        if (std::min(x, y) < kEdge || x >= picture_.width - kEdge || y >= picture_.height - kEdge)
+            return false;
+        for (int dy = -kEdge; dy <= kEdge; ++dy)
+            for (int dx = -kEdge; dx <= kEdge; ++dx)
+                if (is_background(x + dx, y + dy)) return false;
+        return true;
+    }
+
+  private:
+    static constexpr int kEdge = 2;
+    [[nodiscard]] bool is_background(int x, int y) const {
+        for (int c = 0; c < 3; ++c)
+            if (picture_.at(x, y, c) != picture_.at(0, 0, c)) return false;
+        return true;
+    }
+    const Image& picture_;
+};
+
+/// Of 255, the largest over all channels.
+inline int level_difference(const Image& a, const Image& b, int x, int y) {
+    const auto level = [&](const Image& image, int c) { return int(std::lround(image.at(x, y, c) * 255)); };
+    int largest = 0;
+    for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(level(a, c) - level(b, c)));
+    return largest;
+}
+
 struct SphereDifference {
     int pixels = 0;
     int largest_level = 0;  ///< of 255, over all channels
 };
 
-/// The upper left pixel of `ours` is background. Both pictures have the same size.
+/// Both pictures have the same size.
 inline SphereDifference sphere_difference(const Image& ours, const Image& theirs) {
-    constexpr int kEdge = 2;
-    const auto level = [](const Image& image, int x, int y, int c) {
-        return int(std::lround(image.at(x, y, c) * 255));
-    };
-    const auto is_background = [&](int x, int y) {
-        for (int c = 0; c < 3; ++c)
-            if (level(ours, x, y, c) != level(ours, 0, 0, c)) return false;
-        return true;
-    };
-    const auto is_inside = [&](int x, int y) {
-        for (int dy = -kEdge; dy <= kEdge; ++dy)
-            for (int dx = -kEdge; dx <= kEdge; ++dx)
-                if (is_background(x + dx, y + dy)) return false;
-        return true;
-    };
+    const SpherePixels sphere(ours);
     SphereDifference found;
-    for (int y = kEdge; y < ours.height - kEdge; ++y)
-        for (int x = kEdge; x < ours.width - kEdge; ++x) {
-            if (!is_inside(x, y)) continue;
+    for (int y = 0; y < ours.height; ++y)
+        for (int x = 0; x < ours.width; ++x) {
+            if (!sphere.is_inside(x, y)) continue;
             ++found.pixels;
-            for (int c = 0; c < 3; ++c)
-                found.largest_level =
-                    std::max(found.largest_level, std::abs(level(ours, x, y, c) - level(theirs, x, y, c)));
+            found.largest_level = std::max(found.largest_level, level_difference(ours, theirs, x, y));
         }
     return found;
 }

@@ -26,7 +26,7 @@ export function serve(folder) {
     done({ origin: `http://127.0.0.1:${server.address().port}`, close: () => { server.close(); server.closeAllConnections(); } })));
 }
 
-// { call(method, params), load(url), evaluate(expression), requests, problems, close() }; it ends after two minutes.
+// { call(method, params), load(url), evaluate(expression), requests, problems, close() }; it ends two minutes after the last load.
 // `flags` are further ones of Chromium's.
 export async function openBrowser(chromium, { width, height, phone = false, flags = [] }) {
   const profile = mkdtempSync(join(tmpdir(), "dermis-page-"));
@@ -74,6 +74,7 @@ export async function openBrowser(chromium, { width, height, phone = false, flag
     return result.value;
   };
   const load = async url => {
+    late.refresh();
     const fired = new Promise(done => { loaded = done; });
     await call("Page.navigate", { url });
     await fired;

@@ -1,0 +1,41 @@
+// Light from all around on skin: what scattering changes in an irradiance E(n) that three.js has computed for Lambert. E has three
+// bands of spherical harmonics (Ramamoorthi, Hanrahan 2001). The even ones are in (E(n) + E(-n)) / 2, the odd one is (E(n) - E(-n)) / 2;
+// skin multiplies those of order 1 and 2 by factors,
+// which depend on its curvature.
+
+import { REVISION } from "three/webgpu";
+import { float, getShIrradianceAt, isolate, materialEnvIntensity, normalWorld, vec3 } from "three/tsl";
+
+const away = /*@__PURE__*/ normalWorld.negate();
+
+// irradiance: E(n), E(-n) and the mean of E over all directions. bands: the factors.
+const change = (towardsN, awayFromN, mean, [band1, band2]) => {
+  const odd = towardsN.sub(awayFromN).mul(0.5), even = towardsN.add(awayFromN).mul(0.5).sub(mean);
+  return odd.mul(band1.sub(1)).add(even.mul(band2.sub(1)));
+};
+
+// Of a light of the scene, null for one that skin does not change: light of one direction, AmbientLight, which has one band.
+export function changeOfLight(lightNode, bands) {
+  if (lightNode.light?.isLightProbe) {
+    const harmonics = lightNode.lightProbe, mean = harmonics.element(0).mul(0.886227);
+    return change(getShIrradianceAt(normalWorld, harmonics), getShIrradianceAt(away, harmonics), mean, bands);
+  }
+  if (lightNode.light?.isHemisphereLight) {
+    const { colorNode: sky, groundColorNode: ground, lightDirectionNode: up } = lightNode;
+    return sky.sub(ground).mul(normalWorld.dot(up).mul(0.5)).mul(bands[0].sub(1));
+  }
+  return null;
+}
+
+// Of EnvironmentNode. Its roughest level is the irradiance over pi; the mean of six directions is that of the sphere for every
+// polynomial up to the third degree.
+export function changeOfEnvironment(environment, bands) {
+  const { envNode } = environment;
+  const radiance = envNode.isTextureNode || envNode.isMaterialReferenceNode ? environment._pmremNode : envNode;
+  if (!radiance) throw new Error(`SkinNodeMaterial does not find the environment in three.js r${REVISION}: use r187.`);
+  const irradiance = direction =>
+    isolate(radiance.context({ getUV: () => direction, getTextureLevel: () => float(1) }).mul(materialEnvIntensity).mul(Math.PI));
+  const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(axis => vec3(...axis));
+  const mean = axes.flatMap(axis => [axis, axis.negate()]).map(irradiance).reduce((sum, one) => sum.add(one)).div(6);
+  return change(irradiance(normalWorld), irradiance(away), mean, bands);
+}

@@ -1,0 +1,223 @@
+#include "packages/host_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "dermis/base/file.h"
+#include "dermis/base/vec.h"
+#include "dermis/image/io.h"
+#include "dermis/scene/panorama.h"
+
+namespace dermis {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr float kRadiusMm = 8;
+constexpr Vec3 kToLight{-0.6275f, 0.5736f, 0.5266f};
+
+// Radiance from all around: a, b, c, d of a + b x + c y + d x z, a channel each. No band above the third.
+constexpr float kRadiance[3][4] = {
+    {0.5f, 0.3f, 0.1f, 0.2f}, {0.4f, -0.1f, 0.2f, 0.15f}, {0.45f, 0.1f, -0.2f, -0.2f}};
+// Of a hemisphere light: a + c y.
+constexpr float kHemisphere[3][2] = {{0.4f, 0.3f}, {0.4f, 0.1f}, {0.5f, -0.2f}};
+constexpr Vec3 kPointMm{-80, 72, 68};
+constexpr float kPointIntensity = 0.04f;  // irradiance at 1 m; three.js has no falloff within 100 mm
+
+std::array<float, 3> channels(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+
+Image panorama_of(const auto& radiance) {
+    Image image(256, 128, 3, PixelFormat::f32);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                image.set(x, y, c, radiance(panorama_direction((x + 0.5f) / 256, (y + 0.5f) / 128), c));
+    return image;
+}
+
+// Slopes along u and v, 16 and 8 waves.
+Image bumps() {
+    Image image(512, 256, 3, PixelFormat::u8);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double u = (x + 0.5) / image.width, v = 1 - (y + 0.5) / image.height;
+            const Vec3 n = normalize(
+                Vec3{float(-0.25 * std::sin(2 * kPi * 16 * u)), float(-0.25 * std::cos(2 * kPi * 8 * v)), 1});
+            for (int c = 0; c < 3; ++c) image.set(x, y, c, 0.5f * channels(n)[size_t(c)] + 0.5f);
+        }
+    return image;
+}
+
+struct HostMesh {
+    std::vector<Vec3> positions_mm, normals;
+    std::vector<Vec2> uvs;
+    std::vector<int> indices;
+};
+
+HostMesh sphere() {
+    constexpr int kAcross = 192, kDown = 96;
+    HostMesh mesh;
+    for (int j = 0; j <= kDown; ++j)
+        for (int i = 0; i <= kAcross; ++i) {
+            const double u = double(i) / kAcross, v = double(j) / kDown;
+            // u grows towards +X in front, v upwards.
+            const double across = 2 * kPi * (u - 0.5), up = kPi * (v - 0.5);
+            const Vec3 n{float(std::sin(across) * std::cos(up)), float(std::sin(up)),
+                         float(std::cos(across) * std::cos(up))};
+            mesh.positions_mm.push_back(kRadiusMm * n);
+            mesh.normals.push_back(n);
+            mesh.uvs.push_back({float(u), float(v)});
+            if (i == kAcross || j == kDown) continue;
+            const int first = j * (kAcross + 1) + i, above = first + kAcross + 1;
+            if (j > 0) mesh.indices.insert(mesh.indices.end(), {first, first + 1, above + 1});
+            if (j + 1 < kDown) mesh.indices.insert(mesh.indices.end(), {first, above + 1, above});
+        }
+    return mesh;
+}
+
+constexpr int kCardEdgeMm = 2;
+Vec3 card_side() {
+    return normalize(cross(Vec3{0, 1, 0}, kToLight));
+}
+
+// Between light and sphere, outside of the picture; an edge of its shadow passes beside the middle of the
+// sphere.
+HostMesh card() {
+    const Vec3 side = card_side(), up = cross(kToLight, side);
+    const Vec3 middle = 60.0f * kToLight;
+    HostMesh mesh;
+    for (const auto& [x, y] :
+         {std::pair{kCardEdgeMm - 24, -12}, {kCardEdgeMm, -12}, {kCardEdgeMm, 12}, {kCardEdgeMm - 24, 12}}) {
+        mesh.positions_mm.push_back(middle + float(x) * side + float(y) * up);
+        mesh.normals.push_back(kToLight);
+        mesh.uvs.push_back({0, 0});
+    }
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
+std::string obj_of(const HostMesh& mesh) {
+    std::string text = "mtllib sphere.mtl\nusemtl skin\n";
+    const auto line = [&](const char* word, std::initializer_list<float> values) {
+        text += word;
+        for (const float value : values) text += " " + std::to_string(value);
+        text += "\n";
+    };
+    for (const Vec3& p : mesh.positions_mm) line("v", {p.x, p.y, p.z});
+    for (const Vec2& uv : mesh.uvs) line("vt", {uv.x, uv.y});
+    for (const Vec3& n : mesh.normals) line("vn", {n.x, n.y, n.z});
+    for (size_t i = 0; i < mesh.indices.size(); ++i) {
+        const std::string index = std::to_string(mesh.indices[i] + 1);
+        text += (i % 3 == 0 ? "f " : " ") + index + "/" + index + "/" + index + (i % 3 == 2 ? "\n" : "");
+    }
+    return text;
+}
+
+nlohmann::json json_of(const HostMesh& mesh) {
+    nlohmann::json found = {{"indices", mesh.indices}};
+    for (const Vec3& p : mesh.positions_mm)
+        for (const float x : channels(p)) found["positions_mm"].push_back(x);
+    for (const Vec3& n : mesh.normals)
+        for (const float x : channels(n)) found["normals"].push_back(x);
+    // Without them the engines scale bumps by the texture's stretch.
+    for (const Vec3& n : mesh.normals) {
+        const float across = std::atan2(n.x, n.z);
+        for (const float x : {std::cos(across), 0.0f, -std::sin(across), 1.0f})
+            found["tangents"].push_back(x);
+    }
+    for (const Vec2& uv : mesh.uvs) {
+        found["uvs"].push_back(uv.x);
+        found["uvs"].push_back(uv.y);
+    }
+    return found;
+}
+
+// In the order and basis of three.js, which are those of dermis/scene/environment.h.
+nlohmann::json radiance_sh() {
+    std::vector<std::vector<float>> sh(9, std::vector<float>(3, 0));
+    for (size_t c = 0; c < 3; ++c) {
+        sh[0][c] = kRadiance[c][0] / 0.282095f;
+        sh[3][c] = kRadiance[c][1] / 0.488603f;
+        sh[1][c] = kRadiance[c][2] / 0.488603f;
+        sh[7][c] = kRadiance[c][3] / 1.092548f;
+    }
+    return sh;
+}
+
+// Irradiance from above and from below.
+nlohmann::json hemisphere_color(float sign) {
+    nlohmann::json color;
+    for (const auto& [a, c] : kHemisphere) color.push_back(kPi * a + sign * 2 * kPi / 3 * c);
+    return color;
+}
+
+std::string scene_text(const std::string& mesh, const std::string& rest) {
+    return "background = [0.02, 0.02, 0.02]\ntone_map = \"none\"\n" + mesh +
+           "[skin]\nprofile = \"openpbr_skin_5\"\nroughness = 0.45\n[material.skin]\nalbedo = [0.48, 0.19, "
+           "0.11]\n"
+           "[camera]\ntarget_mm = [0, 0, 0]\ndistance_mm = 150\nfov_deg = 7\n" +
+           rest;
+}
+
+}  // namespace
+
+void write_host_data(const std::filesystem::path& folder) {
+    const auto radiance = [](Vec3 d, int c) {
+        const float* k = kRadiance[c];
+        return k[0] + k[1] * d.x + k[2] * d.y + k[3] * d.x * d.z;
+    };
+    ASSERT_TRUE(write_image(folder / "environment.hdr", panorama_of(radiance)));
+    ASSERT_TRUE(write_image(folder / "bumps.png", bumps()));
+    const nlohmann::json data = {
+        {"to_light", {kToLight.x, kToLight.y, kToLight.z}},
+        {"radiance_sh", radiance_sh()},
+        {"sky", hemisphere_color(1)},
+        {"ground", hemisphere_color(-1)},
+        {"point", {{"position_mm", {kPointMm.x, kPointMm.y, kPointMm.z}}, {"intensity", kPointIntensity}}},
+        {"sphere", json_of(sphere())},
+        {"card", json_of(card())}};
+    ASSERT_TRUE(write_text_file(folder / "scene.json", data.dump()));
+}
+
+void write_renderer_scenes(const std::filesystem::path& folder) {
+    const auto hemisphere = [](Vec3 d, int c) { return kHemisphere[c][0] + kHemisphere[c][1] * d.y; };
+    ASSERT_TRUE(write_image(folder / "hemisphere.hdr", panorama_of(hemisphere)));
+    ASSERT_TRUE(write_text_file(folder / "sphere.obj", obj_of(sphere())));
+    ASSERT_TRUE(write_text_file(folder / "sphere.mtl", "newmtl skin\n"));
+    ASSERT_TRUE(write_text_file(folder / "card.obj", obj_of(card())));
+    const std::string mesh = "[[mesh]]\nfile = \"sphere.obj\"\n", dark = "[environment]\nkind = \"none\"\n",
+                      key = "[[light]]\nyaw_deg = -50\npitch_deg = 35\nintensity = 3.14159265\n",
+                      point = "[[light]]\nkind = \"point\"\nshadow = false\nposition_mm = [" +
+                              std::to_string(kPointMm.x) + ", " + std::to_string(kPointMm.y) + ", " +
+                              std::to_string(kPointMm.z) +
+                              "]\nintensity = " + std::to_string(kPointIntensity) + "\n",
+                      none = "[[light]]\nintensity = 0\nshadow = false\n";
+    const std::pair<const char*, std::string> scenes[] = {
+        {"environment", scene_text(mesh, none + "[environment]\nfile = \"environment.hdr\"\n")},
+        {"probe", scene_text(mesh, none + "[environment]\nfile = \"environment.hdr\"\n")},
+        {"hemisphere", scene_text(mesh, none + "[environment]\nfile = \"hemisphere.hdr\"\n")},
+        {"point", scene_text(mesh, dark + point)},
+        {"shadow",
+         scene_text(mesh + "[[mesh]]\nfile = \"card.obj\"\ndefault_class = \"other\"\n", dark + key)},
+        {"bumps", scene_text(mesh, dark + key + "shadow = false\n[maps]\nnormal = \"bumps.png\"\n")}};
+    for (const auto& [name, text] : scenes)
+        ASSERT_TRUE(write_text_file(folder / (std::string(name) + ".toml"), text));
+}
+
+bool is_compared(const HostScene& scene, int x, int y, int side) {
+    // The sphere's edge is at the tangent of asin(8 / 150), the picture's at that of 3.5 degrees.
+    const double pixels = 0.5 * side * std::tan(std::asin(8.0 / 150)) / std::tan(3.5 * kPi / 180);
+    const double across = (x + 0.5 - 0.5 * side) / pixels, up = (0.5 * side - y - 0.5) / pixels;
+    const double towards = std::sqrt(std::max(1 - across * across - up * up, 0.0));
+    const Vec3 n{float(across), float(up), float(towards)};
+    const double from_edge_mm = kRadiusMm * dot(n, card_side()) - kCardEdgeMm;
+    return dot(n, kToLight) >= scene.min_n_dot_l && std::abs(from_edge_mm) >= scene.skipped_edge_mm;
+}
+
+}  // namespace dermis

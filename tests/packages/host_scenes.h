@@ -1,0 +1,48 @@
+#pragma once
+// The scenes in which the packages for browsers are compared with the renderer: a sphere of 8 mm under one
+// kind of light each, as files for both. A page reads scene.json, environment.hdr and bumps.png
+// (tests/packages/hosts).
+
+#include <filesystem>
+#include <string>
+
+#include "dermis/image/image.h"
+
+namespace dermis {
+
+/// Of a comparison at the pixels of the sphere.
+struct HostScene {
+    const char* name;            ///< the page's query, and the file of the renderer's scene
+    int largest_level;           ///< of 255: the bound
+    double share_beyond = 0;     ///< of the pixels that may be beyond it
+    double min_n_dot_l = -1;     ///< pixels with less are left out
+    double skipped_edge_mm = 0;  ///< half the width of what is left out at the edge of the shadow
+    const char* engine = "";     ///< the only engine that has it; empty: both
+    const char* settings = "";   ///< of the technique, beside those of all scenes
+};
+
+inline constexpr HostScene kHostScenes[] = {
+    // Reflections are filtered in each one's own way; at the sphere's edge they are brightest.
+    {.name = "environment", .largest_level = 4},
+    {.name = "probe", .largest_level = 2, .engine = "three", .settings = "--set specular=none"},
+    {.name = "hemisphere", .largest_level = 2, .settings = "--set specular=none"},
+    {.name = "point", .largest_level = 2},
+    // The edge of the shadow is filtered in each one's own way; engines have shadows of the sphere on itself
+    // near the terminator.
+    {.name = "shadow",
+     .largest_level = 3,
+     .min_n_dot_l = 0.4,
+     .skipped_edge_mm = 1.5,
+     .settings = "--set shadow=plain"},
+    {.name = "bumps", .largest_level = 3, .settings = "--set normals=sharp"},
+};
+
+/// What pages read.
+void write_host_data(const std::filesystem::path& folder);
+/// What the renderer reads: NAME.toml with its files, beside those of write_host_data().
+void write_renderer_scenes(const std::filesystem::path& folder);
+
+/// Whether a pixel of the sphere is compared.
+[[nodiscard]] bool is_compared(const HostScene& scene, int x, int y, int side);
+
+}  // namespace dermis

@@ -1,0 +1,107 @@
+// The package's plugin in the scenes of the test (host_scenes.h): ?environment, ?hemisphere, ?point, ?shadow, ?bumps; units are
+// metres.
+
+import { ArcRotateCamera } from "@babylonjs/core/Cameras/arcRotateCamera.js";
+import { Engine } from "@babylonjs/core/Engines/engine.js";
+import { WebGPUEngine } from "@babylonjs/core/Engines/webgpuEngine.js";
+import { DirectionalLight } from "@babylonjs/core/Lights/directionalLight.js";
+import { HemisphericLight } from "@babylonjs/core/Lights/hemisphericLight.js";
+import { PointLight } from "@babylonjs/core/Lights/pointLight.js";
+import { ShadowGenerator } from "@babylonjs/core/Lights/Shadows/shadowGenerator.js";
+import "@babylonjs/core/Lights/Shadows/shadowGeneratorSceneComponent.js";
+import { PBRMaterial } from "@babylonjs/core/Materials/PBR/pbrMaterial.js";
+import { HDRCubeTexture } from "@babylonjs/core/Materials/Textures/hdrCubeTexture.js";
+import { Texture } from "@babylonjs/core/Materials/Textures/texture.js";
+import { Color3, Color4 } from "@babylonjs/core/Maths/math.color.js";
+import { Vector3 } from "@babylonjs/core/Maths/math.vector.js";
+import { CreateSphere } from "@babylonjs/core/Meshes/Builders/sphereBuilder.js";
+import { Mesh } from "@babylonjs/core/Meshes/mesh.js";
+import { VertexData } from "@babylonjs/core/Meshes/mesh.vertexData.js";
+import { Scene } from "@babylonjs/core/scene.js";
+import { loadSkinTable, SkinMaterialPlugin } from "../SkinMaterialPlugin.js";
+
+import { ShaderStore } from "@babylonjs/core/Engines/shaderStore.js";
+
+const query = new URLSearchParams(location.search);
+// ?changed: a version of Babylon that writes a call of its shader with a space.
+if (query.has("changed")) {
+  await Promise.all([import("@babylonjs/core/Shaders/pbr.fragment.js"), import("@babylonjs/core/ShadersWGSL/pbr.fragment.js")]);
+  for (const includes of [ShaderStore.IncludesShadersStore, ShaderStore.IncludesShadersStoreWGSL])
+    includes.lightFragment = includes.lightFragment.replaceAll("computeDiffuseLighting(preInfo,", "computeDiffuseLighting(preInfo, ");
+}
+const data = await (await fetch("scene.json")).json();
+const canvas = document.createElement("canvas");
+canvas.style = "display: block; width: 100vw; height: 100vh";
+document.body.append(canvas);
+const options = { antialias: true, useExactSrgbConversions: true };
+const engine = query.has("webgl") ? new Engine(canvas, true, options) : new WebGPUEngine(canvas, options);
+await engine.initAsync?.();
+
+const scene = new Scene(engine);
+scene.useRightHandedSystem = true;
+scene.clearColor = Color4.FromColor3(new Color3(0.02, 0.02, 0.02).toGammaSpace(true));
+const material = new PBRMaterial("skin", scene);
+material.albedoColor = new Color3(0.48, 0.19, 0.11);
+const skin = new SkinMaterialPlugin(material);
+skin.table = await loadSkinTable(scene);
+
+const meshOf = (name, { positions_mm, normals, tangents, uvs, indices }) => {
+  const vertices = new VertexData();
+  Object.assign(vertices, { positions: positions_mm.map(x => x / 1000), normals, tangents, uvs, indices: indices.slice().reverse() });
+  const mesh = new Mesh(name, scene);
+  vertices.applyToMesh(mesh);
+  return mesh;
+};
+const keyLight = () => {
+  const key = new DirectionalLight("key", Vector3.FromArray(data.to_light).scale(-1), scene);
+  key.intensity = Math.PI;
+  return key;
+};
+const name = ["environment", "hemisphere", "point", "shadow", "bumps"].find(one => query.has(one));
+const sphere = name === "bumps" ? meshOf("sphere", data.sphere) : CreateSphere("sphere", { diameter: 0.016, segments: 96 }, scene);
+sphere.material = material;
+
+const add = {
+  environment: () => new Promise((done, fail) => {
+    scene.environmentTexture = new HDRCubeTexture("environment.hdr", scene, 128, false, true, false, true, done, fail);
+  }),
+  hemisphere() {
+    const light = new HemisphericLight("sky", Vector3.Up(), scene);
+    light.diffuse = Color3.FromArray(data.sky).scale(1 / Math.PI);
+    light.groundColor = Color3.FromArray(data.ground).scale(1 / Math.PI);
+    material.specularIntensity = 0;
+  },
+  point() {
+    const light = new PointLight("lamp", Vector3.FromArray(data.point.position_mm).scale(0.001), scene);
+    light.intensity = data.point.intensity;
+  },
+  shadow() {
+    const key = keyLight();
+    key.position = Vector3.FromArray(data.to_light).scale(0.15);
+    Object.assign(key, { autoUpdateExtends: false, autoCalcShadowZBounds: false, shadowMinZ: 0.01, shadowMaxZ: 0.3,
+      orthoLeft: -0.012, orthoRight: 0.012, orthoTop: 0.012, orthoBottom: -0.012 });
+    const shadows = new ShadowGenerator(1024, key);
+    shadows.usePercentageCloserFiltering = true;
+    shadows.bias = 0.001;
+    const card = meshOf("card", data.card);
+    card.material = new PBRMaterial("card", scene);
+    card.material.backFaceCulling = false;
+    shadows.addShadowCaster(card);
+    shadows.addShadowCaster(sphere);
+    sphere.receiveShadows = true;
+  },
+  bumps: () => new Promise((done, fail) => {
+    keyLight();
+    material.bumpTexture = new Texture("bumps.png", scene, { onLoad: done, onError: fail });
+    material.bumpTexture.anisotropicFilteringLevel = 1;
+  }),
+};
+await add[name]();
+
+const camera = new ArcRotateCamera("camera", Math.PI / 2, Math.PI / 2, 0.15, Vector3.Zero(), scene);
+camera.fov = 7 * Math.PI / 180;
+camera.minZ = 0.01;
+engine.resize();
+await scene.whenReadyAsync();
+engine.runRenderLoop(() => scene.render());
+document.body.dataset.state = "drawn";

@@ -1,0 +1,85 @@
+// The package's material in the scenes of the test (host_scenes.h): ?environment, ?probe, ?hemisphere, ?point, ?shadow, ?bumps; units
+// are metres.
+
+import {
+  BufferAttribute, BufferGeometry, Color, DirectionalLight, EquirectangularReflectionMapping, HemisphereLight, LightProbe, Mesh,
+  MeshBasicMaterial, NoToneMapping, PCFShadowMap, PerspectiveCamera, PointLight, Scene, SphereGeometry, TextureLoader, WebGPURenderer,
+} from "three/webgpu";
+import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
+import { loadSkinTable, SkinNodeMaterial } from "../SkinNodeMaterial.js";
+
+const query = new URLSearchParams(location.search), message = document.getElementById("message");
+const data = await (await fetch("scene.json")).json();
+const skin = new SkinNodeMaterial({ color: new Color().setRGB(0.48, 0.19, 0.11), table: await loadSkinTable() });
+const scene = new Scene();
+scene.background = new Color().setRGB(0.02, 0.02, 0.02);
+
+const geometryOf = ({ positions_mm, normals, tangents, uvs, indices }) => {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(positions_mm, x => x / 1000), 3));
+  geometry.setAttribute("normal", new BufferAttribute(new Float32Array(normals), 3));
+  geometry.setAttribute("tangent", new BufferAttribute(new Float32Array(tangents), 4));
+  geometry.setAttribute("uv", new BufferAttribute(new Float32Array(uvs), 2));
+  geometry.setIndex(indices);
+  return geometry;
+};
+
+const add = {
+  async environment() {
+    scene.environment = await new HDRLoader().loadAsync("environment.hdr");
+    scene.environment.mapping = EquirectangularReflectionMapping;
+    scene.environmentRotation.y = Math.PI / 2;  // the middle of the panorama is -Z
+  },
+  probe() {
+    const probe = new LightProbe();
+    probe.sh.coefficients.forEach((coefficient, i) => coefficient.fromArray(data.radiance_sh[i]));
+    scene.add(probe);
+  },
+  hemisphere() {
+    const [sky, ground] = [data.sky, data.ground].map(color => new Color().setRGB(...color));
+    scene.add(new HemisphereLight(sky, ground, 1));
+  },
+  point() {
+    const light = new PointLight(0xffffff, data.point.intensity);
+    light.position.fromArray(data.point.position_mm).divideScalar(1000);
+    scene.add(light);
+  },
+  shadow() {
+    const key = new DirectionalLight(0xffffff, Math.PI);
+    key.position.fromArray(data.to_light).multiplyScalar(0.15);
+    key.castShadow = true;
+    key.shadow.mapSize.set(1024, 1024);
+    Object.assign(key.shadow.camera, { left: -0.012, right: 0.012, top: 0.012, bottom: -0.012, near: 0.01, far: 0.3 });
+    key.shadow.normalBias = 0.0001;
+    scene.add(key);
+    const card = new Mesh(geometryOf(data.card), new MeshBasicMaterial({ side: 2 }));
+    card.castShadow = true;
+    scene.add(card);
+  },
+  async bumps() {
+    const key = new DirectionalLight(0xffffff, Math.PI);
+    key.position.fromArray(data.to_light);
+    scene.add(key);
+    skin.normalMap = await new TextureLoader().loadAsync("bumps.png");
+    skin.normalMap.anisotropy = 1;
+  },
+};
+const name = Object.keys(add).find(one => query.has(one));
+await add[name]();
+const sphere = new Mesh(name === "bumps" ? geometryOf(data.sphere) : new SphereGeometry(0.008, 256, 128), skin);
+sphere.receiveShadow = sphere.castShadow = name === "shadow";
+scene.add(sphere);
+
+const camera = new PerspectiveCamera(7, innerWidth / innerHeight, 0.01, 10);
+camera.position.set(0, 0, 0.15);
+const renderer = new WebGPURenderer({ antialias: true, forceWebGL: query.has("webgl") });
+renderer.toneMapping = NoToneMapping;
+renderer.shadowMap.enabled = true;
+renderer.shadowMap.type = PCFShadowMap;
+await renderer.init().catch(error => { message.textContent = error.message; throw error; });
+document.body.append(renderer.domElement);
+renderer.setSize(innerWidth, innerHeight);
+renderer.render(scene, camera);
+await new Promise(done => requestAnimationFrame(done));
+renderer.render(scene, camera);
+document.body.dataset.state = "drawn";
