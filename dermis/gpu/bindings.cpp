@@ -147,6 +147,16 @@ size_t BindingResolver::reserve(size_t bytes) {
     return offset;
 }
 
+BufferPlace BindingResolver::place(const GeometryData& data) {
+    if (data.buffer.handle) return {.buffer = data.buffer.handle.get()};
+    const auto [found, is_new] = streamed_.try_emplace(&data, 0);
+    if (is_new) {
+        found->second = reserve(data.bytes.size());
+        std::ranges::copy(data.bytes, plan_.uploads.begin() + std::ptrdiff_t(found->second));
+    }
+    return {.offset = found->second};
+}
+
 const BindingResolver::KnownBlock* BindingResolver::known(const Binding& binding, const Draw* draw) const {
     const auto found = std::ranges::find_if(known_, [&](const KnownBlock& one) {
         return one.draw == draw && one.name == binding.name && *one.layout == binding.block;

@@ -1,3 +1,4 @@
+#include "dermis/base/parallel.h"
 #include "dermis/gpu/device_state.h"
 
 namespace dermis::gpu {
@@ -39,7 +40,8 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
                                             .maintenance4 = VK_TRUE};  // LocalSizeId, which glslc emits
     VkPhysicalDeviceVulkan12Features v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                             .pNext = &v13,
-                                            .scalarBlockLayout = VK_TRUE};
+                                            .scalarBlockLayout = VK_TRUE,
+                                            .timelineSemaphore = VK_TRUE};
     std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
     if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics = {
@@ -56,6 +58,10 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
                                      .enabledExtensionCount = uint32_t(extensions.size()),
                                      .ppEnabledExtensionNames = extensions.data(),
                                      .pEnabledFeatures = &context.features};
+    // lavapipe waits for ever for a thread that did not start.
+    if (!can_start_threads())
+        return Error{
+            "the threads of the Vulkan driver cannot be started; raise the limit on processes (ulimit -u)"};
     const VkResult result = vkCreateDevice(context.physical, &info, nullptr, &context.device);
     if (Result<void> ok = check(result, "open " + state.info.name); !ok) return ok.error();
     volkLoadDeviceTable(&context.vk, context.device);
@@ -63,15 +69,16 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
     return {};
 }
 
-Result<void> make_upload_pool(Device::State& state) {
-    const Context& context = state.context;
-    const VkCommandPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                          .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                          .queueFamilyIndex = context.queue_family};
-    VkCommandPool pool = VK_NULL_HANDLE;
-    const VkResult result = context.vk.vkCreateCommandPool(context.device, &info, nullptr, &pool);
-    if (Result<void> ok = check(result, "make a command pool"); !ok) return ok.error();
-    state.uploads = OwnedCommandPool(context, pool);
+// A device without hardware gets no submission.
+Result<void> make_submissions(Device::State& state) {
+    Result<OwnedCommandPool> pool = make_command_pool(state.context, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT);
+    if (!pool) return pool.error();
+    state.uploads = std::move(*pool);
+    if (state.context.keep_statistics) return {};
+    Result<OwnedSemaphore> done = make_semaphore(state.context, VK_SEMAPHORE_TYPE_TIMELINE);
+    if (!done) return done.error();
+    state.submissions_done = std::move(*done);
+    state.context.submissions.done = state.submissions_done.get();
     return {};
 }
 
@@ -93,7 +100,9 @@ Device::State::~State() {
     if (!context.device) return;
     // RADV without hardware has no wait and crashes; nothing was submitted to it.
     if (!context.keep_statistics) context.vk.vkDeviceWaitIdle(context.device);
+    context.submissions.known_done = context.submissions.submitted;
     save_pipeline_cache(*this);
+    submissions_done = {};
     pipeline_cache = {};
     uploads = {};
     samplers = {};
@@ -117,7 +126,7 @@ Result<Device> Device::create(const DeviceOptions& options) {
     take_physical_device(state->context, *device);
     state->context.keep_statistics = options.keep_statistics;
     if (Result<void> ok = make_device(*state, options); !ok) return ok.error();
-    if (Result<void> ok = make_upload_pool(*state); !ok) return ok.error();
+    if (Result<void> ok = make_submissions(*state); !ok) return ok.error();
     if (Result<void> ok = make_samplers(*state); !ok) return ok.error();
     if (!options.keep_statistics)
         if (Result<void> ok = open_pipeline_cache(*state); !ok) return ok.error();
@@ -131,6 +140,15 @@ Device& Device::operator=(Device&&) noexcept = default;
 
 const DeviceInfo& Device::info() const {
     return state_->info;
+}
+
+Result<void> Device::finish() {
+    const Context& context = state_->context;
+    return check(context.wait_for(context.submissions.submitted), "finish what was submitted");
+}
+
+uint64_t Device::created_objects() const {
+    return state_->context.created;
 }
 
 std::vector<std::string> Device::messages() const {

@@ -48,6 +48,11 @@ class Device {
     /// What the validation layers said since creation, one message each; tests want this empty.
     [[nodiscard]] std::vector<std::string> messages() const;
 
+    /// Waits for everything that was submitted. Error: the device was lost.
+    [[nodiscard]] Result<void> finish();
+    /// Vulkan objects and allocations since creation.
+    [[nodiscard]] uint64_t created_objects() const;
+
     struct State;
     [[nodiscard]] State& state() const { return *state_; }
 
@@ -103,6 +108,10 @@ class Geometry {
     [[nodiscard]] static Result<Geometry> upload(Device& device, std::string_view name,
                                                  std::span<const VertexStream> streams,
                                                  std::span<const uint32_t> indices);
+    /// For what changes every frame: stays on the CPU, and each frame that draws it takes it along.
+    [[nodiscard]] static Result<Geometry> streamed(std::string_view name,
+                                                   std::span<const VertexStream> streams,
+                                                   std::span<const uint32_t> indices);
     [[nodiscard]] uint32_t vertex_count() const;
     ~Geometry();
     Geometry(Geometry&&) noexcept;

@@ -22,6 +22,7 @@ struct Device::State {
     std::array<OwnedSampler, kSamplerNames.size()> samplers;
     std::array<OwnedSampler, kAddressModes * kAddressModes> map_samplers;
     OwnedCommandPool uploads;
+    OwnedSemaphore submissions_done;
     OwnedPipelineCache pipeline_cache;
     std::string pipeline_cache_key;
     size_t pipeline_cache_bytes = 0;  ///< as loaded; stored again when it grew
@@ -46,9 +47,34 @@ struct Semaphores {
     VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
 
+/// Between the CPU and the queue: how many frames the CPU may be ahead.
+inline constexpr size_t kFramesInFlight = 2;
+
+[[nodiscard]] Result<OwnedSemaphore> make_semaphore(const Context& context, VkSemaphoreType type);
+[[nodiscard]] Result<OwnedCommandPool> make_command_pool(const Context& context,
+                                                         VkCommandPoolCreateFlags flags);
+
+/// A command buffer that is recorded again and again, with its own pool.
+class ReusedCommands {
+  public:
+    [[nodiscard]] static Result<ReusedCommands> create(const Context& context);
+
+    /// Waits for its last submission.
+    [[nodiscard]] Result<void> wait(const Context& context, std::string_view name) const;
+    [[nodiscard]] bool is_done(const Context& context) const { return context.is_done(submission_); }
+    /// Waits for its last submission, then records and submits.
+    [[nodiscard]] Result<void> run(Device::State& state, std::string_view name,
+                                   const std::function<void(VkCommandBuffer)>& record,
+                                   const Semaphores& semaphores = {});
+
+  private:
+    OwnedCommandPool pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    uint64_t submission_ = 0;
+};
+
 /// Records into a fresh command buffer, submits, waits. For uploads and read-backs.
 [[nodiscard]] Result<void> run_once(Device::State& state, std::string_view name,
-                                    const std::function<void(VkCommandBuffer)>& record,
-                                    const Semaphores& semaphores = {});
+                                    const std::function<void(VkCommandBuffer)>& record);
 
 }  // namespace dermis::gpu

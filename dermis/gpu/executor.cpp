@@ -8,13 +8,15 @@
 
 namespace dermis::gpu {
 
-// Each frame is waited for, so one buffer serves all frames; it grows and never shrinks.
-Result<void> Executor::State::store(const std::vector<std::byte>& bytes) {
+Result<void> FrameSlot::store(const Context& context, const std::vector<std::byte>& bytes) {
     if (bytes.size() > uploads.size) {
         constexpr VkBufferUsageFlags kUsage =
-            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-        Result<Buffer> larger =
-            make_buffer(device.context, "frame blocks", bytes.size() * 3 / 2, kUsage, MemoryUse::upload);
+            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+        // A frame of a scene has a few kB, an interface with all its panels some hundred.
+        constexpr size_t kSmallest = 256 << 10;
+        Result<Buffer> larger = make_buffer(
+            context, "frame blocks", std::max(bytes.size() * 3 / 2, kSmallest), kUsage, MemoryUse::upload);
         if (!larger) return larger.error();
         uploads = std::move(*larger);
     }
@@ -23,6 +25,9 @@ Result<void> Executor::State::store(const std::vector<std::byte>& bytes) {
 }
 
 namespace {
+
+// Of frames that nobody asks about.
+constexpr size_t kResultsKept = 8;
 
 std::vector<std::string> supplied_names(const FrameInputs& inputs) {
     std::vector<std::string> names;
@@ -46,25 +51,67 @@ Result<void> check_frame(const PassList& list, const FrameInputs& inputs, const 
 }  // namespace
 
 Result<Executor> Executor::create(Device& device, ShaderSource shaders) {
-    return Executor(std::make_unique<State>(device.state(), std::move(shaders)));
+    auto state = std::make_unique<State>(device.state(), std::move(shaders));
+    if (!state->device.context.keep_statistics)
+        for (size_t i = 0; i < kFramesInFlight; ++i) {
+            Result<ReusedCommands> commands = ReusedCommands::create(state->device.context);
+            if (!commands) return commands.error();
+            state->slots.push_back({.commands = std::move(*commands)});
+        }
+    return Executor(std::move(state));
+}
+
+Result<uint64_t> Executor::State::submit(const PassList& list, const FrameInputs& inputs) {
+    const Context& context = device.context;
+    if (Result<void> ok = check_frame(list, inputs, context); !ok) return ok.error();
+    pipelines.begin_run();
+    if (Result<void> ok = images.prepare(list, inputs.width, inputs.height); !ok) return ok.error();
+    const Result<Plan> plan = make_plan({device, list, inputs, images, shaders, pipelines});
+    if (!plan) return plan.error();
+    FrameSlot& slot = slots[(frames + 1) % slots.size()];
+    if (Result<void> ok = collect(slot); !ok) return ok.error();
+    if (Result<void> ok = slot.store(context, plan->uploads); !ok) return ok.error();
+    if (Result<void> ok = slot.queries.prepare(context, *plan); !ok) return ok.error();
+    const Result<void> done = slot.commands.run(device, "the frame", [&](VkCommandBuffer commands) {
+        record_plan(context, commands, *plan, slot.uploads.handle.get(), slot.queries);
+    });
+    if (!done) return done.error();
+    return slot.frame = ++frames;
+}
+
+Result<void> Executor::State::collect(FrameSlot& slot) {
+    if (!slot.frame) return {};
+    if (Result<void> done = slot.commands.wait(device.context, "the frame"); !done) return done;
+    Result<FrameResult> result = slot.queries.collect(device.context);
+    if (!result) return result.error();
+    result->frame = std::exchange(slot.frame, 0);
+    if (finished.size() == kResultsKept) finished.erase(finished.begin());
+    finished.push_back(std::move(*result));
+    return {};
 }
 
 Result<FrameResult> Executor::run(const PassList& list, const FrameInputs& inputs) {
+    const Result<uint64_t> frame = state_->submit(list, inputs);
+    if (!frame) return frame.error();
+    for (uint64_t one = *frame - std::min(*frame, kFramesInFlight) + 1; one <= *frame; ++one)
+        if (Result<void> ok = state_->collect(state_->slots[one % kFramesInFlight]); !ok) return ok.error();
+    FrameResult result = std::move(state_->finished.back());
+    state_->finished.pop_back();
+    return result;
+}
+
+Result<uint64_t> Executor::submit(const PassList& list, const FrameInputs& inputs) {
+    return state_->submit(list, inputs);
+}
+
+Result<std::vector<FrameResult>> Executor::finished() {
     State& state = *state_;
-    const Context& context = state.device.context;
-    if (Result<void> ok = check_frame(list, inputs, context); !ok) return ok.error();
-    state.pipelines.begin_run();
-    if (Result<void> ok = state.images.prepare(list, inputs.width, inputs.height); !ok) return ok.error();
-    const Result<Plan> plan =
-        make_plan({state.device, list, inputs, state.images, state.shaders, state.pipelines});
-    if (!plan) return plan.error();
-    if (Result<void> ok = state.store(plan->uploads); !ok) return ok.error();
-    if (Result<void> ok = state.queries.prepare(context, plan->passes.size()); !ok) return ok.error();
-    const Result<void> done = run_once(state.device, "the frame", [&](VkCommandBuffer commands) {
-        record_plan(context, commands, *plan, state.uploads.handle.get(), state.queries);
-    });
-    if (!done) return done.error();
-    return state.queries.collect(context, *plan);
+    for (size_t i = 1; i <= state.slots.size(); ++i) {  // the slot of the next frame has the oldest
+        FrameSlot& slot = state.slots[(state.frames + i) % state.slots.size()];
+        if (!slot.commands.is_done(state.device.context)) break;
+        if (Result<void> ok = state.collect(slot); !ok) return ok.error();
+    }
+    return std::exchange(state.finished, {});
 }
 
 Result<Image> Executor::read(std::string_view name, int mip) {

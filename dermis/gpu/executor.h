@@ -65,6 +65,7 @@ struct PassTiming {
 struct FrameResult {
     std::vector<PassTiming> passes;
     double frame_ms = 0;  ///< first timestamp to last
+    uint64_t frame = 0;   ///< what Executor::submit returned
 };
 
 /// What an executor holds at present.
@@ -101,6 +102,12 @@ class Executor {
     /// compile or link, a name nothing supplies, out of memory, device lost. The message names pass, shader
     /// and binding.
     [[nodiscard]] Result<FrameResult> run(const PassList& list, const FrameInputs& inputs);
+
+    /// As run(), but does not wait for the frame, only for the one two before it: the CPU prepares a frame
+    /// while the device draws another. Returns the frame's number.
+    [[nodiscard]] Result<uint64_t> submit(const PassList& list, const FrameInputs& inputs);
+    /// Of submitted frames that are done by now: each once, oldest first. Those of the last few are kept.
+    [[nodiscard]] Result<std::vector<FrameResult>> finished();
 
     /// An image of the last list, as it was left: f16 and f32 formats as such, 8 bit as u8. Depth as one
     /// channel.

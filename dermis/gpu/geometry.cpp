@@ -53,26 +53,56 @@ Result<Buffer> upload_buffer(Device::State& device, std::string_view name, VkBuf
     return buffer;
 }
 
-Result<Geometry> Geometry::upload(Device& device, std::string_view name,
-                                  std::span<const VertexStream> streams, std::span<const uint32_t> indices) {
+namespace {
+
+// `put` makes data of a name, a use of buffers, and bytes.
+template <class Put>
+Result<std::unique_ptr<Geometry::State>> make_state(std::string_view name,
+                                                    std::span<const VertexStream> streams,
+                                                    std::span<const uint32_t> indices, const Put& put) {
     const Result<size_t> vertices = check_streams(name, streams, indices);
     if (!vertices) return vertices.error();
-    auto state = std::make_unique<State>();
+    auto state = std::make_unique<Geometry::State>();
     state->name = name;
     state->vertex_count = uint32_t(*vertices);
     state->index_count = uint32_t(indices.size());
     for (const VertexStream& stream : streams) {
-        Result<Buffer> buffer =
-            upload_buffer(device.state(), state->name + " " + stream.name, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                          std::as_bytes(stream.values));
-        if (!buffer) return buffer.error();
-        state->streams[stream.name] = {stream.components, std::move(*buffer)};
+        Result<GeometryData> data = put(state->name + " " + stream.name, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                                        std::as_bytes(stream.values));
+        if (!data) return data.error();
+        state->streams[stream.name] = {stream.components, std::move(*data)};
     }
-    Result<Buffer> buffer = upload_buffer(device.state(), state->name + " indices",
-                                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(indices));
-    if (!buffer) return buffer.error();
-    state->indices = std::move(*buffer);
-    return Geometry(std::move(state));
+    Result<GeometryData> data =
+        put(state->name + " indices", VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(indices));
+    if (!data) return data.error();
+    state->indices = std::move(*data);
+    return state;
+}
+
+}  // namespace
+
+Result<Geometry> Geometry::upload(Device& device, std::string_view name,
+                                  std::span<const VertexStream> streams, std::span<const uint32_t> indices) {
+    const auto put = [&](const std::string& part, VkBufferUsageFlags usage,
+                         std::span<const std::byte> bytes) -> Result<GeometryData> {
+        Result<Buffer> buffer = upload_buffer(device.state(), part, usage, bytes);
+        if (!buffer) return buffer.error();
+        return GeometryData{.buffer = std::move(*buffer)};
+    };
+    Result<std::unique_ptr<State>> state = make_state(name, streams, indices, put);
+    if (!state) return state.error();
+    return Geometry(std::move(*state));
+}
+
+Result<Geometry> Geometry::streamed(std::string_view name, std::span<const VertexStream> streams,
+                                    std::span<const uint32_t> indices) {
+    const auto put = [](const std::string&, VkBufferUsageFlags,
+                        std::span<const std::byte> bytes) -> Result<GeometryData> {
+        return GeometryData{.bytes = {bytes.begin(), bytes.end()}};
+    };
+    Result<std::unique_ptr<State>> state = make_state(name, streams, indices, put);
+    if (!state) return state.error();
+    return Geometry(std::move(*state));
 }
 
 uint32_t Geometry::vertex_count() const {

@@ -100,10 +100,13 @@ class Planner {
                 return pass_error(pass, "a draw goes beyond the indices of geometry '" + geometry.name + "'");
             for (const StageVariable& input : planned.pipeline->inputs)
                 if (Result<void> ok = check_stream(pass, vertex_name, geometry, input); !ok) return ok;
-            PlannedDraw& target = planned.draws.emplace_back(PlannedDraw{.geometry = &geometry,
-                                                                         .first_index = draw.first_index,
-                                                                         .index_count = draw.index_count,
-                                                                         .scissor = draw.scissor});
+            PlannedDraw& target =
+                planned.draws.emplace_back(PlannedDraw{.indices = resolver_.place(geometry.indices),
+                                                       .first_index = draw.first_index,
+                                                       .index_count = draw.index_count,
+                                                       .scissor = draw.scissor});
+            for (const StageVariable& input : planned.pipeline->inputs)
+                target.vertices.push_back(resolver_.place(geometry.streams.find(input.name)->second.data));
             if (Result<void> ok = resolver_.resolve(planned, target, &draw); !ok) return ok;
         }
         return {};

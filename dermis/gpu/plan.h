@@ -25,9 +25,16 @@ struct Descriptor {
     size_t offset = 0, size = 0;
 };
 
-/// `geometry` is null for a full-screen triangle or a dispatch.
+/// A place in a buffer; null: in the plan's uploads.
+struct BufferPlace {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+};
+
+/// `index_count` is 0 for a full-screen triangle or a dispatch.
 struct PlannedDraw {
-    const Geometry::State* geometry = nullptr;
+    std::vector<BufferPlace> vertices;  ///< one for each input of the pipeline
+    BufferPlace indices = {};
     uint32_t first_index = 0, index_count = 0;
     std::vector<Descriptor> descriptors;
     std::optional<PixelRect> scissor = {};
@@ -44,7 +51,7 @@ struct PlannedPass {
 
 struct Plan {
     std::vector<PlannedPass> passes;
-    std::vector<std::byte> uploads;  ///< all uniform and storage blocks of the frame
+    std::vector<std::byte> uploads;  ///< blocks and streamed geometry of the frame
 };
 
 [[nodiscard]] bool is_transfer(PassKind kind);
@@ -74,6 +81,8 @@ class BindingResolver {
     /// Appends to `planned`: the draw's descriptors and the accesses they need. `draw` may be null.
     [[nodiscard]] Result<void> resolve(PlannedPass& planned, PlannedDraw& target, const Draw* draw);
     [[nodiscard]] Result<void> push_constants(PlannedPass& planned);
+    /// Where the shader finds the data of a geometry.
+    [[nodiscard]] BufferPlace place(const GeometryData& data);
 
   private:
     struct KnownBlock {
@@ -107,6 +116,7 @@ class BindingResolver {
     const PlanContext& context_;
     Plan& plan_;
     std::vector<KnownBlock> known_;
+    std::map<const GeometryData*, size_t> streamed_;  ///< offsets in the uploads
 };
 
 /// "pass 'x' (shader 'a/b.frag')", the beginning of every message.

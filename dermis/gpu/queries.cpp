@@ -29,13 +29,22 @@ double elapsed_ms(const Context& context, uint64_t from, uint64_t to) {
     return double((to - from) & mask) * context.properties.limits.timestampPeriod * 1e-6;
 }
 
-}  // namespace
-
+// All passes that rasterise with a pipeline.
 bool counts_samples(const PlannedPass& planned) {
     return planned.pipeline && planned.pipeline->bind_point == VK_PIPELINE_BIND_POINT_GRAPHICS;
 }
 
-Result<void> FrameQueries::prepare(const Context& context, size_t passes) {
+}  // namespace
+
+Result<void> FrameQueries::prepare(const Context& context, const Plan& plan) {
+    passes_.clear();
+    counted_.clear();
+    for (const PlannedPass& planned : plan.passes) {
+        passes_.push_back({.name = planned.pass->name,
+                           .target_texels = uint64_t(planned.extent.width) * planned.extent.height});
+        counted_.push_back(counts_samples(planned));
+    }
+    const size_t passes = passes_.size();
     if (passes <= capacity_) return {};
     Result<OwnedQueryPool> timestamps = make_pool(context, VK_QUERY_TYPE_TIMESTAMP, passes + 1);
     if (!timestamps) return timestamps.error();
@@ -69,9 +78,9 @@ void FrameQueries::end_samples(const Context& context, VkCommandBuffer commands,
     context.vk.vkCmdEndQuery(commands, samples_.get(), uint32_t(pass));
 }
 
-Result<FrameResult> FrameQueries::collect(const Context& context, const Plan& plan) const {
-    FrameResult result;
-    const size_t count = plan.passes.size();
+Result<FrameResult> FrameQueries::collect(const Context& context) const {
+    FrameResult result{.passes = passes_};
+    const size_t count = passes_.size();
     std::vector<uint64_t> times(count + 1);
     if (count && context.timestamp_bits) {
         Result<std::vector<uint64_t>> read = read_pool(context, timestamps_.get(), 0, count + 1);
@@ -79,11 +88,9 @@ Result<FrameResult> FrameQueries::collect(const Context& context, const Plan& pl
         times = std::move(*read);
     }
     for (size_t i = 0; i < count; ++i) {
-        PassTiming& timing = result.passes.emplace_back();
-        timing.name = plan.passes[i].pass->name;
-        timing.target_texels = uint64_t(plan.passes[i].extent.width) * plan.passes[i].extent.height;
+        PassTiming& timing = result.passes[i];
         timing.time_ms = elapsed_ms(context, times[i], times[i + 1]);
-        if (!counts_samples(plan.passes[i])) continue;
+        if (!counted_[i]) continue;
         const Result<std::vector<uint64_t>> samples = read_pool(context, samples_.get(), i, 1);
         if (!samples) return samples.error();
         timing.samples_passed = samples->front();

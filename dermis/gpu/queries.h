@@ -7,8 +7,8 @@ namespace dermis::gpu {
 
 class FrameQueries {
   public:
-    /// Room for this many passes.
-    [[nodiscard]] Result<void> prepare(const Context& context, size_t passes);
+    /// Room for the plan's passes, and what is to be told of them.
+    [[nodiscard]] Result<void> prepare(const Context& context, const Plan& plan);
     void reset(const Context& context, VkCommandBuffer commands) const;
     /// Timestamp number `index`: 0 before the first pass, i + 1 after pass i.
     void timestamp(const Context& context, VkCommandBuffer commands, size_t index) const;
@@ -16,14 +16,13 @@ class FrameQueries {
     void end_samples(const Context& context, VkCommandBuffer commands, size_t pass) const;
 
     /// After the frame is done. Times are 0 on a queue without timestamps.
-    [[nodiscard]] Result<FrameResult> collect(const Context& context, const Plan& plan) const;
+    [[nodiscard]] Result<FrameResult> collect(const Context& context) const;
 
   private:
     OwnedQueryPool timestamps_, samples_;
     size_t capacity_ = 0;
+    std::vector<PassTiming> passes_;  ///< without times
+    std::vector<bool> counted_;       ///< which of them count samples
 };
-
-/// Whether a pass counts samples: all that rasterise with a pipeline.
-[[nodiscard]] bool counts_samples(const PlannedPass& planned);
 
 }  // namespace dermis::gpu

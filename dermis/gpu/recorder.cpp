@@ -117,15 +117,18 @@ class Recorder {
 
     void draw(const Pipeline& pipeline, const PlannedDraw& draw) {
         push_descriptors(pipeline, draw);
-        if (!draw.geometry) return vk_.vkCmdDraw(commands_, 3, 1, 0, 0);
+        if (draw.index_count == 0) return vk_.vkCmdDraw(commands_, 3, 1, 0, 0);
         std::vector<VkBuffer> buffers;
-        for (const StageVariable& input : pipeline.inputs)
-            buffers.push_back(draw.geometry->streams.find(input.name)->second.buffer.handle.get());
-        const std::vector<VkDeviceSize> offsets(buffers.size());
+        std::vector<VkDeviceSize> offsets;
+        for (const BufferPlace& place : draw.vertices) {
+            buffers.push_back(place.buffer ? place.buffer : uploads_);
+            offsets.push_back(place.offset);
+        }
         if (!buffers.empty())
             vk_.vkCmdBindVertexBuffers(commands_, 0, uint32_t(buffers.size()), buffers.data(),
                                        offsets.data());
-        vk_.vkCmdBindIndexBuffer(commands_, draw.geometry->indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
+        vk_.vkCmdBindIndexBuffer(commands_, draw.indices.buffer ? draw.indices.buffer : uploads_,
+                                 draw.indices.offset, VK_INDEX_TYPE_UINT32);
         vk_.vkCmdDrawIndexed(commands_, draw.index_count, 1, draw.first_index, 0, 0);
     }
 

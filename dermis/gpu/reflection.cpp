@@ -188,11 +188,18 @@ class Reflector {
                 spvc_compiler_get_type_handle(compiler_, spvc_type_get_member_type(type, i));
             unsigned offset = 0;
             spvc_compiler_type_struct_member_offset(compiler_, type, i, &offset);
+            if (spvc_type_get_basetype(member) == SPVC_BASETYPE_STRUCT &&
+                !spvc_type_get_num_array_dimensions(member)) {
+                const BlockLayout structure = read_members(spvc_type_get_base_type_id(member), block_name);
+                for (const BlockMember& inner : structure.members)
+                    layout.members.push_back({name + "." + inner.name, inner.type, offset + inner.offset});
+                continue;
+            }
             const std::optional<ValueType> value = value_type(member);
             if (!value || spvc_type_get_num_array_dimensions(member) > 1) {
                 fail("member '" + name + "' of '" + block_name +
-                     "' has a type that cannot be set by name; int, uint, float, vec2, vec3, vec4, mat4 and "
-                     "arrays of them can");
+                     "' has a type that cannot be set by name; int, uint, float, vec2, vec3, vec4, mat4, "
+                     "arrays of them and structures of these can");
                 continue;
             }
             add_member(layout, type, i, {name, *value, offset});

@@ -1,3 +1,5 @@
+// Command buffers to the queue.
+
 #include "dermis/gpu/device_state.h"
 
 namespace dermis::gpu {
@@ -12,53 +14,117 @@ struct OneTimeCommands {
     }
 };
 
-Result<void> submit_and_wait(const Context& context, VkCommandBuffer commands, std::string_view name,
-                             const Semaphores& semaphores) {
-    const VkFenceCreateInfo fence_info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    VkFence handle = VK_NULL_HANDLE;
-    VkResult result = context.vk.vkCreateFence(context.device, &fence_info, nullptr, &handle);
-    if (Result<void> ok = check(result, "make a fence"); !ok) return ok.error();
-    const OwnedFence fence(context, handle);
+Result<VkCommandBuffer> allocate_commands(const Context& context, VkCommandPool pool) {
+    const VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                              .commandPool = pool,
+                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                              .commandBufferCount = 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    const VkResult result = context.vk.vkAllocateCommandBuffers(context.device, &info, &commands);
+    if (Result<void> ok = check(result, "make a command buffer"); !ok) return ok.error();
+    ++context.created;
+    return commands;
+}
+
+Result<void> record_once(const Context& context, VkCommandBuffer commands, std::string_view name,
+                         const std::function<void(VkCommandBuffer)>& record) {
+    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    VkResult result = context.vk.vkBeginCommandBuffer(commands, &begin);
+    if (Result<void> ok = check(result, "record " + std::string(name)); !ok) return ok.error();
+    record(commands);
+    result = context.vk.vkEndCommandBuffer(commands);
+    return check(result, "record " + std::string(name));
+}
+
+// Returns the submission's number.
+Result<uint64_t> submit(const Context& context, VkCommandBuffer commands, std::string_view name,
+                        const Semaphores& semaphores) {
+    const uint64_t number = context.submissions.submitted + 1;
     const VkCommandBufferSubmitInfo buffer = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                               .commandBuffer = commands};
     const VkSemaphoreSubmitInfo wait = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
                                         .semaphore = semaphores.wait,
                                         .stageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT};
-    const VkSemaphoreSubmitInfo signal = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-                                          .semaphore = semaphores.signal,
-                                          .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
-    const VkSubmitInfo2 submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                                  .waitSemaphoreInfoCount = semaphores.wait ? 1u : 0u,
-                                  .pWaitSemaphoreInfos = &wait,
-                                  .commandBufferInfoCount = 1,
-                                  .pCommandBufferInfos = &buffer,
-                                  .signalSemaphoreInfoCount = semaphores.signal ? 1u : 0u,
-                                  .pSignalSemaphoreInfos = &signal};
-    result = context.vk.vkQueueSubmit2(context.queue, 1, &submit, handle);
+    const VkSemaphoreSubmitInfo signals[] = {{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                              .semaphore = context.submissions.done,
+                                              .value = number,
+                                              .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT},
+                                             {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                              .semaphore = semaphores.signal,
+                                              .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT}};
+    const VkSubmitInfo2 info = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                                .waitSemaphoreInfoCount = semaphores.wait ? 1u : 0u,
+                                .pWaitSemaphoreInfos = &wait,
+                                .commandBufferInfoCount = 1,
+                                .pCommandBufferInfos = &buffer,
+                                .signalSemaphoreInfoCount = semaphores.signal ? 2u : 1u,
+                                .pSignalSemaphoreInfos = signals};
+    const VkResult result = context.vk.vkQueueSubmit2(context.queue, 1, &info, VK_NULL_HANDLE);
     if (Result<void> ok = check(result, "run " + std::string(name)); !ok) return ok.error();
-    result = context.vk.vkWaitForFences(context.device, 1, &handle, VK_TRUE, UINT64_MAX);
-    return check(result, "finish " + std::string(name));
+    return context.submissions.submitted = number;
 }
 
 }  // namespace
 
+Result<OwnedSemaphore> make_semaphore(const Context& context, VkSemaphoreType type) {
+    const VkSemaphoreTypeCreateInfo kind = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+                                            .semaphoreType = type};
+    const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &kind};
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    const VkResult result = context.vk.vkCreateSemaphore(context.device, &info, nullptr, &semaphore);
+    if (Result<void> ok = check(result, "make a semaphore"); !ok) return ok.error();
+    return OwnedSemaphore(context, semaphore);
+}
+
+Result<OwnedCommandPool> make_command_pool(const Context& context, VkCommandPoolCreateFlags flags) {
+    const VkCommandPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .flags = flags,
+                                          .queueFamilyIndex = context.queue_family};
+    VkCommandPool pool = VK_NULL_HANDLE;
+    const VkResult result = context.vk.vkCreateCommandPool(context.device, &info, nullptr, &pool);
+    if (Result<void> ok = check(result, "make a command pool"); !ok) return ok.error();
+    return OwnedCommandPool(context, pool);
+}
+
+Result<ReusedCommands> ReusedCommands::create(const Context& context) {
+    Result<OwnedCommandPool> pool =
+        make_command_pool(context, VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT);
+    if (!pool) return pool.error();
+    Result<VkCommandBuffer> commands = allocate_commands(context, pool->get());
+    if (!commands) return commands.error();
+    ReusedCommands made;
+    made.pool_ = std::move(*pool);
+    made.commands_ = *commands;
+    return made;
+}
+
+Result<void> ReusedCommands::wait(const Context& context, std::string_view name) const {
+    return check(context.wait_for(submission_), "finish " + std::string(name));
+}
+
+Result<void> ReusedCommands::run(Device::State& state, std::string_view name,
+                                 const std::function<void(VkCommandBuffer)>& record,
+                                 const Semaphores& semaphores) {
+    if (Result<void> done = wait(state.context, name); !done) return done;
+    if (Result<void> ok = record_once(state.context, commands_, name, record); !ok) return ok;
+    const Result<uint64_t> number = submit(state.context, commands_, name, semaphores);
+    if (!number) return number.error();
+    submission_ = *number;
+    return {};
+}
+
 Result<void> run_once(Device::State& state, std::string_view name,
-                      const std::function<void(VkCommandBuffer)>& record, const Semaphores& semaphores) {
+                      const std::function<void(VkCommandBuffer)>& record) {
     const Context& context = state.context;
     OneTimeCommands once{context, state.uploads.get()};
-    const VkCommandBufferAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                  .commandPool = once.pool,
-                                                  .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                  .commandBufferCount = 1};
-    VkResult result = context.vk.vkAllocateCommandBuffers(context.device, &allocate, &once.commands);
-    const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    if (result == VK_SUCCESS) result = context.vk.vkBeginCommandBuffer(once.commands, &begin);
-    if (Result<void> ok = check(result, "record " + std::string(name)); !ok) return ok.error();
-    record(once.commands);
-    result = context.vk.vkEndCommandBuffer(once.commands);
-    if (Result<void> ok = check(result, "record " + std::string(name)); !ok) return ok.error();
-    return submit_and_wait(context, once.commands, name, semaphores);
+    const Result<VkCommandBuffer> commands = allocate_commands(context, once.pool);
+    if (!commands) return commands.error();
+    once.commands = *commands;
+    if (Result<void> ok = record_once(context, once.commands, name, record); !ok) return ok;
+    const Result<uint64_t> number = submit(context, once.commands, name, {});
+    if (!number) return number.error();
+    return check(context.wait_for(*number), "finish " + std::string(name));
 }
 
 }  // namespace dermis::gpu

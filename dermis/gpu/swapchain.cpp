@@ -7,16 +7,7 @@
 namespace dermis::gpu {
 namespace {
 
-using OwnedSemaphore = Owned<VkSemaphore, &VolkDeviceTable::vkDestroySemaphore>;
 using OwnedSwapchain = Owned<VkSwapchainKHR, &VolkDeviceTable::vkDestroySwapchainKHR>;
-
-Result<OwnedSemaphore> make_semaphore(const Context& context) {
-    const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    const VkResult result = context.vk.vkCreateSemaphore(context.device, &info, nullptr, &semaphore);
-    if (Result<void> ok = check(result, "make a semaphore"); !ok) return ok.error();
-    return OwnedSemaphore(context, semaphore);
-}
 
 // Eight bits without conversion: the pictures are sRGB-encoded already.
 Result<VkSurfaceFormatKHR> choose_format(const Context& context, VkSurfaceKHR surface) {
@@ -69,7 +60,12 @@ struct Swapchain::State {
     VkExtent2D extent = {};
     OwnedSwapchain handle;
     std::vector<VkImage> images;
-    OwnedSemaphore acquired;
+    struct Slot {
+        OwnedSemaphore acquired;
+        ReusedCommands commands;
+    };
+    std::vector<Slot> slots;  ///< of frames in flight, used in turn
+    size_t next_slot = 0;
     std::vector<OwnedSemaphore> drawn;  ///< one per image: presentation may still wait for another's
 
     explicit State(Device::State& device_state) : device(device_state) {}
@@ -131,13 +127,18 @@ Result<void> Swapchain::State::build_images() {
         context.vk.vkGetSwapchainImagesKHR(context.device, handle.get(), &count, images.data());
     if (Result<void> ok = check(result, "get the window's pictures"); !ok) return ok;
     drawn.clear();
-    for (uint32_t i = 0; i <= count; ++i) {
-        Result<OwnedSemaphore> semaphore = make_semaphore(context);
+    slots.clear();
+    for (uint32_t i = 0; i < count; ++i) {
+        Result<OwnedSemaphore> semaphore = make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY);
         if (!semaphore) return semaphore.error();
-        if (i < count)
-            drawn.push_back(std::move(*semaphore));
-        else
-            acquired = std::move(*semaphore);
+        drawn.push_back(std::move(*semaphore));
+    }
+    for (size_t i = 0; i < kFramesInFlight; ++i) {
+        Result<OwnedSemaphore> acquired = make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY);
+        if (!acquired) return acquired.error();
+        Result<ReusedCommands> commands = ReusedCommands::create(context);
+        if (!commands) return commands.error();
+        slots.push_back({std::move(*acquired), std::move(*commands)});
     }
     return {};
 }
@@ -189,17 +190,20 @@ Result<Presented> Swapchain::present(Executor& executor, std::string_view name) 
     if (!source || source->declaration.samples > 1 || is_depth(source->declaration.format))
         return Error{"no colour image '" + std::string(name) + "' with one sample to show"};
     if (!state.handle) return Presented::resize;
+    State::Slot& slot = state.slots[state.next_slot];
+    if (Result<void> free = slot.commands.wait(context, "the copy to the window"); !free) return free.error();
     uint32_t index = 0;
     VkResult result = context.vk.vkAcquireNextImageKHR(context.device, state.handle.get(), UINT64_MAX,
-                                                       state.acquired.get(), VK_NULL_HANDLE, &index);
+                                                       slot.acquired.get(), VK_NULL_HANDLE, &index);
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return Presented::resize;
     if (Result<void> ok = check(result, "get a picture of the window"); !ok) return ok.error();
     const VkSemaphore drawn = state.drawn[index].get();
-    const Result<void> copied =
-        run_once(state.device, "the copy to the window",
-                 [&](VkCommandBuffer commands) { state.blit(commands, *source, state.images[index]); },
-                 {.wait = state.acquired.get(), .signal = drawn});
+    const Result<void> copied = slot.commands.run(
+        state.device, "the copy to the window",
+        [&](VkCommandBuffer commands) { state.blit(commands, *source, state.images[index]); },
+        {.wait = slot.acquired.get(), .signal = drawn});
     if (!copied) return copied.error();
+    state.next_slot = (state.next_slot + 1) % state.slots.size();
     const VkSwapchainKHR swapchain = state.handle.get();
     const VkPresentInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
                                    .waitSemaphoreCount = 1,

@@ -46,7 +46,8 @@ class Swapchain {
     [[nodiscard]] Result<void> resize(int width, int height);
 
     /// Shows an image of the executor's last list, scaled to the window. Its numbers are shown as they are,
-    /// so the list's last pass must have encoded them as sRGB. Waits until it is queued for display.
+    /// so the list's last pass must have encoded them as sRGB. Does not wait for
+    /// it, only for the frame two before.
     [[nodiscard]] Result<Presented> present(Executor& executor, std::string_view image);
 
     struct State;

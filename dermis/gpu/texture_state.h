@@ -14,14 +14,20 @@ struct Texture::State {
     VkSampler sampler = VK_NULL_HANDLE;  ///< the device's, trilinear with the texture's address modes
 };
 
+/// On the device, or as bytes that go along with each frame.
+struct GeometryData {
+    Buffer buffer;
+    std::vector<std::byte> bytes;
+};
+
 struct Geometry::State {
     struct Stream {
         int components = 0;
-        Buffer buffer;
+        GeometryData data;
     };
     std::string name;
     std::map<std::string, Stream, std::less<>> streams;
-    Buffer indices;
+    GeometryData indices;
     uint32_t index_count = 0, vertex_count = 0;
 };
 

@@ -36,6 +36,23 @@ bool Context::can(VkFormat format, VkFormatFeatureFlags wanted) const {
     return (has.optimalTilingFeatures & wanted) == wanted;
 }
 
+VkResult Context::wait_for(uint64_t submission) const {
+    if (submission <= submissions.known_done) return VK_SUCCESS;
+    const VkSemaphoreWaitInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
+                                      .semaphoreCount = 1,
+                                      .pSemaphores = &submissions.done,
+                                      .pValues = &submission};
+    const VkResult result = vk.vkWaitSemaphores(device, &info, UINT64_MAX);
+    if (result == VK_SUCCESS) submissions.known_done = submission;
+    return result;
+}
+
+bool Context::is_done(uint64_t submission) const {
+    if (submission > submissions.known_done)
+        vk.vkGetSemaphoreCounterValue(device, submissions.done, &submissions.known_done);
+    return submission <= submissions.known_done;
+}
+
 Result<void> check(VkResult result, std::string_view what) {
     if (result >= 0) return {};
     std::string reason(result_text(result));

@@ -11,6 +11,14 @@
 
 namespace dermis::gpu {
 
+/// What the queue was given, counted: a timeline semaphore has the number of the last submission that is
+/// done, and all before it are done too.
+struct Submissions {
+    VkSemaphore done = VK_NULL_HANDLE;
+    uint64_t submitted = 0;
+    uint64_t known_done = 0;
+};
+
 /// The logical device and what everything made from it needs. Never moves while the device lives.
 struct Context {
     VkInstance instance = VK_NULL_HANDLE;
@@ -27,6 +35,8 @@ struct Context {
     VkSampleCountFlags sample_counts = 0;  ///< of colour and depth targets alike
     bool is_cpu = false;
     bool keep_statistics = false;  ///< of pipelines: VK_KHR_pipeline_executable_properties is enabled
+    mutable Submissions submissions;
+    mutable uint64_t created = 0;  ///< handles and allocations since the device was opened
     PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;  ///< null without VK_EXT_debug_utils
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
@@ -36,14 +46,18 @@ struct Context {
     [[nodiscard]] VkPipelineCreateFlags pipeline_flags() const {
         return keep_statistics ? VkPipelineCreateFlags{VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR} : 0;
     }
+
+    /// Waits for a submission; 0: for none. Error: the device was lost.
+    [[nodiscard]] VkResult wait_for(uint64_t submission) const;
+    [[nodiscard]] bool is_done(uint64_t submission) const;
 };
 
-/// A device-level handle that destroys itself.
+/// A device-level handle that destroys itself, after all that was submitted: a frame in flight may use it.
 template <class Handle, auto Destroy>
 class Owned {
   public:
     Owned() = default;
-    Owned(const Context& context, Handle handle) : context_(&context), handle_(handle) {}
+    Owned(const Context& context, Handle handle) : context_(&context), handle_(handle) { ++context.created; }
     ~Owned() { reset(); }
     Owned(Owned&& other) noexcept
         : context_(other.context_), handle_(std::exchange(other.handle_, Handle{})) {}
@@ -60,7 +74,10 @@ class Owned {
 
   private:
     void reset() {
-        if (handle_) (context_->vk.*Destroy)(context_->device, handle_, nullptr);
+        if (!handle_) return;
+        // After a loss nothing runs any more.
+        static_cast<void>(context_->wait_for(context_->submissions.submitted));
+        (context_->vk.*Destroy)(context_->device, handle_, nullptr);
         handle_ = {};
     }
 
@@ -80,7 +97,7 @@ using OwnedPipeline = Owned<VkPipeline, &VolkDeviceTable::vkDestroyPipeline>;
 using OwnedPipelineCache = Owned<VkPipelineCache, &VolkDeviceTable::vkDestroyPipelineCache>;
 using OwnedCommandPool = Owned<VkCommandPool, &VolkDeviceTable::vkDestroyCommandPool>;
 using OwnedQueryPool = Owned<VkQueryPool, &VolkDeviceTable::vkDestroyQueryPool>;
-using OwnedFence = Owned<VkFence, &VolkDeviceTable::vkDestroyFence>;
+using OwnedSemaphore = Owned<VkSemaphore, &VolkDeviceTable::vkDestroySemaphore>;
 
 [[nodiscard]] std::string_view result_text(VkResult result);
 

@@ -18,9 +18,7 @@ Result<void> SceneOnDevice::replace_environment(gpu::Device& device, const Scene
     if (!cube) return cube.error();
     environment_cube_ = std::make_unique<gpu::Texture>(std::move(*cube));
     environment_mip_count_ = environment->mips;
-    environment_sh_.clear();
-    for (const Vec3& coefficient : environment->radiance_sh)
-        environment_sh_.push_back({{"radiance_linear", coefficient}});
+    environment_sh_ = environment->radiance_sh;
     return {};
 }
 

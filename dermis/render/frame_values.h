@@ -11,7 +11,15 @@ struct FrameValueSettings {
     int shadow_map_size = 2048;
     float penumbra_mm = 2;
     int environment_mip_count = 1;
+    std::array<Vec3, 9> environment_sh = {};  ///< EnvironmentLight::radiance_sh
+    int earlier_frames = 0;
+    Mat4 previous_view_projection = {};  ///< unused while earlier_frames is 0
 };
+
+/// Coefficients of shaders/include/frame.glsl's environment_terms: radiance from the directions of the world
+/// as real spherical harmonics (orthonormal, order 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22) in the environment,
+/// which is turned by yaw_rad about y.
+[[nodiscard]] std::array<Vec3, 9> environment_terms(const std::array<Vec3, 9>& sh, float yaw_rad);
 
 /// The block Frame.
 [[nodiscard]] gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings);

@@ -1,12 +1,14 @@
 #include "dermis/render/renderer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "dermis/base/hash.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/atlas_check.h"
+#include "dermis/render/diffused_normals.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
 #include "dermis/render/material_maps.h"
@@ -55,6 +57,13 @@ std::string light_key(const Technique& technique, const ParameterValues& values,
     hasher.add(scene.environment.intensity).add(scene.environment.yaw_rad).add(scene.skin.profile);
     hasher.add(scene.skin.specular_reduces_diffuse);
     return hasher.hex();
+}
+
+// Everything that must be the same for a frame to take in the one before, while camera and lights may change.
+std::string frames_key(const Technique& technique, const ParameterValues& values,
+                       const DrawSettings& settings, const SkinContext& skin) {
+    return settings_key(technique, values, skin) + settings.view + std::to_string(settings.width) + 'x' +
+           std::to_string(settings.height);
 }
 
 // The light of each shadow map after the first.
@@ -158,10 +167,11 @@ Result<const SkinContext*> Renderer::skin_context() {
     return &*skin_;
 }
 
-// Once, for the first technique that draws into the skin's atlas.
+// Once, for the first technique that draws into the skin's atlas or reads normals baked over it.
 Result<void> Renderer::check_atlas() {
     const auto draws_atlas = [](const Pass& pass) { return pass.kind == PassKind::geometry_uv_atlas; };
-    if (atlas_checked_ || std::ranges::none_of(list_.passes, draws_atlas)) return {};
+    if (atlas_checked_ || (!list_.diffused_normals && std::ranges::none_of(list_.passes, draws_atlas)))
+        return {};
     Result<std::vector<std::string>> checked = check_skin_atlas(*scene_);
     if (!checked) return checked.error();
     warnings_.insert(warnings_.end(), checked->begin(), checked->end());
@@ -185,6 +195,29 @@ Result<void> Renderer::prepare_seams() {
     return {};
 }
 
+Result<void> Renderer::prepare_diffused_normals(const GaussianSum& profile) {
+    if (!list_.diffused_normals) return {};
+    std::string key = scene_->skin.profile + std::to_string(list_.diffused_normals->size);
+    if (key == diffused_normals_key_) return {};
+    const Result<DiffusedNormals> baked = bake_diffused_normals(*scene_, profile, *list_.diffused_normals);
+    if (!baked) return baked.error();
+    for (const auto& [name, texels] : {std::pair{"diffused_normals_red", &baked->red},
+                                       std::pair{"diffused_normals_green", &baked->green}}) {
+        const auto bytes = std::as_bytes(std::span(*texels));
+        gpu::TextureData data{.name = name,
+                              .format = ImageFormat::rgba16,
+                              .width = baked->size,
+                              .height = baked->size,
+                              .bytes = {bytes.begin(), bytes.end()}};
+        data.generate_mips = true;
+        Result<gpu::Texture> texture = gpu::Texture::upload(*device_, data);
+        if (!texture) return texture.error();
+        diffused_normals_.insert_or_assign(name, std::move(*texture));
+    }
+    diffused_normals_key_ = std::move(key);
+    return {};
+}
+
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
     gpu::FrameInputs inputs = {.width = settings.width, .height = settings.height};
     inputs.textures["environment_cube"] = &uploaded_->environment_cube();
@@ -196,22 +229,27 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
         inputs.textures["seam_map"] = &seams_->seam_map;
         inputs.textures["chart_map"] = &seams_->chart_map;
     }
+    if (list_.diffused_normals)
+        for (const auto& [name, texture] : diffused_normals_) inputs.textures[name] = &texture;
     inputs.blocks["Frame"] =
         frame_values(*scene_, {.width = settings.width,
                                .height = settings.height,
                                .shadow_map_size = settings.shadow_map_size,
                                .penumbra_mm = settings.penumbra_mm,
-                               .environment_mip_count = uploaded_->environment_mip_count()});
+                               .environment_mip_count = uploaded_->environment_mip_count(),
+                               .environment_sh = uploaded_->environment_sh(),
+                               .earlier_frames = earlier_frames_,
+                               .previous_view_projection = previous_view_projection_});
     inputs.blocks["Params"] = inputs.blocks["AtlasParams"] = parameter_block(values);
     inputs.blocks["Skin"] = skin_values_;
     inputs.arrays["Lights"] = light_values(*scene_);
-    inputs.arrays["EnvironmentSh"] = uploaded_->environment_sh();
     inputs.draws = uploaded_->draws();
     return inputs;
 }
 
-Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const ParameterValues& values,
-                                        const DrawSettings& settings) {
+// The list and what it reads. The frame counts as drawn from here on; where it fails, the history is lost.
+Result<void> Renderer::prepare(const Technique& technique, const ParameterValues& values,
+                               const DrawSettings& settings) {
     const std::vector<std::string> views = view_names(technique);
     if (std::ranges::find(views, settings.view) == views.end())
         return Error{unknown_name("view", settings.view, views)};
@@ -221,11 +259,20 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
     const Result<const SkinContext*> skin = skin_context();
     if (!skin) return skin.error();
     const std::string key = light_key(technique, values, settings, *scene_);
+    const std::string series = frames_key(technique, values, settings, **skin);
+    earlier_frames_ = series == std::exchange(frames_key_, "") ? earlier_frames_ + 1 : 0;
+    previous_view_projection_ = view_projection_;
+    view_projection_ =
+        camera_matrices(scene_->camera, float(settings.width) / float(settings.height)).view_projection;
+    const bool still =
+        earlier_frames_ > 0 && key == history_key_ && view_projection_ == previous_view_projection_;
+    still_frames_ = still ? still_frames_ + 1 : 1;
     const std::vector<int> shadow_lights = lights_by_shadow_map(*scene_);
     const FrameContext frame = {
         .view = settings.view,
         .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
         .previous_camera_distance_mm = key == history_key_ ? history_distance_mm_ : 0,
+        .earlier_frames = earlier_frames_,
         .shadow_map_size = settings.shadow_map_size,
         .shadow_map_count = 1 + int(shadow_lights.size()),
         .has_other = uploaded_->has(gpu::DrawClass::other),
@@ -248,14 +295,35 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
     list_ = frame_passes(technique.build(values, frame), shared);
     list_.constants = uploaded_->map_constants();
     list_.constants.emplace_back("one_light", scene_->lights.size() == 1);
+    list_.constants.emplace_back("all_directional",
+                                 std::ranges::all_of(scene_->lights, [](const Light& light) {
+                                     return light.kind == LightKind::directional;
+                                 }));
     radiance_name_ = radiance_image(shared);
     if (Result<void> good = check_atlas(); !good) return good.error();
     check_maps();
     if (Result<void> ready = prepare_seams(); !ready) return ready.error();
-    Result<gpu::FrameResult> drawn = executor_.run(list_, inputs(values, settings));
-    history_key_ = drawn ? key : "";
+    if (Result<void> ready = prepare_diffused_normals((*skin)->gaussians); !ready) return ready.error();
+    history_key_ = key;
+    frames_key_ = series;
     history_distance_mm_ = frame.camera_distance_mm;
+    return {};
+}
+
+Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const ParameterValues& values,
+                                        const DrawSettings& settings) {
+    if (Result<void> ready = prepare(technique, values, settings); !ready) return ready.error();
+    Result<gpu::FrameResult> drawn = executor_.run(list_, inputs(values, settings));
+    if (!drawn) forget_history();
     return drawn;
+}
+
+Result<uint64_t> Renderer::submit(const Technique& technique, const ParameterValues& values,
+                                  const DrawSettings& settings) {
+    if (Result<void> ready = prepare(technique, values, settings); !ready) return ready.error();
+    const Result<uint64_t> frame = executor_.submit(list_, inputs(values, settings));
+    if (!frame) forget_history();
+    return frame;
 }
 
 Result<Image> Renderer::radiance() {

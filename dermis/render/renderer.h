@@ -43,11 +43,21 @@ class Renderer {
     [[nodiscard]] Result<gpu::FrameResult> draw(const Technique& technique, const ParameterValues& values,
                                                 const DrawSettings& settings);
 
+    /// The same without waiting for it, and the times of such frames (executor.h).
+    [[nodiscard]] Result<uint64_t> submit(const Technique& technique, const ParameterValues& values,
+                                          const DrawSettings& settings);
+    [[nodiscard]] Result<std::vector<gpu::FrameResult>> finished() { return executor_.finished(); }
+
     /// Of the last frame: linear radiance (f16, RGBA; alpha is coverage), the tone-mapped picture
     /// (sRGB-encoded, u8, or f32 when deep), any image of its list by name.
     [[nodiscard]] Result<Image> radiance();
     [[nodiscard]] Result<Image> display();
     [[nodiscard]] Result<Image> read(std::string_view image);
+
+    /// Whether another frame of the same scene would be the same picture.
+    [[nodiscard]] bool is_settled() const { return still_frames_ >= list_.frames_to_settle; }
+    /// The next frame takes in none of the frames before it.
+    void forget_history() { history_key_.clear(), frames_key_.clear(); }
 
     /// Warnings about wrong pictures, found when a technique first asked for it; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -60,11 +70,14 @@ class Renderer {
 
   private:
     Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene);
+    [[nodiscard]] Result<void> prepare(const Technique& technique, const ParameterValues& values,
+                                       const DrawSettings& settings);
     Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
     Result<void> prepare_legend(const std::string& view);
     Result<void> check_atlas();
     void check_maps();
     Result<void> prepare_seams();
+    Result<void> prepare_diffused_normals(const GaussianSum& profile);
     [[nodiscard]] Result<const SkinContext*> skin_context();
 
     gpu::Device* device_;
@@ -74,8 +87,12 @@ class Renderer {
     const Scene* scene_;
     PassList list_;
     std::string radiance_name_;
-    std::string tables_key_, history_key_;
+    std::string tables_key_;
+    std::string history_key_;  ///< of the light in the persistent images; empty: none
+    std::string frames_key_;   ///< of the frame before; empty: there is none that a frame may take in
     float history_distance_mm_ = 0;
+    int earlier_frames_ = 0, still_frames_ = 0;  ///< still: since camera or lights moved, the last included
+    Mat4 view_projection_, previous_view_projection_;  ///< of the last frame, and of the one before
     std::map<std::string, gpu::Texture> tables_;
     gpu::Values skin_values_;
     std::string legend_view_;  ///< that legend_ is of
@@ -83,6 +100,8 @@ class Renderer {
     std::vector<std::string> warnings_;
     bool atlas_checked_ = false;
     std::optional<SeamTextures> seams_;
+    std::map<std::string, gpu::Texture> diffused_normals_;
+    std::string diffused_normals_key_;
     std::optional<SkinContext> skin_;  ///< of the profile that the scene named last
 };
 

@@ -36,7 +36,7 @@ class SceneOnDevice {
     [[nodiscard]] const gpu::Texture& no_image() const { return *no_image_; }
     [[nodiscard]] UvDensity uv_density() const { return uv_density_; }
     [[nodiscard]] int environment_mip_count() const { return environment_mip_count_; }
-    [[nodiscard]] const std::vector<gpu::Values>& environment_sh() const { return environment_sh_; }
+    [[nodiscard]] const std::array<Vec3, 9>& environment_sh() const { return environment_sh_; }
 
   private:
     Result<void> upload_maps(gpu::Device& device, const Scene& scene);
@@ -49,7 +49,7 @@ class SceneOnDevice {
     std::unique_ptr<gpu::Texture> environment_cube_, environment_brdf_, no_image_;
     int environment_mip_count_ = 1;
     UvDensity uv_density_;
-    std::vector<gpu::Values> environment_sh_;
+    std::array<Vec3, 9> environment_sh_ = {};
     std::vector<gpu::Draw> draws_;
     bool has_cut_outs_ = false;
     std::vector<std::pair<std::string, int32_t>> map_constants_;

@@ -187,7 +187,10 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     const bool shows_gbuffer = view != gbuffer_views().end();
     const ImageFormat radiance_format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba16f;
 
-    PassList list{.seams = technique.seams, .needed_maps = technique.needed_maps};
+    PassList list{.seams = technique.seams,
+                  .diffused_normals = technique.diffused_normals,
+                  .needed_maps = technique.needed_maps,
+                  .frames_to_settle = technique.frames_to_settle};
     list.images = {{.name = "radiance", .format = radiance_format, .samples = settings.samples},
                    {.name = "depth", .format = ImageFormat::depth32f, .samples = settings.samples},
                    {.name = "display", .format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba8}};

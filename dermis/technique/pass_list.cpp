@@ -44,6 +44,7 @@ class Checker {
         for (const ImageDeclaration& image : list.images)
             if (image.persistent) written_.insert(image.name);
         if (list.seams) inputs_.insert({"seam_map", "chart_map"});
+        if (list.diffused_normals) inputs_.insert({"diffused_normals_red", "diffused_normals_green"});
     }
 
     std::vector<std::string> run() {
@@ -171,6 +172,9 @@ std::vector<std::string> problems(const PassList& list, const std::vector<std::s
 std::string describe(const PassList& list) {
     std::string text;
     if (list.seams) text += "input seam_map, chart_map  " + std::to_string(list.seams->size) + "\n";
+    if (list.diffused_normals)
+        text += "input diffused_normals_red, diffused_normals_green  " +
+                std::to_string(list.diffused_normals->size) + "\n";
     for (const ImageDeclaration& image : list.images) {
         text += "image " + image.name + "  " + std::string(format_name(image.format)) + "  " +
                 size_text(image.size);

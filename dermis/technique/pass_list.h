@@ -130,6 +130,15 @@ struct SeamRequest {
     friend bool operator==(const SeamRequest&, const SeamRequest&) = default;
 };
 
+/// Asks for the textures "diffused_normals_red" and "diffused_normals_green" of the skin's atlas
+/// (render/diffused_normals.h), `size` texels a side.
+struct DiffusedNormalsRequest {
+    int size = 1024;
+    /// Along an axis; what is narrower is left to the pixel's own normal.
+    float finest_variance_mm2 = 0.1f;
+    friend bool operator==(const DiffusedNormalsRequest&, const DiffusedNormalsRequest&) = default;
+};
+
 struct PassList {
     std::vector<ImageDeclaration> images;
     std::vector<Pass> passes;
@@ -137,9 +146,13 @@ struct PassList {
     /// has them. Where neither has on_cpu, it is 1 on a software device.
     std::vector<std::pair<std::string, int32_t>> constants;
     std::optional<SeamRequest> seams;
+    std::optional<DiffusedNormalsRequest> diffused_normals;
     /// Textures of material maps without which these settings show nothing; a skin material without one is a
     /// warning.
     std::vector<std::string> needed_maps;
+    /// The picture of a still scene changes with each of so many frames, as it takes in the frames before;
+    /// 0: a frame depends on no other.
+    int frames_to_settle = 0;
 
     [[nodiscard]] const ImageDeclaration* find_image(std::string_view name) const;
 };

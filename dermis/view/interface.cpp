@@ -198,7 +198,7 @@ Result<InterfaceDraws> Interface::end() {
     InterfaceDraws result;
     if (all.draws.empty()) return result;
     const gpu::VertexStream streams[] = {{"position_uv", 4, all.positions}, {"color", 4, all.colors}};
-    Result<gpu::Geometry> geometry = gpu::Geometry::upload(state_->device, "interface", streams, all.indices);
+    Result<gpu::Geometry> geometry = gpu::Geometry::streamed("interface", streams, all.indices);
     if (!geometry) return geometry.error();
     result.geometry = std::make_unique<gpu::Geometry>(std::move(*geometry));
     result.draws = std::move(all.draws);

@@ -26,6 +26,15 @@ void Pictures::report_shaders(Notices& notices) const {
         notices.report_error(kShaderTopic + name, message + kLastGood);
 }
 
+void Pictures::take_times(Notices& notices) {
+    if (!scene_.is_there()) return;
+    for (size_t side = 0; side < 2; ++side) {
+        const Result<bool> taken = scene_.stage().take_times(side);
+        if (!taken) notices.report_error("times", taken.error().message);
+        if (taken && *taken && side == 0) times_.add(scene_.stage().picture(0).timings);
+    }
+}
+
 void Pictures::refresh(Model& model, const gpu::Texture* truth, PictureSize size, double now_s) {
     drew_ = false;
     if (!scene_.is_there()) return;
@@ -46,7 +55,6 @@ void Pictures::refresh(Model& model, const gpu::Texture* truth, PictureSize size
         if (shaders_unproven_) shaders_.confirm();
         shaders_unproven_ = false;
         drew_ = true;
-        if (side == 0) times_.add(scene_.stage().picture(0).timings);
     }
 }
 

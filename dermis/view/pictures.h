@@ -29,6 +29,8 @@ class Pictures {
     /// What is wrong with shaders now.
     void report_shaders(Notices& notices) const;
 
+    /// Takes the times of drawings that are done by now.
+    void take_times(Notices& notices);
     /// Draws what is due; what cannot be drawn is a notice. `truth`: the right side, when it is a picture.
     void refresh(Model& model, const gpu::Texture* truth, PictureSize size, double now_s);
     [[nodiscard]] ShownPictures shown(const Model& model, const gpu::Texture* truth) const;

@@ -62,7 +62,7 @@ Result<bool> Presenter::show(const InterfaceDraws& draws, const ShownPictures& p
                                          .split = model.split,
                                          .line_px = std::max(1.0f, std::round(scale)),
                                          .has_interface = !draws.draws.empty()});
-    if (const auto run = executor_->run(list, inputs); !run) return run.error();
+    if (const auto frame = executor_->submit(list, inputs); !frame) return frame.error();
     const Result<gpu::Presented> presented = swapchain_->present(*executor_, "window");
     if (!presented) return presented.error();
     if (*presented != gpu::Presented::resize) return true;

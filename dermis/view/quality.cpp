@@ -28,8 +28,7 @@ std::optional<Quality> QualityLadder::due(bool changed, double still_s, double m
     return Quality{.samples = limits.samples};
 }
 
-void QualityLadder::drawn(Quality quality, double megapixels, double time_ms) {
-    last_ = quality;
+void QualityLadder::measured(Quality quality, double megapixels, double time_ms) {
     const double drawn_megapixels = megapixels * quality.scale * quality.scale;
     if (quality.samples > 1 || drawn_megapixels <= 0) return;
     const double measured = time_ms / drawn_megapixels;

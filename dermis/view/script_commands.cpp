@@ -43,12 +43,13 @@ std::string state_text(Parts& p) {
     text += "window " + std::to_string(size.width) + "x" + std::to_string(size.height) + "\n";
     const Picture& picture = p.pictures.scene().stage().picture(0);
     text += "picture " + std::to_string(picture.width) + "x" + std::to_string(picture.height) + " " +
-            std::to_string(picture.quality.samples) + "\npasses " +
-            std::to_string(picture.timings.passes.size()) + "\n";
+            std::to_string(picture.quality.samples) + "\npasses " + std::to_string(picture.passes) + "\n";
     text += std::string("minimised ") + (p.window.framebuffer().width == 0 ? "yes\n" : "no\n");
     text += "interface_scale " + to_text(p.interface->scale()) + "\n";
     const gpu::Footprint held = p.presenter->footprint();
     text += "window_images " + std::to_string(held.images) + "\n";
+    text += "frame " + std::to_string(p.clock.frames()) + "\n";
+    text += "device_objects " + std::to_string(p.device.created_objects()) + "\n";
     text += "peak_memory_mb " + std::to_string(peak_memory_mb()) + "\n";
     text += "clipboard " + p.window.clipboard() + "\n";
     for (const Notice& notice : model.notices.all()) text += "notice " + notice.text + "\n";

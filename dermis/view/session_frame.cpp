@@ -83,6 +83,7 @@ Result<void> Session::frame() {
     if (Result<void> taken = take_scene(); !taken) return taken;
     if (p.opener.follow_files()) p.input.wake();
     if (p.truth.take(p.model, p.clock.now_s())) p.input.wake();
+    p.pictures.take_times(p.model.notices);
     if (is_idle(p, events)) return {};
     const WindowSize size = p.window.framebuffer();
     if (size.width == 0 || size.height == 0) {  // minimised
@@ -143,8 +144,10 @@ Result<void> Session::show_pictures(const InterfaceDraws& draws) {
     const ShownPictures pictures = p.pictures.shown(p.model, p.truth.texture());
     const Result<bool> shown = p.presenter->show(draws, pictures, p.model, p.interface->scale());
     if (!shown) return shown.error();
-    if (*shown && pictures.a && !report_.first_picture_s) report_.first_picture_s = p.clock.elapsed_s();
-    return {};
+    if (!*shown || !pictures.a || report_.first_picture_s) return {};
+    const Result<void> done = p.device.finish();
+    report_.first_picture_s = p.clock.elapsed_s();
+    return done;
 }
 
 Result<void> Session::step_script() {

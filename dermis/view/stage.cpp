@@ -60,8 +60,9 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
         side.failed = false;
     }
     if (side.failed) return false;
-    const std::optional<Quality> quality =
+    std::optional<Quality> quality =
         side.ladder->due(changed, now_s - side.changed_s, megapixels(size), limits_);
+    if (!quality && !side.renderer->is_settled()) quality = side.picture.quality;
     if (!quality) return false;
     const Result<Renderer*> drawer = renderer(choice);
     if (!drawer) return drawer.error();
@@ -70,14 +71,35 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
     const Technique& technique = model.choices[choice].technique();
     const ParameterValues& chosen = model.choices[choice].values();
     const bool coarse = quality->scale < 1 && technique.coarse;
-    Result<gpu::FrameResult> drawn =
-        (*drawer)->draw(technique, coarse ? technique.coarse(chosen, quality->scale) : chosen, draw);
-    side.failed = !drawn;
-    if (!drawn) return drawn.error();
-    side.ladder->drawn(*quality, megapixels(size), drawn->frame_ms);
-    side.picture = {
-        .timings = std::move(*drawn), .quality = *quality, .width = draw.width, .height = draw.height};
+    const Result<uint64_t> frame =
+        (*drawer)->submit(technique, coarse ? technique.coarse(chosen, quality->scale) : chosen, draw);
+    side.failed = !frame;
+    if (!frame) return frame.error();
+    side.ladder->drawn(*quality);
+    side.in_flight.push_back({*frame, *quality, megapixels(size)});
+    side.picture.quality = *quality;
+    side.picture.width = draw.width;
+    side.picture.height = draw.height;
+    side.picture.passes = (*drawer)->list().passes.size();
     return true;
+}
+
+Result<bool> Stage::take_times(size_t choice) {
+    Side& side = sides_[choice];
+    if (side.in_flight.empty()) return false;
+    Result<std::vector<gpu::FrameResult>> finished = side.renderer->finished();
+    if (!finished) {
+        side.in_flight.clear();
+        return finished.error();
+    }
+    for (gpu::FrameResult& result : *finished) {
+        const auto drawing = std::ranges::find(side.in_flight, result.frame, &Drawing::frame);
+        if (drawing == side.in_flight.end()) continue;
+        side.ladder->measured(drawing->quality, drawing->megapixels, result.frame_ms);
+        side.in_flight.erase(side.in_flight.begin(), drawing + 1);
+        side.picture.timings = std::move(result);
+    }
+    return !finished->empty();
 }
 
 std::optional<gpu::ForeignImage> Stage::image(size_t choice) const {
@@ -87,7 +109,9 @@ std::optional<gpu::ForeignImage> Stage::image(size_t choice) const {
 }
 
 bool Stage::is_final(size_t choice) const {
-    return sides_[choice].failed || sides_[choice].ladder->is_final(limits_);
+    const Side& side = sides_[choice];
+    return side.failed ||
+           (side.in_flight.empty() && side.ladder->is_final(limits_) && side.renderer->is_settled());
 }
 
 Result<void> Stage::write(Model& model, size_t choice, PictureSize size, const std::filesystem::path& path) {

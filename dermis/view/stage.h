@@ -19,9 +19,10 @@ struct PictureSize {
 
 /// What the window shows on one side.
 struct Picture {
-    gpu::FrameResult timings;
+    gpu::FrameResult timings;  ///< of the last drawing that is done
     Quality quality;
     int width = 0, height = 0;  ///< as drawn
+    size_t passes = 0;
 };
 
 class Stage {
@@ -37,6 +38,9 @@ class Stage {
     /// Draws the side `choice` if it is due. True when it drew. An error leaves the last picture standing,
     /// and comes once: the next attempt waits for a change.
     [[nodiscard]] Result<bool> refresh(Model& model, size_t choice, PictureSize size, double now_s);
+
+    /// Takes the times of the side's drawings that are done by now. True when there are new ones.
+    [[nodiscard]] Result<bool> take_times(size_t choice);
 
     /// The side's picture for the window; absent before the first drawing.
     [[nodiscard]] std::optional<gpu::ForeignImage> image(size_t choice) const;
@@ -57,13 +61,20 @@ class Stage {
     void forget_shaders();
 
   private:
+    /// A drawing whose time is not known yet.
+    struct Drawing {
+        uint64_t frame = 0;
+        Quality quality;
+        double megapixels = 0;
+    };
     struct Side {
         std::optional<Renderer> renderer;
         std::optional<QualityLadder> ladder;
         std::string key;
         double changed_s = 0;
         Picture picture;
-        bool failed = false;  ///< with this key
+        std::vector<Drawing> in_flight;  ///< oldest first
+        bool failed = false;             ///< with this key
     };
 
     Stage() = default;

@@ -17,7 +17,7 @@ layout(scalar) uniform AtlasParams {
 
 // What passes opaque and translucent surfaces.
 vec3 passing(Surface s, int light, vec3 to_light_world) {
-    if (light == key_light)
+    if (light == key_light && light_source(light).shadow_map_index >= 0)
         return key_light_through(s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm, trans_shadow_alpha);
     if (channels == kChannelsTwoLights && light == second_light)
         return second_light_through(s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm, trans_shadow_alpha);

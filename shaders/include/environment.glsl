@@ -9,29 +9,19 @@ uniform textureCube environment_cube;
 // (scene/brdf_table.h).
 uniform texture2D environment_brdf;
 
-// Nine radiance coefficients, order (l, m): 00, 1-1, 10, 11, 2-2, 2-1, 20, 21, 22, real orthonormal basis.
-struct ShTerm {
-    vec3 radiance_linear;
-};
-layout(scalar) readonly buffer EnvironmentSh { ShTerm sh_terms[]; };
-
 vec3 to_environment(vec3 d_world) {
-    float c = cos(environment_yaw_rad), s = sin(environment_yaw_rad);
+    float c = environment_turn.x, s = environment_turn.y;
     return vec3(c * d_world.x - s * d_world.z, d_world.y, s * d_world.x + c * d_world.z);
 }
 
 // Sum of l-band weights times the bands of the environment. For irradiance the weights are the cosine lobe's
 // (pi, 2 pi / 3, pi / 4; Ramamoorthi, Hanrahan 2001); a scattering skin has its own per channel.
 vec3 environment_convolved(vec3 n_world, vec3 band_0, vec3 band_1, vec3 band_2) {
-    vec3 n = to_environment(n_world);
-    vec3 l0 = 0.282095 * sh_terms[0].radiance_linear;
-    vec3 l1 = 0.488603 * (n.y * sh_terms[1].radiance_linear + n.z * sh_terms[2].radiance_linear +
-                          n.x * sh_terms[3].radiance_linear);
-    vec3 l2 = 1.092548 * (n.x * n.y * sh_terms[4].radiance_linear + n.y * n.z * sh_terms[5].radiance_linear +
-                          n.x * n.z * sh_terms[7].radiance_linear) +
-              0.315392 * (3.0 * n.z * n.z - 1.0) * sh_terms[6].radiance_linear +
-              0.546274 * (n.x * n.x - n.y * n.y) * sh_terms[8].radiance_linear;
-    return max(band_0 * l0 + band_1 * l1 + band_2 * l2, vec3(0.0)) * environment_intensity;
+    vec3 n = n_world;
+    vec3 l1 = n.y * environment_terms[1] + n.z * environment_terms[2] + n.x * environment_terms[3];
+    vec3 l2 = n.x * n.y * environment_terms[4] + n.y * n.z * environment_terms[5] + n.x * n.z * environment_terms[7] +
+              (3.0 * n.z * n.z - 1.0) * environment_terms[6] + (n.x * n.x - n.y * n.y) * environment_terms[8];
+    return max(band_0 * environment_terms[0] + band_1 * l1 + band_2 * l2, vec3(0.0));
 }
 
 vec3 environment_irradiance(vec3 n_world) {

@@ -8,28 +8,6 @@
 #include "shaders/include/constants.h"
 #include "shaders/include/skin/pi.glsl"
 
-layout(scalar) uniform Frame {
-    mat4 view_projection;
-    mat4 inverse_view_projection;
-    mat4 light_view_projection;  // of the key light, for the shadow map
-    vec3 eye_world_mm;
-    vec3 bounds_center_mm;
-    float bounds_radius_mm;
-    vec3 background_linear;
-    int environment_visible;
-    float environment_intensity;
-    float environment_yaw_rad;
-    float environment_mip_count;
-    int frame_light_count;       // light_count of lights.glsl is to be used
-    int key_light;               // index into lights, -1: none
-    float shadow_texel_mm;       // of the shadow map, at the middle of the scene
-    float penumbra_mm;           // full width of the key light's penumbra
-    float exposure;              // a factor, 2^exposure_ev
-    int second_light;            // the first light that is not the key, -1: none
-    mat4 second_light_view_projection;
-    float pixel_per_distance;    // side of a pixel over its distance along the view
-};
-
 // Directional: intensity_linear is irradiance at normal incidence; point and spot: irradiance at 1 m.
 struct LightSource {
     int kind;  // kLightDirectional, ...
@@ -40,7 +18,41 @@ struct LightSource {
     float cos_outer;
     int shadow_map_index;  // -1: casts no shadow
     mat4 light_view_projection;
+    // Of a directional light: two axes across to_light_world, a millimetre along each in the shadow map's texture
+    // coordinates, and the way towards the light for a difference of 1 in the map's depth.
+    vec3 x_world, y_world;
+    vec2 map_x_per_mm, map_y_per_mm;
+    float mm_per_map_z;
 };
+
+layout(scalar) uniform Frame {
+    mat4 view_projection;
+    mat4 inverse_view_projection;
+    mat4 light_view_projection;  // of the key light, for the shadow map
+    vec3 eye_world_mm;
+    vec3 bounds_center_mm;
+    float bounds_radius_mm;
+    vec3 background_linear;
+    int environment_visible;
+    float environment_intensity;
+    vec2 environment_turn;       // cosine and sine of its yaw
+    // Of 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2 in the world: its radiance up to the second order, intensity included.
+    vec3 environment_terms[9];
+    float environment_mip_count;
+    int frame_light_count;       // light_count of lights.glsl is to be used
+    int key_light;               // index into lights, -1: none
+    float shadow_map_texels;     // along a side of each shadow map
+    float shadow_texel_mm;       // of the shadow map, at the middle of the scene
+    float penumbra_mm;           // full width of the key light's penumbra
+    float exposure;              // a factor, 2^exposure_ev
+    int second_light;            // the first light that is not the key, -1: none
+    mat4 second_light_view_projection;
+    float pixel_per_distance;    // side of a pixel over its distance along the view
+    mat4 previous_view_projection;  // of the frame before; where earlier_frames is 0, of this one
+    int earlier_frames;             // drawn in a row with the same technique, settings, view and size
+    LightSource first_light;     // lights[0]
+};
+
 layout(scalar) readonly buffer Lights { LightSource lights[]; };
 
 uniform sampler linear_clamp;

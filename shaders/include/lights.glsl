@@ -8,7 +8,15 @@
 // otherwise keep around so long a body. A count that is not known is looped over as ever.
 #extension GL_EXT_control_flow_attributes : require
 layout(constant_id = 35) const int one_light = 0;
+// 1 in a frame whose lights are all directional: their axes and maps are then the same for all pixels.
+layout(constant_id = 36) const int all_directional = 0;
 int light_count = one_light != 0 ? 1 : frame_light_count;
+
+// A uniform block is read once for many pixels, a storage buffer by each.
+LightSource light_source(int index) {
+    if (one_light != 0) return first_light;
+    return lights[index];
+}
 
 struct LightSample {
     vec3 irradiance_linear;  // on a surface that faces the light
@@ -18,8 +26,9 @@ struct LightSample {
 // Inverse-square falloff in metres; a spot fades between its angles as a squared smooth ramp of the cosine (glTF
 // KHR_lights_punctual).
 LightSample sample_light(int index, vec3 p_world_mm) {
-    LightSource light = lights[index];
-    if (light.kind == kLightDirectional) return LightSample(light.intensity_linear, light.to_light_world);
+    LightSource light = light_source(index);
+    if (all_directional != 0 || light.kind == kLightDirectional)
+        return LightSample(light.intensity_linear, light.to_light_world);
     vec3 offset_mm = light.position_mm - p_world_mm;
     float distance_m = max(length(offset_mm) * 1e-3, 1e-3);
     vec3 to_light = normalize(offset_mm);

@@ -6,6 +6,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "shaders/include/frame.glsl"
+#include "shaders/include/lights.glsl"
 
 // Of the key light, then of the others that cast shadows: depth of opaque surfaces, and optical depth (minus the logarithm
 // of the transmittance) of the translucent ones before them.
@@ -34,7 +35,14 @@ float shadow_depth_tap(texture2D map, vec3 p_light) {
 
 vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
     vec4 p = light_from_world * vec4(p_mm, 1.0);
+    if (all_directional != 0) return vec3(p.xy * 0.5 + 0.5, p.z);
     return p.w > 0.0 ? vec3(p.xy / p.w * 0.5 + 0.5, p.z / p.w) : vec3(-1.0);  // behind a spot or point light
+}
+
+// From the place of origin_mm in the map to that of a point beside it.
+vec3 shadow_map_step(mat4 light_from_world, vec3 origin_mm, vec3 origin_in_map, vec3 step_mm) {
+    if (all_directional != 0) return (light_from_world * vec4(step_mm, 0.0)).xyz * vec3(0.5, 0.5, 1.0);
+    return shadow_map_position(light_from_world, origin_mm + step_mm) - origin_in_map;
 }
 
 // A point past the far end of the map is inside: skin that is lifted off the far side of the scene still has everything
@@ -67,9 +75,9 @@ ShadowDisk shadow_disk(mat4 light_from_world, vec3 p_mm, vec3 n_world, vec3 to_l
     float lift_mm = max(1.5 * shadow_texel_mm, kShadowFacetLift * radius_mm) + lacking * min(radius_mm, 0.5 * penumbra_mm);
     vec3 origin_mm = p_mm + lift_mm * n_world;
     disk.center = shadow_map_position(light_from_world, origin_mm);
-    disk.axis_x = shadow_map_position(light_from_world, origin_mm + x) - disk.center;
-    disk.axis_y = shadow_map_position(light_from_world, origin_mm + y) - disk.center;
-    disk.lift = shadow_map_position(light_from_world, origin_mm + n_world) - disk.center;
+    disk.axis_x = shadow_map_step(light_from_world, origin_mm, disk.center, x);
+    disk.axis_y = shadow_map_step(light_from_world, origin_mm, disk.center, y);
+    disk.lift = shadow_map_step(light_from_world, origin_mm, disk.center, n_world);
     disk.concavity_mm = 0.5 * kShadowConcavity / radius_mm * vec3(dot(x, x), dot(y, y), 2.0 * dot(x, y));
     return disk;
 }
@@ -147,9 +155,10 @@ LightThrough disk_through(texture2D map, texture2D tint_map, ShadowDisk disk) {
 
 // The one rule for skin, eyes, frames and glass; dermis/reference/lighting.cpp has the same by rays.
 LightThrough light_through(int light, vec3 p_world_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm) {
-    int index = lights[light].shadow_map_index;
+    LightSource source = light_source(light);
+    int index = source.shadow_map_index;
     if (index < 0) return LightThrough(1.0, vec3(1.0));
-    ShadowDisk disk = shadow_disk(lights[light].light_view_projection, p_world_mm, n_geometry_world, to_light_world,
+    ShadowDisk disk = shadow_disk(source.light_view_projection, p_world_mm, n_geometry_world, to_light_world,
                                   filter_radius_mm(width_mm));
     if (outside_shadow_map(disk.center)) return LightThrough(1.0, vec3(1.0));
     if (shadow_map_count == 1 || index == 0) return disk_through(shadow_map, shadow_tint, disk);

@@ -113,13 +113,22 @@ void load_albedo(inout Surface s) {
         albedo_linear * color_linear_in.rgb * (has_albedo_map != 0 ? texture(albedo_map, uv_in).rgb : vec3(1.0));
 }
 
-// All but normal and albedo.
-void load_material(inout Surface s) {
+void load_occlusion(inout Surface s) {
+    // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
+    s.occlusion = min(occlusion_in, has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
+}
+
+// All but normal, occlusion and albedo.
+void load_gloss(inout Surface s) {
     s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
     s.roughness = clamp(roughness * (has_roughness_map != 0 ? texture(roughness_map, uv_in).r : 1.0), 0.03, 1.0);
     s.f0 = f0 * specular * (has_specular_map != 0 ? texture(specular_map, uv_in).r : 1.0);
-    // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
-    s.occlusion = min(occlusion_in, has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
+}
+
+// All but normal and albedo.
+void load_material(inout Surface s) {
+    load_gloss(s);
+    load_occlusion(s);
 }
 
 Surface load_surface() {

@@ -43,16 +43,15 @@ const float kTexelRise = 0.7, kSteepest = 12.0, kSlopesAway = 4.0;
 // Where a surface takes in more of the light than this, what comes through the skin is not added.
 const float kDark = 0.3;
 
-// The light's shadow map around the point that is shaded. Lengths are parts of the profile's reach.
+// The light's shadow map around the point that is shaded.
 struct LightMap {
     int index;
     float reach_mm;
     vec3 to_light_world, x_world, y_world;
     vec3 n_in_light;      // the point's geometric normal along x_world, y_world and to_light_world
-    vec3 here;            // the point in the map, in texels, and its depth
-    vec2 axis_x, axis_y;  // the reach along x_world and y_world, in texels
-    vec2 texel;           // its size in texture coordinates
-    float reaches_per_z;
+    vec3 here;            // the point in the map: texture coordinates and depth
+    vec2 axis_x, axis_y;  // a millimetre along x_world and y_world, in texture coordinates
+    float mm_per_z;       // towards the light
     bool valid;  // false behind a light, and beside the triangle where a driver loads nothing for such pixels
 };
 
@@ -61,7 +60,7 @@ const float kOtherWall = 0.5;
 
 // Along x_world, y_world and to_light_world of the light's map.
 struct LitPoint {
-    vec3 offset;  // from the point that is shaded, over the reach
+    vec3 offset_mm;  // from the point that is shaded
     vec3 n;
 };
 
@@ -70,13 +69,8 @@ float part_not_counted(LightMap map, LitPoint lit);
 vec3 along_axes(LightMap map, vec3 v_world) {
     return vec3(dot(v_world, map.x_world), dot(v_world, map.y_world), dot(v_world, map.to_light_world));
 }
-vec3 to_world(LightMap map, vec3 v) { return v.x * map.x_world + v.y * map.y_world + v.z * map.to_light_world; }
 
-vec2 map_texels(int map_index) {
-    if (shadow_map_count == 1 || map_index == 0) return vec2(textureSize(sampler2D(shadow_map, nearest_clamp), 0));
-    if (map_index == 1) return vec2(textureSize(sampler2D(shadow_map_1, nearest_clamp), 0));
-    return vec2(textureSize(sampler2D(shadow_map_2, nearest_clamp), 0));
-}
+vec3 to_world(LightMap map, vec3 v) { return v.x * map.x_world + v.y * map.y_world + v.z * map.to_light_world; }
 
 // A millimetre along `axis_world` from the point whose place in the map is `here`, by the map's derivative.
 vec3 in_light_map(mat4 light_from_world, vec4 here_clip, vec3 axis_world) {
@@ -85,24 +79,34 @@ vec3 in_light_map(mat4 light_from_world, vec4 here_clip, vec3 axis_world) {
 }
 
 LightMap light_map_around(int light, vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, float reach_mm) {
-    vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
-    mat4 light_from_world = lights[light].light_view_projection;
+    LightSource source = light_source(light);
+    mat4 light_from_world = source.light_view_projection;
     LightMap map;
-    map.index = lights[light].shadow_map_index;
+    map.index = source.shadow_map_index;
     map.reach_mm = reach_mm;
     map.to_light_world = to_light_world;
-    map.x_world = normalize(cross(up, to_light_world));
-    map.y_world = cross(to_light_world, map.x_world);
-    map.n_in_light = along_axes(map, n_geometry_world);
     vec4 here_clip = light_from_world * vec4(p_mm, 1.0);
-    map.valid = here_clip.w > 0.0;
-    if (!map.valid) here_clip = vec4(0.0, 0.0, 0.0, 1.0);
-    vec2 texels = map_texels(map.index);
-    map.texel = 1.0 / texels;
-    map.here = (here_clip.xyz / here_clip.w * vec3(0.5, 0.5, 1.0) + vec3(0.5, 0.5, 0.0)) * vec3(texels, 1.0);
-    map.axis_x = reach_mm * texels * in_light_map(light_from_world, here_clip, map.x_world).xy;
-    map.axis_y = reach_mm * texels * in_light_map(light_from_world, here_clip, map.y_world).xy;
-    map.reaches_per_z = -1.0 / (reach_mm * in_light_map(light_from_world, here_clip, to_light_world).z);
+    // A uniform block is loaded beside the triangle too, a storage buffer not everywhere.
+    map.valid = (all_directional != 0 && one_light != 0) || here_clip.w > 0.0;
+    if (all_directional != 0) {
+        map.x_world = source.x_world;
+        map.y_world = source.y_world;
+        map.axis_x = source.map_x_per_mm;
+        map.axis_y = source.map_y_per_mm;
+        map.mm_per_z = source.mm_per_map_z;
+        map.here = here_clip.xyz;
+    } else {
+        vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+        map.x_world = normalize(cross(up, to_light_world));
+        map.y_world = cross(to_light_world, map.x_world);
+        if (!map.valid) here_clip = vec4(0.0, 0.0, 0.0, 1.0);
+        map.axis_x = in_light_map(light_from_world, here_clip, map.x_world).xy;
+        map.axis_y = in_light_map(light_from_world, here_clip, map.y_world).xy;
+        map.mm_per_z = -1.0 / in_light_map(light_from_world, here_clip, to_light_world).z;
+        map.here = here_clip.xyz / here_clip.w;
+    }
+    map.here = map.here * vec3(0.5, 0.5, 1.0) + vec3(0.5, 0.5, 0.0);
+    map.n_in_light = along_axes(map, n_geometry_world);
     return map;
 }
 
@@ -128,7 +132,7 @@ float nearest_of(vec2 place_texels, vec4 z) {
 // From the depths of the four texels around it: a difference between two of them over the way between them.
 vec3 lit_normal(LightMap map, vec4 z) {
     vec2 across = vec2(z.y - z.x + z.z - z.w, z.x - z.w + z.y - z.z);
-    return normalize(vec3(0.5 * map.reaches_per_z * vec2(dot(across, map.axis_x), dot(across, map.axis_y)), 1.0));
+    return normalize(vec3(0.5 * shadow_map_texels * map.mm_per_z * vec2(dot(across, map.axis_x), dot(across, map.axis_y)), 1.0));
 }
 
 // 0 where the lit point faces as the point that it shines on does, 1 where it faces the other way, as an opposite wall.
@@ -168,30 +172,30 @@ vec3 gathered_light(LightMap map, bool needed) {
     float turn = pixel_turn(together ? floor(0.5 * gl_FragCoord.xy) : gl_FragCoord.xy) + first * kGoldenAngle;
     float step_angle = stride * kGoldenAngle;
     vec2 direction = vec2(cos(turn), sin(turn)), step = vec2(cos(step_angle), sin(step_angle));
-    const float kRing = kWidestRing / float(kTransmissionTaps);
+    float ring_mm = map.reach_mm * kWidestRing / float(kTransmissionTaps), per_reach = 1.0 / map.reach_mm;
     vec3 light = vec3(0.0), behind = vec3(0.0);
     if (any_needs && map.valid) {
         for (float i = first; i < float(kTransmissionTaps); i += stride) {
-            float radius = (i + 0.5) * kRing;
-            vec2 across = radius * direction;
+            float radius_mm = (i + 0.5) * ring_mm;
+            vec2 across_mm = radius_mm * direction;
             direction = vec2(direction.x * step.x - direction.y * step.y, direction.x * step.y + direction.y * step.x);
-            vec2 place_texels = map.here.xy + across.x * map.axis_x + across.y * map.axis_y;
-            vec4 z4 = lit_skin_z4(map.index, place_texels * map.texel);
-            float z = nearest_of(place_texels, z4);
-            LitPoint lit = LitPoint(vec3(across, (map.here.z - z) * map.reaches_per_z), lit_normal(map, z4));
-            float way = length(lit.offset);
-            float weight = z == 1.0 ? 0.0 : radius * part_not_counted(map, lit);  // 1: no lit skin
-            vec3 r = weight * transmission_profile(way);
+            vec2 place = map.here.xy + across_mm.x * map.axis_x + across_mm.y * map.axis_y;
+            vec4 z4 = lit_skin_z4(map.index, place);
+            float z = nearest_of(place * shadow_map_texels, z4);
+            LitPoint lit = LitPoint(vec3(across_mm, (map.here.z - z) * map.mm_per_z), lit_normal(map, z4));
+            float way_mm = length(lit.offset_mm);
+            float weight = z == 1.0 ? 0.0 : radius_mm * part_not_counted(map, lit);  // 1: no lit skin
+            vec3 r = weight * transmission_profile(way_mm * per_reach);
             light += r;
-            behind += r * smoothstep(0.0, kOtherWall, abs(dot(map.n_in_light, lit.offset)) / max(way, 1e-9));
+            behind += r * smoothstep(0.0, kOtherWall, abs(dot(map.n_in_light, lit.offset_mm)) / max(way_mm, 1e-9));
         }
     }
-    float ring_mm2 = 2.0 * kPi * kRing * map.reach_mm * map.reach_mm * (together ? 1.0 : stride);
+    float per_tap_mm = 2.0 * kPi * ring_mm * (together ? 1.0 : stride);
     if (together) {
         light = sum_of_quad(lane, vec4(light, 0.0)).rgb;
         behind = sum_of_quad(lane, vec4(behind, 0.0)).rgb;
     }
-    return light * ring_mm2 / (1.0 + behind * ring_mm2);
+    return light * per_tap_mm / (1.0 + behind * per_tap_mm);
 }
 
 // Of the light's way through the body that the includer's own model takes the skin for: past the first nothing is
@@ -208,8 +212,7 @@ vec3 transmitted_part(Surface s, int light, vec3 to_light_world, float n_dot_l, 
     float lit = max(n_dot_l, 0.0) * visibility;
     float reach_mm = transmission_reach();
     LightMap map = light_map_around(light, s.p_world_mm, s.n_geometry_world, to_light_world, reach_mm);
-    vec3 here = vec3(map.here.xy * map.texel, map.here.z);
-    float depth_mm = (here.z - shadow_z(map.index, here.xy)) * map.reaches_per_z * reach_mm;
+    float depth_mm = (map.here.z - shadow_z(map.index, map.here.xy)) * map.mm_per_z;
     // The map's texel may be of the point's own surface: where that slopes, nearer to the light by its rise.
     float cosine = dot(s.n_geometry_world, to_light_world);
     float slope = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(max(cosine, -kSlopesAway * cosine), 1e-3);
@@ -220,7 +223,7 @@ vec3 transmitted_part(Surface s, int light, vec3 to_light_world, float n_dot_l, 
         float own = (depth_mm - kOtherBody * own_way_mm) / max((kOwnBody - kOtherBody) * own_way_mm, 1e-4);
         part *= 1.0 - visibility * clamp(own, 0.0, 1.0);
     }
-    if (!map.valid || map.index < 0 || outside_shadow_map(here)) part = 0.0;
+    if (!map.valid || map.index < 0 || outside_shadow_map(map.here)) part = 0.0;
     // No return before it: it is for all pixels of a quad, or none.
     return part * gathered_light(map, part > 0.0);
 }

@@ -25,7 +25,8 @@ void main() {
     if (key_light >= 0) {
         vec3 to_light = sample_light(key_light, s.p_world_mm).to_light_world;
         n_dot_l = dot(s.n_world, to_light);
-        visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, to_light, penumbra_mm);
+        if (light_source(key_light).shadow_map_index >= 0)
+            visibility = shadow_visibility(s.p_world_mm, s.n_geometry_world, to_light, penumbra_mm);
     }
     light_out = vec4(s.uv, n_dot_l, visibility);
 }

@@ -45,46 +45,64 @@ float pixel_mm;
 const float kFacesAway = 0.3;  // cosine
 
 float part_not_counted(LightMap map, LitPoint lit) {
-    vec3 p_world_mm = p_world_mm_in + to_world(map, map.reach_mm * lit.offset);
-    vec4 p_clip = view_projection * vec4(p_world_mm, 1.0);
+    vec3 p_from_eye_mm = p_world_mm_in - eye_world_mm + to_world(map, lit.offset_mm);
+    vec4 p_clip = view_projection * vec4(p_from_eye_mm, 0.0);  // of the eye, x, y and w are 0
+    vec2 at = p_clip.xy / p_clip.w * 0.5 + 0.5;
     ivec2 size = textureSize(sampler2D(skin_z, nearest_clamp), 0);
-    ivec2 pixel = ivec2(floor((p_clip.xy / p_clip.w * 0.5 + 0.5) * vec2(size)));
+    ivec2 pixel = ivec2(floor(at * vec2(size)));
     bool outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size));
     float z_mm = outside ? 0.0 : texelFetch(sampler2D(skin_z, nearest_clamp), pixel, 0).r;
     float margin_mm = kSeenMm + 0.5 * pixel_mm;
     // Past the border of the picture the blur takes the light to go on as it is inside.
     float hidden = z_mm == 0.0 ? float(!outside) : smoothstep(margin_mm, 2.0 * margin_mm, p_clip.w - z_mm);
     if (hidden == 1.0) return 1.0;
-    float away = dot(to_world(map, lit.n), normalize(p_world_mm - eye_world_mm));
+    float away = dot(to_world(map, lit.n), normalize(p_from_eye_mm));
     return max(hidden, smoothstep(0.0, kFacesAway, away));
+}
+
+// What the taps in the light's maps give. They need geometry, normal and the key light's visibility alone.
+struct Arrival {
+    LightSample light;
+    float visibility;
+    vec3 tint, transmitted;
+};
+
+Arrival arrival(Surface s, int i, float key_visibility) {
+    LightSample light = sample_light(i, s.p_world_mm);
+    LightThrough through = LightThrough(key_visibility, vec3(1.0));
+    // The first pass stored the key light's visibility, but not the tint of its shadow.
+    if (i != key_light || tinted_shadows != 0)
+        through = light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
+    vec3 transmitted = transmitted_part(s, i, light.to_light_world, dot(s.n_world, light.to_light_world),
+                                        through.visibility, -1.0);
+    return Arrival(light, through.visibility, through.tint, transmitted);
 }
 
 void main() {
     Surface s = load_geometry();
     load_normal(s);
-    load_material(s);
+    load_occlusion(s);
+    // Light that enters needs no more, but where the reflection reduces it.
+    if (reduced_diffuse != 0) load_gloss(s);
     pixel_mm = length(fwidth(s.p_world_mm));
     vec3 exitance;
     float key_visibility;
     if (!read_blurred(s.p_world_mm, exitance, key_visibility)) exitance = unblurred_exitance(s, key_visibility);
+    Arrival first;
+    if (one_light != 0) first = arrival(s, 0, key_visibility);
+    load_gloss(s);
     vec3 specular_radiance = vec3(0.0);
     [[unroll]] for (int i = 0; i < light_count; ++i) {
-        LightSample light = sample_light(i, s.p_world_mm);
-        float visibility = key_visibility;
-        vec3 tint = vec3(1.0);
-        // The first pass stored the key light's visibility, but not the tint of its shadow.
-        if (i != key_light || tinted_shadows != 0) {
-            LightThrough through =
-                light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, penumbra_mm);
-            tint = through.tint;
-            visibility = through.visibility;
-        }
-        // Before the reflection, so that less is live during its taps.
-        vec3 transmitted =
-            transmitted_part(s, i, light.to_light_world, dot(s.n_world, light.to_light_world), visibility, -1.0);
-        exitance += light.irradiance_linear * (s.occlusion * transmitted);
-        specular_radiance += light.irradiance_linear * visibility * tint *
-                             specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
+        Arrival arriving;
+        if (one_light != 0)
+            arriving = first;
+        else
+            arriving = arrival(s, i, key_visibility);
+        vec3 light = arriving.light.irradiance_linear;
+        exitance += light * (s.occlusion * arriving.transmitted);
+        specular_radiance +=
+            light * arriving.visibility * arriving.tint *
+            specular_reflection(s.n_world, s.to_eye_world, arriving.light.to_light_world, s.roughness, s.f0);
     }
     specular_radiance += reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     load_albedo(s);

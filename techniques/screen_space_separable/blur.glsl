@@ -56,7 +56,7 @@ bool blur(out vec3 blurred[DERMIS_TERMS]) {
     middle[1] = textureLod(sampler2D(light_of_second, nearest_clamp), uv, 0.0);
 #endif
     float z_mm = textureLod(sampler2D(skin_z, nearest_clamp), uv, 0.0).r;
-    vec3 weights[DERMIS_TERMS], around[DERMIS_TERMS];  // around: with the first term's weights, all positive
+    vec3 weights[DERMIS_TERMS], around[DERMIS_TERMS];  // around: a further term's light with the first one's weights, all positive
     for (int term = 0; term < DERMIS_TERMS; ++term)
         blurred[term] = vec3(0.0), weights[term] = vec3(0.0), around[term] = vec3(0.0);
     if (middle[0].a == 0.0) return false;
@@ -86,7 +86,7 @@ bool blur(out vec3 blurred[DERMIS_TERMS]) {
                               (share_within(end_mm * stretch, term) - share_within(begin_mm * stretch, term));
                 if (term == 0) first = weight;
                 blurred[term] += weight * taps[term].rgb / taps[0].a;
-                around[term] += first * taps[term].rgb / taps[0].a;
+                if (term > 0) around[term] += first * taps[term].rgb / taps[0].a;
                 weights[term] += weight;
             }
         }
@@ -96,11 +96,12 @@ bool blur(out vec3 blurred[DERMIS_TERMS]) {
         vec3 weight = share_within(0.5 * tap_mm(1.0) * middle_stretch, term);
         if (term == 0) first = weight;
         blurred[term] += weight * middle[term].rgb;
-        around[term] += first * middle[term].rgb;
+        if (term > 0) around[term] += first * middle[term].rgb;
         weights[term] += weight;
     }
     // What lies behind a silhouette or a gap is taken to be as what is seen. A term is not divided by its own weights, which
     // may be near 0: only together have the terms all light.
+    around[0] = blurred[0];
     for (int term = 0; term < DERMIS_TERMS; ++term)
         blurred[term] += (share_within(reach_mm, term) - weights[term]) * around[term] / max(weights[0], vec3(1e-6));
     return true;

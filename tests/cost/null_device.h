@@ -30,7 +30,7 @@ class NullDeviceTest : public ::testing::Test {
     static PassList frame_of(const std::string& technique) {
         const Technique& found = built_in_technique(technique);
         PassList list = frame_passes(found.build(ParameterValues(found.parameters), {}), {});
-        list.constants = {{"one_light", 1}};
+        list.constants = {{"one_light", 1}, {"all_directional", 1}};
         return list;
     }
 

@@ -142,6 +142,19 @@ TEST_F(BindingTest, storage_buffers_are_arrays_of_named_values) {
     EXPECT_THAT(result_of(kLights, list(), inputs), ElementsAre(2, 3, 4, 9));
 }
 
+TEST_F(BindingTest, a_structure_in_a_block_is_filled_by_both_names) {
+    const std::string shader = R"(
+struct Light { vec3 direction; float power; };
+layout(scalar) uniform Frame { float gain; Light first; float last; };
+layout(location = 0) out vec4 color;
+void main() { color = vec4(gain, first.direction.y, first.power, last); })";
+    const FrameInputs inputs{
+        .blocks = {
+            {"Frame",
+             {{"gain", 2.f}, {"first.direction", Vec3{3, 4, 5}}, {"first.power", 6.f}, {"last", 7.f}}}}};
+    EXPECT_THAT(result_of(shader, list(), inputs), ElementsAre(2, 4, 6, 7));
+}
+
 TEST_F(BindingTest, an_empty_array_still_binds) {
     const std::string shader = R"(
 layout(scalar) readonly buffer Weights { float weights[]; };

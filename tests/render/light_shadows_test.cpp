@@ -92,6 +92,15 @@ TEST_F(LightShadows, darken_the_second_lights_specular_too) {
     }
 }
 
+TEST_F(LightShadows, are_absent_where_the_key_light_casts_none) {
+    Scene scene = plane_under(MaterialClass::other, MaterialClass::skin, {from_above("key", true)});
+    scene.lights[0].casts_shadow = false;
+    for (const Technique& technique : built_in_catalog().techniques) {
+        const Seen seen = drawn(scene, technique.id);
+        EXPECT_GT(seen.covered.x, 0.9f * seen.open.x) << technique.id;
+    }
+}
+
 TEST_F(LightShadows, follow_the_key_shadow_and_the_budget) {
     Light faint_key = from_above("key", true);
     faint_key.intensity = 0;

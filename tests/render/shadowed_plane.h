@@ -70,4 +70,20 @@ inline Scene half_shadowed(Mesh mesh, float scale = 1) {
     return scene;
 }
 
+// A wall without light of its own, and a lit one 20 mm before its left half.
+inline Scene two_walls() {
+    Scene scene = half_shadowed(plane(one_chart));
+    scene.objects.resize(1);
+    Mesh& mesh = scene.objects[0].mesh;
+    const auto corners = uint32_t(mesh.positions_mm.size());
+    for (uint32_t i = 0; i < corners; ++i) {
+        const bool right = i >= corners / 2;
+        if (right) mesh.positions_mm[i].z = -20;
+        if (right) mesh.normals[i] = {0, 0, -1};
+    }
+    scene.camera = {.eye_mm = {0, 0, 100}, .target_mm = {}, .vertical_fov_rad = 0.12f};
+    fit_depth_range(scene.camera, {}, 60);
+    return scene;
+}
+
 }  // namespace dermis

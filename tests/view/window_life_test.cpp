@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "dermis/image/metrics.h"
 #include "view/window_fixture.h"
 
 namespace dermis {
@@ -45,6 +46,32 @@ TEST_F(ViewWindow, five_hundred_frames_of_switching_leave_no_memory_behind) {
     EXPECT_LT(after_mb - before_mb, 12);
 }
 
+TEST_F(ViewWindow, a_hundred_frames_of_the_same_view_and_those_of_a_drag_make_no_vulkan_object) {
+    const ProgramResult result = view(square() + " --size 300x200 --samples 1", R"(
+        settle
+        drag left 90 90 120 80
+        wait 20
+        print
+        wait 100
+        drag left 90 90 120 80
+        print
+        resize 400 300
+        wait 2
+        print
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    std::vector<int> frames, objects;
+    for (const std::string_view line : split(result.out, '\n')) {
+        if (line.starts_with("frame ")) frames.push_back(std::stoi(std::string(line.substr(6))));
+        if (line.starts_with("device_objects ")) objects.push_back(std::stoi(std::string(line.substr(15))));
+    }
+    ASSERT_EQ(objects.size(), 3u);
+    EXPECT_GE(frames[1] - frames[0], 100);
+    EXPECT_EQ(objects[1], objects[0]);
+    EXPECT_GT(objects[2], objects[1]) << "the count does not see what another size makes";
+}
+
 TEST_F(ViewWindow, on_a_slow_device_the_first_picture_is_coarse_and_the_last_has_every_pass_and_sample) {
     const ProgramResult result = view(
         square() +
@@ -63,6 +90,18 @@ TEST_F(ViewWindow, on_a_slow_device_the_first_picture_is_coarse_and_the_last_has
     EXPECT_LT(first_width, 320);
     // Half of the blur's passes, and no resolve of the samples.
     EXPECT_LE(std::stoi(value_of(result, "passes")), std::stoi(last.substr(last.find("passes ") + 7)) - 5);
+}
+
+TEST_F(ViewWindow, a_still_picture_takes_in_the_samples_of_further_frames) {
+    const std::string burley = kSmall + "-t screen_space_burley --set samples=";
+    const auto picture = [&](const std::string& samples) {
+        const ProgramResult result = view(burley + samples, "settle\nscreenshot DIR/picture.png\nquit\n");
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return image("picture.png");
+    };
+    const Image many = picture("1024");
+    const Image one = picture("4"), over_frames = picture("4 --set accumulate=frames");
+    EXPECT_LT(*rmse(over_frames, many), 0.6 * *rmse(one, many));
 }
 
 TEST_F(ViewWindow, a_lost_device_is_opened_again_with_what_was_seen) {

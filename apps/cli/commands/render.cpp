@@ -107,12 +107,23 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     // Timings of a still need a few frames; the first compiles.
     if (options.timings && options.frames == 1) range.end = 4;
     const int frames = std::max(options.frames, range.end);
-    std::vector<gpu::FrameResult> results;
-    for (int frame = range.begin; frame < range.end; ++frame) {
+    const auto draw = [&](int frame) {
         const double turn_rad = options.turn_deg * 3.14159265358979 / 180 * frame / frames;
         turn_camera(prepared.scene, start, turn_rad);
-        Result<gpu::FrameResult> drawn = renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
+        return renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
+    };
+    // Frames that take in those before them are the same in any range: all are drawn from the first.
+    int first = range.begin;
+    if (first > 0) {
+        if (Result<gpu::FrameResult> drawn = draw(first); !drawn) return drawn.error();
+        if (renderer.list().frames_to_settle > 0) first = 0;
+        renderer.forget_history();
+    }
+    std::vector<gpu::FrameResult> results;
+    for (int frame = first; frame < range.end; ++frame) {
+        Result<gpu::FrameResult> drawn = draw(frame);
         if (!drawn) return drawn.error();
+        if (frame < range.begin) continue;
         results.push_back(std::move(*drawn));
         if (!numbered && frame + 1 < frames) continue;
         if (numbered && frame >= options.frames) continue;
