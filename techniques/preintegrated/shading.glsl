@@ -17,6 +17,9 @@ layout(scalar) uniform Params {
 };
 layout(push_constant, scalar) uniform PassValues {
     vec3 occlusion_weight_0, occlusion_weight_1, occlusion_weight_2;  // of Surface::occlusion_blurred
+#ifdef DERMIS_BAKED_NORMALS
+    vec3 own_normal_weight;  // dermis/technique/diffused_normals.h
+#endif
 };
 layout(constant_id = 3) const int shadow = kShadowScattered;
 // shadow=plain filters the scene's penumbra; shadow=scattered the width that the shadow table was made for.
@@ -33,10 +36,10 @@ float shadow_filter_mm(vec3 n_world, vec3 to_light_world) {
 #define DERMIS_OWN_VIEW
 #define DERMIS_TRANSMISSION
 #define DERMIS_OWN_BODY
-#ifdef DERMIS_TABLES
-#define DERMIS_BECKMANN_TABLE
-#else
+#ifndef DERMIS_TABLES
 #define DERMIS_TRANSMISSION_EXPRESSION
+#elif !defined(DERMIS_BAKED_NORMALS)
+#define DERMIS_BECKMANN_TABLE
 #endif
 #include "shaders/include/forward.glsl"
 #include "shaders/include/skin/curvature.glsl"
@@ -50,7 +53,9 @@ layout(constant_id = 4) const int curvature = kCurvatureVertex;
 layout(constant_id = 5) const int normals = kNormalsBlended;
 layout(constant_id = 6) const int ambient = kAmbientLut;
 
+#ifndef DERMIS_BAKED_NORMALS
 uniform sampler2D curvature_map;
+#endif
 // Set by prepare_geometry() and prepare_surface(); the same for every light.
 vec3 skin_diagonal_per_mm, skin_mixed_per_mm;  // the curvature tensor
 float curvature_around_per_mm;
@@ -67,10 +72,15 @@ float bumps;          // variance of the normals over which the smoother read me
 #else
 #include "techniques/preintegrated/expressions.glsl"
 #endif
+#ifdef DERMIS_BAKED_NORMALS
+#include "techniques/preintegrated/diffused_normals.glsl"
+DiffusedNormals diffused;
+#endif
 
 void choose_curvature(Surface s) {
     skin_diagonal_per_mm = curvature_gain * s.curvature_diagonal_per_mm;
     skin_mixed_per_mm = curvature_gain * s.curvature_mixed_per_mm;
+#ifndef DERMIS_BAKED_NORMALS
     if (curvature == kCurvatureVertex) return;
     float k = curvature == kCurvatureDerivative
                   ? curvature_from_derivatives(fwidth(s.n_geometry_world), fwidth(s.p_world_mm)) / tune_curvature
@@ -78,6 +88,7 @@ void choose_curvature(Surface s) {
                         (texture(curvature_map, s.uv).r - curvature_mid);
     skin_diagonal_per_mm = sphere_diagonal(curvature_gain * k, s.n_geometry_world);
     skin_mixed_per_mm = sphere_mixed(curvature_gain * k, s.n_geometry_world);
+#endif
 }
 
 float texel_of_normal_map_mm(Surface s) {
@@ -101,11 +112,15 @@ void prepare_surface(inout Surface s) {
     if (normals == kNormalsSharp) return;
     smooth_weight = vec3(1.0);
     smooth_levels = normal_lod_bias;
-    if (normals == kNormalsBlended || normals == kNormalsLerp) {
+    if (normals == kNormalsBlended || normals == kNormalsLerp || normals == kNormalsBaked) {
         vec4 blend = normal_blend(sharp_normal_mm);
         smooth_weight = blend.rgb;
         smooth_levels = blend.a;
     }
+#ifdef DERMIS_BAKED_NORMALS
+    diffused = read_diffused_normals(s, own_normal_weight);
+    diffused.k_per_mm *= curvature_gain;
+#else
     float bias = smooth_levels + normal_magnification;
     n_mean_world = mean_normal_world(s.n_geometry_world, s.uv, bias);
     bumps = 0.0;
@@ -113,6 +128,7 @@ void prepare_surface(inout Surface s) {
     vec3 of_sharp = mean_of_normal_map(s.uv, 0.0);
     n_mean_world /= length(of_sharp);
     bumps = normal_scale * normal_scale * bumps_variance(of_sharp, mean_of_normal_map(s.uv, bias));
+#endif
 }
 
 vec3 falloff(float n_dot_l, float k) {
@@ -133,6 +149,9 @@ vec3 falloff_of_bumps(vec3 to_light_world, float k) {
 }
 
 vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
+#ifdef DERMIS_BAKED_NORMALS
+    return falloff_of_diffused_normals(diffused, to_light_world, kMaxCurvaturePerMm);
+#else
     float k = min(curvature_towards(skin_diagonal_per_mm, skin_mixed_per_mm, s.n_geometry_world, to_light_world),
                   kMaxCurvaturePerMm);
     if (normals == kNormalsSmooth) return falloff(dot(normalize(n_mean_world), to_light_world), k);
@@ -145,6 +164,7 @@ vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
     vec3 sharp = falloff(dot(s.n_world, to_light_world), k);
     if (normals == kNormalsSharp) return sharp;
     return blended_light(sharp, falloff_of_bumps(to_light_world, k), smooth_weight);
+#endif
 }
 
 vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
@@ -189,6 +209,17 @@ vec3 scattered_occlusion(Surface s) {
     return min(of_vertices, of_map);
 }
 
+#ifdef DERMIS_BAKED_NORMALS
+// The mean of the lobe's first band is as long as the mean normal; that of the second is near its cube, as of a narrow
+// lobe.
+vec3 ambient_of_diffused_normals() {
+    vec3 a = diffused.mean_length, arriving;
+    vec3 band_1 = 2.0 * kPi / 3.0 * a, band_2 = 0.25 * kPi * a * a * a;
+    for (int c = 0; c < 3; ++c) arriving[c] = environment_convolved(diffused.n[c], vec3(kPi), band_1, band_2)[c];
+    return arriving;
+}
+vec3 ambient_response(Surface s) { return ambient_of_diffused_normals() * scattered_occlusion(s); }
+#else
 vec3 ambient_response(Surface s) {
     vec3 band[3];
     ambient_bands(band);
@@ -202,6 +233,7 @@ vec3 ambient_response(Surface s) {
     }
     return arriving * scattered_occlusion(s);
 }
+#endif
 
 // The curvature that shades, from any source: radiance 1 is 0.25 per mm.
 vec3 own_view(Surface s) { return vec3(4.0 * curvature_around_per_mm); }

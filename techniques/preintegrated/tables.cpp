@@ -118,10 +118,38 @@ Result<Rows> normals_row(const TableSettings& settings, const SkinContext& skin)
     return row;
 }
 
-// The order is that of kRowZonal, kRowShadow, kRowNormals.
+// Curvature over kMaxCurvaturePerMm, over sqrt(1 - A), A the mean cosine of the profile on its sphere, which
+// falls with curvature; 1 where no sphere has it.
+Result<Rows> curvature_row(const TableSettings& settings, const SkinContext& skin) {
+    constexpr int kSteps = 4 * kRowTexels;
+    std::vector<Rgb> place;  // sqrt(1 - A) at even steps of curvature
+    for (int i = 0; i <= kSteps; ++i) {
+        const double curvature = std::max(double(kMaxCurvaturePerMm) * i / kSteps, 1e-6);
+        const Rgb a =
+            preintegrated_mean_cosine(skin.gaussians, 1 / curvature, {.construction = settings.construction});
+        place.push_back({});
+        for (size_t c = 0; c < 3; ++c) place.back()[c] = std::sqrt(std::max(1 - a[c], 0.0));
+    }
+    Rows row;
+    for (int i = 0; i < kRowTexels; ++i) {
+        Rgb curvature = {1, 1, 1};
+        for (size_t c = 0; c < 3; ++c) {
+            const double x = double(i) / (kRowTexels - 1);
+            size_t k = 0;
+            while (k < size_t(kSteps) && place[k + 1][c] <= x) ++k;
+            if (k == size_t(kSteps)) continue;
+            const double step = place[k + 1][c] - place[k][c];
+            curvature[c] = (double(k) + std::clamp((x - place[k][c]) / step, 0.0, 1.0)) / kSteps;
+        }
+        row.push_back(texel(curvature, 1));
+    }
+    return row;
+}
+
+// The order is that of kRowZonal, kRowShadow, kRowNormals, kRowCurvature.
 Result<TableImage> rows_table(const TableSettings& settings, const SkinContext& skin) {
     Rows all;
-    for (const auto make : {zonal_rows, shadow_row, normals_row}) {
+    for (const auto make : {zonal_rows, shadow_row, normals_row, curvature_row}) {
         const Result<Rows> rows = make(settings, skin);
         if (!rows) return rows.error();
         all.insert(all.end(), rows->begin(), rows->end());

@@ -8,17 +8,21 @@
 
 uniform texture2D skin_lut;       // N.L * .5 + .5, curvature
 uniform texture2D skin_rows;      // constants.h
+#ifdef DERMIS_BECKMANN_TABLE
 uniform texture2D skin_beckmann;  // sqrt(1 - N.H), sqrt(alpha): tenth root
+#endif
 
 vec4 read_row(int row, float x) {
     vec2 uv = vec2(texel_centres(x, float(kRowTexels)), (float(row) + 0.5) / float(kRowCount));
     return textureLod(sampler2D(skin_rows, linear_clamp), uv, 0.0);
 }
 
+#ifdef DERMIS_BECKMANN_TABLE
 float beckmann_distribution(float n_dot_h, float alpha) {
     vec2 uv = beckmann_coordinate(n_dot_h, alpha);
     return beckmann_from_root(textureLod(sampler2D(skin_beckmann, linear_clamp), uv, 0.0).r);
 }
+#endif
 
 vec3 profile_falloff(float n_dot_l, float k) {
     vec2 uv = diffuse_coordinate(n_dot_l, k, kMaxCurvaturePerMm);
@@ -34,6 +38,11 @@ vec3 profile_edge(float visibility) { return read_row(kRowShadow, visibility).rg
 // techniques/preintegrated/normal_blend.h: weights of the smoother normal, and how many levels up it is.
 vec4 normal_blend(float sharp_mm) {
     return read_row(kRowNormals, (log2(sharp_mm) - kMinLogMm) / (kMaxLogMm - kMinLogMm));
+}
+
+// Of a sphere over which the normals have a mean of this length, a channel each.
+vec3 curvature_of_mean(float mean_length) {
+    return kMaxCurvaturePerMm * read_row(kRowCurvature, sqrt(max(1.0 - mean_length, 0.0))).rgb;
 }
 
 #endif

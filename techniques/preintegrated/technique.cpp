@@ -3,6 +3,7 @@
 // light; a point then needs only N.L and curvature. Tables come from the bakers (exact on the sphere, or the
 // published ring), the closed form from dermis/optics, the hand-made curves from Yeung 2015.
 
+#include "dermis/technique/diffused_normals.h"
 #include "dermis/technique/forward.h"
 #include "dermis/technique/transmission.h"
 #include "techniques/preintegrated/expressions.h"
@@ -28,7 +29,8 @@ enum class Normals : int32_t {
     sharp = kNormalsSharp,
     smooth = kNormalsSmooth,
     blended = kNormalsBlended,
-    lerp = kNormalsLerp
+    lerp = kNormalsLerp,
+    baked = kNormalsBaked
 };
 enum class Shadow : int32_t { plain = kShadowPlain, scattered = kShadowScattered };
 enum class Ambient : int32_t { exact = kAmbientExact, lut = kAmbientLut, curve_2015 = kAmbientCurve2015 };
@@ -66,9 +68,10 @@ ParameterTable parameters() {
                 "factor on the curvature; 1 is physically right")
         .number(&Params::tune_curvature, "tune_curvature", "", 0.01, 100,
                 "divides the curvature from derivatives; 1 is right for positions in mm")
-        .choice(&Params::normals, "normals", {"sharp", "smooth", "blended", "lerp"},
+        .choice(&Params::normals, "normals", {"sharp", "smooth", "blended", "lerp", "baked"},
                 "diffuse normal: as mapped, from a smaller mip level, or both by the profile's width in "
-                "each channel: their light blended, or as published the normals mixed")
+                "each channel: their light blended, or as published the normals mixed; or the profile's mean "
+                "of the normals around each texel, baked once (with a table; else as blended)")
         .number(&Params::normal_lod_bias, "normal_lod_bias", "mip levels", 0, 8,
                 "maximum difference of the smaller mip level")
         .choice(&Params::shadow, "shadow", {"plain", "scattered"},
@@ -93,17 +96,21 @@ bool reads_tables(const Params& params) {
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
-    const bool tables = reads_tables(params);
-    Pass pass =
-        forward_skin_pass(tables ? "preintegrated/preintegrated.frag" : "preintegrated/textureless.frag",
-                          params.specular, frame, kOwnView);
-    pass.constants.insert(pass.constants.end(), {{"diffuse", int32_t(params.diffuse)},
-                                                 {"shadow", int32_t(params.shadow)},
-                                                 {"curvature", int32_t(params.curvature)},
-                                                 {"normals", int32_t(params.normals)},
-                                                 {"ambient", int32_t(params.ambient)}});
+    const bool tables = reads_tables(params), baked = tables && params.normals == Normals::baked;
+    Pass pass = forward_skin_pass(!tables ? "preintegrated/textureless.frag"
+                                  : baked ? "preintegrated/baked_normals.frag"
+                                          : "preintegrated/preintegrated.frag",
+                                  params.specular, frame, kOwnView);
+    pass.constants.emplace_back("shadow", int32_t(params.shadow));
+    pass.constants.emplace_back(
+        "normals", int32_t(params.normals == Normals::baked ? Normals::blended : params.normals));
+    if (!baked)
+        pass.constants.insert(pass.constants.end(), {{"diffuse", int32_t(params.diffuse)},
+                                                     {"curvature", int32_t(params.curvature)},
+                                                     {"ambient", int32_t(params.ambient)}});
     if (tables) {
-        for (const char* table : {"skin_lut", "skin_rows", "skin_beckmann"}) pass.reads.push_back(table);
+        for (const char* table : {"skin_lut", "skin_rows"}) pass.reads.push_back(table);
+        if (!baked) pass.reads.push_back("skin_beckmann");
         read_transmission(pass, params.transmission, frame);
     } else {
         read_transmission_without_table(pass, params.transmission, frame);
@@ -112,7 +119,15 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     for (size_t i = 0; i < weights.size(); ++i)
         pass.values.push_back({"occlusion_weight_" + std::to_string(i),
                                Vec3{float(weights[i][0]), float(weights[i][1]), float(weights[i][2])}});
-    PassList list = {.passes = {pass}};
+    PassList list;
+    if (baked) {
+        list.diffused_normals = DiffusedNormalsRequest{};
+        for (const char* texture : {"diffused_normals_red", "diffused_normals_green"})
+            pass.reads.push_back(texture);
+        pass.values.emplace_back("own_normal_weight",
+                                 own_normal_weights(frame.skin_gaussians, *list.diffused_normals));
+    }
+    list.passes = {std::move(pass)};
     if (params.curvature == Curvature::image) list.needed_maps = {"curvature_map"};
     return list;
 }

@@ -1,0 +1,64 @@
+// Skin around a point as baked normals have it: of each channel the mean of the normals over the profile
+// (dermis/render/diffused_normals.h).
+//
+// On a sphere of curvature k the mean is the point's own normal, A(k) long, A the mean cosine of the profile there. So
+// its direction gives N.L and its length, by the inverse of A, the curvature, with which the diffuse table is read: on a
+// sphere that is the table as ever. Elsewhere the odd part of the light, half of A N.L, is the mean's cosine itself, so it
+// is exact on any shape; the even part, which says how wide the terminator is, is that of a sphere whose normals spread
+// as much.
+//
+// Where they spread more along one direction, as on a cylinder or a saddle, the spread along the light counts, as in
+// shaders/include/skin/curvature.glsl: k^2 times (the spread along L + (N.L)^2), the spread being 1 - (N.L)^2 on a sphere.
+// Curvature of the vertices is not read beside it: the mean has it already.
+#ifndef DERMIS_DIFFUSED_NORMALS_GLSL
+#define DERMIS_DIFFUSED_NORMALS_GLSL
+
+#include "shaders/include/surface.glsl"
+#include "techniques/preintegrated/tables.glsl"
+
+uniform texture2D diffused_normals_red, diffused_normals_green;
+
+struct DiffusedNormals {
+    vec3 n[3];       // of each channel, normalised
+    vec3 mean_length;
+    vec3 k_per_mm;   // of the spheres that have these lengths
+    vec2 uneven;     // the spread around n[0] is [[1 + x, y], [y, 1 - x]] in its frame
+};
+
+// Texels that no skin lies on hold 0; UVs in other tiles have none.
+const float kNoSkin = 0.04;
+
+// own_weight: dermis/technique/diffused_normals.h.
+DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight) {
+    vec4 red = 2.0 * texture(sampler2D(diffused_normals_red, trilinear_clamp), s.uv) - 1.0;
+    vec4 green = 2.0 * texture(sampler2D(diffused_normals_green, trilinear_clamp), s.uv) - 1.0;
+    bool in_atlas = all(equal(clamp(s.uv, 0.0, 1.0), s.uv)) && dot(red.xyz, red.xyz) > kNoSkin;
+    if (!in_atlas) own_weight = vec3(1.0);
+    vec3 mean[3] = vec3[3](mix(red.xyz, s.n_world, own_weight.r), mix(green.xyz, s.n_world, own_weight.g),
+                           mix(green.xyz, s.n_world, own_weight.b));
+    DiffusedNormals d;
+    for (int c = 0; c < 3; ++c) {
+        d.mean_length[c] = length(mean[c]);
+        d.n[c] = mean[c] / d.mean_length[c];
+        d.k_per_mm[c] = curvature_of_mean(d.mean_length[c])[c];
+    }
+    d.uneven = vec2(red.a, green.a);
+    return d;
+}
+
+// The spread along the light over that of the mean's sphere. The frame around n, without a seam but at n.y = -1
+// (Frisvad 2012, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization").
+float spread_towards(vec3 n, vec2 uneven, vec3 to_light_world) {
+    float a = 1.0 / max(1.0 + n.y, 1e-4), b = -n.x * n.z * a;
+    float x = dot(vec3(1.0 - n.x * n.x * a, -n.x, b), to_light_world);
+    float z = dot(vec3(b, -n.z, 1.0 - n.z * n.z * a), to_light_world);
+    return max(1.0 + uneven.x * (x * x - z * z) + 2.0 * uneven.y * x * z, 0.0);
+}
+
+vec3 falloff_of_diffused_normals(DiffusedNormals d, vec3 to_light_world, float max_per_mm) {
+    vec3 k = min(d.k_per_mm * sqrt(spread_towards(d.n[0], d.uneven, to_light_world)), max_per_mm);
+    return vec3(profile_falloff(dot(d.n[0], to_light_world), k.r).r, profile_falloff(dot(d.n[1], to_light_world), k.g).g,
+                profile_falloff(dot(d.n[2], to_light_world), k.b).b);
+}
+
+#endif
