@@ -36,6 +36,9 @@ void main() {
         return;
     }
     int count = wanted_samples();
-    vec3 gathered = gathered_light(disk_here(), middle.rgb, count);
+    Disk disk = disk_here();
+    vec3 gathered = light_around(disk, middle.rgb, count);
+    // Over frames the samples are accumulated alone: what is at the pixel has no noise, and is not to be read elsewhere.
+    if (accumulate == 0) gathered = gathered_light(disk, middle.rgb, gathered);
     light_out = vec4(show_count == 1 ? vec3(kPi * float(count) / float(sample_count)) : gathered, 1.0);
 }

@@ -11,6 +11,9 @@ namespace dermis::screen_space_burley {
 const int kPilotSamples = 4, kFewestSamples = 4;
 const float kConvergence = 1.6;
 
+// accumulate=frames: as many frames count as much as each other, at most; fewer while a light changes.
+const int kMostFrames = 32, kFramesOfChangingLight = 4;
+
 #ifdef __cplusplus
 }  // namespace dermis::screen_space_burley
 #endif

@@ -17,6 +17,7 @@ uniform texture2D skin_radius;   // the radius in mm within which the part u of 
 
 layout(constant_id = 10) const int sample_count = 32;
 layout(constant_id = 11) const int rotate = 1;
+layout(constant_id = 13) const int accumulate = 0;
 
 layout(location = 0) in vec2 uv;
 
@@ -39,7 +40,16 @@ struct Disk {
     float reach_mm, inner_mm, pixel_mm;
     vec4 inside;  // the part of the light that leaves within the pixel
     float turn;
+    float first;  // where the first sample lies in its part of the light, 0 to 1
 };
+
+// Angle and radius of the samples of frame n: multiples of two numbers whose points fill the square evenly, however many
+// there are (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"). Frame 0 has neither.
+vec2 frame_shift() {
+    if (accumulate == 0) return vec2(0.0);
+    const float kPeriod = 4096.0;  // floats hold the products to 1/2048
+    return fract(mod(float(earlier_frames), kPeriod) * vec2(0.75487766, 0.56984029));
+}
 
 Disk disk_here() {
     Disk disk;
@@ -52,7 +62,9 @@ Disk disk_here() {
     disk.pixel_mm = sqrt(pixel_mm.x * pixel_mm.y);
     disk.inner_mm = min(disk.pixel_mm / sqrt(kPi), disk.reach_mm);  // the disk of a pixel's area
     disk.inside = density_row(disk.inner_mm, disk.reach_mm, 1.0);
-    disk.turn = rotate == 1 ? pixel_turn(gl_FragCoord.xy) : 0.0;
+    vec2 shift = frame_shift();
+    disk.turn = (rotate == 1 ? pixel_turn(gl_FragCoord.xy) : 0.0) + 2.0 * kPi * shift.x;
+    disk.first = fract(0.5 + shift.y);
     return disk;
 }
 
@@ -65,7 +77,7 @@ struct Gathered {
 Gathered gather(Disk disk, int count) {
     Gathered g = Gathered(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
     for (int i = 0; i < count; ++i) {
-        float u = mix(disk.inside.a, 1.0, (float(i) + 0.5) / float(count));
+        float u = mix(disk.inside.a, 1.0, (float(i) + disk.first) / float(count));
         float r_mm = max(radius_mm(u), disk.inner_mm);
         float angle = disk.turn + float(i) * kGoldenAngle;
         vec2 tap_uv = uv + r_mm * vec2(cos(angle), sin(angle)) / disk.size_mm;
@@ -86,11 +98,13 @@ Gathered gather(Disk disk, int count) {
     return g;
 }
 
-// The samples share what is not inside the pixel.
-vec3 gathered_light(Disk disk, vec3 middle, int count) {
+// The mean of the samples; where none is of the skin, what is at the pixel.
+vec3 light_around(Disk disk, vec3 middle, int count) {
     Gathered g = gather(disk, count);
-    vec3 outside = step(vec3(1e-6), g.weights) * (1.0 - disk.inside.rgb);
-    return (disk.inside.rgb * middle + outside * g.sum / max(g.weights, vec3(1e-6))) / (disk.inside.rgb + outside);
+    return mix(middle, g.sum / max(g.weights, vec3(1e-6)), step(vec3(1e-6), g.weights));
 }
+
+// The samples share what is not inside the pixel.
+vec3 gathered_light(Disk disk, vec3 middle, vec3 around) { return mix(around, middle, disk.inside.rgb); }
 
 #endif

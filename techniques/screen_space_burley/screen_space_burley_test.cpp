@@ -4,10 +4,9 @@
 
 #include <cmath>
 
-#include "dermis/image/metrics.h"
 #include "dermis/optics/presets.h"
-#include "render/shadowed_plane.h"
 #include "techniques/screen_space_burley/constants.h"
+#include "techniques/screen_space_burley/test_pictures.h"
 
 using namespace dermis;
 using namespace dermis::screen_space_burley;
@@ -21,27 +20,8 @@ double radius_mm(double reach, int i) {
     return reach * x * x;
 }
 
-class ScreenSpaceBurley : public RenderTest {
+class ScreenSpaceBurley : public ScreenSpaceBurleyTest {
   protected:
-    using Settings = std::vector<std::pair<std::string, std::string>>;
-
-    static Image draw(Renderer& renderer, const Settings& settings, const std::string& view = "diffuse") {
-        const Technique& technique = built_in_technique("screen_space_burley");
-        ParameterValues values(technique.parameters);
-        for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
-        return radiance(renderer, technique, values,
-                        {.width = 128, .height = 128, .view = view, .deep = true, .shadow_map_size = 1024});
-    }
-    // Decibels of red against many samples; the peak is the brightest pixel.
-    static double psnr_db(const Image& image, const Image& many) {
-        double squares = 0, peak = 0;
-        for (size_t i = 0; i < image.pixel_count(); ++i) {
-            const double difference = image.floats()[4 * i] - many.floats()[4 * i];
-            squares += difference * difference;
-            peak = std::max(peak, double(many.floats()[4 * i]));
-        }
-        return 10 * std::log10(peak * peak * double(image.pixel_count()) / squares);
-    }
     // Of the pixels with skin.
     static double mean_samples(Renderer& renderer, Settings settings, int most) {
         settings.emplace_back("samples", std::to_string(most));

@@ -21,6 +21,7 @@ constexpr const char* kCountView = "sample_count";
 constexpr int kTexels = 512;
 
 enum class Count : int32_t { fixed, adaptive };
+enum class Accumulate : int32_t { off, frames };
 
 struct Params {
     Count count = Count::fixed;
@@ -28,6 +29,7 @@ struct Params {
     float noise = 0.003f;
     float width = 1;
     bool rotate = true;
+    Accumulate accumulate = Accumulate::off;
     Transmission transmission = Transmission::shadow_map;
     SpecularModel specular = SpecularModel::ggx;
 };
@@ -42,9 +44,19 @@ ParameterTable parameters() {
                 "count=adaptive: standard deviation aimed at, over the brightest light within reach")
         .number(&Params::width, "width", "", 0.01, 10, "scales the profile's lengths")
         .toggle(&Params::rotate, "rotate", "turns the disk from pixel to pixel: noise instead of bands")
+        .choice(&Params::accumulate, "accumulate", {"off", "frames"},
+                "frames: samples of earlier frames count too, where the camera saw the point then")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .build();
+}
+
+std::string turn_of(int frame) {
+    return frame % 2 == 0 ? "_even" : "_odd";
+}
+
+std::vector<ImageRead> disk_reads() {
+    return {{"light", "skin_light"}, "skin_z", "skin_density", "skin_radius"};
 }
 
 // A pass over the picture that samples the disk.
@@ -52,8 +64,36 @@ Pass disk_pass(const Params& params, const char* name, const char* shader, int32
     return {.name = name,
             .kind = PassKind::fullscreen,
             .shader = shader,
-            .reads = {{"light", "skin_light"}, "skin_z", "skin_density", "skin_radius"},
-            .constants = {{"sample_count", samples}, {"rotate", int32_t(params.rotate)}}};
+            .reads = disk_reads(),
+            .constants = {{"sample_count", samples},
+                          {"rotate", int32_t(params.rotate)},
+                          {"accumulate", int32_t(params.accumulate)}}};
+}
+
+// Each frame reads what the frame before wrote, so two sets of images take turns.
+void add_accumulation(PassList& list, const FrameContext& frame) {
+    list.frames_to_settle = kMostFrames;
+    list.images.push_back({.name = "skin_light_accumulated", .format = ImageFormat::rgba32f});
+    for (const char* turn : {"_even", "_odd"}) {
+        list.images.push_back(
+            {.name = std::string("accumulated") + turn, .format = ImageFormat::rgba32f, .persistent = true});
+        list.images.push_back(
+            {.name = std::string("accumulated_z") + turn, .format = ImageFormat::r32f, .persistent = true});
+    }
+    const std::string now = turn_of(frame.earlier_frames), before = turn_of(frame.earlier_frames + 1);
+    const bool same_light = frame.earlier_frames == 0 || frame.previous_camera_distance_mm > 0;
+    Pass pass = {.name = "accumulate",
+                 .kind = PassKind::fullscreen,
+                 .shader = "screen_space_burley/accumulate.frag",
+                 .reads = disk_reads()};
+    pass.reads.insert(pass.reads.end(), {{"light_around_now", "skin_light_gathered"},
+                                         {"light_before", "accumulated" + before},
+                                         {"z_before", "accumulated_z" + before}});
+    for (const std::string& image :
+         {std::string("skin_light_accumulated"), "accumulated" + now, "accumulated_z" + now})
+        pass.colors.push_back({.image = image, .load = LoadOp::discard});
+    pass.values = {{"light_changes", same_light ? 0.0f : 1.0f}};
+    list.passes.push_back(std::move(pass));
 }
 
 void add_pilot(PassList& list, const Params& params) {
@@ -66,6 +106,7 @@ void add_pilot(PassList& list, const Params& params) {
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const auto params = values.as<Params>();
     const bool adaptive = params.count == Count::adaptive, shows_count = frame.view == kCountView;
+    const bool accumulates = params.accumulate == Accumulate::frames && !shows_count;
     PassList list;
     add_screen_light(list, params.specular, frame);
     list.images.push_back({.name = "skin_light_gathered", .format = ImageFormat::rgba32f});
@@ -80,8 +121,9 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     gather.constants.emplace_back("show_count", int32_t(shows_count));
     gather.colors = {{.image = "skin_light_gathered", .load = LoadOp::discard}};
     list.passes.push_back(std::move(gather));
-    add_screen_skin(list, "skin_light_gathered", params.specular, params.transmission, frame,
-                    shows_count ? kCountView : kLightView);
+    if (accumulates) add_accumulation(list, frame);
+    add_screen_skin(list, accumulates ? "skin_light_accumulated" : "skin_light_gathered", params.specular,
+                    params.transmission, frame, shows_count ? kCountView : kLightView);
     return list;
 }
 
