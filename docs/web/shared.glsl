@@ -101,7 +101,7 @@ namespace dermis {
 const int kDiffuseLut = 0, kDiffuseCurve2015 = 1, kDiffuseClosedForm = 2;
 const int kShadowPlain = 0, kShadowScattered = 1;
 const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
-const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2, kNormalsLerp = 3;
+const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2, kNormalsLerp = 3, kNormalsBaked = 4;
 const int kAmbientExact = 0, kAmbientLut = 1, kAmbientCurve2015 = 2;
 
 // The tables hold curvatures from 0 to this.
@@ -117,8 +117,9 @@ const int kTransmissionGaussians = 6;
 
 // Rows of skin_rows, each over its own argument from 0 to 1: zonal harmonics of order 0 to 2 over curvature,
 // the shadow's edge over visibility, weights and levels of the smoother normal over log2 of a texel of the
-// normal map in mm.
-const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowCount = 5, kRowTexels = 257;
+// normal map in mm, the curvature, over kMaxCurvaturePerMm, of a sphere over sqrt(1 - length of its mean
+// normal).
+const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowCurvature = 5, kRowCount = 6, kRowTexels = 257;
 
 // 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
