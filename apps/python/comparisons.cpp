@@ -7,6 +7,7 @@
 #include "compare_options.h"
 #include "compare_scenes.h"
 #include "compare_text.h"
+#include "kept_device.h"
 #include "module.h"
 #include "scene_arguments.h"
 
@@ -15,7 +16,8 @@ namespace {
 
 struct OneComparison {
     Comparison comparison;
-    std::string json;  ///< an object of `dermis compare --json`
+    Image truth_effect;  ///< the mean of its halves
+    std::string json;    ///< an object of `dermis compare --json`
     std::vector<std::string> warnings;
 };
 
@@ -34,7 +36,9 @@ Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
              },
          .stop = &watch.stopped()});
     if (!compared) return compared.error();
-    OneComparison made{.comparison = std::move(*compared), .json = {}, .warnings = one.scene.warnings};
+    OneComparison made{
+        .comparison = std::move(*compared), .truth_effect = {}, .json = {}, .warnings = one.scene.warnings};
+    made.truth_effect = mean_effect(made.comparison.truth.effect);
     made.json =
         cli::to_json("", one, made.comparison).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     for (std::string& warning : cli::warnings_of(made.comparison, settings))
@@ -48,13 +52,13 @@ Result<std::vector<OneComparison>> compare_all(const cli::CompareChoice& choice,
     if (!contestants) return contestants.error();
     const Result<cli::ComparedScenes> scenes = cli::compared_scenes(choice.scene);
     if (!scenes) return scenes.error();
-    Result<gpu::Device> device = gpu::Device::create({.name_contains = choice.device});
+    const Result<LentDevice> device = lend_device(choice.device);
     if (!device) return device.error();
     std::vector<OneComparison> made;
     const double share = 1 / double(scenes->all.size());
     for (const SubjectCase& one : scenes->all) {
-        Result<OneComparison> compared =
-            compare_one(*device, one, *contestants, settings, watch, share * double(made.size()), share);
+        Result<OneComparison> compared = compare_one(device->device(), one, *contestants, settings, watch,
+                                                     share * double(made.size()), share);
         if (!compared) return scenes->is_set ? compared.error().within(one.name) : compared.error();
         made.push_back(std::move(*compared));
     }
@@ -80,8 +84,13 @@ std::vector<OneComparison> compare(const SceneArguments& scene, const std::strin
 
 // Of a technique's row, or the ground truth's.
 py::array picture(const py::object& self, int row, const std::string& name) {
-    const Comparison& comparison = self.cast<const OneComparison&>().comparison;
-    if (row < 0) return view_of(name == "skin" ? comparison.masks.skin : comparison.truth_radiance, self);
+    const OneComparison& made = self.cast<const OneComparison&>();
+    const Comparison& comparison = made.comparison;
+    if (row < 0)
+        return view_of(name == "skin"     ? comparison.masks.skin
+                       : name == "effect" ? made.truth_effect
+                                          : comparison.truth_radiance,
+                       self);
     const Compared& compared = comparison.rows.at(size_t(row));
     return view_of(name == "effect" ? compared.effect
                    : name == "flip" ? compared.flip

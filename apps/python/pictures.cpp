@@ -1,15 +1,10 @@
 // render() and reference(): pictures of a scene as arrays and as files.
 
-#include <unistd.h>
-
-#include <memory>
-#include <mutex>
-
 #include "arrays.h"
 #include "catalog/catalog.h"
-#include "dermis/gpu/device.h"
 #include "dermis/jobs/picture_file.h"
 #include "dermis/render/output.h"
+#include "kept_device.h"
 #include "module.h"
 #include "reference_options.h"
 #include "render_options.h"
@@ -28,52 +23,13 @@ struct RenderedPicture {
     std::string technique;
 };
 
-// One device for all pictures: a driver keeps some of what each new one takes (lavapipe 37 KB). A device is
-// not for several threads at once.
-struct KeptDevice {
-    std::mutex mutex;
-    std::string name_contains;
-    pid_t process = 0;
-    std::unique_ptr<gpu::Device> device;
-};
-
-KeptDevice& kept_device() {
-    static KeptDevice kept;
-    return kept;
-}
-
-// With the mutex locked. A process that was forked has no threads of the driver: it leaves the device it
-// inherited.
-Result<gpu::Device*> device_named(const std::string& name_contains) {
-    KeptDevice& kept = kept_device();
-    if (kept.process != getpid()) (void)kept.device.release();
-    if (!kept.device || kept.name_contains != name_contains) {
-        kept.device.reset();
-        Result<gpu::Device> opened = gpu::Device::create({.name_contains = name_contains});
-        if (!opened) return opened.error();
-        kept.device = std::make_unique<gpu::Device>(std::move(*opened));
-        kept.name_contains = name_contains;
-        kept.process = getpid();
-    }
-    return kept.device.get();
-}
-
-// While the driver is still loaded.
-void close_kept_device() {
-    KeptDevice& kept = kept_device();
-    const std::lock_guard lock(kept.mutex);
-    if (kept.process != getpid()) (void)kept.device.release();
-    kept.device.reset();
-}
-
 Result<RenderedPicture> draw(const cli::RenderOptions& options, int bits) {
     Result<cli::Prepared> prepared = cli::prepare(options);
     if (!prepared) return prepared.error();
-    const std::lock_guard lock(kept_device().mutex);
-    const Result<gpu::Device*> device = device_named(options.device);
+    const Result<LentDevice> device = lend_device(options.device);
     if (!device) return device.error();
-    Result<Renderer> renderer =
-        Renderer::create(**device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
+    Result<Renderer> renderer = Renderer::create(
+        device->device(), gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
     if (!renderer) return renderer.error();
     prepared->draw.deep = bits == 16;
     if (const auto drawn = renderer->draw(*prepared->technique, *prepared->values, prepared->draw); !drawn)

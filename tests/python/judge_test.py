@@ -39,6 +39,14 @@ class Compare(TestCase):
         with self.assertRaises(KeyError):
             compared.radiance("wrapp")
 
+    def test_effects_give_the_share(self):
+        """As docs/ground_truth.md defines it, but for the truth's noise."""
+        compared = dermis.compare("spheres", "wrap[wrap=0.4]", size=48, samples_per_pixel=4, noise=0.05, frames=1)
+        counts = compared.skin > 0.5
+        truth, wrap = compared.truth_effect[counts], compared.effect("wrap[wrap=0.4]")[counts]
+        share = 1 - numpy.sqrt(((wrap - truth) ** 2).sum() / (truth**2).sum())
+        self.assertAlmostEqual(share, compared.rows[0]["captured"], delta=0.02)
+
     def test_a_set_of_scenes_is_a_list(self):
         compared = dermis.compare("unit", "lambert", keys={"mesh.shape": "slab_behind"}, **SAME)
         self.assertEqual(compared.scene.split("/")[-1], "slab_behind")

@@ -48,6 +48,10 @@ class Comparison:
         """The ground truth, linear radiance, float32, height x width x 3."""
 
     @property
+    def truth_effect(self) -> NDArray[numpy.float32]:
+        """What scattering changes in the ground truth, float32, height x width x 3: what `effect` is compared with."""
+
+    @property
     def skin(self) -> NDArray[numpy.float32]:
         """1 where a pixel counts, float32, height x width."""
 

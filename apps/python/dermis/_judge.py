@@ -60,6 +60,11 @@ class Comparison:
         return _dermis.comparison_picture(self._comparison, -1, "radiance")[..., :3]
 
     @property
+    def truth_effect(self) -> NDArray[numpy.float32]:
+        """What scattering changes in the ground truth, float32, height x width x 3: what `effect` is compared with."""
+        return _dermis.comparison_picture(self._comparison, -1, "effect")
+
+    @property
     def skin(self) -> NDArray[numpy.float32]:
         """1 where a pixel counts, float32, height x width."""
         return _dermis.comparison_picture(self._comparison, -1, "skin")
