@@ -72,6 +72,9 @@ struct Convention {
 [[nodiscard]] double encode_value(const Convention& convention, double value, double n_dot_l);
 [[nodiscard]] double decode_value(const Convention& convention, double stored, double n_dot_l);
 
+/// Difference from max(0, N.L) beyond which `difference` cuts.
+inline constexpr double kMostDifference = 0.25;
+
 /// One JSON object, keys in a fixed order: same convention, same bytes.
 [[nodiscard]] std::string convention_json(const Convention& convention, int width, int height);
 

@@ -20,6 +20,7 @@ namespace dermis {
 enum class StoredAs {
     linear,         ///< light as it is
     srgb,           ///< sRGB-encoded light
+    encoded_twice,  ///< sRGB-encoded light that was encoded again by mistake
     decoded_twice,  ///< linear light that was decoded from sRGB by mistake
     difference      ///< 2 (light - max(0, N.L)) + 1/2, FaceWorks
 };
@@ -30,10 +31,14 @@ struct LintHypothesis {
     Integration integration = Integration::exact;
     std::string profile;
     StoredAs stored_as = StoredAs::linear;
-    bool transposed = false;        ///< N.L runs down the picture, not across
-    bool n_dot_l_mirrored = false;  ///< the lit side comes first
-    TexelSampling sampling = TexelSampling::centre;
-    TableAxis axis;           ///< of the other direction, as of texel centres, first to last in the picture
+    bool transposed = false;                         ///< N.L runs down the picture, not across
+    bool n_dot_l_mirrored = false;                   ///< the lit side comes first
+    bool bgr = false;                                ///< blue is the picture's first channel
+    TexelSampling sampling = TexelSampling::centre;  ///< of N.L
+    /// N.L at the outer edges, dark and lit; another range than -1 to 1 is a cropped picture.
+    double n_dot_l_min = -1, n_dot_l_max = 1;
+    TableAxis axis;  ///< of the other direction, row 0 where v_origin says
+    VOrigin v_origin = VOrigin::top;
     double rms = 0, max = 0;  ///< the remaining difference, in light
 };
 
@@ -49,14 +54,17 @@ struct LintReport {
     std::vector<std::string> advice;
 };
 
-/// Takes about a second. Errors: a picture smaller than 8 x 2 texels or without colour.
-[[nodiscard]] Result<LintReport> lint_table(const Image& image);
+/// Takes about a second, some more where nothing explains the picture. Errors: a picture smaller than 8 x 2
+/// texels or without colour. `own`, if any, is the first explanation that is tried.
+[[nodiscard]] Result<LintReport> lint_table(const Image& image, const LintHypothesis* own = nullptr);
 
-/// Reads the file; adds what its embedded convention and its sRGB flag say. Errors as read_image and above.
+/// Reads the file: a picture, or CSV with a line "n_dot_l,curvature_per_mm,r,g,b" (or radius_mm; numbers in
+/// light) for each texel. A convention inside or beside it is the first explanation that is tried; what it
+/// and a PNG's sRGB flag say is compared with the numbers. Errors as read_image and above.
 [[nodiscard]] Result<LintReport> lint_file(const std::filesystem::path& path);
 
 /// The best explanation as a convention. Errors: nothing explains the picture; a form that no reader here
-/// takes (turned by 90 degrees, decoded twice).
+/// takes (turned by 90 degrees, decoded or encoded twice, blue first).
 [[nodiscard]] Result<Convention> convention_of(const LintReport& report);
 
 /// Writes it as FILE.json, so that read_table takes the file; returns that name. Error: also a file that has

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dermis/bake/lut.h"
 #include "dermis/bake/lut_taps.h"
 #include "dermis/bake/rows.h"
 #include "dermis/base/parallel.h"
@@ -31,9 +32,10 @@ double squared_distance(std::span<const float> a, std::span<const float> b) {
     return sum;
 }
 
-// A fitted axis may begin slightly below zero; such a curvature counts as 0.
-double radius_at(const TableAxis& axis, double s) {
-    const double value = axis.min + (axis.max - axis.min) * s;
+// s: 0 at the top of the picture, 1 at its bottom. A fitted axis may begin slightly below zero; such a
+// curvature counts as 0.
+double radius_at(const TableAxis& axis, double s, int rows, VOrigin origin = VOrigin::top) {
+    const double value = axis.value((origin == VOrigin::top ? s : 1 - s) * rows - 0.5, rows);
     return radius_of(axis,
                      axis.name == "radius_mm" ? std::max(kLeastRadius_mm, value) : std::max(0.0, value));
 }
@@ -56,7 +58,7 @@ double mean_square(const Bank& bank, const Sample& sample, std::span<const float
                    const TableAxis& axis) {
     double sum = 0;
     for (size_t y = 0; y < sample.v.size(); ++y)
-        sum += squared_distance_at(bank, radius_at(axis, sample.v[y]),
+        sum += squared_distance_at(bank, radius_at(axis, sample.v[y], sample.v_count),
                                    light.subspan(y * bank.row_values, bank.row_values));
     return sum / double(light.size());
 }
@@ -113,7 +115,7 @@ double bank_index(double radius_mm) {
 Sample sample_of(const Image& image, bool transposed) {
     const int u_count = transposed ? image.height : image.width;
     const int v_count = transposed ? image.width : image.height;
-    Sample sample{.u_count = u_count};
+    Sample sample{.u_count = u_count, .v_count = v_count};
     const std::vector<int> columns = spread(u_count, kMostColumns), rows = spread(v_count, kMostRows);
     for (int x : columns) sample.u.push_back((x + 0.5) / u_count);
     for (int y : rows) sample.v.push_back((y + 0.5) / v_count);
@@ -131,19 +133,23 @@ std::vector<double> n_dot_l_of(const Sample& sample, const LintHypothesis& hypot
         double s = hypothesis.n_dot_l_mirrored ? 1 - u : u;
         if (hypothesis.sampling == TexelSampling::low_edge) s -= half_texel;
         if (hypothesis.sampling == TexelSampling::high_edge) s += half_texel;
-        n_dot_l.push_back(std::clamp(2 * s - 1, -1.0, 1.0));
+        const double value = hypothesis.n_dot_l_min + (hypothesis.n_dot_l_max - hypothesis.n_dot_l_min) * s;
+        n_dot_l.push_back(std::clamp(value, -1.0, 1.0));
     }
     return n_dot_l;
 }
 
-std::vector<double> radii_of(const Sample& sample, const TableAxis& axis) {
+std::vector<double> radii_of(const Sample& sample, const LintHypothesis& hypothesis) {
     std::vector<double> radii_mm;
-    for (double s : sample.v) radii_mm.push_back(radius_at(axis, s));
+    for (double s : sample.v)
+        radii_mm.push_back(radius_at(hypothesis.axis, s, sample.v_count, hypothesis.v_origin));
     return radii_mm;
 }
 
 std::vector<float> decoded(const Sample& sample, const LintHypothesis& hypothesis) {
     std::vector<float> light = sample.stored;
+    if (hypothesis.bgr)
+        for (size_t i = 0; i < light.size(); i += 3) std::swap(light[i], light[i + 2]);
     const std::vector<double> n_dot_l = n_dot_l_of(sample, hypothesis);
     for (size_t i = 0; i < light.size(); ++i) {
         const float cosine = float(std::max(0.0, n_dot_l[i / 3 % n_dot_l.size()]));
@@ -152,6 +158,9 @@ std::vector<float> decoded(const Sample& sample, const LintHypothesis& hypothesi
                 break;
             case StoredAs::srgb:
                 light[i] = srgb_decode(light[i]);
+                break;
+            case StoredAs::encoded_twice:
+                light[i] = srgb_decode(srgb_decode(light[i]));
                 break;
             case StoredAs::decoded_twice:
                 light[i] = srgb_encode(light[i]);
@@ -164,13 +173,40 @@ std::vector<float> decoded(const Sample& sample, const LintHypothesis& hypothesi
     return light;
 }
 
-Bank make_bank(const LintHypothesis& hypothesis, const Profile& profile, std::span<const double> n_dot_l) {
+void cut(std::span<float> light, std::span<const double> n_dot_l, const LintHypothesis& hypothesis) {
+    if (hypothesis.stored_as != StoredAs::difference) return;
+    for (size_t i = 0; i < light.size(); ++i) {
+        const double cosine = std::max(0.0, n_dot_l[i / 3 % n_dot_l.size()]);
+        light[i] = std::clamp(light[i], float(cosine - kMostDifference), float(cosine + kMostDifference));
+    }
+}
+
+Bank make_bank(const LintHypothesis& hypothesis, const Profile& profile, std::span<const double> n_dot_l,
+               int radii) {
     std::vector<double> radii_mm;
-    for (int i = 0; i < kRadii; ++i) radii_mm.push_back(bank_radius_mm(i));
+    for (int i = 0; i < radii; ++i)
+        radii_mm.push_back(bank_radius_mm(double(i) * (kRadii - 1) / (radii - 1)));
     Result<std::vector<float>> curves =
         integrate_model(profile, hypothesis.integration, n_dot_l, radii_mm, hypothesis.how);
     // Presets are preintegrable (a test asserts it).
+    cut(*curves, n_dot_l, hypothesis);
     return {std::move(curves).value(), 3 * n_dot_l.size()};
+}
+
+double coarse_fit(const Bank& bank, std::span<const float> light) {
+    constexpr size_t kEveryRow = 4;
+    const size_t radii = bank.curves.size() / bank.row_values;
+    const size_t rows = light.size() / bank.row_values;
+    double total = 0;
+    size_t used = 0;
+    for (size_t y = rows > kEveryRow ? kEveryRow / 2 : 0; y < rows; y += kEveryRow, ++used) {
+        double least = std::numeric_limits<double>::infinity();
+        for (size_t i = 0; i < radii; ++i)
+            least = std::min(
+                least, squared_distance(bank.curve(i), light.subspan(y * bank.row_values, bank.row_values)));
+        total += least;
+    }
+    return total / double(used * bank.row_values);
 }
 
 double free_fit(const Bank& bank, std::span<const float> light, std::vector<double>& radii_mm) {
@@ -218,13 +254,23 @@ void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> lig
     hypothesis.rms = std::sqrt(std::min(a, b));
 }
 
-std::vector<Model> all_models() {
-    constexpr Preintegration kHow[] = {
-        {.construction = Construction::sphere},
-        {.construction = Construction::ring},
-        {.construction = Construction::half_ring},
-        {.construction = Construction::ring, .ring_weights = RingWeights::area},
-        {.construction = Construction::half_ring, .ring_weights = RingWeights::area},
+namespace {
+
+std::vector<Model> made_models() {
+    const Convention unity = lut_options("unity_2011")->convention,
+                     faceworks = lut_options("faceworks")->convention;
+    struct Way {
+        Preintegration how;
+        Integration integration = Integration::exact;
+    };
+    const Way ways[] = {
+        {{.construction = Construction::sphere}},
+        {{.construction = Construction::ring}},
+        {{.construction = Construction::half_ring}},
+        {{.construction = Construction::ring, .ring_weights = RingWeights::area}},
+        {{.construction = Construction::half_ring, .ring_weights = RingWeights::area}},
+        {unity.how, unity.integration},
+        {faceworks.how, faceworks.integration},
     };
     constexpr int kTerms = 5;
     const std::vector<std::string> names = profile_names();
@@ -237,16 +283,17 @@ std::vector<Model> all_models() {
         }
     });
     std::vector<Model> models;
-    for (size_t i = 0; i < names.size(); ++i) {
-        for (const Preintegration& how : kHow)
-            models.push_back({{.how = how, .profile = names[i]}, profiles[i]});
-        if (names[i] != "gpu_gems_3") continue;
-        for (Integration taps : {Integration::unity_taps, Integration::faceworks_taps})
-            models.push_back({{.how = taps == Integration::unity_taps ? kHow[2] : kHow[1],
-                               .integration = taps,
-                               .profile = names[i]},
-                              profiles[i]});
-    }
+    for (size_t i = 0; i < names.size(); ++i)
+        for (const Way& way : ways)
+            models.push_back(
+                {{.how = way.how, .integration = way.integration, .profile = names[i]}, profiles[i]});
+    return models;
+}
+
+}  // namespace
+
+std::span<const Model> all_models() {
+    static const std::vector<Model> models = made_models();
     return models;
 }
 

@@ -14,8 +14,8 @@ namespace dermis::lint {
 /// A sample of the picture, turned so that columns are N.L (in the picture's direction) and rows the other
 /// axis.
 struct Sample {
-    std::vector<double> u, v;   ///< texel index + 1/2 over the count, ascending
-    int u_count = 0;            ///< texels along u
+    std::vector<double> u, v;  ///< texel index + 1/2 over the count, ascending
+    int u_count = 0, v_count = 0;
     std::vector<float> stored;  ///< [row][column][channel]
 
     [[nodiscard]] std::span<const float> row(size_t y) const {
@@ -28,7 +28,10 @@ struct Sample {
 [[nodiscard]] std::vector<double> n_dot_l_of(const Sample& sample, const LintHypothesis& hypothesis);
 
 /// Radii of the sample's rows; the axis is clamped to what is no negative curvature.
-[[nodiscard]] std::vector<double> radii_of(const Sample& sample, const TableAxis& axis);
+[[nodiscard]] std::vector<double> radii_of(const Sample& sample, const LintHypothesis& hypothesis);
+
+/// Cuts light to what the encoding of the hypothesis holds; light is interleaved RGB, rows of n_dot_l.
+void cut(std::span<float> light, std::span<const double> n_dot_l, const LintHypothesis& hypothesis);
 
 /// The sample as light.
 [[nodiscard]] std::vector<float> decoded(const Sample& sample, const LintHypothesis& hypothesis);
@@ -45,14 +48,18 @@ struct Bank {
         return std::span(curves).subspan(radius * row_values, row_values);
     }
 };
-/// `profile` is the hypothesis' own, as a sum of Gaussians.
+/// `profile` is the hypothesis' own, as a sum of Gaussians. Radii: kRadii, or fewer to be compared coarsely.
 [[nodiscard]] Bank make_bank(const LintHypothesis& hypothesis, const Profile& profile,
-                             std::span<const double> n_dot_l);
+                             std::span<const double> n_dot_l, int radii = kRadii);
+
+/// Mean square over some rows with the radius of each row free, from those of the bank alone.
+[[nodiscard]] double coarse_fit(const Bank& bank, std::span<const float> light);
 
 /// Mean square over all rows with the radius of each row free; radii_mm receives them.
 [[nodiscard]] double free_fit(const Bank& bank, std::span<const float> light, std::vector<double>& radii_mm);
 
-/// Fits axis.min and axis.max of the hypothesis (curvature or radius, whichever is better) and fills rms.
+/// Fits axis.min and axis.max of the hypothesis (curvature or radius, whichever is better), as of texel
+/// centres from the top of the picture down, and fills rms.
 void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> light,
               const std::vector<double>& radii_mm, LintHypothesis& hypothesis);
 
@@ -62,8 +69,51 @@ struct Model {
     LintHypothesis hypothesis;
     std::shared_ptr<const Profile> profile;
 };
-/// Every construction for every preset, and the published taps for GPU Gems 3.
-[[nodiscard]] std::vector<Model> all_models();
+/// Every construction and both published programs for every preset; shared by all calls.
+[[nodiscard]] std::span<const Model> all_models();
+
+/// The picture's texels that the search works on, and what explains them, best first; at least two.
+struct Search {
+    Sample sample;  ///< turned as the first hypothesis says
+    std::vector<LintHypothesis> hypotheses;
+};
+enum class Crops { searched, ignored };
+[[nodiscard]] Search search(const Image& linear_float, Crops crops);
+
+/// What a sample is compared with: rows as the hypothesis says, cut by the encoding as the file is, or the
+/// exact sphere of its profile.
+enum class Against { its_model, the_sphere };
+
+/// Remaining difference of the sample, read as the hypothesis says; with the place of the largest one.
+struct Difference {
+    double rms = 0, max = 0, n_dot_l = 0, radius_mm = 0;
+};
+[[nodiscard]] Result<Difference> difference(const Sample& sample, const LintHypothesis& hypothesis,
+                                            Against against);
+
+/// A report with `hypothesis` as the best explanation, without text. Errors as of difference().
+[[nodiscard]] Result<LintReport> measured(const Sample& sample, const LintHypothesis& hypothesis,
+                                          const LintHypothesis& runner_up);
+
+/// The number with the fewest digits that the fit does not distinguish from `value`.
+[[nodiscard]] double without_noise(double value, const TableAxis& axis);
+
+/// A file as a picture of a table. What texel i, j of a CSV holds is line 1 + j width + i.
+struct TablePicture {
+    Image image;
+    std::string coordinates;    ///< of a CSV: "n_dot_l -0.98 to 0.98 across, ..."
+    bool flagged_srgb = false;  ///< a PNG's own word
+    bool holds_light = false;   ///< decoded already, whatever a convention says of pictures: CSV
+};
+/// Errors: as read_image; of CSV as parse_csv_picture.
+[[nodiscard]] Result<TablePicture> read_picture(const std::filesystem::path& path);
+
+/// A line "u,v,red,green,blue" for each texel of a grid, u or v changing faster, with or without a line of
+/// names before them. Errors name `place` and the line.
+[[nodiscard]] Result<TablePicture> parse_csv_picture(std::string_view text, std::string_view place);
+
+/// Three digits.
+[[nodiscard]] std::string rounded(double value);
 
 /// Fills findings and advice from the numbers of the report.
 void explain(LintReport& report, const Image& image);

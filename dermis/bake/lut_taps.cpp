@@ -28,6 +28,18 @@ Rgb gaussian_line_profile(const GaussianSum& sum, double distance_mm, double var
     return value;
 }
 
+// The published programs have one profile, whose weights sum to 1 in each channel; others' sum to the albedo,
+// which is no part of a table.
+GaussianSum without_albedo(GaussianSum sum) {
+    Rgb total = {};
+    for (const GaussianTerm& term : sum.terms)
+        for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
+    for (GaussianTerm& term : sum.terms)
+        for (size_t c = 0; c < 3; ++c)
+            if (total[c] > 0) term.weight[c] /= total[c];
+    return sum;
+}
+
 std::vector<Tap> unity_taps(const GaussianSum& sum, double radius_mm, double variance_scale) {
     constexpr double kStep_rad = 0.05;
     std::vector<Tap> taps;
@@ -81,6 +93,7 @@ Result<std::vector<float>> integrate_by_taps(const Profile& profile, Integration
         return Error{"profile '" + profile.name + "' is " + model_name(profile) + "; " +
                      std::string(name_of(integration)) + " need a sum of Gaussians"};
     if (Result<void> valid = check_preintegrable(profile, how); !valid) return valid.error();
+    const GaussianSum white = without_albedo(*sum);
     std::vector<double> theta;
     for (double t : n_dot_l) theta.push_back(std::acos(t));
     std::vector<float> data(3 * n_dot_l.size() * radii_mm.size());
@@ -88,8 +101,8 @@ Result<std::vector<float>> integrate_by_taps(const Profile& profile, Integration
         for (size_t y = begin; y < end; ++y) {
             const double radius_mm = std::min(radii_mm[y], kMaxRadius_mm);
             const std::vector<Tap> taps = integration == Integration::unity_taps
-                                              ? unity_taps(*sum, radius_mm, how.variance_scale)
-                                              : faceworks_taps(*sum, radius_mm, how.variance_scale);
+                                              ? unity_taps(white, radius_mm, how.variance_scale)
+                                              : faceworks_taps(white, radius_mm, how.variance_scale);
             float* out = data.data() + 3 * n_dot_l.size() * y;
             for (double angle_rad : theta) {
                 const Rgb light = lit_by(taps, angle_rad);

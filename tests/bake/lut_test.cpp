@@ -176,3 +176,13 @@ TEST(Lut, axes_map_texels_to_values_and_back) {
     EXPECT_DOUBLE_EQ((TableAxis{"a", "1", 0, 8}.value(0, 4)), 1);
     EXPECT_DOUBLE_EQ((TableAxis{"a", "1", 0, 8, AxisWarp::squared, TexelSampling::high_edge}.value(1, 4)), 2);
 }
+
+TEST(Lut, published_taps_ignore_the_albedo) {
+    LutOptions lut = *lut_options("faceworks");
+    lut.width = 16, lut.height = 4;
+    const Table white = *bake_lut(lut);
+    for (GaussianTerm& term : std::get<GaussianSum>(lut.profile.model).terms)
+        for (double& weight : term.weight) weight *= 0.3;
+    const Table dark = *bake_lut(lut);
+    for (size_t i = 0; i < white.data.size(); ++i) EXPECT_NEAR(dark.data[i], white.data[i], 1e-6);
+}

@@ -33,7 +33,9 @@ void add_lint_command(CommandLine& line) {
     auto options = std::make_shared<LintOptions>();
     Command* command = line.add("lint", "Finds how a pre-integrated table was made, and its error",
                                 "dermis lint DiffuseScatteringOnRing.png --write-sidecar");
-    command->add_option("file", options->path, "PNG, EXR, DDS or KTX2")->required();
+    command
+        ->add_option("file", options->path, "PNG, EXR, DDS, KTX2, or CSV with n_dot_l,curvature_per_mm,r,g,b")
+        ->required();
     command->add_flag("--write-sidecar", options->write_sidecar,
                       "write what was found as FILE.json, so that diffuse_table takes the file");
     line.when_chosen(command, [options] { return run(*options); });
