@@ -104,9 +104,14 @@ Result<void> write_map(const std::filesystem::path& path, const BakedMap& map, c
         return Error{path.string() + ": maps are written as .exr (a preview .png comes beside it)"};
     const std::string text = sidecar_text(map, origin);
     const Image half = convert(map.values, PixelFormat::f16, Encoding::linear);
-    if (Result<void> written = write_image(path, half, {{"dermis", text}}); !written) return written;
-    if (Result<void> written = write_text_file(map_sidecar_path(path), text); !written) return written;
-    return write_image(map_preview_path(path), map_preview(map));
+    const std::filesystem::path preview_path = map_preview_path(path);
+    const Result<std::vector<std::byte>> picture = encode_image(".exr", half, {{"dermis", text}});
+    if (!picture) return Error{path.string() + ": " + picture.error().message};
+    const Result<std::vector<std::byte>> preview = encode_image(".png", map_preview(map));
+    if (!preview) return Error{preview_path.string() + ": " + preview.error().message};
+    const FileContent files[] = {
+        {path, *picture}, {map_sidecar_path(path), as_bytes(text)}, {preview_path, *preview}};
+    return write_files(files);
 }
 
 }  // namespace dermis

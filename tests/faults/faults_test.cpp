@@ -9,10 +9,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <memory>
 
 #include "cli/run_program.h"
 #include "dermis/base/file.h"
+#include "faults/cases.h"
 #include "support/temporary_directory.h"
+#include "view/display.h"
 
 using namespace dermis;
 
@@ -20,40 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Case {
-    const char* name;
-    const char* arguments;
-    const char* output = nullptr;   ///< the file that it makes
-    const char* sidecar = nullptr;  ///< and one beside it
-    bool draws = false;             ///< by Vulkan: a driver may crash on a failing allocation
-};
-
-void PrintTo(const Case& one, std::ostream* out) {
-    *out << one.name;
-}
-
-constexpr Case kCases[] = {
-    {"bake_lut", "bake lut --size 32x32 -o out/a.exr", "out/a.exr", "out/a.exr.json"},
-    {"bake_png", "bake lut --size 32x32 --storage 8 -o out/a.png", "out/a.png", "out/a.png.json"},
-    {"plot", "bake lut --size 16x16 -o out/a.exr --plot out/a.svg", "out/a.svg"},
-    {"profile", "profile show gpu_gems_3"},
-    {"info", "info cube.obj"},
-    {"info_json", "info cube.obj --json"},
-    {"reference", "reference scene.toml --size 8x8 --samples 2 --probes 2 -o out/a.exr", "out/a.exr"},
-    {"part", "reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 4:8 -o out/a.exr",
-     "out/a.exr"},
-    {"bake_zh", "bake zh --size 16 -o out/a.exr", "out/a.exr", "out/a.exr.json"},
-    {"export", "export --language hlsl -o out/a.hlsl", "out/a.hlsl"},
-    {"passes", "passes lambert"},
-    {"render", "render scene.toml --size 16x16 -o out/a.png", "out/a.png", nullptr, true},
-    {"compare",
-     "compare scene.toml --size 16x16 --samples 8 --samples-per-pixel 4 --frames 1 -t lambert -o out",
-     nullptr, nullptr, true},
-};
-
 constexpr const char* kCube =
     "v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nv 0 0 9\nv 9 0 9\nv 9 9 9\nv 0 9 9\n"
-    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+    "f 1/1 4/2 3/3 2/4\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+using Files = std::map<std::string, std::string>;  // of out/, by their paths there
 
 struct Outcome {
     ProgramResult result;
@@ -70,66 +46,95 @@ int error_lines(const std::string& text) {
 
 class Faults : public testing::TestWithParam<Case> {
   protected:
+    static void SetUpTestSuite() { display_ = std::make_unique<VirtualDisplay>("320x200"); }
+    static void TearDownTestSuite() { display_.reset(); }
+
+    std::string in_folder(const fs::path& folder) const {
+        return "cd " + folder.string() + " && timeout -s KILL " + (draws() ? "30" : "120") +
+               " env DISPLAY=" + display_->name() + " DERMIS_CACHE=" + (directory_.path / "cache").string() +
+               " XDG_STATE_HOME=" + (directory_.path / "state").string() + " ";
+    }
+    // What each run begins with, in a folder that is copied.
+    void prepare() {
+        const fs::path start = directory_.path / "start";
+        fs::create_directories(start);
+        std::ofstream(start / "cube.obj") << kCube;
+        std::ofstream(start / "scene.toml") << "[[mesh]]\nfile = \"cube.obj\"\nunit_mm = 1\n";
+        std::ofstream(start / "commands.txt")
+            << "reference scene.toml --size 8x8 --samples 16 --probes 2 -o out/picture.exr\n";
+        if (!GetParam().prepare) return;
+        const ProgramResult made =
+            run_shell(in_folder(start) + "DERMIS=" DERMIS_PROGRAM " sh -c '" + GetParam().prepare + "'",
+                      directory_.path.string());
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+    }
     Outcome run(const std::string& fault) {
-        fs::remove_all(directory_.path);
-        fs::create_directories(directory_.path / "work");
-        std::ofstream(directory_.path / "work/cube.obj") << kCube;
-        std::ofstream(directory_.path / "work/scene.toml") << "[[mesh]]\nfile = \"cube.obj\"\nunit_mm = 1\n";
-        const std::string root = directory_.path.string();
+        for (const char* left : {"work", "state", "hit"}) fs::remove_all(directory_.path / left);
+        if (GetParam().kind != Case::slow) fs::remove_all(directory_.path / "cache");
+        const fs::path work = directory_.path / "work";
+        fs::copy(directory_.path / "start", work, fs::copy_options::recursive);
         Outcome outcome;
         outcome.result =
-            run_shell("cd " + root + "/work && timeout -s KILL 20 env DERMIS_CACHE=" + root +
-                          "/cache DERMIS_FAULT=" + fault + " DERMIS_FAULT_HIT=" + root +
-                          "/hit LD_PRELOAD=" DERMIS_FAULT_SHIM " " DERMIS_PROGRAM " " + GetParam().arguments,
-                      root);
+            run_shell(in_folder(work) + "DERMIS_FAULT=" + fault +
+                          " DERMIS_FAULT_HIT=" + (directory_.path / "hit").string() +
+                          " LD_PRELOAD=" DERMIS_FAULT_SHIM " " DERMIS_PROGRAM " " + GetParam().arguments,
+                      directory_.path.string());
         outcome.hit = fs::exists(directory_.path / "hit");
         return outcome;
     }
-    std::string output() {
-        if (!GetParam().output) return "";
-        const Result<std::string> text = read_text_file(directory_.path / "work" / GetParam().output);
-        return text ? *text : "";
+    static bool draws() { return GetParam().kind == Case::draws; }
+    Files made() const {
+        Files files;
+        const fs::path out = directory_.path / "work/out";
+        if (!fs::exists(out)) return files;
+        for (const auto& entry : fs::recursive_directory_iterator(out))
+            if (entry.is_regular_file())
+                files[entry.path().lexically_relative(out).string()] = slurp(entry.path().string());
+        return files;
     }
     void expect_no_part_files() {
         for (const auto& entry : fs::recursive_directory_iterator(directory_.path))
             EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
     }
     void expect_whole_or_none() {
-        const std::string made = output();
-        EXPECT_TRUE(made.empty() || made == whole_) << "half of " << GetParam().output;
+        if (GetParam().made == Made::varies) return;
+        const Files files = made();
+        for (const auto& [path, content] : files) {
+            const auto found = whole_.find(path);
+            EXPECT_TRUE(found != whole_.end() && found->second == content) << "half of " << path;
+        }
+        if (GetParam().made == Made::together) {
+            EXPECT_TRUE(files.empty() || files.size() == whole_.size()) << "half of a result";
+        }
     }
     // Whether the call was reached.
     bool try_fault(const std::string& fault) {
         const Outcome outcome = run(fault);
         tried_ += outcome.hit;
         SCOPED_TRACE(fault + ": exit " + std::to_string(outcome.result.exit_code) + " " + outcome.result.err);
-        if (GetParam().draws && outcome.result.exit_code == 137) {
+        if (draws() && outcome.result.exit_code == 137) {
             ++hangs_;
             expect_whole_or_none();
             return outcome.hit;
         }
-        const bool crashed =
-            GetParam().draws && outcome.result.err.find("dermis: crashed (SIG") != std::string::npos;
+        const bool crashed = draws() && outcome.result.err.find("dermis: crashed (SIG") != std::string::npos;
         crashes_ += crashed;
         EXPECT_TRUE(crashed || (outcome.result.exit_code >= 0 && outcome.result.exit_code <= 2));
         if (outcome.result.exit_code != 0) {
             EXPECT_EQ(error_lines(outcome.result.err), 1);
-            if (GetParam().sidecar) {
-                EXPECT_EQ(output().empty(), !fs::exists(directory_.path / "work" / GetParam().sidecar))
-                    << "half of a result";
-            }
             expect_whole_or_none();
-        } else {
-            EXPECT_TRUE(output() == whole_) << "exit 0, but " << GetParam().output << " is another";
+        } else if (GetParam().made != Made::varies) {
+            EXPECT_TRUE(made() == whole_) << "exit 0, but the result is another";
         }
         expect_no_part_files();
         return outcome.hit;
     }
 
     TemporaryDirectory directory_;
-    std::string whole_;
+    Files whole_;
     int tried_ = 0, crashes_ = 0,
         hangs_ = 0;  ///< calls that were reached; those after which a driver crashed or waited for ever
+    inline static std::unique_ptr<VirtualDisplay> display_;
 };
 
 bool all_of_them() {
@@ -140,10 +145,13 @@ bool all_of_them() {
 }  // namespace
 
 TEST_P(Faults, end_with_one_line_and_nothing_half_written) {
+    if (std::string(GetParam().name) == "view" && display_->name().empty())
+        GTEST_SKIP() << "no Xvfb; apt-get install xvfb";
+    ASSERT_NO_FATAL_FAILURE(prepare());
     const Outcome good = run("none:0");
     ASSERT_EQ(good.result.exit_code, 0) << good.result.err;
-    whole_ = output();
-    const bool few = GetParam().draws && !all_of_them();  // a run of them is long
+    whole_ = made();
+    const bool few = GetParam().kind != Case::quick && !all_of_them();  // a run of them is long
     const int threads = few ? 3 : 200, files = all_of_them() ? 200 : few ? 1 : 3;
     for (int call = 1; call <= threads && try_fault("thread:" + std::to_string(call)); ++call) {
     }
@@ -155,7 +163,7 @@ TEST_P(Faults, end_with_one_line_and_nothing_half_written) {
          call = std::ceil(call * growth)) {
     }
     EXPECT_GT(tried_, 6);
-    if (GetParam().draws)
+    if (draws())
         std::printf(
             "%s: after %d failing calls the driver crashed %d times, with the line, and hung %d times\n",
             GetParam().name, tried_, crashes_, hangs_);

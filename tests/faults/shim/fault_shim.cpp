@@ -58,6 +58,7 @@ int (*g_main)(int, char**, char**) = nullptr;
 
 int counted_main(int argc, char** argv, char** environment) {
     read_settings();
+    ::unsetenv("LD_PRELOAD");  // the programs that this one starts do not fail
     g_counting = true;
     const int exit_code = g_main(argc, argv, environment);
     g_counting = false;
