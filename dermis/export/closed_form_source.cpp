@@ -15,12 +15,6 @@ namespace {
 // Steps of visibility that the edge is fitted at.
 constexpr int kRampSteps = 129;
 
-// Two digits, rounded up.
-std::string error_text(double error) {
-    const double unit = std::pow(10.0, std::floor(std::log10(std::max(error, 1e-6))) - 1);
-    return literal(std::ceil(error / unit) * unit);
-}
-
 // "    vec3 a = 0.5 + polynomial_6(u, vec3(...), ...);", the coefficients halved, as the light is half of
 // their sum.
 std::string half_polynomial(const std::string& name, double start, const CurvaturePolynomial& polynomial) {

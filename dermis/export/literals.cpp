@@ -1,7 +1,9 @@
 #include "dermis/export/literals.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "dermis/base/text.h"
 
@@ -27,6 +29,11 @@ std::string vec3_constant(const std::string& name, const Rgb& value) {
 std::string percent(double part) {
     const double rounded = double(int(part * 1e4 + 0.5)) / 100;
     return to_text(float(rounded)) + " %";
+}
+
+std::string error_text(double error) {
+    const double unit = std::pow(10.0, std::floor(std::log10(std::max(error, 1e-6))) - 1);
+    return literal(std::ceil(error / unit) * unit);
 }
 
 }  // namespace dermis::export_text

@@ -16,4 +16,7 @@ namespace dermis::export_text {
 /// "0.31 %" of a part of 1.
 [[nodiscard]] std::string percent(double part);
 
+/// Two digits, rounded up: "0.0027".
+[[nodiscard]] std::string error_text(double error);
+
 }  // namespace dermis::export_text

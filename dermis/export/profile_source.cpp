@@ -7,6 +7,7 @@
 #include "dermis/export/literals.h"
 #include "dermis/optics/gaussian_channels.h"
 #include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/gaussian_lobes.h"
 #include "dermis/optics/wrap_reach.h"
 
 namespace dermis {
@@ -34,6 +35,13 @@ std::string gaussian_constants(const std::vector<ChannelGaussians>& terms) {
     return text;
 }
 
+// One lobe's lines of a function over curvature: its kappa_i and its part_i of the light.
+std::string lobe_lines(size_t i, const std::string& weight, const std::string& variance) {
+    const std::string index = std::to_string(i);
+    return "    vec3 kappa_" + index + " = lobe_kappa(curvature_per_mm, " + variance + index + "Mm2);\n" +
+           "    vec3 part_" + index + " = " + weight + index + " * lobe_part(kappa_" + index + ");\n";
+}
+
 // "part_0 + part_1", or "part_0 * lobe_band_1(kappa_0) + ...".
 std::string sum_of(size_t count, const std::string& behind, const std::string& end) {
     std::string text;
@@ -48,12 +56,7 @@ std::string ambient_band(const std::string& comment, int band, const std::string
                          size_t count) {
     std::string text =
         comment + "vec3 skin_ambient_band_" + std::to_string(band) + "(float curvature_per_mm) {\n";
-    for (size_t i = 0; i < count; ++i) {
-        const std::string index = std::to_string(i);
-        text +=
-            "    vec3 kappa_" + index + " = lobe_kappa(curvature_per_mm, kSkinVariance" + index + "Mm2);\n";
-        text += "    vec3 part_" + index + " = kSkinWeight" + index + " * lobe_part(kappa_" + index + ");\n";
-    }
+    for (size_t i = 0; i < count; ++i) text += lobe_lines(i, "kSkinWeight", "kSkinVariance");
     text += "    vec3 total = " + sum_of(count, "", "") + ";\n";
     return text + "    return " + of_flat_skin + " * (" +
            sum_of(count, " * lobe_band_" + std::to_string(band) + "(kappa_", ")") + ") / total;\n}\n";
@@ -67,6 +70,32 @@ std::string ambient_functions(size_t count) {
                "keeps pi. curvature_per_mm is 0 upwards.\n",
                1, "2.0 * kPi / 3.0", count) +
            "\n" + ambient_band("", 2, "kPi / 4.0", count);
+}
+
+// Two leave up to 0.10 of wide skins, three 0.03 (jensen_skin2 0.09), for radii from 2 mm.
+constexpr int kLobes = 3;
+// The error is stated from this radius up.
+constexpr double kLeastLobeRadiusMm = 2;
+
+std::string spherical_gaussians_function(const GaussianSum& sum) {
+    const std::vector<ChannelGaussians> lobes = lobes_of(sum, kLobes, LobeWidth::deviation);
+    const double error = merging_error(sum, lobes, kLeastLobeRadiusMm) + kLobeLightError;
+    std::string text =
+        "// Diffuse light by " + std::to_string(lobes.size()) +
+        " spherical Gaussians, without a table; less exact than skin_diffuse.\n"
+        "// Radiant exitance over irradiance at normal incidence, 0 to 1. n_dot_l from -1 to 1;\n"
+        "// curvature_per_mm 0 upwards. Within " +
+        error_text(error) + " of the integral over the sphere where it is at most " +
+        literal(1 / kLeastLobeRadiusMm) +
+        ".\n// The profile as these lobes, red, green, blue: weights, and variances in mm^2.\n";
+    for (size_t i = 0; i < lobes.size(); ++i) {
+        text += vec3_constant("kSkinLobeWeight" + std::to_string(i), lobes[i].weight);
+        text += vec3_constant("kSkinLobeVariance" + std::to_string(i) + "Mm2", lobes[i].variance_mm2);
+    }
+    text += "\nvec3 skin_spherical_gaussians(float n_dot_l, float curvature_per_mm) {\n";
+    for (size_t i = 0; i < lobes.size(); ++i) text += lobe_lines(i, "kSkinLobeWeight", "kSkinLobeVariance");
+    return text + "    return (" + sum_of(lobes.size(), " * lobe_light(n_dot_l, kappa_", ")") + ") / (" +
+           sum_of(lobes.size(), "", "") + ");\n}\n";
 }
 
 std::string wrap_function(const WrapReach& reach) {
@@ -88,14 +117,15 @@ Result<shading::Source> profile_source(const Profile& profile) {
     if (const Result<void> good = check_preintegrable(fit.sum); !good) return good.error();
     const std::vector<ChannelGaussians> terms = by_channel(fit.sum);
     std::string text = heading(profile, fit);
-    for (const char* file : {"pi", "closed_form", "transmission", "wrap", "zonal"})
+    for (const char* file : {"pi", "closed_form", "spherical_gaussians", "transmission", "wrap", "zonal"})
         text += "#include \"shaders/include/skin/" + std::string(file) + ".glsl\"\n";
     const Result<std::string> diffuse = diffuse_function(fit.sum);
     if (!diffuse) return diffuse.error();
     const Result<std::string> shadow = shadow_function(profile);
     if (!shadow) return shadow.error();
-    text += "\n" + gaussian_constants(terms) + "\n" + *diffuse + "\n" + wrap_function(wrap_reach(fit.sum)) +
-            "\n" + ambient_functions(terms.size()) + "\n" + *shadow + "\n" + transmission_function(terms);
+    text += "\n" + gaussian_constants(terms) + "\n" + *diffuse + "\n" +
+            spherical_gaussians_function(fit.sum) + "\n" + wrap_function(wrap_reach(fit.sum)) + "\n" +
+            ambient_functions(terms.size()) + "\n" + *shadow + "\n" + transmission_function(terms);
     return shading::Source{"profile " + printable_line(profile.name), text};
 }
 

@@ -71,11 +71,7 @@ class SurfaceReader {
     SurfaceReader(std::string_view text, std::string_view place) : text_(text), place_(place) {}
 
     Result<Profile> read() {
-        const pugi::xml_parse_result parsed =
-            document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
-        if (!parsed)
-            return Error{at(parsed.offset) + "no complete XML: " + printable_line(parsed.description())};
-        if (const auto found = find_surface(); !found) return found.error();
+        if (const auto opened = open(); !opened) return opened.error();
         if (const auto checked = read_weight(); !checked) return checked.error();
         if (const auto read = read_color(); !read) return read.error();
         if (const auto read = read_lengths(); !read) return read.error();
@@ -87,7 +83,24 @@ class SurfaceReader {
                        printable_line(place_ + ": " + join(notes_, "; ")), *burley};
     }
 
+    Result<MtlxSurface> read_surface() {
+        if (const auto opened = open(); !opened) return opened.error();
+        const auto value = [&](const char* name, double low, double high) -> std::optional<double> {
+            if (!input(name)) return std::nullopt;
+            const Result<double> number = scalar(name, low, low, high);
+            return number ? std::optional(*number) : std::nullopt;
+        };
+        return MtlxSurface{value("specular_roughness", 0, 1), value("specular_ior", 1, 3)};
+    }
+
   private:
+    Result<void> open() {
+        const pugi::xml_parse_result parsed =
+            document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
+        if (!parsed)
+            return Error{at(parsed.offset) + "no complete XML: " + printable_line(parsed.description())};
+        return find_surface();
+    }
     std::string at(ptrdiff_t offset) const {
         const auto end = text_.begin() + std::clamp<ptrdiff_t>(offset, 0, ptrdiff_t(text_.size()));
         return place_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n')) + ": ";
@@ -274,6 +287,12 @@ Result<Profile> read_mtlx(const std::filesystem::path& path) {
     const Result<std::string> text = read_text_file(path);
     if (!text) return text.error();
     return parse_mtlx(*text, path.string());
+}
+
+Result<MtlxSurface> read_mtlx_surface(const std::filesystem::path& path) {
+    const Result<std::string> text = read_text_file(path);
+    if (!text) return text.error();
+    return SurfaceReader(*text, path.string()).read_surface();
 }
 
 std::string mtlx_text(const Profile& profile) {

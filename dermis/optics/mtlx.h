@@ -8,6 +8,7 @@
 // scale is a length per channel and no colour: it is not converted.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,15 @@ namespace dermis {
 /// node, a number out of its range, an unknown unit or colour space.
 [[nodiscard]] Result<Profile> parse_mtlx(std::string_view text, std::string_view place);
 [[nodiscard]] Result<Profile> read_mtlx(const std::filesystem::path& path);
+
+/// What of the same surface is no part of a profile but of a scene's skin; nothing where the file does not
+/// say it, or by a map, or out of its range. Both as skin.roughness and skin.ior of a scene: perceptual
+/// roughness, and the index of refraction.
+struct MtlxSurface {
+    std::optional<double> roughness, ior;
+};
+/// Errors: as of read_mtlx, for what is no document with one surface.
+[[nodiscard]] Result<MtlxSurface> read_mtlx_surface(const std::filesystem::path& path);
 
 /// A document of version 1.39 with the surface and its material; radius in cm, colour in lin_rec709. Without
 /// scattering direction: subsurface_scatter_anisotropy is 0.

@@ -5,6 +5,7 @@
 
 #include "dermis/base/text.h"
 #include "dermis/optics/burley_scaling.h"
+#include "dermis/optics/gltf_profile.h"
 #include "dermis/optics/mtlx.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/primaries.h"
@@ -157,17 +158,21 @@ std::vector<std::string> profile_names() {
 
 bool is_profile_file(std::string_view name) {
     const std::string extension = to_lower(std::filesystem::path(name).extension().string());
-    return extension == ".csv" || extension == ".mtlx";
+    return extension == ".csv" || extension == ".mtlx" || extension == ".glb" || extension == ".gltf";
 }
 
 Result<Profile> find_profile(std::string_view name) {
     for (const Preset& preset : presets())
         if (preset.name == name) return preset.make();
     if (name.starts_with("burley:")) return burley_from_lengths(name);
-    if (is_profile_file(name))
-        return to_lower(name).ends_with(".csv") ? read_profile_csv(name) : read_mtlx(name);
+    if (is_profile_file(name)) {
+        const std::string lower = to_lower(name);
+        return lower.ends_with(".csv")    ? read_profile_csv(name)
+               : lower.ends_with(".mtlx") ? read_mtlx(name)
+                                          : read_gltf_profile(name);
+    }
     return Error{unknown_name("profile", name, profile_names()) +
-                 ", or a .csv or .mtlx file, or burley:d_mm"};
+                 ", or a .csv, .mtlx, .glb or .gltf file, or burley:d_mm"};
 }
 
 }  // namespace dermis

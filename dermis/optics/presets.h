@@ -13,9 +13,9 @@ namespace dermis {
 /// In the order of the tables in docs/profiles.md.
 [[nodiscard]] std::vector<std::string> profile_names();
 
-/// A preset's name, the path of a profile CSV (profile_file.h) or of a MaterialX document (mtlx.h), or
-/// "burley:R,G,B" with three lengths d in mm (one number for all three) and albedo 1. Errors: an unknown name
-/// proposes the closest; files as read_profile_csv and read_mtlx.
+/// A preset's name, the path of a profile CSV (profile_file.h), a MaterialX document (mtlx.h) or a glTF file
+/// with skin (gltf_profile.h), or "burley:R,G,B" with one or three lengths d in mm and albedo 1. Errors: an
+/// unknown name proposes the closest; files as the functions that read them.
 [[nodiscard]] Result<Profile> find_profile(std::string_view name);
 
 /// Whether find_profile takes the name for a file's path.

@@ -203,7 +203,13 @@ bool lacks_asset(const SceneDescription& description) {
                                [&](const MapRow& row) { return lacks(description.maps.*row.from); });
 }
 
-Result<Scene> build_scene(const SceneDescription& description, std::span<const Subject> subjects) {
+Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject> subjects) {
+    SceneDescription description = given;
+    // A profile that is a file; one that is not there is named when the profile is read.
+    if (is_profile_file(description.skin.profile))
+        if (const Result<fs::path> file = resolve_path(description.skin.profile, description.file))
+            description.skin.profile = file->string();
+    description.skin = with_surface_of_profile(description.skin);
     const HeadDescription& head = description.head;
     Scene scene{.name = head.name.empty() ? description.file.stem().string() : head.name};
     SubjectScene stated;
@@ -231,10 +237,8 @@ Result<Scene> build_scene(const SceneDescription& description, std::span<const S
         if (!table) return Error{description.file.string() + ": " + key + table.error().message};
         *path = table->string();
     }
-    // A profile that is a file; one that is not there is named when the profile is read.
-    if (is_profile_file(scene.skin.profile))
-        if (const Result<fs::path> file = resolve_path(scene.skin.profile, description.file))
-            scene.skin.profile = file->string();
+    if (std::string differs = surface_difference(scene.skin); !differs.empty())
+        scene.warnings.push_back(std::move(differs));
     scene.credit = head.credit;
     scene.technique = head.technique;
     scene.settings = description.settings;

@@ -6,6 +6,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
+#include "dermis/optics/presets.h"
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_checks.h"
@@ -59,6 +60,15 @@ Result<Scene> load_scene_file(const fs::path& path, const SceneOptions& options)
     return instead;
 }
 
+// The profile of a mesh whose skin states one; what the file has and a profile has not is named.
+void take_profile(const fs::path& path, Scene& scene) {
+    const Result<Profile> profile = find_profile(path.string());
+    if (!profile)
+        return scene.warnings.push_back(profile.error().message + "; skin.profile stays " +
+                                        scene.skin.profile);
+    scene.skin.profile = path.string();
+}
+
 // Where a mesh states which of its materials scatter, those are skin; otherwise all but cards.
 std::vector<MaterialClass> classes_of(const Mesh& mesh) {
     const auto scatters = [](const Material& m) { return m.scattering.has_value(); };
@@ -89,6 +99,9 @@ Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) 
     for (size_t i = 0; i < object.classes.size(); ++i)
         if (object.classes[i] == MaterialClass::skin && !object.mesh.materials[i].scattering)
             apply_skin(scene.skin, object.mesh.materials[i]);
+    if (std::ranges::any_of(object.mesh.materials,
+                            [](const Material& m) { return m.scattering.has_value(); }))
+        take_profile(path, scene);
     place_in_studio(scene);
     return scene;
 }

@@ -2,11 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "dermis/base/angle.h"
+#include "dermis/base/text.h"
+#include "dermis/optics/mtlx.h"
 #include "shaders/include/constants.h"
 
 namespace dermis {
+namespace {
+
+// Nothing where the profile is no MaterialX document; what is wrong with one is said when the profile is
+// read.
+MtlxSurface surface_of_profile(const Skin& skin) {
+    if (!to_lower(skin.profile).ends_with(".mtlx")) return {};
+    const Result<MtlxSurface> surface = read_mtlx_surface(skin.profile);
+    MtlxSurface found = surface ? *surface : MtlxSurface{};
+    if (found.ior && *found.ior > kMostSkinIor) found.ior.reset();
+    return found;
+}
+
+}  // namespace
+
+std::string surface_difference(const Skin& skin) {
+    const MtlxSurface surface = surface_of_profile(skin);
+    std::vector<std::string> parts;
+    const auto compare = [&](const char* name, const std::optional<double>& stated, const char* key,
+                             float has) {
+        if (stated && std::abs(*stated - double(has)) > 1e-4)
+            parts.push_back(std::string(name) + " " + to_text(float(*stated)) + " is not used: " + key +
+                            " is " + to_text(has));
+    };
+    compare("specular_roughness", surface.roughness, "skin.roughness", skin.roughness);
+    compare("specular_ior", surface.ior, "skin.ior", skin.ior);
+    return parts.empty() ? std::string() : skin.profile + ": " + join(parts, "; ");
+}
+
+Skin with_surface_of_profile(Skin skin) {
+    const MtlxSurface surface = surface_of_profile(skin);
+    if (surface.roughness && skin.roughness == Skin{}.roughness) skin.roughness = float(*surface.roughness);
+    if (surface.ior && skin.ior == Skin{}.ior) skin.ior = float(*surface.ior);
+    return skin;
+}
+
 void apply_skin(const Skin& skin, Material& material) {
     material.ior = skin.ior;
     material.roughness = skin.roughness;

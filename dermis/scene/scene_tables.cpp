@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dermis/base/text.h"
+#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_keys.h"
 #include "shaders/include/constants.h"
 
@@ -212,10 +213,12 @@ const KeyTable<MaterialDescription>& material_keys() {
 const KeyTable<Skin>& skin_keys() {
     static const KeyTable<Skin> table =
         KeyTable<Skin>()
-            .text(&Skin::profile,
-                  {.name = "profile",
-                   .doc = "a diffusion profile: its name (`dermis profile list`) or its file, .csv or .mtlx",
-                   .changeable = true})
+            .text(
+                &Skin::profile,
+                {.name = "profile",
+                 .doc = "a diffusion profile: its name (`dermis profile list`) or its file: .csv, .mtlx (its "
+                        "roughness and ior too, where the scene has none), or a .glb whose skin scatters",
+                 .changeable = true})
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})
@@ -223,7 +226,7 @@ const KeyTable<Skin>& skin_keys() {
                   {.name = "zonal_table",
                    .doc = "path of a table of `dermis bake zh`, with all orders or remapped, read instead of "
                           "baking one"})
-            .number(&Skin::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 2})
+            .number(&Skin::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = kMostSkinIor})
             .number(&Skin::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
             .number(&Skin::specular,
                     {.name = "specular", .doc = "scales the reflectance at normal incidence", .max = 10})

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "dermis/optics/presets.h"
+#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_views.h"
 #include "dermis/scene/toml_values.h"
@@ -235,7 +236,11 @@ Result<void> set_words(Scene& scene, std::span<const SceneWord> words) {
         if (!turned) fresh.environment.yaw_rad = scene.environment.yaw_rad;
         scene.environment = fresh.environment;
     }
+    const bool other_profile = fresh.skin.profile != scene.skin.profile;
     take_changes(old, fresh, scene);
+    if (other_profile)
+        if (std::string differs = surface_difference(scene.skin); !differs.empty())
+            scene.warnings.push_back(std::move(differs));
     if (camera) fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
     return {};
 }

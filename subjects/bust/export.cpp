@@ -1,12 +1,15 @@
 #include "subjects/bust/export.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
 #include "dermis/base/parallel.h"
 #include "dermis/base/text.h"
+#include "dermis/image/colour.h"
 #include "dermis/image/io.h"
 #include "dermis/mesh/write_mesh.h"
+#include "dermis/optics/gltf_profile.h"
 
 namespace dermis {
 namespace {
@@ -21,6 +24,40 @@ Image in_channel(const Image& grey, int channels, int channel, uint8_t rest) {
         for (int c = 0; c < channels; ++c)
             to[i * size_t(channels) + size_t(c)] = c == channel ? from[i] : rest;
     return image;
+}
+
+// Of the map's colours on the mesh, by area.
+Rgb mean_albedo(const Bust& bust) {
+    const Mesh& mesh = bust.mesh;
+    const Image& map = bust.albedo;
+    Rgb sum = {};
+    double area_mm2 = 0;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+        const Vec3 ab = mesh.positions_mm[b] - mesh.positions_mm[a],
+                   ac = mesh.positions_mm[c] - mesh.positions_mm[a];
+        const double weight = length(cross(ab, ac)) / 2;
+        const Vec2 uv = (mesh.uvs[a] + mesh.uvs[b] + mesh.uvs[c]) * (1.0f / 3);
+        const int x = std::clamp(int(uv.x * float(map.width)), 0, map.width - 1);
+        const int y = std::clamp(int(uv.y * float(map.height)), 0, map.height - 1);
+        for (int k = 0; k < 3; ++k) sum[size_t(k)] += weight * double(srgb_decode(map.at(x, y, k)));
+        area_mm2 += weight;
+    }
+    for (double& channel : sum) channel /= area_mm2;
+    return sum;
+}
+
+// Light enters the body where it would be reflected diffusely, and leaves it after scattering. The thickness
+// is that of a head: what draws by it alone lets no light through.
+Material::Scattering body_of(const Profile& profile, const Bust& bust) {
+    constexpr float kHeadWidth_mm = 155;
+    const GltfVolume volume = gltf_volume(profile, mean_albedo(bust));
+    const auto color = [](const Rgb& c) { return Vec3{float(c[0]), float(c[1]), float(c[2])}; };
+    return {.thickness_mm = kHeadWidth_mm,
+            .attenuation_color = color(volume.attenuation_color),
+            .attenuation_distance_mm = float(volume.attenuation_distance_m * 1000),
+            .multiscatter_color = color(volume.multiscatter_color),
+            .diffuse_transmission = 1};
 }
 
 Result<Mesh> with_embedded_maps(const Bust& bust) {
@@ -53,11 +90,12 @@ Result<Mesh> with_embedded_maps(const Bust& bust) {
 
 }  // namespace
 
-Result<void> write_bust(const std::filesystem::path& path, const Bust& bust) {
+Result<void> write_bust(const std::filesystem::path& path, const Bust& bust, const Profile& profile) {
     const std::string extension = to_lower(path.extension().string());
     if (extension == ".obj") return write_obj(path, bust.mesh);
     if (extension != ".glb") return Error{path.string() + ": the bust is written as .glb or .obj"};
-    const Result<Mesh> mesh = with_embedded_maps(bust);
+    Result<Mesh> mesh = with_embedded_maps(bust);
+    if (mesh) mesh->materials[0].scattering = body_of(profile, bust);
     return mesh ? write_glb(path, *mesh) : mesh.error();
 }
 

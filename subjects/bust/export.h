@@ -3,14 +3,17 @@
 
 #include <filesystem>
 
+#include "dermis/optics/profile.h"
 #include "subjects/bust/bust.h"
 
 namespace dermis {
 
 /// By extension: .glb with albedo, normal, roughness and specular embedded as PNG (glTF has no place for the
-/// kernel size), or .obj without maps. Errors: another extension, an unwritable file. About 3 s of one core
+/// kernel size) and the profile as a volume that scatters (optics/gltf_profile.h), or .obj with neither.
+/// Errors: another extension, an unwritable file. About 3 s of one core
 /// at 2048.
-[[nodiscard]] Result<void> write_bust(const std::filesystem::path& path, const Bust& bust);
+[[nodiscard]] Result<void> write_bust(const std::filesystem::path& path, const Bust& bust,
+                                      const Profile& profile);
 
 /// albedo.png, normal.png, roughness.png, specular.png and kernel_size.png into `folder`, which is made if
 /// missing.

@@ -3,11 +3,11 @@
 // irradiance is Hill's fit. Changed: the sharpness follows from the profile and the curvature at the point,
 // and any number of lobes add up to the profile.
 
+#include "dermis/optics/gaussian_lobes.h"
 #include "dermis/technique/forward.h"
 #include "dermis/technique/transmission.h"
 #include "techniques/spherical_gaussians/constants.h"
 #include "techniques/spherical_gaussians/figures.h"
-#include "techniques/spherical_gaussians/lobes.h"
 
 namespace dermis {
 namespace {
@@ -16,7 +16,7 @@ using namespace spherical_gaussians;
 
 struct Params {
     int32_t lobes = 2;
-    Width width = Width::deviation;
+    LobeWidth width = LobeWidth::deviation;
     Transmission transmission = Transmission::shadow_map;
     SpecularModel specular = SpecularModel::ggx;
 };

@@ -3,8 +3,11 @@
 #include <filesystem>
 
 #include "bust/standard_bust.h"
+#include "dermis/image/colour.h"
 #include "dermis/image/io.h"
 #include "dermis/mesh/read_mesh.h"
+#include "dermis/optics/presets.h"
+#include "dermis/scene/load_scene.h"
 #include "subjects/bust/export.h"
 
 namespace dermis {
@@ -14,6 +17,9 @@ namespace {
 Bust with_small_maps() {
     Bust bust = standard_bust();
     bust.albedo = Image(8, 8, 3, PixelFormat::u8, Encoding::srgb);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            for (int c = 0; c < 3; ++c) bust.albedo.set(x, y, c, 0.8f - 0.2f * float(c));
     bust.normal = Image(8, 8, 3, PixelFormat::u8);
     bust.roughness = Image(8, 8, 1, PixelFormat::u8);
     bust.roughness.set(3, 2, 0, 0.4f);
@@ -26,7 +32,7 @@ Bust with_small_maps() {
 TEST(BustExport, GlbReadsBackWithItsMapsInGltfsChannels) {
     const std::filesystem::path path = TestCache::folder() / "bust.glb";
     const Bust bust = with_small_maps();
-    ASSERT_TRUE(write_bust(path, bust).ok());
+    ASSERT_TRUE(write_bust(path, bust, *find_profile("gpu_gems_3")).ok());
     const Result<LoadedMesh> read = read_mesh(path);
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_EQ(read->mesh.indices.size(), bust.mesh.indices.size());
@@ -43,9 +49,31 @@ TEST(BustExport, GlbReadsBackWithItsMapsInGltfsChannels) {
     EXPECT_NEAR(specular->image.at(5, 6, 3), 0.8f, 0.002f);
 }
 
+// A blur has no albedo: the file has that of the map, and its mean radius.
+TEST(BustExport, GlbCarriesTheProfileThatItIsReadBackAs) {
+    const std::filesystem::path path = TestCache::folder() / "bust_profile.glb";
+    for (const char* name : {"gpu_gems_3", "openpbr_skin_5"}) {
+        const Profile profile = *find_profile(name);
+        ASSERT_TRUE(write_bust(path, with_small_maps(), profile));
+        const Result<Profile> read = find_profile(path.string());
+        ASSERT_TRUE(read) << read.error().message;
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(mean_radius_mm(*read, c), mean_radius_mm(profile, c), 1e-5) << name;
+            const bool blur = name == std::string_view("gpu_gems_3");
+            const double albedo = blur ? srgb_decode(0.8f - 0.2f * float(c)) : diffuse_albedo(profile, c);
+            EXPECT_NEAR(diffuse_albedo(*read, c), albedo, 0.004) << name;
+        }
+        const Result<Scene> scene = load_scene(path.string(), {});
+        ASSERT_TRUE(scene) << scene.error().message;
+        EXPECT_EQ(scene->skin.profile, path.string());
+        EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
+        EXPECT_EQ(scene->objects[0].classes[0], MaterialClass::skin);
+    }
+}
+
 TEST(BustExport, AnUnknownExtensionIsRefusedAndNothingIsWritten) {
     const std::filesystem::path path = TestCache::folder() / "bust.stl";
-    const Result<void> written = write_bust(path, with_small_maps());
+    const Result<void> written = write_bust(path, with_small_maps(), *find_profile("gpu_gems_3"));
     ASSERT_FALSE(written.ok());
     EXPECT_NE(written.error().message.find(".glb or .obj"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(path));

@@ -41,6 +41,12 @@ struct SceneDirectory : TemporaryDirectory {
     std::string file(const char* name) const { return (path / name).string(); }
 };
 
+std::string all_warnings(const Scene& scene) {
+    std::string all;
+    for (const std::string& warning : scene.warnings) all += warning + "\n";
+    return all;
+}
+
 // The environment variables of asset lookup, restored at the end.
 struct Variable {
     std::string name;
@@ -61,6 +67,28 @@ struct Variable {
 const std::string kMesh = "[[mesh]]\nfile = \"two.obj\"\nunit_mm = 100\n";
 
 }  // namespace
+
+TEST(LoadScene, a_materialx_profile_brings_roughness_and_ior_where_the_scene_has_none) {
+    const SceneDirectory dir;
+    dir.put("skin.mtlx",
+            "<materialx version=\"1.39\"><open_pbr_surface name=\"s\" type=\"surfaceshader\">"
+            "<input name=\"subsurface_weight\" type=\"float\" value=\"1\" />"
+            "<input name=\"specular_roughness\" type=\"float\" value=\"0.25\" />"
+            "<input name=\"specular_ior\" type=\"float\" value=\"1.55\" />"
+            "</open_pbr_surface></materialx>");
+    const std::string toml = "[[mesh]]\nfile = \"two.obj\"\n[skin]\nprofile = \"skin.mtlx\"\n";
+    const Result<Scene> both = dir.load(toml);
+    ASSERT_TRUE(both) << both.error().message;
+    EXPECT_FLOAT_EQ(both->objects[0].mesh.materials[0].roughness, 0.25f);
+    EXPECT_FLOAT_EQ(both->objects[0].mesh.materials[0].ior, 1.55f);
+    EXPECT_EQ(all_warnings(*both).find("specular"), std::string::npos);
+    const Result<Scene> own = dir.load(toml + "roughness = 0.6\n");
+    ASSERT_TRUE(own) << own.error().message;
+    EXPECT_FLOAT_EQ(own->objects[0].mesh.materials[0].roughness, 0.6f);
+    EXPECT_FLOAT_EQ(own->objects[0].mesh.materials[0].ior, 1.55f);
+    EXPECT_NE(all_warnings(*own).find("specular_roughness 0.25 is not used: skin.roughness is 0.6"),
+              std::string::npos);
+}
 
 TEST(LoadScene, keys_without_effect_are_named) {
     const SceneDirectory directory;

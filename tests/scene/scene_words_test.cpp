@@ -90,6 +90,24 @@ TEST(SceneWords, the_hash_follows_the_content_of_a_profile_file) {
     EXPECT_NE(*hash_of(scene), before);
 }
 
+// Roughness and ior are read while a scene is loaded: a word that comes later tells what it leaves.
+TEST(SceneWords, a_materialx_profile_says_which_of_its_surface_is_not_used) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path / "skin.mtlx").string();
+    std::string text = mtlx_text(*find_profile("openpbr_skin_1"));
+    ASSERT_TRUE(write_text_file(file, text));
+    Scene scene = spheres();
+    ASSERT_EQ(error_of(scene, {{"skin.profile", file}}), "");
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    const size_t at = text.find("<input name=\"specular_ior\"");
+    text.insert(at, "<input name=\"specular_roughness\" type=\"float\" value=\"0.25\" />");
+    ASSERT_TRUE(write_text_file(file, text));
+    scene = spheres();
+    ASSERT_EQ(error_of(scene, {{"skin.profile", file}}), "");
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0], file + ": specular_roughness 0.25 is not used: skin.roughness is 0.45");
+}
+
 TEST(SceneWords, what_no_word_names_keeps_its_bits) {
     Scene scene = spheres();
     scene.camera.eye_mm = {101.3f, 55.7f, 611.9f};

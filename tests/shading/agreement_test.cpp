@@ -4,6 +4,8 @@
 
 #include "catalog/catalog.h"
 #include "dermis/export/profile_source.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
 #include "shading/evaluate.h"
 #include "support/gpu_fixture.h"
@@ -33,6 +35,13 @@ class Agreement : public gpu::GpuTest {
         const auto reference = evaluate(Language::cpp);
         ASSERT_TRUE(reference) << reference.error().message;
         reference_ = *reference;
+    }
+
+    // Its arguments and its results in C++.
+    static std::pair<const Sampled*, const std::vector<float>*> sampled_function(std::string_view name) {
+        for (size_t i = 0; i < functions_.size(); ++i)
+            if (functions_[i].name == name) return {&functions_[i], &reference_[i]};
+        return {};
     }
 
     // The text, with a mistake if one is given.
@@ -100,6 +109,32 @@ TEST_F(Agreement, finds_a_mistake_in_each_language) {
                 ElementsAre("curvature_from_derivatives"));
     EXPECT_THAT(differing(evaluate(Language::cpp, "max(4.0f * h_dot_v", "max(4.01f * h_dot_v")),
                 ElementsAre("kelemen_szirmay_kalos"));
+}
+
+// What the comments of the table-free diffuse functions promise, on spheres of every radius that they name.
+TEST_F(Agreement, of_the_diffuse_functions_with_the_integral_is_as_good_as_they_say) {
+    const Profile profile = *find_profile("openpbr_skin_5");
+    const GaussianSum gaussians = to_gaussian_sum(profile).sum;
+    const std::string text = profile_source(profile)->text;
+    for (const auto& [name, most_per_mm] :
+         {std::pair{"skin_diffuse", 1.0}, {"skin_spherical_gaussians", 0.5}}) {
+        const size_t function = text.find(std::string("vec3 ") + name + "(");
+        ASSERT_NE(function, std::string::npos) << name;
+        const size_t promise = text.rfind("Within ", function);
+        const double promised = std::stod(text.substr(promise + 7));
+        const auto [sampled, results] = sampled_function(name);
+        ASSERT_TRUE(sampled) << name;
+        double worst = 0;
+        for (size_t i = 0; i < 4000; ++i) {
+            const double n_dot_l = double(sampled->inputs[2 * i]), k = double(sampled->inputs[2 * i + 1]);
+            if (k > most_per_mm) continue;
+            const Rgb exact = preintegrated_diffuse(gaussians, n_dot_l, 1 / std::max(k, 1e-6));
+            for (size_t c = 0; c < 3; ++c)
+                worst = std::max(worst, std::abs(double((*results)[4 * i + c]) - exact[c]));
+        }
+        EXPECT_LT(worst, promised) << name;
+        EXPECT_GT(worst, promised / 3) << name << ": the comment says less than is true";
+    }
 }
 
 // WGSL has no other compiler here; ESSL 3.00 is compiled as what it is. Fewer samples, see kBrowserSamples.

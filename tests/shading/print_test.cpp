@@ -101,7 +101,7 @@ TEST(Print, the_skin_is_printed_in_every_language_the_same_every_time) {
             EXPECT_THAT(*text, HasSubstr(name));
             for (const char* function :
                  {"ggx(", "kelemen_szirmay_kalos(", "skin_wrap(", "skin_ambient_band_1(", "skin_diffuse(",
-                  "skin_shadow_edge(", "skin_transmittance("})
+                  "skin_spherical_gaussians(", "skin_shadow_edge(", "skin_transmittance("})
                 EXPECT_THAT(*text, HasSubstr(function)) << language;
             EXPECT_THAT(*text, Not(HasSubstr("shaders/include"))) << language;
             for (const std::string_view line : split(*text, '\n')) {

@@ -4,6 +4,8 @@
 
 #include "command.h"
 #include "dermis/base/text.h"
+#include "dermis/optics/gltf_profile.h"
+#include "dermis/optics/presets.h"
 #include "dermis/scene/subject.h"
 #include "parameter_list.h"
 #include "subjects/bust/bust.h"
@@ -13,7 +15,7 @@ namespace dermis::cli {
 namespace {
 
 struct ExportMeshOptions {
-    std::string mesh = "builtin:bust", path, maps;
+    std::string mesh = "builtin:bust", path, maps, profile = "gpu_gems_3";
     std::map<std::string, std::optional<std::string>> parameters;
 };
 
@@ -24,12 +26,17 @@ Result<int> run(const ExportMeshOptions& options) {
     for (const auto& [parameter, text] : options.parameters)
         if (text)
             if (const Result<void> set = values.set(parameter, *text); !set) return set.error();
+    const Result<Profile> profile = find_profile(options.profile);
+    if (!profile) return Error{"--profile: " + profile.error().message};
     const Result<Bust> bust = make_bust(values.as<BustParams>());
     if (!bust) return bust.error();
-    if (const auto written = write_bust(options.path, *bust); !written) return written.error();
+    if (const auto written = write_bust(options.path, *bust, *profile); !written) return written.error();
     if (!options.maps.empty())
         if (const auto written = write_bust_maps(options.maps, *bust); !written) return written.error();
     std::printf("%s: %zu triangles\n", options.path.c_str(), bust->mesh.triangle_count());
+    const bool is_obj = to_lower(options.path).ends_with(".obj");
+    std::printf("  %s\n", is_obj ? "OBJ has no place for the profile and for maps of specular and kernel size"
+                                 : gltf_note(*profile).c_str());
     return 0;
 }
 
@@ -45,11 +52,14 @@ std::string flag_of(std::string_view name) {
 
 void add_export_mesh_command(CommandLine& line) {
     auto options = std::make_shared<ExportMeshOptions>();
-    Command* command = line.add("export-mesh", "Writes the built-in head with its skin as GLB or OBJ",
-                                "dermis export-mesh builtin:bust -o bust.glb\n"
-                                "  dermis export-mesh builtin:bust --tone 5 --maps maps/ -o bust.obj");
+    Command* command =
+        line.add("export-mesh", "Writes the built-in head with its skin as GLB or OBJ",
+                 "dermis export-mesh builtin:bust -o bust.glb\n"
+                 "  dermis export-mesh builtin:bust --tone 5 --profile openpbr_skin_5 -o dark.glb");
     command->add_option("mesh", options->mesh, "builtin:bust");
     command->add_option("-o,--output", options->path, "file to write, .glb or .obj")->required();
+    command->add_option("--profile", options->profile,
+                        "of the GLB's material: preset, .csv, .mtlx or .glb file, or burley:R,G,B");
     command->add_option("--maps", options->maps, "folder for all maps as PNG, kernel size included");
     for (const Parameter& row : bust_parameters().parameters)
         command->add_option(flag_of(row.name), options->parameters[row.name],

@@ -1,9 +1,10 @@
-#include "techniques/spherical_gaussians/lobes.h"
+#include "dermis/optics/gaussian_lobes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
-namespace dermis::spherical_gaussians {
+namespace dermis {
 namespace {
 
 constexpr double kLeastVarianceMm2 = 1e-6;
@@ -25,10 +26,10 @@ std::vector<Lobe> lobes_of_channel(const std::vector<ChannelGaussians>& gaussian
     return lobes;
 }
 
-Lobe merged(const Lobe& a, const Lobe& b, Width width) {
+Lobe merged(const Lobe& a, const Lobe& b, LobeWidth width) {
     const double weight = a.weight + b.weight;
     const auto mean = [&](double of_a, double of_b) { return (a.weight * of_a + b.weight * of_b) / weight; };
-    if (width == Width::variance) return {weight, mean(a.variance_mm2, b.variance_mm2)};
+    if (width == LobeWidth::variance) return {weight, mean(a.variance_mm2, b.variance_mm2)};
     const double deviation = mean(std::sqrt(a.variance_mm2), std::sqrt(b.variance_mm2));
     return {weight, deviation * deviation};
 }
@@ -39,7 +40,7 @@ double loss(const Lobe& a, const Lobe& b) {
     return a.weight * b.weight / (a.weight + b.weight) * apart * apart;
 }
 
-void merge_nearest(std::vector<Lobe>& lobes, Width width) {
+void merge_nearest(std::vector<Lobe>& lobes, LobeWidth width) {
     size_t best = 0;
     for (size_t i = 1; i + 1 < lobes.size(); ++i)
         if (loss(lobes[i], lobes[i + 1]) < loss(lobes[best], lobes[best + 1])) best = i;
@@ -49,7 +50,7 @@ void merge_nearest(std::vector<Lobe>& lobes, Width width) {
 
 }  // namespace
 
-std::vector<ChannelGaussians> lobes_of(const GaussianSum& profile, int count, Width width) {
+std::vector<ChannelGaussians> lobes_of(const GaussianSum& profile, int count, LobeWidth width) {
     const std::vector<ChannelGaussians> gaussians = by_channel(profile);
     std::vector<ChannelGaussians> all;
     for (size_t c = 0; c < 3; ++c) {
@@ -64,4 +65,28 @@ std::vector<ChannelGaussians> lobes_of(const GaussianSum& profile, int count, Wi
     return all;
 }
 
-}  // namespace dermis::spherical_gaussians
+double merging_error(const GaussianSum& profile, const std::vector<ChannelGaussians>& lobes,
+                     double least_radius_mm) {
+    GaussianSum few;
+    for (const ChannelGaussians& lobe : lobes)
+        for (size_t c = 0; c < 3; ++c) {
+            GaussianTerm term{.variance_mm2 = lobe.variance_mm2[c], .weight = {0, 0, 0}};
+            term.weight[c] = lobe.weight[c];
+            few.terms.push_back(term);
+        }
+    constexpr int kCosines = 33, kRadii = 9;
+    std::vector<double> n_dot_l;
+    for (int i = 0; i < kCosines; ++i) n_dot_l.push_back(2.0 * i / (kCosines - 1) - 1);
+    const DiffuseRows rows(n_dot_l);
+    std::vector<double> exact(3 * n_dot_l.size()), merged(exact.size());
+    double worst = 0;
+    for (int i = 0; i < kRadii; ++i) {
+        const double radius_mm = least_radius_mm * std::pow(2, 0.5 * i);
+        rows.evaluate(profile, radius_mm, std::span(exact));
+        rows.evaluate(few, radius_mm, std::span(merged));
+        for (size_t k = 0; k < exact.size(); ++k) worst = std::max(worst, std::abs(exact[k] - merged[k]));
+    }
+    return worst;
+}
+
+}  // namespace dermis

@@ -1,0 +1,29 @@
+#pragma once
+// The profile as a few Gaussians a channel, for shaders that take a lobe of light for each (Pettineo 2020).
+
+#include "dermis/optics/gaussian_channels.h"
+
+namespace dermis {
+
+/// What a Gaussian keeps of the two that it replaces, besides their weight.
+enum class LobeWidth : int32_t {
+    deviation,  ///< mean standard deviation
+    variance
+};
+
+/// `count` Gaussians at most in each channel, whose weights sum to 1. Neighbours in width are replaced by one
+/// until no more are left, first those that lose least. On gently curved skin the light at the terminator is
+/// sum w sqrt(v / 2 pi) / r, which LobeWidth::deviation keeps; LobeWidth::variance keeps the mean cosine of
+/// the lobes instead, and reaches too far. A channel without reflectance has one Gaussian of no width that
+/// matters.
+[[nodiscard]] std::vector<ChannelGaussians> lobes_of(const GaussianSum& profile, int count, LobeWidth width);
+
+/// How far the light of the lobes is at most from that of the profile, both integrated over spheres of
+/// least_radius_mm and more: what the merging costs.
+[[nodiscard]] double merging_error(const GaussianSum& profile, const std::vector<ChannelGaussians>& lobes,
+                                   double least_radius_mm);
+
+/// What the irradiance of a lobe in shaders/include/skin/spherical_gaussians.glsl adds at most.
+inline constexpr double kLobeLightError = 0.018;
+
+}  // namespace dermis

@@ -1,0 +1,193 @@
+#include "dermis/optics/gltf_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/optics/conversions.h"
+
+namespace dermis {
+namespace {
+
+using Json = nlohmann::json;
+
+// The JSON of a GLB (glTF 2.0, section 4.4), or the whole of a file that is none.
+Result<std::string_view> json_of(std::span<const std::byte> file) {
+    constexpr uint32_t kJsonChunk = 0x4E4F534A;
+    constexpr size_t kHeader = 20;
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    if (!text.starts_with("glTF")) return text;
+    if (file.size() < kHeader) return Error{"truncated: a GLB has at least 20 bytes"};
+    uint32_t size = 0, type = 0;
+    std::memcpy(&size, file.data() + 12, sizeof size);
+    std::memcpy(&type, file.data() + 16, sizeof type);
+    if (type != kJsonChunk) return Error{"the first chunk of a GLB must be its JSON"};
+    if (size > file.size() - kHeader) return Error{"truncated: its JSON passes the end of the file"};
+    return text.substr(kHeader, size);
+}
+
+// Of the document the materials alone: the rest may be large. Nothing nested deeper than they are is kept.
+Json materials_of(std::string_view text) {
+    constexpr int kDeepest = 16;
+    const auto keep = [](int depth, Json::parse_event_t event, const Json& parsed) {
+        if (depth > kDeepest) return false;
+        return depth != 1 || event != Json::parse_event_t::key || parsed == "materials";
+    };
+    Json document = Json::parse(text.begin(), text.end(), keep, false);
+    if (!document.is_object() || !document.contains("materials")) return Json::array();
+    return std::move(document["materials"]);
+}
+
+const Json* member(const Json* object, const char* key) {
+    if (!object || !object->is_object()) return nullptr;
+    const auto found = object->find(key);
+    return found == object->end() ? nullptr : &*found;
+}
+
+class MaterialReader {
+  public:
+    MaterialReader(const Json& material, std::string place) : place_(std::move(place)) {
+        const Json* extensions = member(&material, "extensions");
+        volume_ = member(extensions, "KHR_materials_volume");
+        old_scatter_ = member(extensions, "KHR_materials_volume_scatter");
+        scatter_ = member(extensions, "KHR_materials_scatter");
+        if (const Json* name = member(&material, "name"); name && name->is_string())
+            name_ = printable_line(name->get<std::string>(), 60);
+    }
+
+    [[nodiscard]] bool scatters() const { return old_scatter_ || scatter_; }
+
+    Result<Profile> read() {
+        // As the loader of meshes: the newer extension wins where a file has both.
+        const Json* scatter = scatter_ ? scatter_ : old_scatter_;
+        const char* extension = scatter_ ? "KHR_materials_scatter" : "KHR_materials_volume_scatter";
+        if (!volume_) return fail("has " + std::string(extension) + " without KHR_materials_volume");
+        notes_.push_back("material '" + name_ + "', " + extension +
+                         " with KHR_materials_volume: 1/sigma_t is the mean free path in m, "
+                         "multiscatterColorFactor linear Rec. 709");
+        if (const auto read = read_color(scatter); !read) return read.error();
+        if (const auto read = read_lengths(); !read) return read.error();
+        Result<BurleyProfile> burley = to_canonical(settings_);
+        if (!burley) return fail(burley.error().message);
+        if (const auto read = apply_anisotropy(scatter, *burley); !read) return read.error();
+        if (scatter_) {
+            const auto strength = numbers(scatter_, "scatterStrengthFactor", 1, {0});
+            if (!strength) return strength.error();
+            if (!((*strength)[0] > 0)) return fail("has scatterStrengthFactor 0: it does not scatter");
+            if ((*strength)[0] < 1) notes_.emplace_back("scatterStrengthFactor is read as 1");
+        }
+        for (const char* texture : {"multiscatterColorTexture", "scatterColorTexture"})
+            if (member(scatter, texture)) notes_.push_back(std::string(texture) + " is not read");
+        const std::string name = name_.empty() ? "gltf_material" : name_;
+        return Profile{name, printable_line(place_ + ": " + join(notes_, "; ")), *burley};
+    }
+
+  private:
+    Error fail(const std::string& what) const { return Error{place_ + ": material '" + name_ + "' " + what}; }
+
+    // `count` finite numbers, or the fallback where the key is missing; an empty fallback makes that an
+    // error.
+    Result<std::vector<double>> numbers(const Json* object, const char* key, size_t count,
+                                        std::vector<double> fallback) const {
+        const Json* found = member(object, key);
+        if (!found && !fallback.empty()) return fallback;
+        if (!found) return fail("has no " + std::string(key));
+        std::vector<double> values;
+        if (found->is_number()) values.push_back(found->get<double>());
+        if (found->is_array())
+            for (const Json& value : *found)
+                if (value.is_number()) values.push_back(value.get<double>());
+        if (values.size() != count || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+            return fail(std::string(key) + " must be " + std::to_string(count) + " finite number(s)");
+        return values;
+    }
+
+    Result<void> set(const char* key, const std::vector<double>& values) {
+        if (const auto set = set_value(settings_, key, values); !set) return fail(set.error().message);
+        return {};
+    }
+
+    Result<void> read_color(const Json* scatter) {
+        // The key of the first draft; files keep it.
+        const bool old_key =
+            !member(scatter, "multiscatterColorFactor") && member(scatter, "multiscatterColor");
+        const auto color =
+            numbers(scatter, old_key ? "multiscatterColor" : "multiscatterColorFactor", 3,
+                    scatter == scatter_ ? std::vector<double>{1, 1, 1} : std::vector<double>());
+        return color ? set("multiscatterColorFactor", *color) : color.error();
+    }
+
+    Result<void> read_lengths() {
+        const auto distance = numbers(volume_, "attenuationDistance", 1, {});
+        if (!distance) return distance.error();
+        const auto color = numbers(volume_, "attenuationColor", 3, {});
+        if (!color) return color.error();
+        if (const auto done = set("attenuationDistance", *distance); !done) return done;
+        return set("attenuationColor", *color);
+    }
+
+    // Burley's d is that of isotropic scattering with the same reduced mean free path, which is the mean free
+    // path over 1 - alpha g.
+    Result<void> apply_anisotropy(const Json* scatter, BurleyProfile& burley) {
+        const auto read = numbers(scatter, "scatterAnisotropy", 1, {0});
+        if (!read) return read.error();
+        const double g = (*read)[0];
+        if (!(std::abs(g) <= 0.99)) return fail("scatterAnisotropy must be -0.99 to 0.99");
+        if (g == 0) return {};
+        notes_.push_back("scatterAnisotropy " + to_text(g) +
+                         " is replaced by isotropic scattering of the same reduced mean free path");
+        for (size_t c = 0; c < 3; ++c)
+            burley.d_mm[c] /= 1 - single_scatter_albedo_of(burley.albedo[c], g) * g;
+        return {};
+    }
+
+    std::string place_, name_;
+    const Json *volume_, *old_scatter_, *scatter_;
+    ToolSettings settings_ = default_settings(ToolId::gltf_volume_scatter);
+    std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+Result<Profile> parse_gltf_profile(std::span<const std::byte> file, std::string_view place) {
+    const Result<std::string_view> text = json_of(file);
+    if (!text) return Error{std::string(place) + ": " + text.error().message};
+    const Json materials = materials_of(*text);
+    if (materials.is_array())
+        for (const Json& material : materials) {
+            MaterialReader reader(material, std::string(place));
+            if (reader.scatters()) return reader.read();
+        }
+    return Error{std::string(place) +
+                 ": no material that scatters (KHR_materials_volume_scatter or KHR_materials_scatter)"};
+}
+
+Result<Profile> read_gltf_profile(const std::filesystem::path& path) {
+    const Result<std::vector<std::byte>> file = read_file(path);
+    if (!file) return file.error();
+    return parse_gltf_profile(*file, path.string());
+}
+
+GltfVolume gltf_volume(const Profile& profile, const Rgb& surface_albedo) {
+    BurleyProfile burley = burley_equivalent(profile);
+    if (burley.albedo == Rgb{1, 1, 1}) burley.albedo = surface_albedo;
+    const std::vector<Rgb> values = to_tool(ToolId::gltf_volume_scatter, burley).values;
+    return {values[0], values[1], values[2][0]};
+}
+
+std::string gltf_note(const Profile& profile) {
+    std::string note = profile.name + " as KHR_materials_volume_scatter, linear Rec. 709: ";
+    note += std::holds_alternative<BurleyProfile>(profile.model)
+                ? "albedo and length are kept"
+                : "its mean radius is kept, its shape (" + model_name(profile) + ") is lost";
+    if (burley_equivalent(profile).albedo == Rgb{1, 1, 1})
+        note += "; its albedo of 1 becomes that of the map";
+    return note;
+}
+
+}  // namespace dermis
