@@ -69,7 +69,7 @@ std::string ambient_functions(size_t count) {
                "order 0 "
                "keeps pi. curvature_per_mm is 0 upwards.\n",
                1, "2.0 * kPi / 3.0", count) +
-           "\n" + ambient_band("", 2, "kPi / 4.0", count);
+           "\n" + ambient_band("// The same for order 2.\n", 2, "kPi / 4.0", count);
 }
 
 // Two leave up to 0.10 of wide skins, three 0.03 (jensen_skin2 0.09), for radii from 2 mm.
@@ -80,31 +80,32 @@ constexpr double kLeastLobeRadiusMm = 2;
 std::string spherical_gaussians_function(const GaussianSum& sum) {
     const std::vector<ChannelGaussians> lobes = lobes_of(sum, kLobes, LobeWidth::deviation);
     const double error = merging_error(sum, lobes, kLeastLobeRadiusMm) + kLobeLightError;
-    std::string text =
-        "// Diffuse light by " + std::to_string(lobes.size()) +
-        " spherical Gaussians, without a table; less exact than skin_diffuse.\n"
-        "// Radiant exitance over irradiance at normal incidence, 0 to 1. n_dot_l from -1 to 1;\n"
-        "// curvature_per_mm 0 upwards. Within " +
-        error_text(error) + " of the integral over the sphere where it is at most " +
-        literal(1 / kLeastLobeRadiusMm) +
-        ".\n// The profile as these lobes, red, green, blue: weights, and variances in mm^2.\n";
+    std::string text = "// The profile as " + std::to_string(lobes.size()) +
+                       " lobes, red, green, blue: weights, and variances in mm^2.\n";
     for (size_t i = 0; i < lobes.size(); ++i) {
         text += vec3_constant("kSkinLobeWeight" + std::to_string(i), lobes[i].weight);
         text += vec3_constant("kSkinLobeVariance" + std::to_string(i) + "Mm2", lobes[i].variance_mm2);
     }
-    text += "\nvec3 skin_spherical_gaussians(float n_dot_l, float curvature_per_mm) {\n";
+    text +=
+        "\n// Diffuse light by spherical Gaussians, without a table; less exact than skin_diffuse.\n"
+        "// Radiant exitance over irradiance at normal incidence, 0 to 1. n_dot_l from -1 to 1;\n"
+        "// curvature_per_mm 0 upwards. Within " +
+        error_text(error) + " of the integral over the sphere where it is at most " +
+        literal(1 / kLeastLobeRadiusMm) + ".\n";
+    text += "vec3 skin_spherical_gaussians(float n_dot_l, float curvature_per_mm) {\n";
     for (size_t i = 0; i < lobes.size(); ++i) text += lobe_lines(i, "kSkinLobeWeight", "kSkinLobeVariance");
     return text + "    return (" + sum_of(lobes.size(), " * lobe_light(n_dot_l, kappa_", ")") + ") / (" +
            sum_of(lobes.size(), "", "") + ");\n}\n";
 }
 
 std::string wrap_function(const WrapReach& reach) {
-    return "// Wrapped diffuse, without a table: radiant exitance over irradiance at normal incidence, 0 to "
-           "1. "
-           "n_dot_l from -1 to 1,\n// curvature_per_mm the mean curvature of the surface.\n" +
+    return "// Of the profile, in mm^2: how far wrapped diffuse reaches.\n" +
            vec3_constant("kSkinSecondMomentMm2", reach.second_moment_mm2) +
            vec3_constant("kSkinBendMm2", reach.bend_mm2) +
-           "\nvec3 skin_wrap(float n_dot_l, float curvature_per_mm) {\n"
+           "\n// Wrapped diffuse, without a table: radiant exitance over irradiance at normal incidence, 0 "
+           "to "
+           "1.\n// n_dot_l from -1 to 1, curvature_per_mm the mean curvature of the surface, any sign.\n"
+           "vec3 skin_wrap(float n_dot_l, float curvature_per_mm) {\n"
            "    return wrapped_cosine(n_dot_l, wrap_reach(curvature_per_mm, kSkinSecondMomentMm2, "
            "kSkinBendMm2));\n"
            "}\n";
