@@ -10,6 +10,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/burley_scaling.h"
+#include "dermis/optics/check_value.h"
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/primaries.h"
 

@@ -74,7 +74,7 @@ void add_bake_closed_form_command(CommandLine& line) {
     Command* command = line.add(
         "closed_form", "Coefficients and errors of the closed form, which needs no table",
         "dermis bake closed_form --profile jensen_skin1 -o skin.csv --plot errors.svg", bake_group(line));
-    command->add_option("--profile", options->profile, "preset, CSV file or burley:R,G,B");
+    command->add_option("--profile", options->profile, "preset, .csv, .mtlx or .glb file, or burley:R,G,B");
     command->add_option("--construction", options->construction, "sphere, ring or half_ring");
     command->add_option("--max-curvature", options->max_curvature_per_mm,
                         "curvature of the last row in 1/mm");

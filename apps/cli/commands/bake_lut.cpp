@@ -37,7 +37,7 @@ void add_bake_lut_command(CommandLine& line) {
                         "normalisation of the ring's Gaussians: line (as in published code) or area");
     command->add_option("--variance-scale", options->lut.variance_scale, "factor on every variance");
     command->add_option("--profile", options->lut.profile,
-                        "preset, CSV file or burley:R,G,B (see dermis profile list)");
+                        "preset, .csv, .mtlx or .glb file, or burley:R,G,B (see dermis profile list)");
     command->add_option("--size", options->lut.size, "WIDTHxHEIGHT or one side");
     command->add_option("--axis", options->lut.axis, "meaning of the rows: curvature (1/mm) or radius (mm)");
     command->add_option("--range", options->lut.range, "MIN,MAX of the rows' axis");

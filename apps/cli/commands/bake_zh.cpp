@@ -30,7 +30,8 @@ void add_bake_zh_command(CommandLine& line) {
                                 "dermis bake zh --profile gpu_gems_3 -o skin_zh.exr\n"
                                 "  dermis bake zh --layout remapped --construction ring -o skin_zh.png",
                                 bake_group(line));
-    command->add_option("--profile", options->zh.profile, "preset, CSV file or burley:R,G,B");
+    command->add_option("--profile", options->zh.profile,
+                        "preset, .csv, .mtlx or .glb file, or burley:R,G,B");
     command->add_option("--construction", options->zh.construction, "sphere, ring or half_ring");
     command->add_option("--axis", options->zh.axis,
                         "meaning of the columns: curvature (1/mm) or radius (mm)");

@@ -116,8 +116,8 @@ void add_export_command(CommandLine& line) {
         "--web", options->web,
         "a folder for any web server: a page that shows a scene's skin, with all that it needs");
     command->add_option("--profile", options->profile,
-                        "preset, CSV file or burley:R,G,B; default: " + std::string(kDefaultProfile) +
-                            ", or with --web the scene's");
+                        "preset, .csv, .mtlx or .glb file, or burley:R,G,B; default: " +
+                            std::string(kDefaultProfile) + ", or with --web the scene's");
     options->scene.add_to(*command)->capture_default_str();
     command
         ->add_option("-o,--output", options->output,

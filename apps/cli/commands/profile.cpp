@@ -178,7 +178,7 @@ void add_profile_command(CommandLine& line) {
                  "dermis profile convert jensen_skin1 --to hdrp");
     profile->require_subcommand();
     const auto options = std::make_shared<ProfileOptions>();
-    const char* name_help = "a preset's name, a CSV or .mtlx file, or burley:R,G,B (d in mm)";
+    const char* name_help = "a preset's name, a .csv, .mtlx or .glb file, or burley:R,G,B (d in mm)";
 
     Command* list_command =
         line.add("list", "Lists the built-in profiles", "dermis profile list --json", profile);
