@@ -10,6 +10,7 @@
 #include <system_error>
 #include <thread>
 
+#include "dermis/base/stop.h"
 #include "dermis/base/text.h"
 
 namespace dermis::python {
@@ -17,9 +18,6 @@ namespace {
 
 constexpr size_t kMaxMessageBytes = 4000;  // as the command line prints
 constexpr std::chrono::milliseconds kLookEvery{50};
-
-// Leaves work that takes no flag.
-struct Left {};
 
 // The work's thread tells the waiting one that it has ended.
 class Finish {
@@ -56,11 +54,6 @@ void check(const Result<void>& result) {
     if (!result) throw Failure(result.error());
 }
 
-void Watch::report_or_leave(double done) {
-    report(done);
-    if (stop_) throw Left();
-}
-
 void run_watched(const py::object& progress, const std::function<void(Watch&)>& work) {
     if (!progress.is_none() && !PyCallable_Check(progress.ptr()))
         throw py::type_error("progress: a function of one number, or None");
@@ -68,9 +61,10 @@ void run_watched(const py::object& progress, const std::function<void(Watch&)>& 
     Finish finish;
     std::exception_ptr thrown, raised;
     const auto run = [&] {
+        const StopScope scope(&watch.stopped());
         try {
             work(watch);
-        } catch (const Left&) {
+        } catch (const Stopped&) {
         } catch (...) {
             thrown = std::current_exception();
         }

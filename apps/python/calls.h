@@ -50,17 +50,16 @@ class Watch {
     [[nodiscard]] double done() const { return done_; }
     void stop() { stop_ = true; }
     [[nodiscard]] const std::atomic<bool>& stopped() const { return stop_; }
-    /// For work that takes no flag: leaves it by an exception, which run_watched() expects.
-    void report_or_leave(double done);
 
   private:
     std::atomic<double> done_ = 0;
     std::atomic<bool> stop_ = false;
 };
 
-/// Runs `work` on a thread of its own. This one, which Python called, waits without Python's lock, looks for
-/// Ctrl-C twenty times a second and hands the progress to `progress` (None or a callable of one number, 0 to
-/// 1). An exception of either stops the work, and is thrown when the work has ended.
+/// Runs `work` on a thread of its own, where it may be left by Stopped (dermis/base/stop.h). This one, which
+/// Python called, waits without Python's lock, looks for Ctrl-C twenty times a second and hands the progress
+/// to `progress` (None or a callable of one number, 0 to 1). An exception of either stops the work, and is
+/// thrown when the work has ended.
 void run_watched(const py::object& progress, const std::function<void(Watch&)>& work);
 
 /// The same for work with a result.

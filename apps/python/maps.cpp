@@ -1,6 +1,7 @@
 // Maps of a mesh over its UV atlas, as `dermis bake curvature` and its neighbours make them.
 
 #include "arrays.h"
+#include "dermis/base/stop.h"
 #include "dermis/rays/map_file.h"
 #include "map_options.h"
 #include "mesh_object.h"
@@ -39,7 +40,10 @@ cli::MapChoice choice_of(const std::string& kind, const py::dict& options) {
 MadeMap made_of(std::span<const SceneObject> objects, const BakeMapSettings& settings,
                 const std::string& mesh, const py::object& progress) {
     BakedMap map = watched(progress, [&](Watch& watch) {
-        return bake_map(objects, settings, [&](double done) { watch.report_or_leave(done); });
+        return bake_map(objects, settings, [&](double done) {
+            watch.report(done);
+            leave_if_stopped();
+        });
     });
     return {std::move(map), {mesh, settings}};
 }
@@ -48,7 +52,7 @@ MadeMap bake_of_scene(const std::string& kind, const std::string& mesh, const py
                       const py::object& progress) {
     cli::MapChoice choice = choice_of(kind, options);
     choice.mesh = mesh;
-    const cli::MapRequest request = value_of(unlocked([&] { return choice.request(); }));
+    const cli::MapRequest request = watched(py::none(), [&](Watch&) { return choice.request(); });
     return made_of(request.scene.objects, request.settings, mesh, progress);
 }
 

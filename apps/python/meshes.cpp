@@ -25,13 +25,13 @@ MeshObject read_mesh_file(const std::string& path, double unit_mm) {
             throw Failure({"--unit-mm: " + to_text(unit_mm) + " must be above 0"});
         options.unit_mm = unit_mm;
     }
-    LoadedMesh loaded = value_of(unlocked([&] { return read_mesh(path, options); }));
+    LoadedMesh loaded = watched(py::none(), [&](Watch&) { return read_mesh(path, options); });
     return {path, std::move(loaded.mesh), std::move(loaded.warnings)};
 }
 
 std::vector<MeshObject> of_scene(const std::string& name) {
-    Scene scene =
-        value_of(unlocked([&] { return load_scene(name, {.subjects = built_in_catalog().subjects}); }));
+    Scene scene = watched(
+        py::none(), [&](Watch&) { return load_scene(name, {.subjects = built_in_catalog().subjects}); });
     std::vector<MeshObject> meshes;
     for (SceneObject& object : scene.objects)
         meshes.push_back({object.name, std::move(object.mesh), scene.warnings, object.classes});
@@ -102,7 +102,9 @@ void check_smoothing(double smoothing_mm) {
 
 py::array_t<float> curvature(const MeshObject& object, double smoothing_mm) {
     check_smoothing(smoothing_mm);
-    std::vector<float> values = unlocked([&] { return compute_curvature(object.mesh, smoothing_mm); });
+    std::vector<float> values = watched(py::none(), [&](Watch&) -> Result<std::vector<float>> {
+        return compute_curvature(object.mesh, smoothing_mm);
+    });
     const auto count = py::ssize_t(values.size());
     return array_of(std::move(values), {count});
 }
@@ -111,7 +113,9 @@ py::array_t<float> curvature(const MeshObject& object, double smoothing_mm) {
 py::array_t<float> tensors(const MeshObject& object, double smoothing_mm) {
     check_smoothing(smoothing_mm);
     const std::vector<CurvatureTensor> values =
-        unlocked([&] { return compute_curvature_tensors(object.mesh, smoothing_mm); });
+        watched(py::none(), [&](Watch&) -> Result<std::vector<CurvatureTensor>> {
+            return compute_curvature_tensors(object.mesh, smoothing_mm);
+        });
     std::vector<float> numbers(values.size() * 6);
     std::memcpy(numbers.data(), values.data(), numbers.size() * sizeof(float));
     return array_of(std::move(numbers), {py::ssize_t(values.size()), 6});
@@ -120,7 +124,7 @@ py::array_t<float> tensors(const MeshObject& object, double smoothing_mm) {
 py::array_t<float> occlusion(const MeshObject& object, int rays) {
     if (rays < 1 || rays > 65536) throw Failure({"rays: " + std::to_string(rays) + ", must be 1 to 65536"});
     std::vector<float> values =
-        value_of(unlocked([&] { return compute_vertex_occlusion(object.mesh, {.rays = rays}); }));
+        watched(py::none(), [&](Watch&) { return compute_vertex_occlusion(object.mesh, {.rays = rays}); });
     const auto count = py::ssize_t(values.size());
     return array_of(std::move(values), {count});
 }

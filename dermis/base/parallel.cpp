@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "dermis/base/stop.h"
+
 namespace dermis {
 namespace {
 std::atomic<unsigned> g_limit = 0;
@@ -43,7 +45,8 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
     grain = std::max<size_t>(grain, 1);
     const size_t tasks = (count + grain - 1) / grain;
     const size_t threads = std::min<size_t>(thread_limit(), tasks);
-    if (threads <= 1) return body(0, count);
+    const std::atomic<bool>* stop = StopScope::flag();
+    if (threads <= 1 && !stop) return body(0, count);
     // Threads take chunks by a counter, so that uneven items balance. Eight chunks per thread keep the
     // contention on the counter low.
     const size_t chunk = std::max(grain, count / (threads * 8));
@@ -51,9 +54,12 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
     std::once_flag first;
     std::exception_ptr thrown;
     const auto work = [&] {
+        const StopScope scope(stop);  // of the thread that called
         try {
-            for (size_t begin; (begin = next.fetch_add(chunk)) < count;)
+            for (size_t begin; (begin = next.fetch_add(chunk)) < count;) {
+                leave_if_stopped();
                 body(begin, std::min(begin + chunk, count));
+            }
         } catch (...) {
             std::call_once(first, [&] { thrown = std::current_exception(); });
             next = count;

@@ -17,6 +17,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
 #include "dermis/base/result.h"
+#include "dermis/base/stop.h"
 #include "dermis/base/text.h"
 
 namespace fs = std::filesystem;
@@ -240,4 +241,40 @@ TEST(ParallelFor, passes_on_exceptions_of_its_body) {
                      std::bad_alloc);
     }
     set_thread_limit(0);
+}
+
+// On one core and on several: in the second chunk of a thread at the latest.
+TEST(Stop, leaves_a_loop_between_its_chunks) {
+    for (const unsigned threads : {1u, 4u}) {
+        set_thread_limit(threads);
+        std::atomic<bool> stop = false;
+        std::atomic<size_t> chunks = 0;
+        const auto body = [&](size_t, size_t) {
+            stop = true;
+            ++chunks;
+        };
+        const StopScope scope(&stop);
+        EXPECT_THROW(parallel_for(1000, 1, body), Stopped);
+        EXPECT_LE(chunks, threads);
+    }
+    set_thread_limit(0);
+}
+
+TEST(Stop, reaches_the_loops_inside_a_loop_and_ends_with_its_scope) {
+    std::atomic<bool> stop = true;
+    std::atomic<size_t> inner = 0;
+    {
+        const StopScope scope(&stop);
+        EXPECT_THROW(leave_if_stopped(), Stopped);
+        std::atomic<bool> other = false;
+        {
+            const StopScope without(&other);
+            EXPECT_NO_THROW(parallel_for(8, 1, [&](size_t, size_t) {
+                parallel_for(8, 1, [&](size_t begin, size_t end) { inner += end - begin; });
+            }));
+        }
+        EXPECT_THROW(leave_if_stopped(), Stopped);
+    }
+    EXPECT_NO_THROW(leave_if_stopped());
+    EXPECT_GT(inner, 0u);
 }

@@ -6,6 +6,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -105,6 +106,31 @@ sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
                 process.kill()
             # Minutes otherwise; the rows in work end in well under a second on an idle machine.
             self.assertLess(time.monotonic() - begun, 20)
+
+    def test_ctrl_c_ends_the_loading_of_a_scene(self):
+        code = ("import dermis\n"
+                "print('begun', flush=True)\n"
+                "try:\n"
+                "    dermis.render('bust', 'lambert', size=16)\n"
+                "except KeyboardInterrupt:\n"
+                "    print('interrupted', flush=True)\n"
+                "print(dermis.render('builtin:unit', 'lambert', size=16).radiance.shape)\n")
+        with tempfile.TemporaryDirectory() as cache:
+            environment = {**os.environ, "DERMIS_CACHE": cache}
+            with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
+                                  env=environment) as process:
+                self.assertEqual(process.stdout.readline(), "begun\n")
+                time.sleep(.3)
+                process.send_signal(signal.SIGINT)
+                try:
+                    self.assertEqual(process.communicate(timeout=100)[0], "interrupted\n(16, 16, 3)\n")
+                finally:
+                    process.kill()
+            kept = [path.relative_to(cache) for path in pathlib.Path(cache).rglob("*") if path.is_file()]
+            self.assertFalse([path for path in kept if ".part" in path.name])
+            # The last of what loading the bust computes; the unit sphere keeps nothing of this size.
+            sizes = [path.stat().st_size for path in pathlib.Path(cache, "curvature").glob("*")]
+            self.assertLess(max(sizes, default=0), 1_000_000)
 
     def test_other_threads_go_on(self):
         counted = 0
