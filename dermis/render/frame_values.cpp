@@ -28,10 +28,10 @@ Mat4 light_matrix_of(const Scene& scene, int light) {
 // Of LightSource in shaders/include/frame.glsl: the same for all pixels where the light's rays are parallel.
 struct MapAxes {
     Vec3 x_world, y_world;
-    Vec2 x_per_mm, y_per_mm;
-    float mm_per_z = 0;
+    float per_mm = 0, mm_per_z = 0;
 };
 
+// x and y are those that light_matrix() looks along.
 MapAxes map_axes(const Mat4& light_from_world, Vec3 to_light_world) {
     const Vec3 d = normalize(to_light_world);
     const Vec3 x = normalize(cross(up_for(d), d)), y = cross(d, x);
@@ -39,8 +39,7 @@ MapAxes map_axes(const Mat4& light_from_world, Vec3 to_light_world) {
         const auto row = [&](int i) { return m[i] * v.x + m[4 + i] * v.y + m[8 + i] * v.z; };
         return Vec3{0.5f * row(0), 0.5f * row(1), row(2)};
     };
-    const Vec3 along_x = in_map(x), along_y = in_map(y);
-    return {x, y, {along_x.x, along_x.y}, {along_y.x, along_y.y}, -1 / in_map(d).z};
+    return {x, y, in_map(x).x, -1 / in_map(d).z};
 }
 
 }  // namespace
@@ -83,8 +82,7 @@ std::vector<gpu::Values> light_values(const Scene& scene) {
                           {"light_view_projection", matrix},
                           {"x_world", axes.x_world},
                           {"y_world", axes.y_world},
-                          {"map_x_per_mm", axes.x_per_mm},
-                          {"map_y_per_mm", axes.y_per_mm},
+                          {"map_per_mm", axes.per_mm},
                           {"mm_per_map_z", axes.mm_per_z}});
     }
     if (lights.empty()) {
@@ -98,8 +96,7 @@ std::vector<gpu::Values> light_values(const Scene& scene) {
                           {"light_view_projection", Mat4{}},
                           {"x_world", Vec3{}},
                           {"y_world", Vec3{}},
-                          {"map_x_per_mm", Vec2{}},
-                          {"map_y_per_mm", Vec2{}},
+                          {"map_per_mm", 0.0f},
                           {"mm_per_map_z", 0.0f}});
     }
     return lights;

@@ -67,7 +67,7 @@ vec3 scattered_exitance(texture2D map, texture2D map_lit, Surface s, vec3 direct
 // spheres of 4 mm blur and transmission then come to 0.65 (texture_space) and 0.86 (Gaussians) times the integral, of 2 mm to
 // 1.05 and 1.11, where a point that counts in full wherever it is would come to 1.3 to 2.
 float part_not_counted(LightMap map, LitPoint lit) {
-    float turned = turned_away(map, lit);
+    float turned = turned_away(lit);
     return turned * turned;
 }
 

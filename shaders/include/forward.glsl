@@ -37,7 +37,7 @@ vec3 own_view(Surface s);
 // All light that comes through the skin is gathered, and counts where it is more than the technique's own. Left out is
 // what faces as the point itself does, which at grazing light the shadow map's texels are too coarse for.
 const float kOwnSide = 0.15;
-float part_not_counted(LightMap map, LitPoint lit) { return smoothstep(0.0, kOwnSide, turned_away(map, lit)); }
+float part_not_counted(LightMap map, LitPoint lit) { return smoothstep(0.0, kOwnSide, turned_away(lit)); }
 
 // With DERMIS_OWN_BODY defined: the light's way through the body that the technique's own model has light through.
 #ifdef DERMIS_OWN_BODY

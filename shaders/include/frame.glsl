@@ -18,10 +18,10 @@ struct LightSource {
     float cos_outer;
     int shadow_map_index;  // -1: casts no shadow
     mat4 light_view_projection;
-    // Of a directional light: two axes across to_light_world, a millimetre along each in the shadow map's texture
-    // coordinates, and the way towards the light for a difference of 1 in the map's depth.
+    // Of a directional light: the axes of its shadow map across to_light_world, a millimetre along either in the map's
+    // texture coordinates, and the way towards the light for a difference of 1 in the map's depth.
     vec3 x_world, y_world;
-    vec2 map_x_per_mm, map_y_per_mm;
+    float map_per_mm;
     float mm_per_map_z;
 };
 

@@ -29,8 +29,10 @@ vec2 vogel_disk(int index, int count) {
     return radius * vec2(cos(angle), sin(angle));
 }
 
+// No map is nearer than 0, so that both ends may be clamped: that is free on a GPU.
 float shadow_depth_tap(texture2D map, vec3 p_light) {
-    return texture(sampler2DShadow(map, shadow_compare), vec3(p_light.xy, min(p_light.z, 1.0)));
+    float z = on_cpu != 0 ? min(p_light.z, 1.0) : clamp(p_light.z, 0.0, 1.0);
+    return textureLod(sampler2DShadow(map, shadow_compare), vec3(p_light.xy, z), 0.0);
 }
 
 vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
@@ -62,23 +64,51 @@ struct ShadowDisk {
     vec3 concavity_mm;            // lift of x^2, y^2, xy
 };
 
+// What of the disk does not depend on where the light's map is.
+struct DiskPlane {
+    vec2 slope;    // of the way towards the light over the way across it
+    float lift_mm;
+    vec3 concavity_mm;
+};
+
+// n_in_light: the normal along two axes across the light and towards it.
+DiskPlane disk_plane(vec3 n_in_light, float radius_mm) {
+    float n_dot_l = clamp(n_in_light.z, 0.0, 1.0), sine = sqrt(1.0 - n_dot_l * n_dot_l);
+    // `lacking` is what the held slope leaves of the disk under the surface.
+    float lacking = max(0.0, sine - kShadowMaxSlope * n_dot_l);
+    DiskPlane plane;
+    plane.slope = -n_in_light.xy * min(1.0 / max(n_dot_l, 1e-3), kShadowMaxSlope / max(sine, 1e-3));
+    plane.lift_mm = max(1.5 * shadow_texel_mm, kShadowFacetLift * radius_mm) + lacking * min(radius_mm, 0.5 * penumbra_mm);
+    vec2 s = plane.slope;
+    plane.concavity_mm = 0.5 * kShadowConcavity * radius_mm * vec3(1.0 + s * s, 2.0 * s.x * s.y);
+    return plane;
+}
+
 ShadowDisk shadow_disk(mat4 light_from_world, vec3 p_mm, vec3 n_world, vec3 to_light_world, float radius_mm) {
     vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     vec3 x = normalize(cross(up, to_light_world)), y = cross(to_light_world, x);
-    float n_dot_l = clamp(dot(n_world, to_light_world), 0.0, 1.0), sine = sqrt(1.0 - n_dot_l * n_dot_l);
-    // n lies along (slope, 1) in this frame; `lacking` is what the held slope leaves of the disk under the surface.
-    vec2 slope = vec2(dot(x, n_world), dot(y, n_world)) * min(1.0 / max(n_dot_l, 1e-3), kShadowMaxSlope / max(sine, 1e-3));
-    float lacking = max(0.0, sine - kShadowMaxSlope * n_dot_l);
-    x = radius_mm * (x - slope.x * to_light_world);
-    y = radius_mm * (y - slope.y * to_light_world);
+    DiskPlane plane = disk_plane(vec3(dot(x, n_world), dot(y, n_world), dot(to_light_world, n_world)), radius_mm);
     ShadowDisk disk;
-    float lift_mm = max(1.5 * shadow_texel_mm, kShadowFacetLift * radius_mm) + lacking * min(radius_mm, 0.5 * penumbra_mm);
-    vec3 origin_mm = p_mm + lift_mm * n_world;
+    vec3 origin_mm = p_mm + plane.lift_mm * n_world;
     disk.center = shadow_map_position(light_from_world, origin_mm);
-    disk.axis_x = shadow_map_step(light_from_world, origin_mm, disk.center, x);
-    disk.axis_y = shadow_map_step(light_from_world, origin_mm, disk.center, y);
+    disk.axis_x = shadow_map_step(light_from_world, origin_mm, disk.center, radius_mm * (x + plane.slope.x * to_light_world));
+    disk.axis_y = shadow_map_step(light_from_world, origin_mm, disk.center, radius_mm * (y + plane.slope.y * to_light_world));
     disk.lift = shadow_map_step(light_from_world, origin_mm, disk.center, n_world);
-    disk.concavity_mm = 0.5 * kShadowConcavity / radius_mm * vec3(dot(x, x), dot(y, y), 2.0 * dot(x, y));
+    disk.concavity_mm = plane.concavity_mm;
+    return disk;
+}
+
+// The same along the map's own axes, where all lights are directional.
+ShadowDisk shadow_disk(LightSource source, vec3 p_mm, vec3 n_world, float radius_mm) {
+    vec3 n = vec3(dot(source.x_world, n_world), dot(source.y_world, n_world), dot(source.to_light_world, n_world));
+    DiskPlane plane = disk_plane(n, radius_mm);
+    float map_z_per_mm = -1.0 / source.mm_per_map_z;
+    ShadowDisk disk;
+    disk.lift = n * vec3(vec2(source.map_per_mm), map_z_per_mm);
+    disk.center = shadow_map_position(source.light_view_projection, p_mm) + plane.lift_mm * disk.lift;
+    disk.axis_x = radius_mm * vec3(source.map_per_mm, 0.0, plane.slope.x * map_z_per_mm);
+    disk.axis_y = radius_mm * vec3(0.0, source.map_per_mm, plane.slope.y * map_z_per_mm);
+    disk.concavity_mm = plane.concavity_mm;
     return disk;
 }
 
@@ -102,23 +132,27 @@ float taps_lit(texture2D map, ShadowDisk disk, int first, int end) {
     return lit;
 }
 
-// The same taps from the last to the first. A software device computes both sides of a branch, but leaves a loop when
-// all its pixels have: so they are read in rounds there, and the angle is turned from tap to tap.
+// The same for a software device. It reads the four texels of a filtered tap one by one, so the outermost taps are asked for
+// the nearest alone. It computes both sides of a branch, but leaves a loop when all its pixels have: so all taps are read in
+// rounds, from the last to the first, and the angle is turned from tap to tap.
 float disk_visibility_in_rounds(texture2D map, ShadowDisk disk) {
+    float nearest = 0.0;
+    for (int i = kShadowTaps - kShadowOuterTaps; i < kShadowTaps; ++i) {
+        vec3 p = shadow_tap_position(disk, vogel_disk(i, kShadowTaps));
+        nearest += float(min(p.z, 1.0) <= textureLod(sampler2D(map, nearest_clamp), p.xy, 0.0).r);
+    }
     const float kLastAngle = float(kShadowTaps - 1) * kGoldenAngle;
     const float kCos = cos(kGoldenAngle), kSin = sin(kGoldenAngle);
     vec2 direction = vec2(cos(kLastAngle), sin(kLastAngle));
     float lit = 0.0;
-    int count = kShadowTaps;
-    [[dont_unroll]] for (int done = 0; done < count; done += kShadowOuterTaps) {
+    int count = outer_taps_agree(nearest) ? 0 : kShadowTaps;
+    [[dont_unroll]] for (int done = 0; done < count; done += kShadowOuterTaps)
         for (int i = 0; i < kShadowOuterTaps; ++i) {
             float radius = sqrt((float(kShadowTaps - 1 - done - i) + 0.5) / float(kShadowTaps));
             lit += shadow_depth_tap(map, shadow_tap_position(disk, radius * direction));
             direction = vec2(kCos * direction.x + kSin * direction.y, kCos * direction.y - kSin * direction.x);
         }
-        if (done == 0 && outer_taps_agree(lit)) count = kShadowOuterTaps;
-    }
-    return lit / float(count);
+    return count == 0 ? nearest / float(kShadowOuterTaps) : lit / float(kShadowTaps);
 }
 
 float disk_visibility(texture2D map, ShadowDisk disk) {
@@ -158,8 +192,12 @@ LightThrough light_through(int light, vec3 p_world_mm, vec3 n_geometry_world, ve
     LightSource source = light_source(light);
     int index = source.shadow_map_index;
     if (index < 0) return LightThrough(1.0, vec3(1.0));
-    ShadowDisk disk = shadow_disk(source.light_view_projection, p_world_mm, n_geometry_world, to_light_world,
-                                  filter_radius_mm(width_mm));
+    float radius_mm = filter_radius_mm(width_mm);
+    ShadowDisk disk;
+    if (all_directional != 0)
+        disk = shadow_disk(source, p_world_mm, n_geometry_world, radius_mm);
+    else
+        disk = shadow_disk(source.light_view_projection, p_world_mm, n_geometry_world, to_light_world, radius_mm);
     if (outside_shadow_map(disk.center)) return LightThrough(1.0, vec3(1.0));
     if (shadow_map_count == 1 || index == 0) return disk_through(shadow_map, shadow_tint, disk);
     if (index == 1) return disk_through(shadow_map_1, shadow_tint_1, disk);

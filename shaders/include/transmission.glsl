@@ -62,6 +62,7 @@ const float kOtherWall = 0.5;
 struct LitPoint {
     vec3 offset_mm;  // from the point that is shaded
     vec3 n;
+    float cosine;    // of n to the normal of the point that is shaded
 };
 
 float part_not_counted(LightMap map, LitPoint lit);
@@ -91,8 +92,8 @@ LightMap light_map_around(int light, vec3 p_mm, vec3 n_geometry_world, vec3 to_l
     if (all_directional != 0) {
         map.x_world = source.x_world;
         map.y_world = source.y_world;
-        map.axis_x = source.map_x_per_mm;
-        map.axis_y = source.map_y_per_mm;
+        map.axis_x = vec2(source.map_per_mm, 0.0);
+        map.axis_y = vec2(0.0, source.map_per_mm);
         map.mm_per_z = source.mm_per_map_z;
         map.here = here_clip.xyz;
     } else {
@@ -129,14 +130,30 @@ float nearest_of(vec2 place_texels, vec4 z) {
     return f.x < 0.5 ? (f.y < 0.5 ? z.w : z.x) : (f.y < 0.5 ? z.z : z.y);
 }
 
-// From the depths of the four texels around it: a difference between two of them over the way between them.
-vec3 lit_normal(LightMap map, vec4 z) {
-    vec2 across = vec2(z.y - z.x + z.z - z.w, z.x - z.w + z.y - z.z);
-    return normalize(vec3(0.5 * shadow_map_texels * map.mm_per_z * vec2(dot(across, map.axis_x), dot(across, map.axis_y)), 1.0));
+// The normal of lit skin by differences of depth along the diagonals of the four texels around it: with a = z.y - z.w and
+// b = z.z - z.x it is along (a tilt_a + b tilt_b, 1). All but a and b is the same for all taps.
+struct LitNormals {
+    vec2 tilt_a, tilt_b;
+    vec3 onto_here;  // of a, b and 1 along the normal of the point that is shaded
+};
+
+LitNormals lit_normals(LightMap map) {
+    float scale = 0.5 * shadow_map_texels * map.mm_per_z;
+    vec2 x = scale * map.axis_x, y = scale * map.axis_y, tilt_a = vec2(x.x + x.y, y.x + y.y), tilt_b = vec2(x.x - x.y, y.x - y.y);
+    vec3 here = map.n_in_light;
+    return LitNormals(tilt_a, tilt_b, vec3(dot(tilt_a, here.xy), dot(tilt_b, here.xy), here.z));
+}
+
+LitPoint lit_point(LitNormals normals, vec3 offset_mm, vec4 z) {
+    float a = z.y - z.w, b = z.z - z.x;
+    vec2 tilt = a * normals.tilt_a + b * normals.tilt_b;
+    float per_length = inversesqrt(dot(tilt, tilt) + 1.0);
+    float cosine = (a * normals.onto_here.x + b * normals.onto_here.y + normals.onto_here.z) * per_length;
+    return LitPoint(offset_mm, vec3(tilt, 1.0) * per_length, cosine);
 }
 
 // 0 where the lit point faces as the point that it shines on does, 1 where it faces the other way, as an opposite wall.
-float turned_away(LightMap map, LitPoint lit) { return 0.5 - 0.5 * dot(map.n_in_light, lit.n); }
+float turned_away(LitPoint lit) { return 0.5 - 0.5 * lit.cosine; }
 
 #ifndef DERMIS_TRANSMISSION_EXPRESSION
 uniform texture2D skin_transmission;  // distance from 0 to the reach, read without interpolation; the reach in alpha
@@ -173,6 +190,7 @@ vec3 gathered_light(LightMap map, bool needed) {
     float step_angle = stride * kGoldenAngle;
     vec2 direction = vec2(cos(turn), sin(turn)), step = vec2(cos(step_angle), sin(step_angle));
     float ring_mm = map.reach_mm * kWidestRing / float(kTransmissionTaps), per_reach = 1.0 / map.reach_mm;
+    LitNormals normals = lit_normals(map);
     vec3 light = vec3(0.0), behind = vec3(0.0);
     if (any_needs && map.valid) {
         for (float i = first; i < float(kTransmissionTaps); i += stride) {
@@ -182,12 +200,13 @@ vec3 gathered_light(LightMap map, bool needed) {
             vec2 place = map.here.xy + across_mm.x * map.axis_x + across_mm.y * map.axis_y;
             vec4 z4 = lit_skin_z4(map.index, place);
             float z = nearest_of(place * shadow_map_texels, z4);
-            LitPoint lit = LitPoint(vec3(across_mm, (map.here.z - z) * map.mm_per_z), lit_normal(map, z4));
-            float way_mm = length(lit.offset_mm);
+            vec3 offset_mm = vec3(across_mm, (map.here.z - z) * map.mm_per_z);
+            float way2_mm2 = max(dot(offset_mm, offset_mm), 1e-18), per_way = inversesqrt(way2_mm2);
+            LitPoint lit = lit_point(normals, offset_mm, z4);
             float weight = z == 1.0 ? 0.0 : radius_mm * part_not_counted(map, lit);  // 1: no lit skin
-            vec3 r = weight * transmission_profile(way_mm * per_reach);
-            light += r;
-            behind += r * smoothstep(0.0, kOtherWall, abs(dot(map.n_in_light, lit.offset_mm)) / max(way_mm, 1e-9));
+            vec3 profile = transmission_profile(way2_mm2 * per_way * per_reach);
+            light += weight * profile;
+            behind += weight * smoothstep(0.0, kOtherWall, abs(dot(map.n_in_light, offset_mm)) * per_way) * profile;
         }
     }
     float per_tap_mm = 2.0 * kPi * ring_mm * (together ? 1.0 : stride);
