@@ -61,16 +61,18 @@ class Pcg32 {
 /// of any elementary shape. Source: Burley 2020, Practical Hash-based Owen Scrambling, sections 3 and 4.
 class OwenSequence {
   public:
-    OwenSequence(uint32_t seed, uint32_t index) : seed_(seed), index_(index) {}
+    OwenSequence(uint32_t seed, uint32_t index) : seed_(seed), reversed_index_(reverse_bits(index)) {}
 
     /// In [0, 1)^2.
     Vec2 next_2d() {
         const uint32_t pair_seed = hash_u32(seed_, pair_++);
-        const uint32_t index = owen_scramble(index_, pair_seed);
-        return {unit_float(owen_scramble(reverse_bits(index), hash_u32(pair_seed, 1))),
-                unit_float(owen_scramble(sobol_second(index), hash_u32(pair_seed, 2)))};
+        const uint32_t index = shuffled_index(pair_seed);
+        return {first(index, pair_seed), second(index, pair_seed)};
     }
-    float next_1d() { return next_2d().x; }
+    float next_1d() {
+        const uint32_t pair_seed = hash_u32(seed_, pair_++);
+        return first(shuffled_index(pair_seed), pair_seed);
+    }
 
   private:
     static constexpr uint32_t reverse_bits(uint32_t x) {
@@ -80,27 +82,40 @@ class OwenSequence {
         x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
         return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
     }
-    /// Each bit is flipped by a hash of the bits above it: Laine and Karras's permutation works from the
-    /// lowest bit up, hence the reversals.
-    static constexpr uint32_t owen_scramble(uint32_t x, uint32_t seed) {
-        x = reverse_bits(x);
+    /// Owen scrambling flips each bit by a hash of the bits above it; Laine and Karras's permutation works
+    /// from the lowest bit up. So points are kept with their bits reversed until the end.
+    static constexpr uint32_t scramble_reversed(uint32_t x, uint32_t seed) {
         x += seed;
         x ^= x * 0x6c50b47cu;
         x ^= x * 0xb82f1e52u;
         x ^= x * 0xc7afe638u;
-        x ^= x * 0x8d22f6e6u;
-        return reverse_bits(x);
+        return x ^ (x * 0x8d22f6e6u);
     }
-    /// The second dimension's direction numbers: each is the one before xor itself shifted by one.
-    static constexpr uint32_t sobol_second(uint32_t index) {
-        uint32_t result = 0;
-        for (uint32_t direction = 0x80000000u; index != 0; index >>= 1, direction ^= direction >> 1)
-            if (index & 1) result ^= direction;
-        return result;
+    /// The second dimension, reversed. Its direction numbers are each the one before xor itself shifted by
+    /// one, which makes Pascal's triangle modulo 2: bit m of the result is the sum over all bits b of the
+    /// index whose number has the bits of m (Lucas: the binomial of b over m is then odd). Summed a bit of
+    /// the numbers at a time.
+    static constexpr uint32_t sobol_second_reversed(uint32_t index) {
+        index ^= (index >> 1) & 0x55555555u;
+        index ^= (index >> 2) & 0x33333333u;
+        index ^= (index >> 4) & 0x0f0f0f0fu;
+        index ^= (index >> 8) & 0x00ff00ffu;
+        return index ^ (index >> 16);
+    }
+    [[nodiscard]] uint32_t shuffled_index(uint32_t pair_seed) const {
+        return reverse_bits(scramble_reversed(reversed_index_, pair_seed));
+    }
+    /// The first dimension is the index reversed, so that its own reversal is the index.
+    [[nodiscard]] static float first(uint32_t index, uint32_t pair_seed) {
+        return unit_float(reverse_bits(scramble_reversed(index, hash_u32(pair_seed, 1))));
+    }
+    [[nodiscard]] static float second(uint32_t index, uint32_t pair_seed) {
+        const uint32_t reversed = sobol_second_reversed(index);
+        return unit_float(reverse_bits(scramble_reversed(reversed, hash_u32(pair_seed, 2))));
     }
 
     uint32_t seed_;
-    uint32_t index_;
+    uint32_t reversed_index_;
     uint32_t pair_ = 0;
 };
 

@@ -4,6 +4,7 @@
 // The scene is kept as sets, so that a query sees only what it is about: opaque surfaces (skin and other),
 // skin alone (probes), what bounds the flesh (walks inside it), and translucent objects (coloured shadows).
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +41,16 @@ struct RayHit {
     uint32_t triangle = 0;  ///< of that mesh
     float u = 0, v = 0;     ///< barycentric weights of the second and third corner
     Vec3 n_face;            ///< unit, by winding
+};
+
+/// Room for hits, not set to anything first: to clear it costs as much as a short ray.
+template <size_t kMost>
+class HitBuffer {
+  public:
+    [[nodiscard]] std::span<RayHit> hits() { return {reinterpret_cast<RayHit*>(bytes_), kMost}; }
+
+  private:
+    alignas(RayHit) std::byte bytes_[kMost * sizeof(RayHit)];
 };
 
 struct SurfaceAttributes {

@@ -26,13 +26,21 @@ TexelPair texel_pair(float at, int size, TextureWrap wrap) {
     float inside =
         wrap == TextureWrap::clamp ? std::clamp(at, 0.0f, 1.0f) : at - period * std::floor(at / period);
     if (!(inside >= 0 && inside <= period)) inside = 0;
-    const float position = inside * float(size) - 0.5f, low = std::floor(position);
+    const float position = inside * float(size) - 0.5f;
+    const float low = position < 0 ? -1.0f : float(int(position));  // of -0.5 upwards
     const auto texel = [&](int i) {
         if (wrap == TextureWrap::repeat) return i < 0 ? i + size : i >= size ? i - size : i;
         if (wrap == TextureWrap::mirror && i >= size) i = 2 * size - 1 - i;
         return std::clamp(i, 0, size - 1);
     };
     return {texel(int(low)), texel(int(low) + 1), position - low};
+}
+
+// Of the four texels around a point.
+Vec4 mix(Vec4 a, Vec4 b, Vec4 c, Vec4 d, float fx, float fy) {
+    const float wa = (1 - fx) * (1 - fy), wb = fx * (1 - fy), wc = (1 - fx) * fy, wd = fx * fy;
+    return {a.x * wa + b.x * wb + c.x * wc + d.x * wd, a.y * wa + b.y * wb + c.y * wc + d.y * wd,
+            a.z * wa + b.z * wb + c.z * wc + d.z * wd, a.w * wa + b.w * wb + c.w * wc + d.w * wd};
 }
 
 }  // namespace
@@ -103,25 +111,30 @@ Texture::Level Texture::half_size(const Level& level) const {
 
 Vec4 Texture::texel(const Level& level, int x, int y) const {
     const size_t i = size_t(y) * size_t(level.width) + size_t(x);
-    if (level.bytes.empty()) return level.floats[i];
-    const std::array<uint8_t, 4> b = level.bytes[i];
+    return level.bytes.empty() ? level.floats[i] : decoded(level.bytes[i]);
+}
+
+inline Vec4 Texture::decoded(std::array<uint8_t, 4> b) const {
     return {decoded_[b[0]], decoded_[b[1]], decoded_[b[2]], float(b[3]) / 255};
 }
 
 Vec4 Texture::sample_level(const Level& level, Vec2 uv) const {
     const TexelPair x = texel_pair(uv.x, level.width, wrap_u_), y = texel_pair(uv.y, level.height, wrap_v_);
-    const Vec4 a = texel(level, x.first, y.first), b = texel(level, x.second, y.first),
-               c = texel(level, x.first, y.second), d = texel(level, x.second, y.second);
-    const float fx = x.weight, fy = y.weight;
-    const float wa = (1 - fx) * (1 - fy), wb = fx * (1 - fy), wc = (1 - fx) * fy, wd = fx * fy;
-    return {a.x * wa + b.x * wb + c.x * wc + d.x * wd, a.y * wa + b.y * wb + c.y * wc + d.y * wd,
-            a.z * wa + b.z * wb + c.z * wc + d.z * wd, a.w * wa + b.w * wb + c.w * wc + d.w * wd};
+    const auto mixed = [&](const auto& texel_of) {
+        const size_t row = size_t(y.first) * size_t(level.width),
+                     below = size_t(y.second) * size_t(level.width);
+        return mix(texel_of(row + size_t(x.first)), texel_of(row + size_t(x.second)),
+                   texel_of(below + size_t(x.first)), texel_of(below + size_t(x.second)), x.weight, y.weight);
+    };
+    if (level.bytes.empty()) return mixed([&](size_t i) { return level.floats[i]; });
+    return mixed([&](size_t i) { return decoded(level.bytes[i]); });
 }
 
 Vec4 Texture::sample(Vec2 uv, const UvFootprint& footprint) const {
     const auto texels = [&](Vec2 side) {
         return std::hypot(side.x * float(levels_[0].width), side.y * float(levels_[0].height));
     };
+    if (footprint.is_zero()) return sample_level(levels_[0], uv);
     const float longest = std::max(texels(footprint.across), texels(footprint.down));
     if (!(longest > 1)) return sample_level(levels_[0], uv);
     const float level = std::min(std::log2(longest), float(levels_.size() - 1));

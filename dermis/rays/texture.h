@@ -15,6 +15,7 @@ namespace dermis {
 /// How far uv moves from a pixel to its right and lower neighbour; zero: as sharp as the map is.
 struct UvFootprint {
     Vec2 across, down;
+    [[nodiscard]] bool is_zero() const { return across == Vec2{} && down == Vec2{}; }
 };
 
 /// Four channels at 8 bits where the file has 8, else in float; sRGB is decoded on every read. Missing
@@ -39,6 +40,7 @@ class Texture {
         std::vector<Vec4> floats;
     };
     [[nodiscard]] Vec4 texel(const Level& level, int x, int y) const;
+    [[nodiscard]] Vec4 decoded(std::array<uint8_t, 4> texel) const;
     [[nodiscard]] Vec4 sample_level(const Level& level, Vec2 uv) const;
     [[nodiscard]] Level half_size(const Level& level) const;
 

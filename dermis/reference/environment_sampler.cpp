@@ -21,7 +21,7 @@ float uv_solid_angle(float v) {
 Result<EnvironmentSampler> EnvironmentSampler::load(const Environment& environment) {
     EnvironmentSampler sampler;
     sampler.intensity_ = environment.intensity;
-    sampler.yaw_rad_ = environment.yaw_rad;
+    sampler.turn_ = {std::cos(environment.yaw_rad), std::sin(environment.yaw_rad)};
     if (environment.kind == EnvironmentKind::none || environment.intensity <= 0) return sampler;
     Result<Image> panorama = load_panorama(environment);
     if (!panorama) return panorama.error();
@@ -40,27 +40,38 @@ Result<EnvironmentSampler> EnvironmentSampler::load(const Environment& environme
         }
     for (double& share : sampler.cumulative_) share /= sum;
     sampler.cumulative_.back() = 1;
+    sampler.guide_ = GuideTable(sampler.cumulative_);
     return sampler;
 }
 
 Vec3 EnvironmentSampler::to_world(Vec3 d) const {
-    return to_environment(d, -yaw_rad_);
+    return to_environment(d, {turn_.cosine, -turn_.sine});
 }
 
 Vec3 EnvironmentSampler::radiance(Vec3 d_world) const {
     if (dark()) return {};
-    return panorama_radiance(panorama_, to_environment(d_world, yaw_rad_)) * intensity_;
+    return radiance_at(place(d_world));
+}
+
+Vec2 EnvironmentSampler::place(Vec3 d_world) const {
+    return panorama_uv(to_environment(d_world, turn_));
+}
+
+Vec3 EnvironmentSampler::radiance_at(Vec2 place) const {
+    return panorama_radiance(panorama_, place) * intensity_;
 }
 
 Vec3 EnvironmentSampler::harmonic_irradiance(Vec3 n_world) const {
     if (dark()) return {};
-    const Vec3 e = sh_irradiance(sh_, to_environment(n_world, yaw_rad_)) * intensity_;
+    const Vec3 e = sh_irradiance(sh_, to_environment(n_world, turn_)) * intensity_;
     return {std::max(e.x, 0.0f), std::max(e.y, 0.0f), std::max(e.z, 0.0f)};
 }
 
 EnvironmentSampler::Sample EnvironmentSampler::sample(Vec2 u) const {
+    const auto [first, last] = guide_.range(u.x);
+    const size_t end = std::min(last, cumulative_.size() - 1);
     const size_t texel =
-        size_t(std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, u.x) - cumulative_.begin());
+        size_t(std::upper_bound(&cumulative_[first], &cumulative_[end], u.x) - cumulative_.data());
     const double below = texel == 0 ? 0 : cumulative_[texel - 1];
     const auto share = float(cumulative_[texel] - below);
     const auto width = size_t(panorama_.width);
@@ -73,13 +84,12 @@ EnvironmentSampler::Sample EnvironmentSampler::sample(Vec2 u) const {
             .density = share * texels / uv_solid_angle(uv_y)};
 }
 
-float EnvironmentSampler::density(Vec3 d_world) const {
-    const Vec2 uv = panorama_uv(to_environment(d_world, yaw_rad_));
-    const int x = std::clamp(int(uv.x * float(panorama_.width)), 0, panorama_.width - 1);
-    const int y = std::clamp(int(uv.y * float(panorama_.height)), 0, panorama_.height - 1);
+float EnvironmentSampler::density_at(Vec2 place) const {
+    const int x = std::clamp(int(place.x * float(panorama_.width)), 0, panorama_.width - 1);
+    const int y = std::clamp(int(place.y * float(panorama_.height)), 0, panorama_.height - 1);
     const size_t texel = size_t(y) * size_t(panorama_.width) + size_t(x);
     const double below = texel == 0 ? 0 : cumulative_[texel - 1];
-    return float(cumulative_[texel] - below) * float(panorama_.pixel_count()) / uv_solid_angle(uv.y);
+    return float(cumulative_[texel] - below) * float(panorama_.pixel_count()) / uv_solid_angle(place.y);
 }
 
 }  // namespace dermis

@@ -6,6 +6,7 @@
 
 #include "dermis/base/result.h"
 #include "dermis/image/image.h"
+#include "dermis/reference/guide_table.h"
 #include "dermis/scene/environment.h"
 #include "dermis/scene/scene.h"
 
@@ -29,7 +30,10 @@ class EnvironmentSampler {
     };
     /// A texel by its share of the light, then evenly within it. Not when dark().
     [[nodiscard]] Sample sample(Vec2 u) const;
-    [[nodiscard]] float density(Vec3 d_world) const;
+    /// A direction's place in the panorama, for both of what is there. Not when dark().
+    [[nodiscard]] Vec2 place(Vec3 d_world) const;
+    [[nodiscard]] Vec3 radiance_at(Vec2 place) const;
+    [[nodiscard]] float density_at(Vec2 place) const;
 
   private:
     [[nodiscard]] Vec3 to_world(Vec3 d) const;
@@ -37,7 +41,9 @@ class EnvironmentSampler {
     Image panorama_;
     RadianceSh sh_{};
     std::vector<double> cumulative_;  // over texels, row by row; the last is 1
-    float intensity_ = 1, yaw_rad_ = 0;
+    GuideTable guide_;                // of cumulative_
+    float intensity_ = 1;
+    EnvironmentTurn turn_;
 };
 
 }  // namespace dermis

@@ -104,9 +104,10 @@ Vec3 Lighting::transmittance(const Ray& ray) const {
     if (rays_.occluded(RaySet::opaque, ray)) return {};
     Vec3 through{1, 1, 1};
     if (!rays_.has(RaySet::translucent)) return through;
-    RayHit hits[kMostTranslucentLayers];
+    HitBuffer<kMostTranslucentLayers> buffer;
+    const std::span<RayHit> hits = buffer.hits();
     const size_t count = rays_.all_hits(RaySet::translucent, ray, hits);
-    for (const RayHit& hit : std::span(hits, count))
+    for (const RayHit& hit : hits.first(count))
         through = through * materials_.transmittance_at(rays_.surface_at(hit), hit.object);
     return through;
 }
@@ -148,12 +149,14 @@ Vec3 Lighting::environment_irradiance(const Receiver& receiver, const LightingRa
                                : environment_.sample(random.environment).direction_world;
     const float cosine = dot(receiver.n, direction);
     if (cosine <= 0) return {};
-    const float density = 0.5f * (cosine / kPi + environment_.density(direction));
+    const Vec2 place = environment_.place(direction);
+    const float density = 0.5f * (cosine / kPi + environment_.density_at(place));
     const float offset_mm = 10 * rays_.epsilon_mm();
     const Vec3 through = transmittance({.origin_mm = receiver.p_smooth_mm + receiver.n_geometry * offset_mm,
                                         .direction = direction,
                                         .min_mm = offset_mm});
-    return through * environment_.radiance(direction) * (cosine * entry(receiver, cosine) / density);
+    if (is_black(through)) return {};
+    return through * environment_.radiance_at(place) * (cosine * entry(receiver, cosine) / density);
 }
 
 Vec3 Lighting::irradiance(const Receiver& receiver, const LightingRandom& random) const {
@@ -186,6 +189,7 @@ Vec3 Lighting::environment_reflection(const ShadingPoint& point, Vec3 to_eye, Ve
     const Vec3 through = transmittance({.origin_mm = point.p_smooth_mm + point.n_geometry * offset_mm,
                                         .direction = direction,
                                         .min_mm = offset_mm});
+    if (is_black(through)) return {};
     return through * environment_.radiance(direction) * float(weight);
 }
 

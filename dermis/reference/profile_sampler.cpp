@@ -47,6 +47,7 @@ ProfileSampler::ProfileSampler(const Profile& profile, double width_scale) {
     const float all = cumulative_.back();
     for (float& c : cumulative_) c /= all;
     for (float& d : density_) d /= all;
+    guide_ = GuideTable(cumulative_);
     least_mm_ = radius_mm_.front();
     max_mm_ = radius_mm_.back();
 }
@@ -65,8 +66,10 @@ Vec3 ProfileSampler::reflectance(float r_mm) const {
 }
 
 float ProfileSampler::sample_radius_mm(float u) const {
-    const auto cell =
-        size_t(std::lower_bound(cumulative_.begin(), cumulative_.end() - 1, u) - cumulative_.begin());
+    const auto [first, last] = guide_.range(u);
+    const size_t end = std::min(last, cumulative_.size() - 1);
+    const size_t cell =
+        size_t(std::lower_bound(&cumulative_[first], &cumulative_[end], u) - cumulative_.data());
     const float below = cell == 0 ? 0 : cumulative_[cell - 1], share = cumulative_[cell] - below;
     const float t = share > 0 ? std::clamp((u - below) / share, 0.0f, 1.0f) : 0.5f;
     const float inner = cell == 0 ? 0 : radius_mm_[cell - 1], outer = radius_mm_[cell];

@@ -6,6 +6,7 @@
 
 #include "dermis/base/vec.h"
 #include "dermis/optics/profile.h"
+#include "dermis/reference/guide_table.h"
 
 namespace dermis {
 
@@ -32,6 +33,7 @@ class ProfileSampler {
     float least_mm_ = 0, max_mm_ = 0, cells_per_log_ = 0;
     std::vector<float> radius_mm_;          // outer, of every cell
     std::vector<float> cumulative_;         // share of the samples up to that radius
+    GuideTable guide_;                      // of cumulative_
     std::vector<float> density_;            // of every cell
     std::vector<Vec3> radius_reflectance_;  // r R(r) at every outer radius
 };

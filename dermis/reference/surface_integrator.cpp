@@ -68,13 +68,14 @@ void SurfaceIntegrator::probe(const DiffusePoint& point, const LocalFrame& frame
     const LocalFrame disk = probe_frame(frame, choice.x);
     const Vec3 middle_mm =
         point.p_mm + disk.to_world({radius_mm * std::cos(angle_rad), radius_mm * std::sin(angle_rad), 0});
-    RayHit hits[kMostHits];
+    HitBuffer<kMostHits> buffer;
+    const std::span<RayHit> hits = buffer.hits();
     const size_t count = rays_.all_hits(
         RaySet::skin,
         {.origin_mm = middle_mm + disk.normal * half_mm, .direction = -disk.normal, .max_mm = 2 * half_mm},
         hits);
     Pcg32 chance(seed, index);
-    for (const RayHit& hit : std::span(hits, count)) {
+    for (const RayHit& hit : hits.first(count)) {
         SurfaceAttributes surface = rays_.surface_at(hit);
         surface.footprint = point.footprint;
         const Vec3 offset_mm = surface.p_world_mm - point.p_mm;

@@ -35,8 +35,8 @@ class FleshWays {
         // Positive where it leaves and arrives through air; one that meets no face does both or neither.
         const float leaves = dot(along, from.n_face), arrives = -dot(along, to.n_face);
         if (std::abs(leaves) < kGrazing && std::abs(arrives) < kGrazing) return distance_mm;
-        RayHit hits[kMostCrossings];
-        const std::span<RayHit> crossed = crossings(from.p_mm, along, distance_mm, hits);
+        HitBuffer<kMostCrossings> buffer;
+        const std::span<RayHit> crossed = crossings(from.p_mm, along, distance_mm, buffer.hits());
         const bool all_air = crossed.empty() && leaves + arrives > 2 * kGrazing;
         float way_mm = distance_mm;
         int bodies =

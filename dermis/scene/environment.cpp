@@ -51,9 +51,13 @@ std::optional<EnvironmentLight> from_bytes(const std::vector<std::byte>& bytes) 
 
 }  // namespace
 
-Vec3 to_environment(Vec3 d_world, float yaw_rad) {
-    const float c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+Vec3 to_environment(Vec3 d_world, EnvironmentTurn turn) {
+    const float c = turn.cosine, s = turn.sine;
     return {c * d_world.x - s * d_world.z, d_world.y, s * d_world.x + c * d_world.z};
+}
+
+Vec3 to_environment(Vec3 d_world, float yaw_rad) {
+    return to_environment(d_world, {std::cos(yaw_rad), std::sin(yaw_rad)});
 }
 
 Result<Image> load_panorama(const Environment& environment) {

@@ -29,6 +29,12 @@ inline constexpr int kEnvironmentMips = 6;  ///< 128 to 4 texels
 /// World to environment space: the inverse of a turn about Y by yaw, which moves +Z towards +X.
 [[nodiscard]] Vec3 to_environment(Vec3 d_world, float yaw_rad);
 
+/// The same for many directions.
+struct EnvironmentTurn {
+    float cosine = 1, sine = 0;  ///< of its yaw
+};
+[[nodiscard]] Vec3 to_environment(Vec3 d_world, EnvironmentTurn turn);
+
 /// The panorama behind an environment: f32, linear, 3 channels, at most 1024 x 512 (larger files are averaged
 /// down), every value finite and not negative. kind none gives one black texel. Errors: the file cannot be
 /// read, or is not twice as wide as high.

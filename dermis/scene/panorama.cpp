@@ -31,7 +31,10 @@ Vec2 panorama_uv(Vec3 d) {
 }
 
 Vec3 panorama_radiance(const Image& panorama, Vec3 d) {
-    const Vec2 uv = panorama_uv(d);
+    return panorama_radiance(panorama, panorama_uv(d));
+}
+
+Vec3 panorama_radiance(const Image& panorama, Vec2 uv) {
     const float x = uv.x * float(panorama.width) - 0.5f;
     const float y = std::clamp(uv.y * float(panorama.height) - 0.5f, 0.0f, float(panorama.height - 1));
     const int x0 = int(std::floor(x)), y0 = int(y);

@@ -14,6 +14,8 @@ namespace dermis {
 /// Bilinear, wrapping around and clamped at the poles; any direction but zero. `panorama` is f32 with 3
 /// channels.
 [[nodiscard]] Vec3 panorama_radiance(const Image& panorama, Vec3 d);
+/// At panorama_uv(d).
+[[nodiscard]] Vec3 panorama_radiance(const Image& panorama, Vec2 uv);
 
 /// Solid angle of one texel of a row, steradian.
 [[nodiscard]] float panorama_texel_solid_angle(const Image& panorama, int row);

@@ -166,6 +166,25 @@ TEST(Random, every_power_of_two_of_owen_points_fills_the_elementary_boxes) {
             }
 }
 
+// Ground truths that are kept, and parts that are merged, were made with these points.
+TEST(Random, owen_points_stay_what_they_are) {
+    const struct {
+        uint32_t index;
+        Vec2 first;
+        float one;
+        Vec2 third;
+    } kPoints[] = {{0, {0x1.18c36p-3f, 0x1.4cba6ap-1f}, 0x1.d94512p-1f, {0x1.de5ae4p-2f, 0x1.af918p-5f}},
+                   {1, {0x1.c06664p-1f, 0x1.aef8p-11f}, 0x1.526d3p-2f, {0x1.886636p-1f, 0x1.570436p-1f}},
+                   {5, {0x1.7eca8ap-1f, 0x1.26075p-2f}, 0x1.65d88ep-1f, {0x1.6d27fcp-1f, 0x1.aad6e4p-1f}},
+                   {1000, {0x1.996cap-4f, 0x1.3c43f4p-1f}, 0x1.dcbf26p-1f, {0x1.47628p-5f, 0x1.72948p-5f}}};
+    for (const auto& expected : kPoints) {
+        OwenSequence sequence(7, expected.index);
+        EXPECT_EQ(sequence.next_2d(), expected.first) << expected.index;
+        EXPECT_EQ(sequence.next_1d(), expected.one) << expected.index;
+        EXPECT_EQ(sequence.next_2d(), expected.third) << expected.index;
+    }
+}
+
 TEST(Random, seeds_and_pairs_are_uncorrelated) {
     double sum = 0;
     constexpr int kCount = 20'000;
