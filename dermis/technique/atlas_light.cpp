@@ -17,7 +17,7 @@ Pass metric_pass(const AtlasLightSettings& settings) {
             .kind = PassKind::geometry_uv_atlas,
             .shader = "atlas/metric.frag",
             .vertex_shader = "atlas/metric.vert",
-            .colors = {{.image = "atlas_metric"}},
+            .colors = {{.image = "atlas_metric"}, {.image = "atlas_normal"}},
             .values = {{"size", float(settings.size)},
                        {"kernel_scale", settings.kernel_scale_mm},
                        {"kernel_bias", settings.kernel_bias_mm},
@@ -98,8 +98,9 @@ double typical_texel_mm(int size, const FrameContext& frame) {
 void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const FrameContext& frame) {
     if (settings.in_mm) {
         list.seams = SeamRequest{.size = settings.size};
-        list.images.push_back(
-            {.name = "atlas_metric", .format = ImageFormat::rgba16f, .size = {settings.size, settings.size}});
+        for (const char* name : {"atlas_metric", "atlas_normal"})
+            list.images.push_back(
+                {.name = name, .format = ImageFormat::rgba16f, .size = {settings.size, settings.size}});
     }
     add_atlas_cull(list, settings.cull);
     Pass light = {.name = "light map",
@@ -124,6 +125,16 @@ void read_atlas_metric(Pass& pass, const std::string& source, const AtlasLightSe
     pass.reads.emplace_back("source", source);
     for (const char* name : {"atlas_metric", "seam_map", "chart_map"}) pass.reads.emplace_back(name);
     pass.constants.emplace_back("carry", int32_t(settings.carry_seams));
+}
+
+void read_atlas_walk(Pass& pass, const std::string& source, const AtlasLightSettings& settings,
+                     float longest_way) {
+    read_atlas_metric(pass, source, settings);
+    pass.reads.emplace_back("atlas_normal");
+    // A piece of a way must not be longer than gutters are wide.
+    constexpr float kPieceTexels = 0.75f * float(SeamRequest{}.width_texels), kMostPieces = 8;
+    const float pieces = std::ceil(longest_way * settings.longest_texels / kPieceTexels);
+    pass.constants.emplace_back("pieces", int32_t(std::clamp(pieces, 1.0f, kMostPieces)));
 }
 
 }  // namespace dermis

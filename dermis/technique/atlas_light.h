@@ -64,11 +64,15 @@ struct AtlasLightSettings {
 [[nodiscard]] Vec3 kept_of_shortest_wave(const GaussianSum& blur, double texel_mm);
 
 /// Image "light_map_a" must be declared, in mm "light_map_b" too; the map ends in light_map_a. In mm it is
-/// (exitance, 1) or 0, and atlas_metric is there for read_atlas_metric(); else alpha is the kernel size and 1
+/// (exitance, 1) or 0, and the metric is there for read_atlas_metric(); else alpha is the kernel size and 1
 /// where nothing was written.
 void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const FrameContext& frame);
 
 /// For a pass whose shader includes shaders/atlas/blur_mm.glsl; its "source" is `source`.
 void read_atlas_metric(Pass& pass, const std::string& source, const AtlasLightSettings& settings);
+
+/// The same of shaders/atlas/walk_mm.glsl; ways from tap to tap are up to `longest_way` steps of the metric.
+void read_atlas_walk(Pass& pass, const std::string& source, const AtlasLightSettings& settings,
+                     float longest_way);
 
 }  // namespace dermis

@@ -2,14 +2,16 @@
 #ifndef DERMIS_TEXTURE_SPACE_GAUSSIAN_GLSL
 #define DERMIS_TEXTURE_SPACE_GAUSSIAN_GLSL
 
-#include "shaders/atlas/blur_mm.glsl"
+#extension GL_EXT_control_flow_attributes : require
+#include "shaders/atlas/walk_mm.glsl"
 
 layout(push_constant, scalar) uniform PassValues {
     float sigma_mm;
     vec4 share;  // of this Gaussian in the sum; alpha: its part of a valid texel's 1
 };
 layout(constant_id = 0) const int along_second = 0;
-layout(constant_id = 1) const int half_taps = 3;
+layout(constant_id = 1) const int half_taps = 2;
+layout(constant_id = 2) const int pieces = 1;  // of the way from tap to tap
 
 // Taps one sigma apart out to `half_taps` sigma have this variance in squares of their distance; at 3 it is 0.996.
 float spacing() {
@@ -33,11 +35,13 @@ vec4 gaussian() {
     float texels_per_mm = sqrt(max(abs(centre.steps.x * centre.steps.w - centre.steps.y * centre.steps.z), 1e-12));
     float variance = sigma_mm * texels_per_mm;
     float step_mm = tap_sigma_texels(variance * variance) / texels_per_mm * spacing();
-    vec4 sum = vec4(0.0);
-    for (int k = -half_taps; k <= half_taps; ++k) {
-        float weight = exp(-0.5 * float(k * k) * 9.0 / float(half_taps * half_taps));
-        float offset = float(k) * step_mm;
-        sum += blur_tap(centre, along_second != 0 ? vec2(0.0, offset) : vec2(offset, 0.0)) * weight;
+    vec4 sum = light_at(centre.at);
+    [[unroll]] for (int side = -1; side <= 1; side += 2) {
+        Walk walk = walk_from(centre, float(side) * vec2(1 - along_second, along_second));
+        [[unroll]] for (int k = 1; k <= half_taps; ++k) {
+            for (int piece = 0; piece < pieces; ++piece) advance(walk, step_mm / float(pieces));
+            sum += light_at(walk) * exp(-0.5 * float(k * k) * 9.0 / float(half_taps * half_taps));
+        }
     }
     return normalize_by_alpha(sum);
 }

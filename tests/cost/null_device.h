@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "dermis/gpu/statistics.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/presets.h"
 #include "dermis/render/shared_passes.h"
 #include "support/built_in.h"
 
@@ -26,10 +28,12 @@ class NullDeviceTest : public ::testing::Test {
 
     static gpu::ShaderSource shaders() { return gpu::embedded_shaders(built_in_catalog().shaders); }
 
-    /// With its defaults, for a scene with one light and nothing but skin, which has every map.
+    /// With its defaults, for a scene with one light and nothing but skin of `gpu_gems_3`, which has every
+    /// map.
     static PassList frame_of(const std::string& technique) {
         const Technique& found = built_in_technique(technique);
-        PassList list = frame_passes(found.build(ParameterValues(found.parameters), {}), {});
+        const FrameContext frame = {.skin_gaussians = to_gaussian_sum(*find_profile("gpu_gems_3")).sum};
+        PassList list = frame_passes(found.build(ParameterValues(found.parameters), frame), {});
         list.constants = {{"one_light", 1}, {"all_directional", 1}};
         return list;
     }
