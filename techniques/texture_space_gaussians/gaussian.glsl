@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform PassValues {
     vec4 share;  // of this Gaussian in the sum; alpha: its part of a valid texel's 1
 };
 layout(constant_id = 0) const int along_second = 0;
-layout(constant_id = 1) const int half_taps = 2;
+layout(constant_id = 1) const int half_taps = 3;
 layout(constant_id = 2) const int pieces = 1;  // of the way from tap to tap
 
 // Taps one sigma apart out to `half_taps` sigma have this variance in squares of their distance; at 3 it is 0.996.

@@ -20,7 +20,7 @@ constexpr const char* kOwnView = "light_map";
 struct Params {
     AtlasParams atlas;
     float width = 1;
-    int32_t half_taps = 2;
+    int32_t half_taps = 3;
     bool carry_seams = true;
     float pre_scatter = 0;
     SpecularModel specular = SpecularModel::ggx;
@@ -119,9 +119,6 @@ void add_gaussian(PassList& list, const Params& params, const AtlasLightSettings
                   size_t index, size_t count) {
     const std::string name = "gaussian " + std::to_string(index + 1);
     const float part = 1 / float(count);
-    // The narrowest has its taps within a texel or two, where reads between texels make them coarse: one more
-    // on each side (a sheared layout then differs from a plain one by .058 at most, otherwise .062).
-    const int32_t half_taps = params.half_taps + int32_t(index == 0);
     // The light before the blur stays in light_map_a, for the final mesh.
     const std::string from = index == 0 ? "light_map_a" : "light_map_c";
     for (const bool second : {false, true}) {
@@ -130,7 +127,7 @@ void add_gaussian(PassList& list, const Params& params, const AtlasLightSettings
                      .shader = std::string("texture_space_gaussians/gaussian_") +
                                (second ? "second" : "first") + ".frag",
                      .colors = {{.image = second ? "light_map_c" : "light_map_b", .load = LoadOp::discard}},
-                     .constants = {{"along_second", int32_t(second)}, {"half_taps", half_taps}},
+                     .constants = {{"along_second", int32_t(second)}, {"half_taps", params.half_taps}},
                      .values = {{"sigma_mm", float(step.sigma_mm)},
                                 {"share", Vec4{step.share.x, step.share.y, step.share.z, part}}}};
         read_atlas_walk(pass, second ? "light_map_b" : from, atlas, kLongestTapSigmas * float(step.sigma_mm));
