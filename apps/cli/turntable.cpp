@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& pattern) {
     Result<Prepared> prepared = prepare(turntable.render);
     if (!prepared) return prepared.error();
-    Result<gpu::Device> device = gpu::Device::create(
-        {.validation = turntable.render.validation, .name_contains = turntable.render.device});
+    Result<gpu::Device> device = gpu::Device::create({.validation = turntable.render.validation,
+                                                      .on_message = print_message,
+                                                      .name_contains = turntable.render.device});
     if (!device) return device.error();
     Result<Renderer> renderer =
         Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
@@ -41,6 +42,7 @@ Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& 
             return written.error();
         progress.advance(1);
     }
+    if (!device->messages().empty()) return Error{"the validation layers reported errors (see above)"};
     return output;
 }
 

@@ -2,6 +2,7 @@
 // The Vulkan 1.3 device: a GPU when there is one, lavapipe when there is none. No Vulkan type shows here.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,6 +16,8 @@ namespace dermis::gpu {
 
 struct DeviceOptions {
     bool validation = false;  ///< core and synchronization validation; messages collect in Device::messages()
+    /// Gets each of those messages as it comes, from any thread; also those of the device's destruction.
+    std::function<void(const std::string&)> on_message = {};
     /// Pick a device by part of its name, any case; empty: discrete, then integrated, then CPU.
     std::string name_contains = {};
     /// What a window needs (glfwGetRequiredInstanceExtensions); empty: no window.

@@ -62,6 +62,7 @@ Result<void> check_loader(const DeviceOptions& options) {
 
 void MessageLog::add(std::string message) {
     const std::lock_guard lock(mutex_);
+    if (on_message_) on_message_(message);
     messages_.push_back(std::move(message));
 }
 
@@ -73,7 +74,7 @@ std::vector<std::string> MessageLog::all() const {
 Result<Instance> Instance::create(const DeviceOptions& options) {
     if (Result<void> ok = check_loader(options); !ok) return ok.error();
     Instance instance;
-    instance.log_ = std::make_unique<MessageLog>();
+    instance.log_ = std::make_unique<MessageLog>(options.on_message);
     instance.has_debug_utils_ = has_extension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
     std::vector<const char*> extensions, layers;

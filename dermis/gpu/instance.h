@@ -1,10 +1,12 @@
 #pragma once
 // The Vulkan instance, the validation layers' messages, and which devices can run dermis.
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dermis/gpu/device.h"
@@ -15,12 +17,15 @@ namespace dermis::gpu {
 /// Filled by the validation layers, from any thread.
 class MessageLog {
   public:
+    explicit MessageLog(std::function<void(const std::string&)> on_message)
+        : on_message_(std::move(on_message)) {}
     void add(std::string message);
     [[nodiscard]] std::vector<std::string> all() const;
 
   private:
     mutable std::mutex mutex_;
     std::vector<std::string> messages_;
+    std::function<void(const std::string&)> on_message_;
 };
 
 class Instance {

@@ -26,6 +26,7 @@ Result<std::unique_ptr<Parts>> Parts::open(const ViewerOptions& options) {
     Result<Window> window = Window::open("Dermis", options.size);
     if (!window) return window.error();
     Result<gpu::Device> device = gpu::Device::create({.validation = options.validation,
+                                                      .on_message = options.on_message,
                                                       .name_contains = options.device,
                                                       .instance_extensions = window->instance_extensions()});
     if (!device) return device.error();

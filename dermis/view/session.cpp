@@ -1,7 +1,5 @@
 #include "dermis/view/session.h"
 
-#include "dermis/base/text.h"
-
 namespace dermis::view {
 
 Session::Session(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
@@ -30,8 +28,7 @@ Result<ViewerReport> Session::run() {
         state_.height = p.presenter->size().height;
         store_state(state_);
     }
-    if (const std::vector<std::string> said = p.device.messages(); !said.empty())
-        return Error{"the validation layers reported errors: " + join(said, "; ")};
+    if (!p.device.messages().empty()) return Error{"the validation layers reported errors (see above)"};
     return report_;
 }
 

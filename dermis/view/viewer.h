@@ -39,9 +39,10 @@ struct ViewerOptions {
     /// Loads the first scene; runs beside the opening of window and device.
     std::function<Result<Start>()> load;
     WindowSize size = {1280, 800};
-    std::string device;         ///< part of a Vulkan device's name
-    bool validation = false;    ///< any message of the layers is an error at the end
-    int samples = 4;            ///< a pixel of the finished picture: 1 or 4
+    std::string device;       ///< part of a Vulkan device's name
+    bool validation = false;  ///< any message of the layers is an error at the end
+    std::function<void(const std::string& message)> on_message;  ///< of the layers, as it comes
+    int samples = 4;                                             ///< a pixel of the finished picture: 1 or 4
     float interface_scale = 0;  ///< 0: from the display and the window's height
     int frames = 0;             ///< end after this number of frames; 0: when the user closes the window
     std::vector<ScriptCommand> script;

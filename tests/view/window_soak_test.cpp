@@ -78,6 +78,7 @@ TEST_F(ViewWindow, random_actions_bring_no_message_and_keep_no_memory) {
     const std::string arguments = square() + " --size 300x200 --samples 1 -t lambert";
     const ProgramResult checked = view(arguments, random_script(seed, actions, false));
     EXPECT_EQ(checked.exit_code, 0) << "seed " << seed << ": " << checked.err;
+    EXPECT_EQ(checked.err, "");  // with what the layers say of the device's destruction
     if (!stated) return;
     // The layers keep memory.
     const ProgramResult plain = view(arguments, random_script(seed, actions, true), "");

@@ -143,8 +143,9 @@ Result<int> render(Options options) {
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
     for (const std::string& warning : prepared->scene.warnings) print_warning(warning);
-    Result<gpu::Device> device = gpu::Device::create(
-        {.validation = options.render.validation, .name_contains = options.render.device});
+    Result<gpu::Device> device = gpu::Device::create({.validation = options.render.validation,
+                                                      .on_message = print_message,
+                                                      .name_contains = options.render.device});
     if (!device) return device.error();
     Result<Renderer> renderer =
         Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
@@ -165,8 +166,6 @@ Result<int> render(Options options) {
         if (!prepared->scene.credit.empty()) std::printf("%s\n", prepared->scene.credit.c_str());
         if (options.timings) print_timings(timings, *device);
     }
-    for (const std::string& message : device->messages())
-        std::fprintf(stderr, "dermis: %s\n", message.c_str());
     if (!device->messages().empty()) return Error{"the validation layers reported errors (see above)"};
     return 0;
 }

@@ -67,6 +67,7 @@ Result<int> view_scene(ViewOptions options) {
                                   .size = {size->width, size->height},
                                   .device = options.render.device,
                                   .validation = options.render.validation,
+                                  .on_message = print_message,
                                   .samples = options.render.samples,
                                   .interface_scale = options.interface_scale,
                                   .frames = options.frames,
