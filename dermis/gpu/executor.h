@@ -17,7 +17,7 @@ namespace dermis::gpu {
 /// the shader has and the values lack is an error; a value the shader lacks is not.
 using Values = std::map<std::string, ShaderValue, std::less<>>;
 
-enum class DrawClass { skin, other, translucent };
+enum class DrawClass { skin, other, blended, translucent };
 /// Whether a pass with this filter takes such a draw.
 [[nodiscard]] bool takes(GeometryFilter filter, DrawClass draw);
 

@@ -151,6 +151,8 @@ bool takes(GeometryFilter filter, DrawClass draw) {
             return draw == DrawClass::skin;
         case GeometryFilter::other:
             return draw == DrawClass::other;
+        case GeometryFilter::blended:
+            return draw == DrawClass::blended;
         case GeometryFilter::opaque:
             return draw != DrawClass::translucent;
         case GeometryFilter::translucent:

@@ -33,4 +33,8 @@ float cutoff_of_map(const Material& material) {
     return 0;
 }
 
+bool is_blended(const Material& material) {
+    return material.alpha_mode != AlphaMode::mask && (material.opacity < 1 || cutoff_of_map(material) > 0);
+}
+
 }  // namespace dermis

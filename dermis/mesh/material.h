@@ -88,7 +88,10 @@ struct Material {
 };
 
 /// Cards of hair and lashes: the value of the alpha map, times the vertices' alpha, below which there is no
-/// surface; 0 where nothing is cut out. What should be blended is cut out at 0.5 of its map.
+/// surface; 0 where nothing is cut out. Shadows of what is blended are cut out at 0.5 of its map.
 [[nodiscard]] float cutoff_of_map(const Material& material);
+
+/// Lies over what is behind it by its opacity, times that of the alpha map and the vertices.
+[[nodiscard]] bool is_blended(const Material& material);
 
 }  // namespace dermis

@@ -68,12 +68,27 @@ Part select_triangles(const Mesh& mesh, std::span<const MaterialClass> classes, 
     return part;
 }
 
+struct Context {
+    RTCIntersectContext embree;
+    bool blends;  // the ray stops wherever a blended material shows
+};
+
+Context make_context(bool blends) {
+    Context context{.embree = {}, .blends = blends};
+    rtcInitIntersectContext(&context.embree);
+    return context;
+}
+
 // A filter's answer: 0 lets the ray go on.
 void pass_cut_outs(const RTCFilterFunctionNArguments* arguments) {
     assert(arguments->N == 1);
     const auto* part = static_cast<const Part*>(arguments->geometryUserPtr);
     const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
-    if (part->cut_out->passes(part->triangles[hit->primID], hit->u, hit->v)) arguments->valid[0] = 0;
+    const uint32_t triangle = part->triangles[hit->primID];
+    const bool goes_on = reinterpret_cast<const Context*>(arguments->context)->blends
+                             ? part->cut_out->shows_nothing(triangle, hit->u, hit->v)
+                             : part->cut_out->passes(triangle, hit->u, hit->v);
+    if (goes_on) arguments->valid[0] = 0;
 }
 
 // False when Embree has no memory for it.
@@ -148,7 +163,7 @@ RayHit make_hit(const TriangleSet& set, float distance_mm, uint32_t geometry, ui
 
 // Embree calls the filter for every triangle the ray crosses; rejecting each one makes it go on to the next.
 struct CollectContext {
-    RTCIntersectContext embree;
+    Context context;
     const TriangleSet* set;
     std::span<RayHit> hits;
     size_t count;
@@ -292,10 +307,9 @@ Result<RayScene> RayScene::build(const Mesh& mesh) {
 std::optional<RayHit> RayScene::closest_hit(RaySet which, const Ray& ray) const {
     const TriangleSet& set = impl_->set(which);
     if (!set.scene) return std::nullopt;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    Context context = make_context(ray.blends);
     RTCRayHit query = embree_ray(ray);
-    rtcIntersect1(set.scene.get(), &context, &query);
+    rtcIntersect1(set.scene.get(), &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return make_hit(set, query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
                     {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
@@ -304,28 +318,33 @@ std::optional<RayHit> RayScene::closest_hit(RaySet which, const Ray& ray) const 
 bool RayScene::occluded(RaySet which, const Ray& ray) const {
     const TriangleSet& set = impl_->set(which);
     if (!set.scene) return false;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    Context context = make_context(ray.blends);
     RTCRay query = embree_ray(ray).ray;
-    rtcOccluded1(set.scene.get(), &context, &query);
+    rtcOccluded1(set.scene.get(), &context.embree, &query);
     return query.tfar < 0;
 }
 
 size_t RayScene::all_hits(RaySet which, const Ray& ray, std::span<RayHit> hits) const {
     const TriangleSet& set = impl_->set(which);
     if (!set.scene) return 0;
-    CollectContext context{.embree = {}, .set = &set, .hits = hits, .count = 0};
-    rtcInitIntersectContext(&context.embree);
-    context.embree.filter = collect;
+    CollectContext collected{.context = make_context(ray.blends), .set = &set, .hits = hits, .count = 0};
+    collected.context.embree.filter = collect;
     RTCRayHit query = embree_ray(ray);
-    rtcIntersect1(set.scene.get(), &context.embree, &query);
-    return context.count;
+    rtcIntersect1(set.scene.get(), &collected.context.embree, &query);
+    return collected.count;
 }
 
 RayScene::Bounds RayScene::bounds(RaySet which) const {
     RTCBounds box;
     rtcGetSceneBounds(impl_->set(which).scene.get(), &box);
     return {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};
+}
+
+float RayScene::alpha_at(const RayHit& hit) const {
+    if (hit.object == kCapObject) return 1;
+    const uint32_t material = material_of_triangle(mesh(hit.object), hit.triangle);
+    const CutOut* cut_out = impl_->cut_out_of(hit.object, material);
+    return cut_out ? cut_out->alpha(hit.triangle, hit.u, hit.v) : 1;
 }
 
 bool RayScene::has(RaySet which) const {

@@ -32,6 +32,7 @@ struct Ray {
     Vec3 direction;  ///< unit
     float min_mm = 0;
     float max_mm = 1e30f;
+    bool blends = false;  ///< stops wherever a blended material shows, not only at an alpha of 0.5
 };
 
 /// Where a ray met a triangle; attributes come from RayScene::surface_at.
@@ -88,6 +89,9 @@ class RayScene {
     [[nodiscard]] bool occluded(RaySet set, const Ray& ray) const;
     /// Everything between min_mm and max_mm, unordered; at most hits.size() of them, returns how many.
     [[nodiscard]] size_t all_hits(RaySet set, const Ray& ray, std::span<RayHit> hits) const;
+
+    /// Of the alpha map and the vertices, for materials that are cut out or blended; others: 1.
+    [[nodiscard]] float alpha_at(const RayHit& hit) const;
 
     [[nodiscard]] bool has(RaySet set) const;
     [[nodiscard]] SurfaceAttributes surface_at(const RayHit& hit) const;

@@ -148,7 +148,6 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
     const Entry& e = entry(surface, hit.object);
     const Material& material = *e.material;
     const bool is_skin = e.material_class == MaterialClass::skin;
-    const bool cut_out = e.material_class == MaterialClass::other && cutoff_of_map(material) > 0;
     const SurfaceReflection reflection = reflection_at(surface, hit.object);
     ShadingPoint point{.p_mm = surface.p_world_mm,
                        .p_smooth_mm = surface.p_smooth_mm,
@@ -160,7 +159,7 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .roughness = reflection.roughness,
                        .f0 = reflection.f0,
                        .metallic = is_skin ? 0 : material.metallic,
-                       .opacity = is_skin || cut_out ? 1 : material.opacity,
+                       .opacity = e.material_class == MaterialClass::translucent ? material.opacity : 1,
                        .occlusion = occlusion_at(surface, hit),
                        .material_class = e.material_class};
     if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;

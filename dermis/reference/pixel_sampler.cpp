@@ -176,6 +176,31 @@ MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t 
     return point.material_class;
 }
 
+float PixelSampler::opacity_at(const RayHit& hit) const {
+    const SceneObject& object = scene_.objects[hit.object];
+    const uint32_t number = material_of_triangle(object.mesh, hit.triangle);
+    const Material& material = object.mesh.materials[number];
+    const bool blends = object.classes[number] == MaterialClass::other && is_blended(material);
+    return blends ? material.opacity * rays_.alpha_at(hit) : 1;
+}
+
+// Translucent surfaces lie over what is behind them by their opacity, front to back. Returns what is left of
+// `through`.
+float PixelSampler::add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample) const {
+    for (int layer = 0; layer < kMostLayers && rays_.has(RaySet::translucent); ++layer) {
+        const std::optional<RayHit> glass = rays_.closest_hit(RaySet::translucent, seen.ray);
+        if (!glass) break;
+        seen.hit = *glass;
+        const SurfaceAttributes surface = rays_.surface_at(seen.hit);
+        const float opacity = scene_.objects[glass->object].mesh.materials[surface.material].opacity;
+        add_surface(seen, Vec3{1, 1, 1} * through, seed = hash_u32(seed), sample);
+        sample.coverage += through * opacity;
+        through *= 1 - opacity;
+        seen.ray.min_mm = glass->distance_mm + 4 * rays_.epsilon_mm();
+    }
+    return through;
+}
+
 PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
     const uint32_t pixel = hash_u32(settings_.seed, uint32_t(x), uint32_t(y));
     OwenSequence camera(pixel, index);
@@ -184,25 +209,22 @@ PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
     PixelSample result;
     float through = 1;
     uint32_t seed = hash_u32(pixel, index + 1);
-    const std::optional<RayHit> solid = rays_.closest_hit(RaySet::opaque, ray);
-    if (solid) ray.max_mm = solid->distance_mm;
-    // Translucent surfaces lie over what is behind them by their opacity, front to back.
-    for (int layer = 0; layer < kMostLayers && rays_.has(RaySet::translucent); ++layer) {
-        const std::optional<RayHit> glass = rays_.closest_hit(RaySet::translucent, ray);
-        if (!glass) break;
-        const SurfaceAttributes surface = rays_.surface_at(*glass);
-        const float opacity = scene_.objects[glass->object].mesh.materials[surface.material].opacity;
-        add_surface({*glass, ray, x, y, within}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
+    // So do blended ones; the last that counts hides the rest.
+    ray.blends = true;
+    for (int layer = 1; layer <= kMostLayers; ++layer) {
+        const std::optional<RayHit> solid = rays_.closest_hit(RaySet::opaque, ray);
+        if (solid) ray.max_mm = solid->distance_mm;
+        through = add_translucent({{}, ray, x, y, within}, through, seed, result);
+        if (!solid) break;
+        const float opacity = layer < kMostLayers ? opacity_at(*solid) : 1;
+        const MaterialClass seen = add_surface(
+            {*solid, ray, x, y, within}, Vec3{1, 1, 1} * (through * opacity), seed = hash_u32(seed), result);
         result.coverage += through * opacity;
-        through *= 1 - opacity;
-        ray.min_mm = glass->distance_mm + 4 * rays_.epsilon_mm();
-    }
-    if (solid) {
-        const MaterialClass seen =
-            add_surface({*solid, ray, x, y, within}, Vec3{1, 1, 1} * through, seed = hash_u32(seed), result);
-        result.coverage += through;
         if (seen == MaterialClass::skin) result.skin = through;
-        return result;
+        if (opacity == 1) return result;
+        through *= 1 - opacity;
+        ray.min_mm = solid->distance_mm + 4 * rays_.epsilon_mm();
+        ray.max_mm = Ray{}.max_mm;
     }
     const bool shown = scene_.environment.visible && !environment_.dark();
     result.background = (shown ? environment_.radiance(ray.direction) : scene_.background_linear) * through;

@@ -41,6 +41,9 @@ class PixelSampler {
         Vec2 within;
     };
     [[nodiscard]] UvFootprint footprint(const Seen& seen, Vec3 p_mm) const;
+    /// Of what is opaque or blended.
+    [[nodiscard]] float opacity_at(const RayHit& hit) const;
+    [[nodiscard]] float add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample) const;
     MaterialClass add_surface(const Seen& seen, Vec3 weight, uint32_t seed, PixelSample& sample) const;
     [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const UvFootprint& footprint,
                                 const LightingRandom& random, uint32_t seed, PixelSample& sample) const;

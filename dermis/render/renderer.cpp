@@ -275,7 +275,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
         .earlier_frames = earlier_frames_,
         .shadow_map_size = settings.shadow_map_size,
         .shadow_map_count = 1 + int(shadow_lights.size()),
-        .has_other = uploaded_->has(gpu::DrawClass::other),
+        .has_other = uploaded_->has(gpu::DrawClass::other) || uploaded_->has(gpu::DrawClass::blended),
         .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
         .has_second_light = scene_->lights.size() > 1,
         .reduced_diffuse = scene_->skin.specular_reduces_diffuse,
@@ -289,6 +289,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
                                        .tone_map = scene_->tone_map,
                                        .view = settings.view,
                                        .has_other = uploaded_->has(gpu::DrawClass::other),
+                                       .has_blended = uploaded_->has(gpu::DrawClass::blended),
                                        .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
                                        .has_cut_outs = uploaded_->has_cut_outs(),
                                        .gbuffer = settings.gbuffer};

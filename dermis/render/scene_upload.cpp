@@ -100,7 +100,7 @@ gpu::Values material_values(const Material& material, MaterialClass material_cla
             {"specular", material.specular},
             {"f0", dielectric_f0(material.ior)},
             {"metallic", material.metallic},
-            {"opacity", cutoff > 0 ? 1.0f : material.opacity},
+            {"opacity", material.alpha_mode == AlphaMode::mask ? 1.0f : material.opacity},
             {"alpha_cutoff", cutoff},
             {"normal_space", normal_space},
             {"normal_scale", material.normal_scale},
@@ -109,12 +109,12 @@ gpu::Values material_values(const Material& material, MaterialClass material_cla
             {"curvature_mid", material.curvature_mid}};
 }
 
-gpu::DrawClass draw_class(MaterialClass material_class) {
+gpu::DrawClass draw_class(const Material& material, MaterialClass material_class) {
     switch (material_class) {
         case MaterialClass::skin:
             return gpu::DrawClass::skin;
         case MaterialClass::other:
-            return gpu::DrawClass::other;
+            return is_blended(material) ? gpu::DrawClass::blended : gpu::DrawClass::other;
         case MaterialClass::translucent:
             return gpu::DrawClass::translucent;
     }
@@ -180,7 +180,7 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
             gpu::Draw draw = {.geometry = geometries_.back().get(),
                               .first_index = submesh.first_index,
                               .index_count = submesh.index_count,
-                              .draw_class = draw_class(material_class)};
+                              .draw_class = draw_class(material, material_class)};
             for (const MaterialMap& map : material_maps())
                 draw.textures[map.texture] = &textures_.at(texture_key(map, material));
             draw.values = material_values(material, material_class, scene.skin);
@@ -196,8 +196,10 @@ void SceneOnDevice::update_materials(const Scene& scene) {
     auto draw = draws_.begin();
     for (const SceneObject& object : scene.objects)
         for (const Submesh& submesh : object.mesh.submeshes) {
-            draw++->values = material_values(object.mesh.materials[submesh.material],
-                                             object.classes[submesh.material], scene.skin);
+            const Material& material = object.mesh.materials[submesh.material];
+            const MaterialClass material_class = object.classes[submesh.material];
+            draw->draw_class = draw_class(material, material_class);
+            draw++->values = material_values(material, material_class, scene.skin);
         }
 }
 

@@ -89,6 +89,21 @@ Pass other_pass(const SharedPassSettings& settings) {
     return pass;
 }
 
+// Cards of hair and lashes: where they cover more than half they hide what is behind, whatever the order of
+// the draws; the rims, which hide nothing, then blend over that. A surface that is alone blends exactly.
+std::vector<Pass> blended_passes(const SharedPassSettings& settings) {
+    Pass core = other_pass(settings);
+    core.name = "blended core";
+    core.geometry = GeometryFilter::blended;
+    core.colors[0].blend = Blend::alpha;
+    core.constants.emplace_back("blended", kBlendedCore);
+    Pass rim = core;
+    rim.name = "blended rim";
+    rim.depth->write = false;
+    rim.constants.back().second = kBlendedRim;
+    return {core, rim};
+}
+
 // Glass: multiplies what is behind it by the transmittance, then adds the reflection. The order of several
 // surfaces does not matter within each pass.
 std::vector<Pass> translucent_passes(const SharedPassSettings& settings) {
@@ -210,6 +225,8 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     list.images.insert(list.images.end(), technique.images.begin(), technique.images.end());
     list.passes.insert(list.passes.end(), technique.passes.begin(), technique.passes.end());
     if (settings.has_other) list.passes.push_back(other_pass(settings));
+    if (settings.has_blended)
+        for (Pass& pass : blended_passes(settings)) list.passes.push_back(std::move(pass));
     if (settings.has_translucent)
         for (Pass& pass : translucent_passes(settings)) list.passes.push_back(std::move(pass));
     if (settings.samples > 1) {

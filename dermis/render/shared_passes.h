@@ -14,7 +14,7 @@ struct SharedPassSettings {
     ToneMap tone_map = ToneMap::hable;
     std::string view =
         "final";  ///< final, diffuse, specular, one of the technique's, or one of gbuffer_views()
-    bool has_other = false, has_translucent = false;
+    bool has_other = false, has_blended = false, has_translucent = false;
     bool has_cut_outs = false;  ///< alpha maps cut some of `other` out
     bool gbuffer = false;
 };

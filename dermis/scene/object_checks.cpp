@@ -11,17 +11,12 @@ namespace {
 void warn_of_materials(const SceneObject& object, std::vector<std::string>& warnings) {
     for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
         const Material& material = object.mesh.materials[i];
-        const bool is_cut_out = cutoff_of_map(material) > 0;
-        const bool has_alpha = material.alpha_mode == AlphaMode::mask || is_cut_out || material.opacity < 1;
+        const bool has_alpha = material.alpha_mode == AlphaMode::mask || is_blended(material);
         if (object.classes[i] == MaterialClass::skin && has_alpha)
             warnings.push_back("material '" + material.name +
                                "' is skin, of which alpha cuts nothing out and shows nothing behind it; "
                                "class = \"other\" under [material." +
                                toml_string(material.name) + "] of a scene file takes it into account");
-        if (object.classes[i] == MaterialClass::other && material.alpha_mode == AlphaMode::blend &&
-            is_cut_out)
-            warnings.push_back("material '" + material.name +
-                               "' is not blended: its alpha cuts it out at 0.5");
     }
 }
 

@@ -107,7 +107,7 @@ std::string scene_file_manual(std::span<const Subject> subjects) {
     text += section_text("`[material.NAME]`",
                          "NAME is the material's name in the mesh file. A missing key keeps the value of the "
                          "mesh file, or, for skin, of `[skin]`. Where the mesh file cuts a material out by "
-                         "alpha (glTF's alphaMode MASK, or BLEND with a map, which is cut at 0.5; MTL's "
+                         "alpha (glTF's alphaMode MASK, or BLEND with a map; MTL's "
                          "map_d) and has others, as with cards of hair and lashes, its class is `other`.",
                          material_keys());
     text += section_text("`[skin]`", "Values for all skin materials.", skin_keys());

@@ -65,8 +65,8 @@ enum class PassKind {
     copy
 };
 
-/// Which of the scene's draws a geometry pass takes.
-enum class GeometryFilter { skin, other, opaque, translucent, all };
+/// Which of the scene's draws a geometry pass takes; opaque: all but translucent.
+enum class GeometryFilter { skin, other, blended, opaque, translucent, all };
 
 enum class LoadOp { clear, load, discard };
 enum class Blend { none, additive, alpha, multiply };

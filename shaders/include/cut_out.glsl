@@ -7,9 +7,12 @@
 
 uniform sampler2D alpha_map;
 
+float map_alpha() {
+    return texture(alpha_map, uv_in).r * color_linear_in.a;
+}
+
 bool cut_out() {
-    float alpha = texture(alpha_map, uv_in).r * color_linear_in.a;
-    return alpha < alpha_cutoff;
+    return map_alpha() < alpha_cutoff;
 }
 
 #endif

@@ -9,6 +9,9 @@ namespace dermis {
 // Specialisation constant tone_map: dermis/image/tone_map.h.
 const int kToneMapNone = 0, kToneMapHable = 1, kToneMapAces = 2, kToneMapPbrNeutral = 3;
 
+// Specialisation constant blended: what of the blended materials a pass draws.
+const int kBlendedNot = 0, kBlendedCore = 1, kBlendedRim = 2;
+
 // Specialisation constant shown: which attribute of the G-buffer.
 const int kShownNormal = 0, kShownGeometryNormal = 1, kShownAlbedo = 2, kShownRoughness = 3,
           kShownCurvature = 4, kShownOcclusion = 5, kShownShadow = 6, kShownNDotL = 7, kShownDepth = 8,

@@ -8,15 +8,23 @@
 #include "shaders/include/shadow.glsl"
 #include "shaders/include/specular.glsl"
 #include "shaders/include/surface.glsl"
+#include "shaders/renderer/constants.h"
 
 uniform sampler2D metallic_map;
 
 layout(location = 0) out vec4 radiance_out;
 
 layout(constant_id = 40) const int has_cut_outs = 0;  // without it depth is tested before the shader runs
+layout(constant_id = 41) const int blended = kBlendedNot;
 
 void main() {
-    if (has_cut_outs != 0 && cut_out()) discard;
+    float alpha = 1.0;
+    if (blended != kBlendedNot) {
+        alpha = opacity * map_alpha();
+        if (alpha == 0.0 || (alpha < 0.5) != (blended == kBlendedRim)) discard;
+    } else if (has_cut_outs != 0 && cut_out()) {
+        discard;
+    }
     Surface s = load_surface();
     if (!gl_FrontFacing) {
         s.n_world = -s.n_world;
@@ -39,6 +47,9 @@ void main() {
                                                               s.roughness, f0_one);
     }
     vec3 diffuse_radiance = s.albedo_linear * (1.0 - metal) * exitance / kPi;
-    radiance_out =
-        vec4(emitted_radiance() + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
+    if (blended != kBlendedNot)
+        radiance_out = vec4(emitted_radiance() + diffuse_radiance + specular_radiance * specular_tint, alpha);
+    else
+        radiance_out =
+            vec4(emitted_radiance() + diffuse_radiance * opacity + specular_radiance * specular_tint, opacity);
 }

@@ -184,12 +184,12 @@ TEST_F(RasterTest, a_filter_takes_its_classes_only) {
     Executor executor = make_executor(basic_shaders());
     const Geometry one = clip_mesh(device(), square(1, 0));
     const Draw skin = draw_of(one, 6, DrawClass::skin), other = draw_of(one, 6, DrawClass::other),
-               glass = draw_of(one, 3, DrawClass::translucent);
+               card = draw_of(one, 6, DrawClass::blended), glass = draw_of(one, 3, DrawClass::translucent);
     const auto samples = [&](GeometryFilter filter) {
         Pass pass = white_pass("draw");
         pass.geometry = filter;
         return run(executor, out_list({pass}),
-                   {.width = 2, .height = 2, .draws = {skin, other, other, glass}})
+                   {.width = 2, .height = 2, .draws = {skin, other, other, card, glass}})
             .passes[0]
             .samples_passed;
     };
@@ -198,8 +198,9 @@ TEST_F(RasterTest, a_filter_takes_its_classes_only) {
     EXPECT_GT(glass_samples, 0u);
     EXPECT_EQ(samples(GeometryFilter::skin), 4u);
     EXPECT_EQ(samples(GeometryFilter::other), 8u);
-    EXPECT_EQ(samples(GeometryFilter::opaque), 12u);
-    EXPECT_EQ(samples(GeometryFilter::all), 12u + glass_samples);
+    EXPECT_EQ(samples(GeometryFilter::blended), 4u);
+    EXPECT_EQ(samples(GeometryFilter::opaque), 16u);
+    EXPECT_EQ(samples(GeometryFilter::all), 16u + glass_samples);
 }
 
 TEST_F(RasterTest, materials_belong_to_draws) {

@@ -99,7 +99,6 @@ TEST_F(CutOut, shows_what_is_behind_and_casts_no_shadow_where_alpha_is_low) {
         m.base_color_map = halves("rgba", {255, 255, 255, 255}, {255, 255, 255, 40});
     };
     const Case cases[] = {{"mask", [&](Material& m) { base(m), m.alpha_mode = AlphaMode::mask; }},
-                          {"blend", [&](Material& m) { base(m), m.alpha_mode = AlphaMode::blend; }},
                           {"mask of half opacity",
                            [&](Material& m) {
                                base(m), m.alpha_mode = AlphaMode::mask;
@@ -116,6 +115,39 @@ TEST_F(CutOut, shows_what_is_behind_and_casts_no_shadow_where_alpha_is_low) {
         expect_at(p, {10, 0, 0}, {});  // the left half's shadow, seen through the right half
         expect_at(p, {30, 0, 0}, kSkinColor * kLit);
     }
+}
+
+// The shadow, cut out at 0.5 of the map, is that of the left half alone.
+TEST_F(CutOut, blends_what_is_blended_over_what_is_behind) {
+    const Pictures p = pictures(card_over_skin([](Material& m) {
+        m.base_color_map = halves("rgba", {255, 255, 255, 204}, {255, 255, 255, 102});
+        m.alpha_mode = AlphaMode::blend;
+        m.opacity = 0.75f;
+    }));
+    expect_at(p, {-10, 0, 20}, (kCardColor * 0.6f + kSkinColor * 0.4f) * kLit);
+    expect_at(p, {10, 0, 20}, kCardColor * 0.3f * kLit);
+    expect_at(p, {30, 0, 0}, kSkinColor * kLit);
+}
+
+TEST_F(CutOut, blends_without_a_map_and_where_a_scene_file_says_so) {
+    for (const AlphaMode mode : {AlphaMode::blend, AlphaMode::opaque}) {
+        const Pictures p =
+            pictures(card_over_skin([&](Material& m) { m.alpha_mode = mode, m.opacity = 0.4f; }));
+        expect_at(p, {-10, 0, 20}, (kCardColor * 0.4f + kSkinColor * 0.6f) * kLit);
+        expect_at(p, {30, 0, 0}, {});
+    }
+}
+
+// Of the skin behind both, a quarter remains.
+TEST_F(CutOut, a_card_that_covers_most_hides_one_behind_it_that_is_drawn_later) {
+    Scene scene = card_over_skin([](Material& m) { m.opacity = 0.75f; });
+    SceneObject behind = scene.objects[1];
+    for (Vec3& q : behind.mesh.positions_mm) q.z -= 10;
+    behind.mesh.materials[0].base_color_linear = {0, 1, 0};
+    scene.objects.push_back(behind);
+    const Image drawn = pictures(scene).drawn;
+    EXPECT_NEAR(drawn.at(kPictureSide / 2, kPictureSide / 2, 0), 0.75f * kLit, 0.25f * kLit);
+    EXPECT_LE(drawn.at(kPictureSide / 2, kPictureSide / 2, 1), 0.25f * kLit);
 }
 
 TEST_F(CutOut, needs_a_mode_and_a_cutoff_above_the_map) {

@@ -75,8 +75,11 @@ TEST(AllTechniques, build_sound_frames_for_every_setting_view_and_sample_count) 
                     const bool glass = samples == 4;  // with something translucent, and without
                     const PassList own = technique.build(
                         values, {.view = view, .has_translucent = glass, .has_second_light = glass});
-                    const PassList frame = frame_passes(
-                        own, {.samples = samples, .view = view, .has_other = true, .has_translucent = glass});
+                    const PassList frame = frame_passes(own, {.samples = samples,
+                                                              .view = view,
+                                                              .has_other = true,
+                                                              .has_blended = true,
+                                                              .has_translucent = glass});
                     for (const std::string& problem : problems(frame, inputs))
                         ADD_FAILURE() << technique.id << " view " << view << ": " << problem;
                 }
