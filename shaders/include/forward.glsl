@@ -47,9 +47,17 @@ float own_way_mm(Surface s, vec3 to_light_world) { return -1.0; }
 #endif
 #endif
 
-// Radiant exitance over irradiance at normal incidence for light from one direction: n_dot_l for Lambert. Includes
-// the visibility of the light, which a technique may want to scatter too.
-vec3 direct_response(Surface s, vec3 to_light_world, float visibility);
+// Radiant exitance over irradiance at normal incidence for light from one direction that nothing blocks: n_dot_l for
+// Lambert.
+vec3 direct_response(Surface s, vec3 to_light_world);
+
+// With DERMIS_SCATTERED_VISIBILITY defined: the part of this light that enters around the point, of each channel.
+// visibility: of the light at the point. All four pixels of a quad come here together.
+#ifdef DERMIS_SCATTERED_VISIBILITY
+vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility);
+#else
+vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) { return vec3(visibility); }
+#endif
 
 // Irradiance from the environment behind what occludes it, as the skin answers to it.
 vec3 ambient_response(Surface s);
@@ -60,7 +68,7 @@ vec3 ambient_response(Surface s);
 vec3 entered_part(Surface s, vec3 to_light_world) {
 #ifdef DERMIS_TRANSMISSION
     if (reduced_diffuse == 0) return vec3(1.0);
-    vec3 cosine = direct_response(s, to_light_world, 1.0);
+    vec3 cosine = direct_response(s, to_light_world);
     cosine += 2.1 * max(cosine - max(dot(s.n_world, to_light_world), 0.0), vec3(0.0));
     return vec3(diffuse_entry(s, cosine.r), diffuse_entry(s, cosine.g), diffuse_entry(s, cosine.b));
 #else
@@ -72,6 +80,7 @@ vec3 entered_part(Surface s, vec3 to_light_world) {
 struct Arrival {
     LightSample light;  // past translucent surfaces
     float visibility;   // past opaque ones
+    vec3 entering;      // scattered_visibility()
     vec3 transmitted;   // transmitted_part()
 };
 
@@ -80,7 +89,8 @@ Arrival arrival(Surface s, int i) {
     LightThrough through =
         light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, DERMIS_SHADOW_WIDTH_MM);
     light.irradiance_linear *= through.tint;
-    Arrival a = Arrival(light, through.visibility, vec3(0.0));
+    vec3 entering = scattered_visibility(s, i, light.to_light_world, through.visibility);
+    Arrival a = Arrival(light, through.visibility, entering, vec3(0.0));
 #ifdef DERMIS_TRANSMISSION
     float n_dot_l = dot(s.n_geometry_world, light.to_light_world), way_mm = own_way_mm(s, light.to_light_world);
     a.transmitted = transmitted_part(s, i, light.to_light_world, n_dot_l, a.visibility, way_mm);
@@ -115,7 +125,7 @@ void main() {
         else
             arriving = arrival(s, i);
         LightSample light = arriving.light;
-        vec3 response = direct_response(s, light.to_light_world, arriving.visibility);
+        vec3 response = direct_response(s, light.to_light_world) * arriving.entering;
         vec3 direct = light.irradiance_linear * entered_part(s, light.to_light_world) * response;
 #ifdef DERMIS_TRANSMISSION
         // Both are estimates of the same integral; each misses light where the other is right.

@@ -35,6 +35,13 @@ float shadow_depth_tap(texture2D map, vec3 p_light) {
     return textureLod(sampler2DShadow(map, shadow_compare), vec3(p_light.xy, z), 0.0);
 }
 
+// In the shadow map of a light, by LightSource::shadow_map_index.
+float shadow_depth_tap(int map_index, vec3 p_light) {
+    if (shadow_map_count == 1 || map_index == 0) return shadow_depth_tap(shadow_map, p_light);
+    if (map_index == 1) return shadow_depth_tap(shadow_map_1, p_light);
+    return shadow_depth_tap(shadow_map_2, p_light);
+}
+
 vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
     vec4 p = light_from_world * vec4(p_mm, 1.0);
     if (all_directional != 0) return vec3(p.xy * 0.5 + 0.5, p.z);

@@ -16,14 +16,14 @@ float facet_b() {
 }
 
 // L / L_Lambert = A + B max(0, cos dphi) sin a tan b, with a the larger and b the smaller of the polar angles.
-vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
+vec3 direct_response(Surface s, vec3 to_light_world) {
     float n_dot_l = dot(s.n_world, to_light_world);
     if (n_dot_l <= 0.0) return vec3(0.0);
     float n_dot_v = clamp(dot(s.n_world, s.to_eye_world), 1e-3, 1.0);
     // cos dphi sin l sin v = l . v - (n . l)(n . v); then sin a tan b = sin l sin v / max(n . l, n . v).
     float cos_azimuth_sines = dot(to_light_world, s.to_eye_world) - n_dot_l * n_dot_v;
     float facets = max(cos_azimuth_sines, 0.0) / max(n_dot_l, n_dot_v);
-    return vec3(n_dot_l * (facet_a() + facet_b() * facets) * visibility);
+    return vec3(n_dot_l * (facet_a() + facet_b() * facets));
 }
 
 // Light of equal radiance from all directions: the model integrated over the hemisphere of lights. With the eye at the polar angle v

@@ -36,6 +36,7 @@ float shadow_filter_mm(vec3 n_world, vec3 to_light_world) {
 #define DERMIS_OWN_VIEW
 #define DERMIS_TRANSMISSION
 #define DERMIS_OWN_BODY
+#define DERMIS_SCATTERED_VISIBILITY
 #ifndef DERMIS_TABLES
 #define DERMIS_TRANSMISSION_EXPRESSION
 #elif !defined(DERMIS_BAKED_NORMALS)
@@ -69,6 +70,7 @@ float bumps;          // variance of the normals over which the smoother read me
 
 #ifdef DERMIS_TABLES
 #include "techniques/preintegrated/tables.glsl"
+#include "techniques/preintegrated/gathered_shadow.glsl"
 #else
 #include "techniques/preintegrated/expressions.glsl"
 #endif
@@ -167,11 +169,14 @@ vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
 #endif
 }
 
-vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
-    vec3 scattered = diffuse_falloff(s, to_light_world);
-    if (shadow == kShadowPlain) return scattered * visibility;
-    return scattered *
-           mix(vec3(visibility), profile_edge(visibility), scattered_shadow_part(s.n_geometry_world, to_light_world));
+vec3 direct_response(Surface s, vec3 to_light_world) { return diffuse_falloff(s, to_light_world); }
+
+vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
+    if (shadow == kShadowPlain) return vec3(visibility);
+#ifdef DERMIS_TABLES
+    if (shadow == kShadowGathered) return gathered_visibility(s, light, to_light_world, visibility);
+#endif
+    return mix(vec3(visibility), profile_edge(visibility), scattered_shadow_part(s.n_geometry_world, to_light_world));
 }
 
 // The chord of the sphere that is integrated.

@@ -10,7 +10,9 @@
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
 #include "dermis/optics/gaussian_channels.h"
+#include "shaders/include/constants.h"
 #include "techniques/preintegrated/normal_blend.h"
+#include "techniques/preintegrated/shadow_taps.h"
 
 namespace dermis::preintegrated {
 namespace {
@@ -146,10 +148,25 @@ Result<Rows> curvature_row(const TableSettings& settings, const SkinContext& ski
     return row;
 }
 
-// The order is that of kRowZonal, kRowShadow, kRowNormals, kRowCurvature.
+// Weights, the penumbra's in alpha; places, turned from one to the next by the golden angle, and their
+// distance.
+Result<Rows> tap_rows(const TableSettings&, const SkinContext& skin) {
+    Rows rows(size_t(kRowTexels) * 2);
+    const std::vector<ShadowTap> taps = shadow_taps(skin.gaussians);
+    for (size_t i = 0; i < taps.size(); ++i) {
+        constexpr size_t kEvery = size_t(kShadowGatherTaps / kShadowFirstTaps);
+        const size_t at = i % kEvery * kShadowFirstTaps + i / kEvery;
+        rows[at] = texel(taps[i].weight, taps[i].penumbra_weight);
+        const double r = taps[i].radius_mm, angle = double(i) * kGoldenAngle;
+        rows[kRowTexels + at] = texel({r * std::cos(angle), r * std::sin(angle), r}, 1);
+    }
+    return rows;
+}
+
+// The order is that of kRowZonal, kRowShadow, kRowNormals, kRowCurvature, kRowTapWeights.
 Result<TableImage> rows_table(const TableSettings& settings, const SkinContext& skin) {
     Rows all;
-    for (const auto make : {zonal_rows, shadow_row, normals_row, curvature_row}) {
+    for (const auto make : {zonal_rows, shadow_row, normals_row, curvature_row, tap_rows}) {
         const Result<Rows> rows = make(settings, skin);
         if (!rows) return rows.error();
         all.insert(all.end(), rows->begin(), rows->end());

@@ -32,7 +32,11 @@ enum class Normals : int32_t {
     lerp = kNormalsLerp,
     baked = kNormalsBaked
 };
-enum class Shadow : int32_t { plain = kShadowPlain, scattered = kShadowScattered };
+enum class Shadow : int32_t {
+    plain = kShadowPlain,
+    scattered = kShadowScattered,
+    gathered = kShadowGathered
+};
 enum class Ambient : int32_t { exact = kAmbientExact, lut = kAmbientLut, curve_2015 = kAmbientCurve2015 };
 
 constexpr const char* kOwnView = "skin_curvature";
@@ -74,8 +78,10 @@ ParameterTable parameters() {
                 "of the normals around each texel, baked once (with a table; else as blended)")
         .number(&Params::normal_lod_bias, "normal_lod_bias", "mip levels", 0, 8,
                 "maximum difference of the smaller mip level")
-        .choice(&Params::shadow, "shadow", {"plain", "scattered"},
-                "penumbra as filtered, or with scattered light")
+        .choice(
+            &Params::shadow, "shadow", {"plain", "scattered", "gathered"},
+            "penumbra as filtered; with scattered light by its width; or averaged over the places around by "
+            "the profile and the light that they would have (with a table; else as scattered)")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::ambient, "ambient", {"exact", "lut", "curve_2015"},
@@ -101,7 +107,8 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                   : baked ? "preintegrated/baked_normals.frag"
                                           : "preintegrated/preintegrated.frag",
                                   params.specular, frame, kOwnView);
-    pass.constants.emplace_back("shadow", int32_t(params.shadow));
+    pass.constants.emplace_back(
+        "shadow", int32_t(!tables && params.shadow == Shadow::gathered ? Shadow::scattered : params.shadow));
     pass.constants.emplace_back(
         "normals", int32_t(params.normals == Normals::baked ? Normals::blended : params.normals));
     if (!baked)

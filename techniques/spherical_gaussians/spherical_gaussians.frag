@@ -20,7 +20,7 @@ float curvature_towards_per_mm(Surface s, vec3 to_light_world) {
 }
 
 // A shadow's edge is not scattered.
-vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
+vec3 direct_response(Surface s, vec3 to_light_world) {
     float n_dot_l = dot(s.n_world, to_light_world), k = curvature_towards_per_mm(s, to_light_world);
     vec3 light = vec3(0.0), total = vec3(0.0);
     for (int i = 0; i < lobe_count; ++i) {
@@ -28,7 +28,7 @@ vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
         light += weight * lobe_light(n_dot_l, kappa);
         total += weight;
     }
-    return light / total * visibility;
+    return light / total;
 }
 
 // The chord of the sphere on which the lobes scatter.

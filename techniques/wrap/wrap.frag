@@ -27,10 +27,10 @@ float terminator_bump(float wrapped) {
     return smoothstep(0.0, scatter_width, wrapped) * (1.0 - smoothstep(scatter_width, 2.0 * scatter_width, wrapped));
 }
 
-vec3 direct_response(Surface s, vec3 to_light_world, float visibility) {
+vec3 direct_response(Surface s, vec3 to_light_world) {
     vec3 wrapped = wrapped_cosine(dot(s.n_world, to_light_world), reach(s));
     if (width == kWidthSource) wrapped += scatter_color_linear * terminator_bump(wrapped.r);
-    return wrapped * visibility;
+    return wrapped;
 }
 
 vec3 ambient_response(Surface s) {
