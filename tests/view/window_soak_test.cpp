@@ -80,7 +80,7 @@ TEST_F(ViewWindow, random_actions_bring_no_message_and_keep_no_memory) {
     EXPECT_EQ(checked.exit_code, 0) << "seed " << seed << ": " << checked.err;
     EXPECT_EQ(checked.err, "");  // with what the layers say of the device's destruction
     if (!stated) return;
-    // The layers keep memory.
+    // The layers keep memory of their own.
     const ProgramResult plain = view(arguments, random_script(seed, actions, true), "");
     ASSERT_EQ(plain.exit_code, 0) << plain.err;
     const double middle_mb = std::stod(value_of(plain, "peak_memory_mb"));
