@@ -29,6 +29,7 @@ constexpr Dialect kHlsl = {.name = "hlsl",
                            .global_constant = "static const",
                            .renamed = &Function::hlsl,
                            .splats_by_cast = true,
+                           .converts_scalars = true,
                            .has_saturate = true,
                            .opening = kGuardOpening,
                            .closing = kGuardClosing};

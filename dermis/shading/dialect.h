@@ -19,6 +19,7 @@ struct Dialect {
     bool names_before_types = false;  ///< fn f(x: f32) -> f32, let and var, select, braces everywhere
     bool splats_arguments = false;    ///< max(v, vec3f(0.0)): all arguments of one type
     bool splats_by_cast = false;      ///< (float3)x, as float3(x) does not exist
+    bool converts_scalars = false;    ///< min(v, 0.5) and lerp(0.25, v, w), as a scalar counts for all
     bool spells_swizzles = false;     ///< float2(v.x, v.y), as v.xy does not exist
     bool has_saturate = false;
     std::string_view opening = {}, closing = {};  ///< around the functions

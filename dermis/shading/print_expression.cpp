@@ -68,6 +68,12 @@ class ExpressionPrinter {
         return condition + break_mark(depth) + "? " + yes + break_mark(depth) + ": " + no;
     }
 
+    // vec3(x)
+    static bool is_splat(const Expression& e) {
+        return e.kind == Expression::Kind::call && e.children.size() == 1 && is_vector(e.type) &&
+               e.children[0].type == Type::scalar && find_type(e.text);
+    }
+
     std::string call(const Expression& e, int depth) const {
         const std::optional<Type> constructed = find_type(e.text);
         if (constructed && is_vector(*constructed) && e.children.size() == 1 && dialect_.splats_by_cast)
@@ -83,9 +89,16 @@ class ExpressionPrinter {
         // WGSL's mix takes a float for its third.
         const bool splats = function && function->shape == Shape::some_scalars && dialect_.splats_arguments &&
                             is_vector(e.type) && !(dialect_.names_before_types && function->name == "mix");
+        const bool keeps_scalars = function && function->shape == Shape::some_scalars &&
+                                   dialect_.converts_scalars &&
+                                   std::ranges::any_of(e.children, [](const Expression& argument) {
+                                       return is_vector(argument.type) && !is_splat(argument);
+                                   });
         for (size_t i = 0; i < e.children.size(); ++i) {
             if (i) text += "," + break_mark(depth + 1);
-            const std::string argument = print(e.children[i], depth + 2);
+            const Expression& child = e.children[i];
+            const std::string argument =
+                print(keeps_scalars && is_splat(child) ? child.children[0] : child, depth + 2);
             text +=
                 splats && e.children[i].type == Type::scalar ? type(e.type) + "(" + argument + ")" : argument;
         }

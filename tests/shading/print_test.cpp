@@ -41,13 +41,24 @@ TEST(Print, glsl_is_what_was_read) {
         "#ifndef DERMIS_SKIN\n#define DERMIS_SKIN\n\n// Half, 0 to 1.\n" + kSample.substr(17) + "\n#endif\n");
 }
 
-TEST(Print, hlsl_has_casts_lerp_and_saturate) {
+TEST(Print, hlsl_has_lerp_saturate_and_scalars_beside_vectors) {
     const std::string text = printed(kSample, Language::hlsl);
     EXPECT_THAT(text, HasSubstr("static const float kHalf = 0.5;\n"));
-    EXPECT_THAT(
-        text,
-        HasSubstr("float3 f(float3 a, float t) {\n    float3 b = saturate(lerp(a, (float3)t, kHalf));\n"));
+    EXPECT_THAT(text,
+                HasSubstr("float3 f(float3 a, float t) {\n    float3 b = saturate(lerp(a, t, kHalf));\n"));
     EXPECT_THAT(text, HasSubstr("    float3 c = b, d = max(b, t);  // behind\n    c.x = frac(t);\n"));
+}
+
+// Where no argument is a vector that stays one, the scalar has to be made one: the result would be a scalar.
+TEST(Print, hlsl_casts_where_a_scalar_would_not_become_a_vector) {
+    const auto body = [](const std::string& expression) {
+        return printed("vec3 f(vec3 a, float t) {\n    return " + expression + ";\n}\n", Language::hlsl);
+    };
+    EXPECT_THAT(body("min(a, vec3(0.5))"), HasSubstr("return min(a, 0.5);"));
+    EXPECT_THAT(body("mix(vec3(0.25), a, vec3(1.0 - t))"), HasSubstr("return lerp(0.25, a, 1.0 - t);"));
+    EXPECT_THAT(body("max(vec3(t), vec3(0.5))"), HasSubstr("max((float3)t, float3(0.5, 0.5, 0.5));"));
+    EXPECT_THAT(body("pow(a, vec3(2.0))"), HasSubstr("pow(a, float3(2.0, 2.0, 2.0));"));
+    EXPECT_THAT(body("a + vec3(t)"), HasSubstr("a + (float3)t;"));
 }
 
 TEST(Print, wgsl_has_types_behind_names_and_select) {
