@@ -20,13 +20,15 @@ struct NamedImage {
 /// glTF 2.0 in metres with all its attributes, one node, one primitive a submesh. Materials carry
 /// metallic-roughness, and where they have them KHR_materials_volume, _diffuse_transmission, _volume_scatter,
 /// _scatter, _specular, _ior: always optional, never required. Maps are embedded from `images` by name, or
-/// from the material's own bytes. Errors: a map without bytes or neither PNG nor JPEG, more than 4 GiB, an
-/// unwritable file. read_mesh reads it back.
+/// from the material's own bytes. `extras` is the JSON of the materials' `extras`, in their order; those
+/// without, and empty ones, have none. Errors: a map without bytes or neither PNG nor JPEG, extras that are
+/// no JSON, more than 4 GiB, an unwritable file. read_mesh reads it back, but for extras.
 ///
 /// What glTF has no place for is left out: curvature and occlusion, object-space normal maps, maps of
 /// roughness alone, displacement, opacity, kernel size and curvature.
 [[nodiscard]] Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
-                                     std::span<const NamedImage> images = {});
+                                     std::span<const NamedImage> images = {},
+                                     std::span<const std::string> extras = {});
 
 /// Positions in millimetres, normals, UVs (origin bottom-left, as OBJ has it), `usemtl` by name; an MTL of
 /// the same name beside it, with map paths as they stand in the materials.

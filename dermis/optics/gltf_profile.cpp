@@ -10,6 +10,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/conversions.h"
+#include "dermis/optics/exact_profile.h"
 
 namespace dermis {
 namespace {
@@ -56,6 +57,7 @@ class MaterialReader {
         volume_ = member(extensions, "KHR_materials_volume");
         old_scatter_ = member(extensions, "KHR_materials_volume_scatter");
         scatter_ = member(extensions, "KHR_materials_scatter");
+        exact_ = member(member(&material, "extras"), kGltfExactProfile);
         if (const Json* name = member(&material, "name"); name && name->is_string())
             name_ = printable_line(name->get<std::string>(), 60);
     }
@@ -83,11 +85,36 @@ class MaterialReader {
         }
         for (const char* texture : {"multiscatterColorTexture", "scatterColorTexture"})
             if (member(scatter, texture)) notes_.push_back(std::string(texture) + " is not read");
-        const std::string name = name_.empty() ? "gltf_material" : name_;
-        return Profile{name, printable_line(place_ + ": " + join(notes_, "; ")), *burley};
+        Profile profile{name_.empty() ? "gltf_material" : name_, "", *burley};
+        if (exact_) profile = exact_or(profile);
+        profile.source = printable_line(place_ + ": " + join(notes_, "; "));
+        return profile;
     }
 
   private:
+    // The exact profile is that of the volume unless another program has changed one of them.
+    Profile exact_or(const Profile& of_volume) {
+        constexpr double kRounding = 1e-4;  // the volume's numbers are written as floats
+        const std::string place = "extras." + std::string(kGltfExactProfile);
+        const Result<Profile> exact = parse_exact_profile(*exact_);
+        if (!exact) {
+            notes_.push_back(place + " is not read: " + exact.error().message);
+            return of_volume;
+        }
+        const bool is_blur = burley_equivalent(*exact).albedo == Rgb{1, 1, 1};
+        for (int c = 0; c < 3; ++c) {
+            const double radius = mean_radius_mm(*exact, c), albedo = diffuse_albedo(*exact, c);
+            if (std::abs(mean_radius_mm(of_volume, c) - radius) <= kRounding * radius &&
+                (is_blur || std::abs(diffuse_albedo(of_volume, c) - albedo) <= kRounding))
+                continue;
+            notes_.push_back(place + " is not read: the volume was changed since");
+            return of_volume;
+        }
+        notes_ = {"material '" + name_ + "', " + place + ", the exact profile: " + model_name(*exact)};
+        if (!exact->source.empty()) notes_.push_back("from " + exact->source);
+        return *exact;
+    }
+
     Error fail(const std::string& what) const { return Error{place_ + ": material '" + name_ + "' " + what}; }
 
     // `count` finite numbers, or the fallback where the key is missing; an empty fallback makes that an
@@ -147,7 +174,7 @@ class MaterialReader {
     }
 
     std::string place_, name_;
-    const Json *volume_, *old_scatter_, *scatter_;
+    const Json *volume_, *old_scatter_, *scatter_, *exact_;
     ToolSettings settings_ = default_settings(ToolId::gltf_volume_scatter);
     std::vector<std::string> notes_;
 };
@@ -180,6 +207,10 @@ GltfVolume gltf_volume(const Profile& profile, const Rgb& surface_albedo) {
     return {values[0], values[1], values[2][0]};
 }
 
+std::string gltf_extras(const Profile& profile) {
+    return Json{{kGltfExactProfile, exact_profile_json(profile)}}.dump();
+}
+
 std::string gltf_note(const Profile& profile) {
     std::string note = profile.name + " as KHR_materials_volume_scatter, linear Rec. 709: ";
     note += std::holds_alternative<BurleyProfile>(profile.model)
@@ -187,7 +218,7 @@ std::string gltf_note(const Profile& profile) {
                 : "its mean radius is kept, its shape (" + model_name(profile) + ") is lost";
     if (burley_equivalent(profile).albedo == Rgb{1, 1, 1})
         note += "; its albedo of 1 becomes that of the map";
-    return note;
+    return note + ". Dermis reads it exactly, from the material's extras." + kGltfExactProfile;
 }
 
 }  // namespace dermis

@@ -20,7 +20,12 @@
 
 namespace dermis {
 
-/// The volume of the first material that scatters, as a Burley profile named after it. `file` is a GLB or
+/// The member of a material's `extras` that holds its profile exactly (exact_profile.h). Other programs keep
+/// or ignore it.
+inline constexpr const char* kGltfExactProfile = "dermis_profile";
+
+/// The volume of the first material that scatters, as a Burley profile named after it; or its exact profile,
+/// where the volume is still that profile's. `file` is a GLB or
 /// glTF's JSON; meshes, buffers and textures are not looked at. `place` names it in errors. What was assumed
 /// or not read follows in `source`, separated by semicolons.
 /// Errors: neither, truncated, no material that scatters, one without a volume or without attenuation, a
@@ -36,6 +41,8 @@ struct GltfVolume {
 /// `surface_albedo` takes the place of an albedo of 1, which a blur has whose colour lies in a map: a volume
 /// without absorption reflects white.
 [[nodiscard]] GltfVolume gltf_volume(const Profile& profile, const Rgb& surface_albedo);
+/// JSON of the material's `extras`.
+[[nodiscard]] std::string gltf_extras(const Profile& profile);
 /// What of the profile the volume does not hold, in one line.
 [[nodiscard]] std::string gltf_note(const Profile& profile);
 

@@ -18,7 +18,7 @@ namespace dermis {
 namespace {
 
 constexpr const char* kSurface = "open_pbr_surface";
-constexpr const char *kWeight = "subsurface_weight", *kColor = "subsurface_color",
+constexpr const char *kWeight = "subsurface_weight", *kColor = "subsurface_color", *kBaseColor = "base_color",
                      *kRadius = "subsurface_radius", *kScale = "subsurface_radius_scale",
                      *kAnisotropy = "subsurface_scatter_anisotropy";
 
@@ -234,7 +234,8 @@ class SurfaceReader {
     }
 
     void note_what_is_left() {
-        constexpr std::string_view kRead[] = {kWeight, kColor, kRadius, kScale, kAnisotropy};
+        // The base's colour is not seen where all of the surface is subsurface.
+        constexpr std::string_view kRead[] = {kWeight, kColor, kBaseColor, kRadius, kScale, kAnisotropy};
         constexpr size_t kMostNames = 8;
         std::vector<std::string> left;
         for (const pugi::xml_node node : surface_.children("input")) {
@@ -308,6 +309,9 @@ std::string mtlx_text(const Profile& profile) {
     surface.append_attribute("type") = "surfaceshader";
     add_input(surface, kWeight, "float", "1");
     add_input(surface, kColor, "color3", color_text(values[0])).append_attribute("colorspace") = "lin_rec709";
+    // For readers without subsurface, which draw the base: three.js is one.
+    add_input(surface, kBaseColor, "color3", color_text(values[0])).append_attribute("colorspace") =
+        "lin_rec709";
     pugi::xml_node radius = add_input(surface, kRadius, "float", to_text(values[1][0]));
     radius.append_attribute("unittype") = "distance";
     radius.append_attribute("unit") = "centimeter";

@@ -34,8 +34,8 @@ struct MtlxSurface {
 /// Errors: as of read_mtlx, for what is no document with one surface.
 [[nodiscard]] Result<MtlxSurface> read_mtlx_surface(const std::filesystem::path& path);
 
-/// A document of version 1.39 with the surface and its material; radius in cm, colour in lin_rec709. Without
-/// scattering direction: subsurface_scatter_anisotropy is 0.
+/// A document of version 1.39 with the surface and its material; radius in cm, colour in lin_rec709, as that
+/// of the base too. Without scattering direction: subsurface_scatter_anisotropy is 0.
 [[nodiscard]] std::string mtlx_text(const Profile& profile);
 /// What the document of `written` does not keep of the profile it was made from, and what its numbers mean; a
 /// sentence each.

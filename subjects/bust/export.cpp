@@ -96,7 +96,8 @@ Result<void> write_bust(const std::filesystem::path& path, const Bust& bust, con
     if (extension != ".glb") return Error{path.string() + ": the bust is written as .glb or .obj"};
     Result<Mesh> mesh = with_embedded_maps(bust);
     if (mesh) mesh->materials[0].scattering = body_of(profile, bust);
-    return mesh ? write_glb(path, *mesh) : mesh.error();
+    const std::string extras[] = {gltf_extras(profile)};
+    return mesh ? write_glb(path, *mesh, {}, extras) : mesh.error();
 }
 
 Result<void> write_bust_maps(const std::filesystem::path& folder, const Bust& bust) {

@@ -6,6 +6,7 @@
 #include "dermis/image/colour.h"
 #include "dermis/image/io.h"
 #include "dermis/mesh/read_mesh.h"
+#include "dermis/optics/exact_profile.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/load_scene.h"
 #include "subjects/bust/export.h"
@@ -49,7 +50,6 @@ TEST(BustExport, GlbReadsBackWithItsMapsInGltfsChannels) {
     EXPECT_NEAR(specular->image.at(5, 6, 3), 0.8f, 0.002f);
 }
 
-// A blur has no albedo: the file has that of the map, and its mean radius.
 TEST(BustExport, GlbCarriesTheProfileThatItIsReadBackAs) {
     const std::filesystem::path path = TestCache::folder() / "bust_profile.glb";
     for (const char* name : {"gpu_gems_3", "openpbr_skin_5"}) {
@@ -57,18 +57,28 @@ TEST(BustExport, GlbCarriesTheProfileThatItIsReadBackAs) {
         ASSERT_TRUE(write_bust(path, with_small_maps(), profile));
         const Result<Profile> read = find_profile(path.string());
         ASSERT_TRUE(read) << read.error().message;
-        for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(mean_radius_mm(*read, c), mean_radius_mm(profile, c), 1e-5) << name;
-            const bool blur = name == std::string_view("gpu_gems_3");
-            const double albedo = blur ? srgb_decode(0.8f - 0.2f * float(c)) : diffuse_albedo(profile, c);
-            EXPECT_NEAR(diffuse_albedo(*read, c), albedo, 0.004) << name;
-        }
+        EXPECT_EQ(exact_profile_json(*read)["model"], exact_profile_json(profile)["model"]);
+        for (int c = 0; c < 3; ++c)
+            for (const double r_mm : {0.1, 1.0, 10.0})
+                EXPECT_EQ(reflectance_per_mm2(*read, c, r_mm), reflectance_per_mm2(profile, c, r_mm)) << name;
         const Result<Scene> scene = load_scene(path.string(), {});
         ASSERT_TRUE(scene) << scene.error().message;
         EXPECT_EQ(scene->skin.profile, path.string());
         EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
         EXPECT_EQ(scene->objects[0].classes[0], MaterialClass::skin);
     }
+}
+
+// A blur has no albedo: the volume that other programs read has that of the map.
+TEST(BustExport, TheVolumeOfABlurHasTheAlbedoOfTheMap) {
+    const std::filesystem::path path = TestCache::folder() / "bust_blur.glb";
+    ASSERT_TRUE(write_bust(path, with_small_maps(), *find_profile("gpu_gems_3")));
+    const Result<LoadedMesh> read = read_mesh(path);
+    ASSERT_TRUE(read) << read.error().message;
+    const Vec3 color = read->mesh.materials[0].scattering.value_or(Material::Scattering{}).multiscatter_color;
+    EXPECT_NEAR(color.x, srgb_decode(0.8f), 0.004);
+    EXPECT_NEAR(color.y, srgb_decode(0.6f), 0.004);
+    EXPECT_NEAR(color.z, srgb_decode(0.4f), 0.004);
 }
 
 TEST(BustExport, AnUnknownExtensionIsRefusedAndNothingIsWritten) {

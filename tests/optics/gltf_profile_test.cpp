@@ -9,7 +9,9 @@
 
 #include "dermis/base/text.h"
 #include "dermis/optics/conversions.h"
+#include "dermis/optics/exact_profile.h"
 #include "dermis/optics/presets.h"
+#include "dermis/optics/profile_file.h"
 
 using namespace dermis;
 using testing::HasSubstr;
@@ -53,6 +55,20 @@ std::string refusal_of(const std::string& text) {
     return profile ? "" : profile.error().message;
 }
 
+std::string list(const Rgb& c) {
+    return "[" + to_text(c[0]) + "," + to_text(c[1]) + "," + to_text(c[2]) + "]";
+}
+
+// A material with the volume of one profile and the extras of the other.
+std::string document_of(const Profile& volume_of, const std::string& extras) {
+    const GltfVolume volume = gltf_volume(volume_of, {0.6, 0.45, 0.35});
+    return R"({"materials":[{"name":"face","extras":)" + extras +
+           R"(,"extensions":{"KHR_materials_volume":{"attenuationColor":)" + list(volume.attenuation_color) +
+           R"(,"attenuationDistance":)" + to_text(volume.attenuation_distance_m) +
+           R"(},"KHR_materials_volume_scatter":{"multiscatterColorFactor":)" +
+           list(volume.multiscatter_color) + "}}}]}";
+}
+
 }  // namespace
 
 TEST(GltfProfile, the_attenuation_is_a_mean_free_path_in_metres) {
@@ -74,15 +90,7 @@ TEST(GltfProfile, every_preset_comes_back_with_its_mean_radius) {
     const Rgb surface = {0.6, 0.45, 0.35};
     for (const std::string& name : profile_names()) {
         const Profile profile = *find_profile(name);
-        const GltfVolume volume = gltf_volume(profile, surface);
-        const auto list = [](const Rgb& c) {
-            return "[" + to_text(c[0]) + "," + to_text(c[1]) + "," + to_text(c[2]) + "]";
-        };
-        const Profile back = read_profile(
-            gltf_document(R"("KHR_materials_volume":{"attenuationColor":)" + list(volume.attenuation_color) +
-                          R"(,"attenuationDistance":)" + to_text(volume.attenuation_distance_m) +
-                          R"(},"KHR_materials_volume_scatter":{"multiscatterColorFactor":)" +
-                          list(volume.multiscatter_color) + "}"));
+        const Profile back = read_profile(document_of(profile, "{}"));
         const BurleyProfile expected = burley_equivalent(profile);
         const bool blur = expected.albedo == Rgb{1, 1, 1};
         for (int c = 0; c < 3; ++c) {
@@ -93,6 +101,57 @@ TEST(GltfProfile, every_preset_comes_back_with_its_mean_radius) {
                   std::holds_alternative<BurleyProfile>(profile.model));
         EXPECT_EQ(gltf_note(profile).find("becomes that of the map") != std::string::npos, blur);
     }
+}
+
+TEST(GltfProfile, every_model_comes_back_exactly_from_the_extras) {
+    std::vector<Profile> profiles;
+    for (const std::string& name : profile_names()) profiles.push_back(*find_profile(name));
+    const std::vector<double> radii = {0.1, 0.5, 2, 9};
+    profiles.push_back(*parse_profile_csv(profile_csv(*find_profile("jensen_skin1"), radii), "table.csv"));
+    for (const Profile& profile : profiles) {
+        const Profile back = read_profile(document_of(profile, gltf_extras(profile)));
+        EXPECT_EQ(exact_profile_json(back)["model"], exact_profile_json(profile)["model"]);
+        EXPECT_EQ(back.name, profile.name);
+        for (int c = 0; c < 3; ++c)
+            for (const double r_mm : {0.05, 0.7, 4.0})
+                EXPECT_EQ(reflectance_per_mm2(back, c, r_mm), reflectance_per_mm2(profile, c, r_mm))
+                    << profile.name;
+        EXPECT_THAT(back.source, HasSubstr("extras.dermis_profile, the exact profile"));
+        EXPECT_THAT(gltf_note(profile), HasSubstr("Dermis reads it exactly"));
+    }
+}
+
+TEST(GltfProfile, extras_that_are_not_those_of_the_volume_are_named_and_not_read) {
+    const Profile skin = *find_profile("gpu_gems_3"), other = *find_profile("jensen_skin1");
+    const auto source = [&](const std::string& extras) {
+        const Profile read = read_profile(document_of(skin, extras));
+        EXPECT_TRUE(std::holds_alternative<BurleyProfile>(read.model)) << extras;
+        EXPECT_EQ(read.name, "face");
+        return read.source;
+    };
+    EXPECT_THAT(source(gltf_extras(other)), HasSubstr("the volume was changed since"));
+    const auto wrong = [&](const std::string& profile) {
+        return source(R"({"dermis_profile":)" + profile + "}");
+    };
+    EXPECT_THAT(wrong("3"), HasSubstr("model is missing or of another type"));
+    EXPECT_THAT(wrong(R"({"model":"gausians","name":"","source":""})"),
+                HasSubstr("did you mean 'gaussians'"));
+    EXPECT_THAT(wrong(R"({"model":"gaussians","name":"","source":"","variance_mm2":[1],"weight":[]})"),
+                HasSubstr("differ in number"));
+    EXPECT_THAT(
+        wrong(R"({"model":"gaussians","name":"","source":"","variance_mm2":[-1],"weight":[[1,1,1]]})"),
+        HasSubstr("variance_mm2 of term 1 is -1"));
+    EXPECT_THAT(
+        wrong(R"({"model":"table","name":"","source":"","r_mm":[1],"reflectance_per_mm2":[[1,1,1]]})"),
+        HasSubstr("is not read"));
+    EXPECT_THAT(wrong(R"({"model":"dipole","name":"","source":"","g":"a"})"), HasSubstr("sigma_s_per_mm"));
+}
+
+TEST(GltfProfile, textures_of_the_scattering_colour_are_named) {
+    const std::string texture =
+        R"("KHR_materials_volume_scatter":{"multiscatterColorFactor":[0.6,0.4,0.3],"multiscatterColorTexture":{"index":0}})";
+    EXPECT_THAT(read_profile(gltf_document(kGltfVolume + "," + texture)).source,
+                HasSubstr("multiscatterColorTexture is not read"));
 }
 
 TEST(GltfProfile, the_newer_extension_and_the_older_key_are_read) {
