@@ -71,7 +71,7 @@ Result<LintReport> lint_table(const Image& image, const LintHypothesis* own) {
             report->runner_up = other;
             break;
         }
-    lint::explain(*report, image);
+    if (!lint::explain_rows(*report, found, image)) lint::explain(*report, image);
     if (!differs.empty()) report->findings.push_back(differs);
     return report;
 }

@@ -54,25 +54,34 @@ double squared_distance_at(const Bank& bank, double radius_mm, std::span<const f
     return sum;
 }
 
+// How rows may be spaced: an axis and the end of the picture at which it begins.
+struct Spacing {
+    TableAxis axis;
+    VOrigin origin = VOrigin::top;
+};
+
 double mean_square(const Bank& bank, const Sample& sample, std::span<const float> light,
-                   const TableAxis& axis) {
+                   const Spacing& spacing) {
     double sum = 0;
     for (size_t y = 0; y < sample.v.size(); ++y)
-        sum += squared_distance_at(bank, radius_at(axis, sample.v[y], sample.v_count),
+        sum += squared_distance_at(bank, radius_at(spacing.axis, sample.v[y], sample.v_count, spacing.origin),
                                    light.subspan(y * bank.row_values, bank.row_values));
     return sum / double(light.size());
 }
 
-// The start of the search: a weighted straight line through (s, value).
+// The start of the search: a weighted straight line through (s, value), or (s^2, value).
 void regress(const Sample& sample, std::span<const double> values, std::span<const double> weights,
-             TableAxis& axis) {
+             Spacing& spacing) {
+    TableAxis& axis = spacing.axis;
     double w = 0, s = 0, ss = 0, v = 0, sv = 0;
     for (size_t i = 0; i < values.size(); ++i) {
+        const double from = spacing.origin == VOrigin::top ? sample.v[i] : 1 - sample.v[i],
+                     at = axis.warp == AxisWarp::squared ? from * from : from;
         w += weights[i];
-        s += weights[i] * sample.v[i];
-        ss += weights[i] * sample.v[i] * sample.v[i];
+        s += weights[i] * at;
+        ss += weights[i] * at * at;
         v += weights[i] * values[i];
-        sv += weights[i] * sample.v[i] * values[i];
+        sv += weights[i] * at * values[i];
     }
     const double determinant = w * ss - s * s;
     const double slope = std::abs(determinant) > 1e-12 ? (w * sv - s * v) / determinant : 0;
@@ -81,25 +90,27 @@ void regress(const Sample& sample, std::span<const double> values, std::span<con
 }
 
 // Pattern search on the axis' two ends, steps relative to its length.
-void refine(const Bank& bank, const Sample& sample, std::span<const float> light, TableAxis& axis) {
-    double best = mean_square(bank, sample, light, axis);
+double refine(const Bank& bank, const Sample& sample, std::span<const float> light, Spacing& spacing) {
+    TableAxis& axis = spacing.axis;
+    double best = mean_square(bank, sample, light, spacing);
     double step = 0.1 * std::max({std::abs(axis.max - axis.min), 0.1 * std::abs(axis.max), 1e-4});
     for (int round = 0; round < 120 && step > 1e-7; ++round) {
         bool better = false;
         constexpr std::array<std::array<int, 2>, 8> kMoves = {
             {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
         for (const auto& [low, high] : kMoves) {
-            TableAxis moved = axis;
-            moved.min += low * step;
-            moved.max += high * step;
+            Spacing moved = spacing;
+            moved.axis.min += low * step;
+            moved.axis.max += high * step;
             const double value = mean_square(bank, sample, light, moved);
             if (value >= best) continue;
             best = value;
-            axis = moved;
+            spacing = moved;
             better = true;
         }
         step *= better ? 1.0 : 0.5;
     }
+    return best;
 }
 
 }  // namespace
@@ -242,16 +253,26 @@ void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> lig
         curvatures.push_back(1 / radius_mm);
         by_radius.push_back(1 / std::pow(radius_mm, 4));
     }
-    TableAxis curvature{.name = "curvature_per_mm", .unit = "1/mm"},
+    const TableAxis curvature{.name = "curvature_per_mm", .unit = "1/mm"},
         radius{.name = "radius_mm", .unit = "mm"};
-    regress(sample, curvatures, even, curvature);
-    regress(sample, radii_mm, by_radius, radius);
-    refine(bank, sample, light, curvature);
-    refine(bank, sample, light, radius);
-    const double a = mean_square(bank, sample, light, curvature),
-                 b = mean_square(bank, sample, light, radius);
-    hypothesis.axis = a <= b ? curvature : radius;
-    hypothesis.rms = std::sqrt(std::min(a, b));
+    double best = std::numeric_limits<double>::infinity();
+    // What `needed` times as little remains of is taken in place of the spacing before it.
+    const auto offer = [&](Spacing spacing, AxisWarp warp, double needed) {
+        const bool in_curvature = spacing.axis.name == curvature.name;
+        spacing.axis.warp = warp;
+        regress(sample, in_curvature ? std::span<const double>(curvatures) : radii_mm,
+                in_curvature ? even : by_radius, spacing);
+        const double remains = refine(bank, sample, light, spacing);
+        if (remains * needed >= best) return;
+        best = remains;
+        hypothesis.axis = spacing.axis;
+        hypothesis.v_origin = spacing.origin;
+    };
+    for (const TableAxis& axis : {curvature, radius}) offer({axis}, AxisWarp::linear, 1);
+    for (const TableAxis& axis : {curvature, radius})
+        for (const VOrigin origin : {VOrigin::top, VOrigin::bottom})
+            offer({axis, origin}, AxisWarp::squared, 1.5);
+    hypothesis.rms = std::sqrt(best);
 }
 
 namespace {

@@ -58,8 +58,8 @@ struct Bank {
 /// Mean square over all rows with the radius of each row free; radii_mm receives them.
 [[nodiscard]] double free_fit(const Bank& bank, std::span<const float> light, std::vector<double>& radii_mm);
 
-/// Fits axis.min and axis.max of the hypothesis (curvature or radius, whichever is better), as of texel
-/// centres from the top of the picture down, and fills rms.
+/// Fits the axis of the hypothesis: curvature or radius, even or by a square (then from the end of the
+/// picture at which rows are closest), whichever is better; ends as of texel centres. Fills rms.
 void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> light,
               const std::vector<double>& radii_mm, LintHypothesis& hypothesis);
 
@@ -76,6 +76,9 @@ struct Model {
 struct Search {
     Sample sample;  ///< turned as the first hypothesis says
     std::vector<LintHypothesis> hypotheses;
+    /// The best where each row may have any curvature; its axis is not set.
+    LintHypothesis free;
+    std::vector<double> free_radii_mm;
 };
 enum class Crops { searched, ignored };
 [[nodiscard]] Search search(const Image& linear_float, Crops crops);
@@ -114,6 +117,10 @@ struct TablePicture {
 
 /// Three digits.
 [[nodiscard]] std::string rounded(double value);
+
+/// Names rows that have a curvature each but no spacing that is known here, and takes `explained` back; false
+/// where that is not so.
+[[nodiscard]] bool explain_rows(LintReport& report, const Search& found, const Image& image);
 
 /// Fills findings and advice from the numbers of the report.
 void explain(LintReport& report, const Image& image);

@@ -229,7 +229,7 @@ void use_published_rows(LintHypothesis& hypothesis, int rows) {
     if (hypothesis.integration != Integration::unity_taps) return;
     const TableAxis published = lut_options("unity_2011")->convention.axes[1];
     TableAxis& axis = hypothesis.axis;
-    if (axis.name != published.name) return;
+    if (axis.name != published.name || axis.warp != published.warp) return;
     if (axis.min > axis.max) {
         hypothesis.v_origin = VOrigin::bottom;
         std::swap(axis.min, axis.max);
@@ -245,15 +245,19 @@ void use_published_rows(LintHypothesis& hypothesis, int rows) {
 Search search(const Image& image, Crops crops) {
     const std::array<Sample, 2> samples = {sample_of(image, false), sample_of(image, true)};
     const Views views = all_views(samples, {});
-    std::vector<LintHypothesis> found =
-        fitted_finalists(views, best_candidates(all_models(), views, kFinalists));
+    const std::vector<Candidate> candidates = best_candidates(all_models(), views, kFinalists);
+    std::vector<LintHypothesis> found = fitted_finalists(views, candidates);
     if (crops == Crops::searched && found.front().rms > kFullRangeRms) {
         const std::vector<LintHypothesis> cropped = cropped_finalists(samples);
         // Two more free numbers always explain a little more.
         if (cropped.front().rms < found.front().rms / 2) found = cropped;
     }
     for (LintHypothesis& hypothesis : found) use_published_rows(hypothesis, views.sample(hypothesis).v_count);
-    return {views.sample(found.front()), found};
+    Search result{views.sample(found.front()), found, candidates.front().hypothesis, {}};
+    const Sample& sample = views.sample(result.free);
+    const Bank bank = make_bank(result.free, *candidates.front().profile, n_dot_l_of(sample, result.free));
+    result.free.rms = std::sqrt(free_fit(bank, decoded(sample, result.free), result.free_radii_mm));
+    return result;
 }
 
 Result<Difference> difference(const Sample& sample, const LintHypothesis& hypothesis, Against against) {

@@ -100,7 +100,17 @@ std::string rebake_text(const LintHypothesis& h, int columns, int rows) {
     const double low = std::max(radius ? 0.001 : 0.0, std::min(min, max));
     return "dermis bake lut --profile " + h.profile + " --axis " + (radius ? "radius" : "curvature") +
            " --range " + lint::rounded(low) + "," + lint::rounded(std::max(min, max)) + " --size " +
-           std::to_string(columns) + "x" + std::to_string(rows) + " -o better.exr";
+           std::to_string(columns) + "x" + std::to_string(rows) +
+           (h.axis.warp == AxisWarp::squared ? " --warp squared" : "") + " -o better.exr";
+}
+
+// All but the rows.
+std::string describe_columns(const LintHypothesis& h) {
+    std::string text = construction_text(h) + ", profile " + h.profile + ", " + stored_text(h.stored_as);
+    if (h.bgr) text += ", blue first";
+    const std::string dark = lint::rounded(h.n_dot_l_min), lit = lint::rounded(h.n_dot_l_max);
+    return text + ", N.L " + (h.n_dot_l_mirrored ? lit + " to " + dark : dark + " to " + lit) +
+           (h.transposed ? " down" : " across") + sampling_text(h.sampling);
 }
 
 // Parts of the function that the picture does not have.
@@ -187,14 +197,36 @@ double lint::without_noise(double value, const TableAxis& axis) {
 }
 
 std::string describe(const LintHypothesis& h) {
-    std::string text = construction_text(h) + ", profile " + h.profile + ", " + stored_text(h.stored_as);
-    if (h.bgr) text += ", blue first";
-    const std::string dark = lint::rounded(h.n_dot_l_min), lit = lint::rounded(h.n_dot_l_max);
-    text += ", N.L " + (h.n_dot_l_mirrored ? lit + " to " + dark : dark + " to " + lit) +
-            (h.transposed ? " down" : " across") + sampling_text(h.sampling);
     const char* way = h.v_origin == VOrigin::bottom ? (h.transposed ? " to the left" : " up")
                                                     : (h.transposed ? " across" : " down");
-    return text + ", " + axis_text(h.axis) + way + sampling_text(h.axis.sampling);
+    return describe_columns(h) + ", " + axis_text(h.axis) + way + sampling_text(h.axis.sampling);
+}
+
+bool lint::explain_rows(LintReport& report, const Search& found, const Image& image) {
+    constexpr double kEven = 0.0025;  // 8 bits and published taps leave 0.002
+    constexpr size_t kNamedRows = 6;
+    const LintHypothesis& free = found.free;
+    if (report.best.rms < kEven || free.rms > kEven || report.best.rms < 2 * free.rms) return false;
+    report.explained = false;
+    const std::vector<double>& radii_mm = found.free_radii_mm;
+    double least = radii_mm[0];
+    std::string curvatures;
+    for (size_t i = 0; i < radii_mm.size(); ++i) {
+        least = std::min(least, radii_mm[i]);
+        const size_t step = std::max<size_t>(1, (radii_mm.size() - 1) / (kNamedRows - 1));
+        if (i % step == 0) curvatures += (i ? ", " : "") + rounded(1 / radii_mm[i]);
+    }
+    report.findings.push_back("explained best by: " + describe_columns(free) + "; rms " + rounded(free.rms) +
+                              " with a curvature of its own for each row");
+    report.findings.push_back("its rows are even neither in curvature or radius nor in the root of one: " +
+                              axis_text(report.best.axis) + " leaves rms " + rounded(report.best.rms) +
+                              ". Curvatures from the first row to the last: " + curvatures + " per mm");
+    LintHypothesis even = free;
+    even.axis = {.name = "curvature_per_mm", .unit = "1/mm", .min = 0, .max = 1 / least};
+    report.advice.push_back("no reader here takes such rows; bake an even table over them: " +
+                            rebake_text(even, free.transposed ? image.height : image.width,
+                                        free.transposed ? image.width : image.height));
+    return true;
 }
 
 void lint::explain(LintReport& report, const Image& image) {

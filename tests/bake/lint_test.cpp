@@ -10,6 +10,7 @@
 
 #include "dermis/bake/lint_model.h"
 #include "dermis/bake/lut.h"
+#include "dermis/bake/lut_taps.h"
 #include "dermis/bake/rows.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/image/colour.h"
@@ -212,6 +213,65 @@ TEST(Lint, rows_spaced_by_a_square_are_taken_from_the_files_convention) {
     EXPECT_LT(report.error_max, 1e-3);
     EXPECT_TRUE(mentions(report.findings, "curvature_per_mm 0 to 0.5, squared"));
     EXPECT_TRUE(mentions(report.advice, "sqrt(curvature_per_mm / 0.5)"));
+}
+
+namespace {
+
+// Rows of the exact table at curvatures of a function of their place, 0 at the top of the picture to 1.
+template <class Curvature>
+Image table_of_rows(Curvature curvature, PixelFormat format, const char* profile = "gpu_gems_3") {
+    constexpr int kWidth = 64, kHeight = 32;
+    std::vector<double> n_dot_l, radii_mm;
+    for (int x = 0; x < kWidth; ++x) n_dot_l.push_back((x + 0.5) / kWidth * 2 - 1);
+    for (int y = 0; y < kHeight; ++y) radii_mm.push_back(1 / curvature((y + 0.5) / kHeight));
+    const Profile skin = *find_profile(profile);
+    const std::vector<float> light = *integrate_model(skin, Integration::exact, n_dot_l, radii_mm, {});
+    Image image(kWidth, kHeight, 3);
+    std::ranges::copy(light, image.floats().begin());
+    return convert(image, format, Encoding::linear);
+}
+
+}  // namespace
+
+TEST(Lint, rows_spaced_by_a_square_are_recognised_from_either_end) {
+    for (const bool upwards : {false, true}) {
+        const auto square = [&](double s) { return 0.5 * (upwards ? (1 - s) * (1 - s) : s * s); };
+        const LintReport report = *lint_table(table_of_rows(square, PixelFormat::u8));
+        EXPECT_TRUE(report.explained);
+        EXPECT_EQ(report.best.axis.name, "curvature_per_mm");
+        EXPECT_EQ(report.best.axis.warp, AxisWarp::squared);
+        EXPECT_EQ(report.best.v_origin, upwards ? VOrigin::bottom : VOrigin::top);
+        EXPECT_NEAR(report.best.axis.min, 0, 0.005);
+        EXPECT_NEAR(report.best.axis.max, 0.5, 0.005);
+        EXPECT_TRUE(mentions(report.findings, "curvature_per_mm 0 to 0.5, squared"));
+        EXPECT_TRUE(mentions(report.advice,
+                             upwards ? "1 - sqrt(curvature_per_mm / 0.5)" : "sqrt(curvature_per_mm / 0.5)"));
+        EXPECT_TRUE(convention_of(report));
+    }
+}
+
+TEST(Lint, rows_even_in_radius_or_in_its_root_are_recognised) {
+    const LintReport even =
+        *lint_table(table_of_rows([](double s) { return 1 / (1 + 19 * s); }, PixelFormat::f16));
+    EXPECT_EQ(even.best.axis.name, "radius_mm");
+    EXPECT_EQ(even.best.axis.warp, AxisWarp::linear);
+    const LintReport root =
+        *lint_table(table_of_rows([](double s) { return 1 / (1 + 19 * s * s); }, PixelFormat::f16));
+    EXPECT_EQ(root.best.axis.name, "radius_mm");
+    EXPECT_EQ(root.best.axis.warp, AxisWarp::squared);
+    EXPECT_NEAR(root.best.axis.min, 1, 0.05);
+    EXPECT_NEAR(root.best.axis.max, 20, 0.2);
+}
+
+TEST(Lint, rows_of_another_spacing_are_said_to_be) {
+    const auto exponential = [](double s) { return 0.004 * std::pow(250, s); };
+    const LintReport report = *lint_table(table_of_rows(exponential, PixelFormat::u8, "openpbr_skin_5"));
+    EXPECT_FALSE(report.explained) << describe(report.best) << report.best.rms;
+    EXPECT_TRUE(mentions(report.findings, "profile openpbr_skin_5"));
+    EXPECT_TRUE(mentions(report.findings, "its rows are even neither in curvature or radius"));
+    EXPECT_FALSE(mentions(report.findings, "no good match"));
+    EXPECT_TRUE(mentions(report.advice, "--profile openpbr_skin_5"));
+    EXPECT_FALSE(convention_of(report));
 }
 
 TEST(Lint, numbers_that_contradict_their_convention_are_named) {
