@@ -1,6 +1,7 @@
 #include "dermis/optics/exact_profile.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "dermis/base/text.h"
@@ -100,14 +101,17 @@ Result<Profile> profile_of(Members& members, const std::string& model) {
 
 }  // namespace
 
-Json exact_profile_json(const Profile& profile) {
+std::string exact_profile_json(const Profile& profile) {
     Json json = std::visit([](const auto& model) { return model_json(model); }, profile.model);
     json["name"] = profile.name;
     json["source"] = profile.source;
-    return json;
+    // A name that is no UTF-8, as of a file, would be an exception.
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Result<Profile> parse_exact_profile(const Json& json) {
+Result<Profile> parse_exact_profile(std::string_view text) {
+    const Json json = Json::parse(text.begin(), text.end(), nullptr, false);
+    if (json.is_discarded()) return Error{"no JSON"};
     Members members(json);
     const auto model = members.value<std::string>("model");
     const auto name = members.value<std::string>("name"), source = members.value<std::string>("source");

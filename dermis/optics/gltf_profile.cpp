@@ -96,7 +96,7 @@ class MaterialReader {
     Profile exact_or(const Profile& of_volume) {
         constexpr double kRounding = 1e-4;  // the volume's numbers are written as floats
         const std::string place = "extras." + std::string(kGltfExactProfile);
-        const Result<Profile> exact = parse_exact_profile(*exact_);
+        const Result<Profile> exact = parse_exact_profile(exact_->dump());
         if (!exact) {
             notes_.push_back(place + " is not read: " + exact.error().message);
             return of_volume;
@@ -208,7 +208,7 @@ GltfVolume gltf_volume(const Profile& profile, const Rgb& surface_albedo) {
 }
 
 std::string gltf_extras(const Profile& profile) {
-    return Json{{kGltfExactProfile, exact_profile_json(profile)}}.dump();
+    return "{\"" + std::string(kGltfExactProfile) + "\":" + exact_profile_json(profile) + "}";
 }
 
 std::string gltf_note(const Profile& profile) {
