@@ -28,6 +28,18 @@ constexpr float kHemisphere[3][2] = {{0.4f, 0.3f}, {0.4f, 0.1f}, {0.5f, -0.2f}};
 constexpr Vec3 kPointMm{-80, 72, 68};
 constexpr float kPointIntensity = 0.04f;  // irradiance at 1 m; three.js has no falloff within 100 mm
 
+// Of the spot light at kPointMm: the edge of its cone passes over the sphere. Babylon.js has no sharper edge
+// than 0.001 of the cosine.
+constexpr float kSpotIntensity = 0.05f, kSpotInnerDeg = 29.85f, kSpotOuterDeg = 30;
+constexpr float kSpotAsideMm = 73;  // of its target
+
+// Together: two directional lights and the point.
+struct Distant {
+    float yaw_deg, pitch_deg;
+    Vec3 color;  // times pi: the irradiance
+};
+constexpr Distant kDistant[] = {{-50, 35, {0.5f, 0.4f, 0.3f}}, {75, -20, {0.1f, 0.2f, 0.4f}}};
+
 std::array<float, 3> channels(Vec3 v) {
     return {v.x, v.y, v.z};
 }
@@ -157,6 +169,37 @@ nlohmann::json hemisphere_color(float sign) {
     return color;
 }
 
+Vec3 to_light_of(const Distant& light) {
+    const float yaw = light.yaw_deg * float(kPi / 180), pitch = light.pitch_deg * float(kPi / 180);
+    return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)};
+}
+
+nlohmann::json distant_lights() {
+    nlohmann::json lights;
+    for (const Distant& light : kDistant)
+        lights.push_back({{"to_light", channels(to_light_of(light))}, {"color", channels(light.color)}});
+    return lights;
+}
+
+std::string list_text(Vec3 v) {
+    return "[" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + "]";
+}
+
+// At kPointMm.
+std::string lamp_text(const std::string& kind, float intensity) {
+    return "[[light]]\nkind = \"" + kind + "\"\nshadow = false\nposition_mm = " + list_text(kPointMm) +
+           "\nintensity = " + std::to_string(intensity) + "\n";
+}
+
+std::string distant_text() {
+    std::string text;
+    for (const Distant& light : kDistant)
+        text += "[[light]]\nshadow = false\nyaw_deg = " + std::to_string(light.yaw_deg) +
+                "\npitch_deg = " + std::to_string(light.pitch_deg) + "\ncolor = " + list_text(light.color) +
+                (&light == kDistant ? "\nkey = true\n" : "\n");
+    return text;
+}
+
 std::string scene_text(const std::string& mesh, const std::string& rest) {
     return "background = [0.02, 0.02, 0.02]\ntone_map = \"none\"\n" + mesh +
            "[skin]\nprofile = \"openpbr_skin_5\"\nroughness = 0.45\n[material.skin]\nalbedo = [0.48, 0.19, "
@@ -179,7 +222,13 @@ void write_host_data(const std::filesystem::path& folder) {
         {"radiance_sh", radiance_sh()},
         {"sky", hemisphere_color(1)},
         {"ground", hemisphere_color(-1)},
-        {"point", {{"position_mm", {kPointMm.x, kPointMm.y, kPointMm.z}}, {"intensity", kPointIntensity}}},
+        {"point", {{"position_mm", channels(kPointMm)}, {"intensity", kPointIntensity}}},
+        {"spot",
+         {{"target_mm", channels(kSpotAsideMm * card_side())},
+          {"intensity", kSpotIntensity},
+          {"inner_deg", kSpotInnerDeg},
+          {"outer_deg", kSpotOuterDeg}}},
+        {"distant", distant_lights()},
         {"sphere", json_of(sphere())},
         {"card", json_of(card())}};
     ASSERT_TRUE(write_text_file(folder / "scene.json", data.dump()));
@@ -193,16 +242,19 @@ void write_renderer_scenes(const std::filesystem::path& folder) {
     ASSERT_TRUE(write_text_file(folder / "card.obj", obj_of(card())));
     const std::string mesh = "[[mesh]]\nfile = \"sphere.obj\"\n", dark = "[environment]\nkind = \"none\"\n",
                       key = "[[light]]\nyaw_deg = -50\npitch_deg = 35\nintensity = 3.14159265\n",
-                      point = "[[light]]\nkind = \"point\"\nshadow = false\nposition_mm = [" +
-                              std::to_string(kPointMm.x) + ", " + std::to_string(kPointMm.y) + ", " +
-                              std::to_string(kPointMm.z) +
-                              "]\nintensity = " + std::to_string(kPointIntensity) + "\n",
+                      point = lamp_text("point", kPointIntensity),
+                      spot = lamp_text("spot", kSpotIntensity) +
+                             "target_mm = " + list_text(kSpotAsideMm * card_side()) +
+                             "\ninner_angle_deg = " + std::to_string(kSpotInnerDeg) +
+                             "\nouter_angle_deg = " + std::to_string(kSpotOuterDeg) + "\n",
                       none = "[[light]]\nintensity = 0\nshadow = false\n";
     const std::pair<const char*, std::string> scenes[] = {
         {"environment", scene_text(mesh, none + "[environment]\nfile = \"environment.hdr\"\n")},
         {"probe", scene_text(mesh, none + "[environment]\nfile = \"environment.hdr\"\n")},
         {"hemisphere", scene_text(mesh, none + "[environment]\nfile = \"hemisphere.hdr\"\n")},
         {"point", scene_text(mesh, dark + point)},
+        {"spot", scene_text(mesh, dark + spot)},
+        {"lights", scene_text(mesh, dark + distant_text() + point)},
         {"shadow",
          scene_text(mesh + "[[mesh]]\nfile = \"card.obj\"\ndefault_class = \"other\"\n", dark + key)},
         {"bumps", scene_text(mesh, dark + key + "shadow = false\n[maps]\nnormal = \"bumps.png\"\n")}};

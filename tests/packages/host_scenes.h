@@ -27,6 +27,10 @@ inline constexpr HostScene kHostScenes[] = {
     {.name = "probe", .largest_level = 2, .engine = "three", .settings = "--set specular=none"},
     {.name = "hemisphere", .largest_level = 2, .settings = "--set specular=none"},
     {.name = "point", .largest_level = 2},
+    // The cone's edge crosses the sphere. three.js has its own curve there, Babylon that of glTF as Dermis.
+    {.name = "spot", .largest_level = 2, .share_beyond = 0.05, .engine = "three"},
+    {.name = "spot", .largest_level = 2, .share_beyond = 0.002, .engine = "babylon"},
+    {.name = "lights", .largest_level = 2},
     // The edge of the shadow is filtered in each one's own way; engines have shadows of the sphere on itself
     // near the terminator.
     {.name = "shadow",

@@ -1,5 +1,5 @@
-// The package's plugin in the scenes of the test (host_scenes.h): ?environment, ?hemisphere, ?point, ?shadow, ?bumps; units are
-// metres.
+// The package's plugin in the scenes of the test (host_scenes.h): ?environment, ?hemisphere, ?point, ?spot, ?lights, ?shadow,
+// ?bumps; units are metres.
 
 import { ArcRotateCamera } from "@babylonjs/core/Cameras/arcRotateCamera.js";
 import { Engine } from "@babylonjs/core/Engines/engine.js";
@@ -7,6 +7,7 @@ import { WebGPUEngine } from "@babylonjs/core/Engines/webgpuEngine.js";
 import { DirectionalLight } from "@babylonjs/core/Lights/directionalLight.js";
 import { HemisphericLight } from "@babylonjs/core/Lights/hemisphericLight.js";
 import { PointLight } from "@babylonjs/core/Lights/pointLight.js";
+import { SpotLight } from "@babylonjs/core/Lights/spotLight.js";
 import { ShadowGenerator } from "@babylonjs/core/Lights/Shadows/shadowGenerator.js";
 import "@babylonjs/core/Lights/Shadows/shadowGeneratorSceneComponent.js";
 import { PBRMaterial } from "@babylonjs/core/Materials/PBR/pbrMaterial.js";
@@ -57,7 +58,7 @@ const keyLight = () => {
   key.intensity = Math.PI;
   return key;
 };
-const name = ["environment", "hemisphere", "point", "shadow", "bumps"].find(one => query.has(one));
+const name = ["environment", "hemisphere", "point", "spot", "lights", "shadow", "bumps"].find(one => query.has(one));
 const sphere = name === "bumps" ? meshOf("sphere", data.sphere) : CreateSphere("sphere", { diameter: 0.016, segments: 96 }, scene);
 sphere.material = material;
 
@@ -74,6 +75,23 @@ const add = {
   point() {
     const light = new PointLight("lamp", Vector3.FromArray(data.point.position_mm).scale(0.001), scene);
     light.intensity = data.point.intensity;
+  },
+  spot() {
+    const { target_mm, intensity, inner_deg, outer_deg } = data.spot;
+    const position = Vector3.FromArray(data.point.position_mm).scale(0.001);
+    const towards = Vector3.FromArray(target_mm).scale(0.001).subtract(position);
+    const light = new SpotLight("spot", position, towards, outer_deg * Math.PI / 90, 0, scene);
+    light.innerAngle = inner_deg * Math.PI / 90;
+    light.falloffType = SpotLight.FALLOFF_GLTF;
+    light.intensity = intensity;
+  },
+  lights() {
+    add.point();
+    for (const { to_light, color } of data.distant) {
+      const light = new DirectionalLight("distant", Vector3.FromArray(to_light).scale(-1), scene);
+      light.diffuse = light.specular = Color3.FromArray(color);
+      light.intensity = Math.PI;
+    }
   },
   shadow() {
     const key = keyLight();

@@ -1,9 +1,10 @@
-// The package's material in the scenes of the test (host_scenes.h): ?environment, ?probe, ?hemisphere, ?point, ?shadow, ?bumps; units
-// are metres.
+// The package's material in the scenes of the test (host_scenes.h): ?environment, ?probe, ?hemisphere, ?point, ?spot, ?lights, ?shadow,
+// ?bumps; units are metres.
 
 import {
   BufferAttribute, BufferGeometry, Color, DirectionalLight, EquirectangularReflectionMapping, HemisphereLight, LightProbe, Mesh,
-  MeshBasicMaterial, NoToneMapping, PCFShadowMap, PerspectiveCamera, PointLight, Scene, SphereGeometry, TextureLoader, WebGPURenderer,
+  MeshBasicMaterial, NoToneMapping, PCFShadowMap, PerspectiveCamera, PointLight, Scene, SphereGeometry, SpotLight,
+  TextureLoader, WebGPURenderer,
 } from "three/webgpu";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
 import { loadSkinTable, SkinNodeMaterial } from "../SkinNodeMaterial.js";
@@ -43,6 +44,21 @@ const add = {
     const light = new PointLight(0xffffff, data.point.intensity);
     light.position.fromArray(data.point.position_mm).divideScalar(1000);
     scene.add(light);
+  },
+  spot() {
+    const { target_mm, intensity, inner_deg, outer_deg } = data.spot;
+    const light = new SpotLight(0xffffff, intensity, 0, outer_deg * Math.PI / 180, 1 - inner_deg / outer_deg);
+    light.position.fromArray(data.point.position_mm).divideScalar(1000);
+    light.target.position.fromArray(target_mm).divideScalar(1000);
+    scene.add(light, light.target);
+  },
+  lights() {
+    add.point();
+    for (const { to_light, color } of data.distant) {
+      const light = new DirectionalLight(new Color().setRGB(...color), Math.PI);
+      light.position.fromArray(to_light);
+      scene.add(light);
+    }
   },
   shadow() {
     const key = new DirectionalLight(0xffffff, Math.PI);
