@@ -70,6 +70,9 @@ namespace dermis {
 // Specialisation constant tone_map: dermis/image/tone_map.h.
 const int kToneMapNone = 0, kToneMapHable = 1, kToneMapAces = 2, kToneMapPbrNeutral = 3;
 
+// Specialisation constant blended: what of the blended materials a pass draws.
+const int kBlendedNot = 0, kBlendedCore = 1, kBlendedRim = 2;
+
 // Specialisation constant shown: which attribute of the G-buffer.
 const int kShownNormal = 0, kShownGeometryNormal = 1, kShownAlbedo = 2, kShownRoughness = 3,
           kShownCurvature = 4, kShownOcclusion = 5, kShownShadow = 6, kShownNDotL = 7, kShownDepth = 8,
@@ -99,7 +102,7 @@ namespace dermis {
 
 // Specialisation constants: the order of the parameters' choices.
 const int kDiffuseLut = 0, kDiffuseCurve2015 = 1, kDiffuseClosedForm = 2;
-const int kShadowPlain = 0, kShadowScattered = 1;
+const int kShadowPlain = 0, kShadowScattered = 1, kShadowGathered = 2;
 const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
 const int kNormalsSharp = 0, kNormalsSmooth = 1, kNormalsBlended = 2, kNormalsLerp = 3, kNormalsBaked = 4;
 const int kAmbientExact = 0, kAmbientLut = 1, kAmbientCurve2015 = 2;
@@ -118,8 +121,11 @@ const int kTransmissionGaussians = 6;
 // Rows of skin_rows, each over its own argument from 0 to 1: zonal harmonics of order 0 to 2 over curvature,
 // the shadow's edge over visibility, weights and levels of the smoother normal over log2 of a texel of the
 // normal map in mm, the curvature, over kMaxCurvaturePerMm, of a sphere over sqrt(1 - length of its mean
-// normal).
-const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowCurvature = 5, kRowCount = 6, kRowTexels = 257;
+// normal). Two are read by texels: weights and places of shadow_taps.h.
+const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowCurvature = 5, kRowTapWeights = 6,
+          kRowTapPlaces = 7, kRowCount = 8, kRowTexels = 257;
+// Every fourth stands first.
+const int kShadowGatherTaps = 64, kShadowFirstTaps = 16;
 
 // 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
