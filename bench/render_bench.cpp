@@ -2,7 +2,9 @@
 // 1024, MSAA 1, shadow and environment on; medians over frames in one run, the first left out. Quote ratios
 // to lambert; absolute times depend on the machine.
 //
-//     build/bench/render_bench [SCENE] [FRAMES] [TECHNIQUE, beside lambert]
+//     build/bench/render_bench [SCENE] [FRAMES] [TECHNIQUE, beside lambert] [SIZE of a side]
+//
+// `defaults` as the technique: every technique with its defaults alone, as bench/versions reads them.
 
 #include <algorithm>
 #include <chrono>
@@ -48,14 +50,18 @@ Run run_of(const std::string& id, const std::string& parameter = "", const std::
     return run;
 }
 
+const std::string kDefaults = "defaults";
+
 // Lambert, then every technique (or one), those that have transmission without it too, and the settings of
 // preintegrated, screen_space_separable, spherical_gaussians and texture_space whose costs their READMEs
 // state.
 std::vector<Run> runs(const std::string& only) {
     std::vector<Run> all = {run_of("lambert")};
     for (const Technique& technique : built_in_catalog().techniques) {
-        if (technique.id == "lambert" || (!only.empty() && technique.id != only)) continue;
+        if (technique.id == "lambert") continue;
+        if (!only.empty() && only != kDefaults && technique.id != only) continue;
         all.push_back(run_of(technique.id));
+        if (only == kDefaults) continue;
         Run without = run_of(technique.id);
         without.name += " transmission=none";
         if (without.values.set("transmission", "none")) all.push_back(std::move(without));
@@ -78,12 +84,13 @@ struct Cost {
     std::vector<std::pair<std::string, double>> passes;
 };
 
-Result<Cost> measure(Renderer& renderer, const Run& run, int frames) {
+Result<Cost> measure(Renderer& renderer, const Run& run, int frames, int side) {
     std::vector<gpu::FrameResult> results;
     std::vector<double> totals, cpu;
     for (int frame = 0; frame < frames; ++frame) {
         const std::clock_t before = std::clock();
-        Result<gpu::FrameResult> drawn = renderer.draw(*run.technique, run.values, {});
+        Result<gpu::FrameResult> drawn =
+            renderer.draw(*run.technique, run.values, {.width = side, .height = side});
         if (!drawn) return drawn.error();
         if (frame == 0) continue;  // compiles
         cpu.push_back(double(std::clock() - before) * 1e3 / CLOCKS_PER_SEC);
@@ -112,6 +119,7 @@ int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "bust";
     const int frames = argc > 2 ? std::max(2, std::atoi(argv[2])) : 8;
     const std::string only = argc > 3 ? argv[3] : "";
+    const int side = argc > 4 ? std::max(1, std::atoi(argv[4])) : 1024;
     const auto start = Clock::now();
     Result<Scene> scene = load_scene(name, {.subjects = built_in_catalog().subjects});
     if (!scene) return fail(scene.error().message);
@@ -122,13 +130,13 @@ int main(int argc, char** argv) {
     Result<Renderer> renderer =
         Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), *scene);
     if (!renderer) return fail(renderer.error().message);
-    std::printf(
-        "%s, 1024x1024, %d frames after the first, on %s\nscene %.0f ms, ready to draw after %.0f ms\n",
-        scene->name.c_str(), frames - 1, device->info().name.c_str(), load_ms, since_ms(start));
+    std::printf("%s, %dx%d, %d frames after the first, on %s\nscene %.0f ms, ready to draw after %.0f ms\n",
+                scene->name.c_str(), side, side, frames - 1, device->info().name.c_str(), load_ms,
+                since_ms(start));
 
     double lambert_ms = 0, lambert_cpu_ms = 0;
     for (const Run& run : runs(only)) {
-        const Result<Cost> cost = measure(*renderer, run, frames);
+        const Result<Cost> cost = measure(*renderer, run, frames, side);
         if (!cost) return fail(cost.error().message);
         if (lambert_ms == 0) lambert_ms = cost->frame_ms, lambert_cpu_ms = cost->cpu_ms;
         print(run, *cost, lambert_ms, lambert_cpu_ms);
