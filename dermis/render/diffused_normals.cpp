@@ -1,6 +1,6 @@
-// Each Gaussian is summed over a level of the atlas whose texels are nearly as wide as it is: a sum over a
-// grid of steps h is the integral of a Gaussian to 2 exp(-2 pi^2 sigma^2 / h^2). Texels vary in width, so
-// that h is not above 0.8 sigma for the typical one.
+// Each Gaussian is summed over points of the skin that lie a part of its width apart, at these points only:
+// its result is smooth. From the points of the widest the sums are interpolated at those of the next, and so
+// on down to the texels. Merging and interpolating blur too; the Gaussians are narrower by that.
 
 #include "dermis/render/diffused_normals.h"
 
@@ -9,44 +9,84 @@
 #include <cstring>
 #include <numbers>
 #include <span>
-#include <unordered_map>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
+#include "dermis/base/progress.h"
 #include "dermis/image/dilate.h"
-#include "dermis/technique/diffused_normals.h"
+#include "dermis/render/skin_points.h"
 
 namespace dermis {
 namespace {
 
-constexpr int kLevels = 5, kGutterTexels = 16, kProfileSteps = 2048;
-constexpr float kWidestStep = 0.8f;  // of a Gaussian's standard deviation
-constexpr float kReach = 3.2f;       // the same
+constexpr int kGutterTexels = 16, kProfileSteps = 2048;
+// Of the narrowest Gaussian's standard deviation: the side of the cubes over which points are merged, and how
+// much wider the others of the same points may be.
+constexpr float kSide = 0.85f, kWidest = 1.5f;
+constexpr float kReach = 3.2f;        // of a Gaussian's standard deviation
+constexpr float kKernel = 1.5f;       // radius of the interpolation, of the points' cubes
+constexpr float kLeastCube = 4;       // in texels: to find a cube takes longer than to pass over some points
+constexpr size_t kSampledCubes = 16;  // one in so many, to measure a mean
 // Cosine of the normals of two walls that no way through air may join. The head scan's share under its key
 // light, by the sum of the shadowed light over its texels with this kernel: without the rule .69, at 0 .83,
 // at this .85.
 constexpr float kSameWall = 0.7f;
 
-// Of red and green: the integral of the profile, and of the profile times the normal; of red the profile
-// times the products of the normal's parts.
-struct Sums {
-    std::array<float, 2> weight = {};
-    std::array<Vec3, 2> normal = {};
-    Vec3 squares = {}, mixed = {};  // xx, yy, zz; yz, xz, xy
-};
-// The Gaussians of one level: R of red and green over the squared distance, and how far they reach.
-struct LevelProfile {
-    std::vector<std::array<float, 2>> steps;
-    float reach_mm = 0;
+using Float4 = float __attribute__((vector_size(16)));
+Float4 float4(float first, Vec3 rest) {
+    return Float4{first, rest.x, rest.y, rest.z};
+}
 
-    [[nodiscard]] std::array<float, 2> at(float squared_mm2) const {
-        const float place = squared_mm2 / (reach_mm * reach_mm) * kProfileSteps;
-        const auto i = size_t(place);
-        const float part = place - float(i);
-        return {std::lerp(steps[i][0], steps[i + 1][0], part), std::lerp(steps[i][1], steps[i + 1][1], part)};
+// Of red and green the integral of the profile, and of the profile times the normal; of red the profile times
+// the products of the normal's parts.
+struct Sums {
+    Float4 red = {}, green = {};      // weight, normal
+    Float4 squares = {}, mixed = {};  // 0, xx, yy, zz; 0, yz, xz, xy
+
+    void add(const Sums& other, float part) {
+        red += other.red * part;
+        green += other.green * part;
+        squares += other.squares * part;
+        mixed += other.mixed * part;
     }
+};
+// R of red and green over the squared distance.
+using Steps = std::vector<std::array<float, 2>>;
+struct PartOfProfile {
+    const Steps* steps;
+    float squared_reach_mm2, steps_per_mm2, scale;
+};
+// The Gaussians of one set of points.
+struct SetOfGaussians {
+    Steps steps;
+    float variance_mm2 = 0;  // of the narrowest
+    float squared_reach_mm2 = 0;
+
+    [[nodiscard]] float reach_mm() const { return std::sqrt(squared_reach_mm2); }
+    // The same curve, drawn together, so that the narrowest Gaussian's variance is less by blurred_mm2.
+    [[nodiscard]] PartOfProfile narrowed_by(float blurred_mm2) const {
+        const float part = std::max(1 - blurred_mm2 / variance_mm2, 0.25f);
+        return {&steps, squared_reach_mm2 * part, kProfileSteps / (squared_reach_mm2 * part), 1 / part};
+    }
+};
+// A point as a sum reads it.
+struct Source {
+    Vec3 p_mm, n_geometry;
+    Float4 mass, squares, mixed;  // times its area; mass: 1, n
+
+    explicit Source(const SkinPoint& point)
+        : p_mm(point.p_mm),
+          n_geometry(point.n_geometry),
+          mass(float4(1, point.n) * point.area_mm2),
+          squares(float4(0, point.squares) * point.area_mm2),
+          mixed(float4(0, point.mixed) * point.area_mm2) {}
+};
+
+struct Reached {
+    uint32_t number;
+    float squared_mm2;
 };
 
 std::array<double, 3> totals(const GaussianSum& profile) {
@@ -57,108 +97,218 @@ std::array<double, 3> totals(const GaussianSum& profile) {
     return total;
 }
 
-int level_of(double variance_mm2, float texel_mm) {
-    const double steps = kWidestStep * std::sqrt(variance_mm2) / std::max(double(texel_mm), 1e-6);
-    return std::clamp(int(std::floor(std::log2(std::max(steps, 1.0)))), 0, kLevels - 1);
+// Of red and green: what the Gaussians that the map does not hold have of the profile.
+Vec2 narrow_weights(const GaussianSum& profile, float finest_mm2) {
+    std::array<double, 2> narrow = {};
+    const std::array<double, 3> total = totals(profile);
+    for (const GaussianTerm& term : profile.terms)
+        if (term.variance_mm2 < double(finest_mm2))
+            for (size_t c = 0; c < 2; ++c) narrow[c] += term.weight[c] / total[c];
+    return {float(narrow[0]), float(narrow[1])};
 }
 
-LevelProfile level_profile(const GaussianSum& profile, float finest_mm2, int level, float texel_mm) {
+// Sets of Gaussians of about one width, from narrow to wide.
+std::vector<std::vector<GaussianTerm>> sets_of_gaussians(const GaussianSum& profile, float finest_mm2) {
     std::vector<GaussianTerm> terms;
     for (const GaussianTerm& term : profile.terms)
-        if (term.variance_mm2 >= finest_mm2 && level_of(term.variance_mm2, texel_mm) == level)
-            terms.push_back(term);
-    LevelProfile made;
-    if (terms.empty()) return made;
-    for (const GaussianTerm& term : terms)
-        made.reach_mm = std::max(made.reach_mm, kReach * float(std::sqrt(term.variance_mm2)));
-    const std::array<double, 3> total = totals(profile);
+        if (term.variance_mm2 >= double(finest_mm2)) terms.push_back(term);
+    std::ranges::sort(terms, {}, &GaussianTerm::variance_mm2);
+    std::vector<std::vector<GaussianTerm>> sets;
+    for (const GaussianTerm& term : terms) {
+        if (sets.empty() || term.variance_mm2 > double(kWidest * kWidest) * sets.back()[0].variance_mm2)
+            sets.emplace_back();
+        sets.back().push_back(term);
+    }
+    return sets;
+}
+
+// That of a Gaussian which is cut off at the reach and has this one then.
+double uncut_variance_mm2(double variance_mm2, double squared_reach_mm2) {
+    double uncut = variance_mm2;
+    for (int i = 0; i < 12; ++i) {
+        const double x = 0.5 * squared_reach_mm2 / uncut;
+        uncut = variance_mm2 / (1 - x / std::expm1(x));
+    }
+    return uncut;
+}
+
+// `blurred_mm2` is left out of each Gaussian's variance.
+SetOfGaussians set_of_gaussians(const std::vector<GaussianTerm>& terms, const std::array<double, 3>& total,
+                                double blurred_mm2) {
+    const auto left_mm2 = [&](const GaussianTerm& term) {
+        return std::max(term.variance_mm2 - blurred_mm2, 0.25 * term.variance_mm2);
+    };
+    const double squared_reach_mm2 = double(kReach * kReach) * left_mm2(terms.back());
+    SetOfGaussians made{.steps = {},
+                        .variance_mm2 = float(left_mm2(terms.front())),
+                        .squared_reach_mm2 = float(squared_reach_mm2)};
     for (int i = 0; i <= kProfileSteps + 1; ++i) {
-        const double squared_mm2 = double(i) / kProfileSteps * made.reach_mm * made.reach_mm;
+        const double squared_mm2 = double(i) / kProfileSteps * squared_reach_mm2;
         std::array<float, 2> r = {};
-        for (const GaussianTerm& term : terms)
+        for (const GaussianTerm& term : terms) {
+            const double variance_mm2 = uncut_variance_mm2(left_mm2(term), squared_reach_mm2);
+            const double whole = -std::expm1(-0.5 * squared_reach_mm2 / variance_mm2);
             for (size_t c = 0; c < 2; ++c)
-                r[c] += float(term.weight[c] / total[c] / (2 * std::numbers::pi * term.variance_mm2) *
-                              std::exp(-0.5 * squared_mm2 / term.variance_mm2));
+                r[c] += float(term.weight[c] / total[c] / (2 * std::numbers::pi * variance_mm2 * whole) *
+                              std::exp(-0.5 * squared_mm2 / variance_mm2));
+        }
         made.steps.push_back(r);
     }
     return made;
 }
 
-// Texels in the order of the cubes that they lie in.
-class Cubes {
-  public:
-    Cubes(std::vector<SkinTexel> texels, float side_mm) : texels_(std::move(texels)), side_mm_(side_mm) {
-        const auto key = [&](const SkinTexel& texel) { return key_of(cube_of(texel.p_mm)); };
-        std::ranges::sort(texels_, [&](const SkinTexel& a, const SkinTexel& b) {
-            const uint64_t ka = key(a), kb = key(b);
-            return ka != kb ? ka < kb : a.index < b.index;
-        });
-        for (size_t begin = 0, end = 0; begin < texels_.size(); begin = end) {
-            while (end < texels_.size() && key(texels_[end]) == key(texels_[begin])) ++end;
-            index_.emplace(key(texels_[begin]), cubes_.size());
-            cubes_.push_back(std::span(texels_).subspan(begin, end - begin));
-        }
+// Adds what the sources of one cube give. Those in reach are listed first, without a branch that the
+// processor would guess wrong for every third.
+void add(Sums& sums, std::span<const Source> cube, const SkinPoint& to, const PartOfProfile& profile,
+         std::vector<Reached>& reached) {
+    reached.resize(std::max(reached.size(), cube.size() + 1));
+    size_t count = 0;
+    for (size_t i = 0; i < cube.size(); ++i) {
+        const Vec3 way_mm = cube[i].p_mm - to.p_mm;
+        const float squared_mm2 = dot(way_mm, way_mm);
+        reached[count] = {uint32_t(i), squared_mm2};
+        count += size_t(squared_mm2 < profile.squared_reach_mm2);
     }
-    [[nodiscard]] const std::vector<std::span<const SkinTexel>>& all() const { return cubes_; }
-    // Within `cubes` of the one in each direction.
-    [[nodiscard]] std::vector<std::span<const SkinTexel>> around(Vec3 p_mm, int cubes) const {
-        std::vector<std::span<const SkinTexel>> found;
-        const std::array<int, 3> at = cube_of(p_mm);
-        for (int x = -cubes; x <= cubes; ++x)
-            for (int y = -cubes; y <= cubes; ++y)
-                for (int z = -cubes; z <= cubes; ++z)
-                    if (const auto i = index_.find(key_of({at[0] + x, at[1] + y, at[2] + z}));
-                        i != index_.end())
-                        found.push_back(cubes_[i->second]);
-        return found;
+    for (const Reached& one : std::span(reached).first(count)) {
+        const Source& from = cube[one.number];
+        const Vec3 way_mm = from.p_mm - to.p_mm;
+        const bool leaves = dot(way_mm, to.n_geometry) > 0, enters = dot(way_mm, from.n_geometry) < 0;
+        const bool other_wall = dot(to.n_geometry, from.n_geometry) < kSameWall;
+        if (int(leaves) & int(enters) & int(other_wall)) continue;
+        const auto& [red, green] = (*profile.steps)[size_t(one.squared_mm2 * profile.steps_per_mm2 + 0.5f)];
+        sums.red += from.mass * red;
+        sums.green += from.mass * green;
+        sums.squares += from.squares * red;
+        sums.mixed += from.mixed * red;
     }
-
-  private:
-    [[nodiscard]] std::array<int, 3> cube_of(Vec3 p_mm) const {
-        const auto part = [&](float x) { return int(std::floor(std::clamp(x / side_mm_, -1e6f, 1e6f))); };
-        return {part(p_mm.x), part(p_mm.y), part(p_mm.z)};
-    }
-    static uint64_t key_of(std::array<int, 3> cube) {
-        const auto part = [](int x) { return uint64_t(x + (1 << 20)) & 0x1FFFFF; };
-        return part(cube[0]) << 42 | part(cube[1]) << 21 | part(cube[2]);
-    }
-    std::vector<SkinTexel> texels_;
-    float side_mm_;
-    std::vector<std::span<const SkinTexel>> cubes_;
-    std::unordered_map<uint64_t, size_t> index_;
-};
-
-void add(Sums& sums, const SkinTexel& from, const SkinTexel& to, const LevelProfile& profile) {
-    const Vec3 way_mm = from.p_mm - to.p_mm;
-    const float squared_mm2 = dot(way_mm, way_mm);
-    if (squared_mm2 >= profile.reach_mm * profile.reach_mm || from.area_mm2 <= 0) return;
-    const bool through_air = dot(way_mm, to.n_geometry) > 0 && dot(way_mm, from.n_geometry) < 0;
-    if (through_air && dot(to.n_geometry, from.n_geometry) < kSameWall) return;
-    const std::array<float, 2> r = profile.at(squared_mm2);
-    const Vec3 n = from.n;
-    for (size_t c = 0; c < 2; ++c) {
-        sums.weight[c] += from.area_mm2 * r[c];
-        sums.normal[c] += n * (from.area_mm2 * r[c]);
-    }
-    sums.squares += n * n * (from.area_mm2 * r[0]);
-    sums.mixed += Vec3{n.y * n.z, n.x * n.z, n.x * n.y} * (from.area_mm2 * r[0]);
 }
 
-// Adds what the texels of one level give to the sums of each of `skin`.
-void gather(const SkinTexels& skin, const SkinTexels& level, const LevelProfile& profile,
-            std::span<Sums> sums) {
-    const float side_mm = 0.5f * profile.reach_mm;
-    std::vector<SkinTexel> numbered = skin.texels;
-    for (size_t i = 0; i < numbered.size(); ++i) numbered[i].index = uint32_t(i);
-    const Cubes targets(std::move(numbered), side_mm), sources(level.texels, side_mm);
-    parallel_for(targets.all().size(), 16, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            const auto near = sources.around(targets.all()[i].front().p_mm, 2);
-            for (const SkinTexel& to : targets.all()[i])
-                for (const auto& cube : near)
-                    for (const SkinTexel& from : cube) add(sums[to.index], from, to, profile);
+// Adds to the sums of each point what all points give.
+void gather(const SkinPoints& skin, const SetOfGaussians& set, std::span<Sums> sums, Progress& progress) {
+    const std::vector<Source> sources(skin.points().begin(), skin.points().end());
+    skin.for_each_cube(skin, set.reach_mm(), 1, [&](const SkinCube& cube, SkinPoints::Near near) {
+        std::vector<Reached> reached;
+        float merged_mm2 = 0;
+        for (const SkinPoint& point : cube.points) merged_mm2 += point.variance_mm2;
+        const PartOfProfile profile = set.narrowed_by(merged_mm2 / float(cube.points.size()));
+        for (size_t i = 0; i < cube.points.size(); ++i) {
+            const SkinPoint& to = cube.points[i];
+            Sums sum;
+            for (const SkinCube* other : near)
+                if (other->squared_distance_mm2(to.p_mm) < profile.squared_reach_mm2)
+                    add(sum, std::span(sources).subspan(other->first, other->points.size()), to, profile,
+                        reached);
+            sums[cube.first + i].add(sum, profile.scale);
+        }
+        progress.advance(cube.points.size());
+    });
+}
+
+struct Neighbour {
+    size_t number;
+    float weight, u, v;
+    float squared_mm2;
+};
+
+// The points around `to`, with weights whose sum is 1: their weighted mean is exact for what changes evenly
+// along the surface (moving least squares, first order).
+void find_neighbours(const SkinPoints& points, std::span<const SkinCube* const> near, float radius_mm,
+                     const SkinPoint& to, std::vector<Neighbour>& found) {
+    const Vec3 n = to.n_geometry;
+    const Vec3 u = normalize(std::abs(n.x) < 0.7f ? cross(n, Vec3{1, 0, 0}) : cross(n, Vec3{0, 1, 0}));
+    const Vec3 v = cross(n, u);
+    const float squared_radius_mm2 = radius_mm * radius_mm;
+    Vec2 mean;
+    float total = 0, uu = 0, uv = 0, vv = 0;
+    found.clear();
+    for (const SkinCube* cube : near) {
+        if (cube->squared_distance_mm2(to.p_mm) >= squared_radius_mm2) continue;
+        for (const SkinPoint& point : cube->points) {
+            const Vec3 way_mm = point.p_mm - to.p_mm;
+            const float squared_mm2 = dot(way_mm, way_mm);
+            if (squared_mm2 >= squared_radius_mm2 || dot(point.n_geometry, n) <= 0) continue;
+            const float x = 1 - squared_mm2 / squared_radius_mm2;
+            const Neighbour one{points.number_of(point), x * x, dot(way_mm, u), dot(way_mm, v), squared_mm2};
+            found.push_back(one);
+            total += one.weight;
+            mean = mean + Vec2{one.u, one.v} * one.weight;
+            uu += one.weight * one.u * one.u;
+            uv += one.weight * one.u * one.v;
+            vv += one.weight * one.v * one.v;
+        }
+    }
+    const float area = uu * vv - uv * uv;
+    Vec2 slope;
+    if (area > 1e-3f * (uu + vv) * (uu + vv))
+        slope = {(uv * mean.y - vv * mean.x) / area, (uv * mean.x - uu * mean.y) / area};
+    // No weight below 0.
+    const float steepest = length(slope) * radius_mm;
+    if (steepest > 1) slope = slope * (1 / steepest);
+    total += slope.x * mean.x + slope.y * mean.y;
+    for (Neighbour& one : found) one.weight *= (1 + slope.x * one.u + slope.y * one.v) / total;
+}
+
+// Adds to the sums at `skin` those at coarser points.
+void interpolate(const SkinPoints& coarse, std::span<const Sums> from, float radius_mm,
+                 const SkinPoints& skin, std::span<Sums> sums) {
+    skin.for_each_cube(coarse, radius_mm, 1, [&](const SkinCube& cube, SkinPoints::Near near) {
+        std::vector<Neighbour> found;
+        for (size_t i = 0; i < cube.points.size(); ++i) {
+            find_neighbours(coarse, near, radius_mm, cube.points[i], found);
+            for (const Neighbour& one : found) sums[cube.first + i].add(from[one.number], one.weight);
         }
     });
+}
+
+// The variance along an axis by which interpolate() blurs, from some of the points.
+double interpolation_blur_mm2(const SkinPoints& coarse, float radius_mm, const SkinPoints& skin) {
+    std::vector<std::array<double, 2>> of_cube(skin.cube_count());
+    skin.for_each_cube(coarse, radius_mm, kSampledCubes, [&](const SkinCube& cube, SkinPoints::Near near) {
+        std::vector<Neighbour> found;
+        find_neighbours(coarse, near, radius_mm, cube.points[0], found);
+        auto& [area, sum] = of_cube[skin.cube_number_of(cube)];
+        for (const SkinPoint& point : cube.points) area += double(point.area_mm2);
+        for (const Neighbour& one : found) sum += 0.5 * area * double(one.weight * one.squared_mm2);
+    });
+    double area = 0, sum = 0;
+    for (const auto& [of_area, of_sum] : of_cube) area += of_area, sum += of_sum;
+    return area > 0 ? sum / area : 0;
+}
+
+// Of each texel.
+std::vector<Sums> summed(const SkinTexels& skin, const GaussianSum& profile, float finest_mm2) {
+    const auto sets = sets_of_gaussians(profile, finest_mm2);
+    std::vector<Sums> of_texel(skin.texels.size());
+    if (sets.empty() || skin.texels.empty()) return of_texel;
+    const auto side_mm = [&](size_t i) { return kSide * float(std::sqrt(sets[i][0].variance_mm2)); };
+    const float least_cube_mm = kLeastCube * typical_texel_mm(skin);
+    const SkinPoints texels(skin.texels, std::max(2 * side_mm(0), least_cube_mm));
+    std::vector<SkinPoints> points;
+    points.reserve(sets.size());
+    std::vector<double> blurred_mm2;
+    double interpolated_mm2 = 0;
+    for (size_t i = 0; i < sets.size(); ++i) {
+        const SkinPoints& finer = i == 0 ? texels : points[i - 1];
+        const float reach_mm = kReach * float(std::sqrt(sets[i].back().variance_mm2));
+        points.emplace_back(finer, side_mm(i), std::max(0.75f * reach_mm, least_cube_mm));
+        interpolated_mm2 += interpolation_blur_mm2(points[i], kKernel * side_mm(i), finer);
+        blurred_mm2.push_back(interpolated_mm2);
+    }
+    size_t total = 0;
+    for (const SkinPoints& of_set : points) total += of_set.points().size();
+    Progress progress("normals over the skin's atlas", total);
+    std::vector<Sums> sums, finer_sums;
+    for (size_t i = sets.size(); i-- > 0;) {
+        sums.assign(points[i].points().size(), {});
+        if (i + 1 < sets.size())
+            interpolate(points[i + 1], finer_sums, kKernel * side_mm(i + 1), points[i], sums);
+        gather(points[i], set_of_gaussians(sets[i], totals(profile), blurred_mm2[i]), sums, progress);
+        finer_sums.swap(sums);
+    }
+    sums.assign(skin.texels.size(), {});
+    interpolate(points[0], finer_sums, kKernel * side_mm(0), texels, sums);
+    for (size_t i = 0; i < sums.size(); ++i) of_texel[texels.order()[i]] = sums[i];
+    return of_texel;
 }
 
 // The shader's frame: techniques/preintegrated/diffused_normals.glsl.
@@ -172,8 +322,10 @@ struct TangentFrame {
 };
 
 // p and q of the spread around its mean.
-Vec2 unevenness(const Sums& sums, Vec3 mean) {
-    const Vec3 s = sums.squares * (1 / sums.weight[0]), m = sums.mixed * (1 / sums.weight[0]);
+Vec2 unevenness(const Sums& sums) {
+    if (sums.red[0] <= 0) return {};
+    const auto part = [&](Float4 of) { return Vec3{of[1], of[2], of[3]} * (1 / sums.red[0]); };
+    const Vec3 mean = part(sums.red), s = part(sums.squares), m = part(sums.mixed);
     const TangentFrame frame(normalize(mean));
     const auto spread = [&](Vec3 a, Vec3 b) {
         return s.x * a.x * b.x + s.y * a.y * b.y + s.z * a.z * b.z + m.x * (a.y * b.z + a.z * b.y) +
@@ -188,33 +340,27 @@ uint16_t encoded(float x) {
     return uint16_t(std::clamp(x * 0.5f + 0.5f, 0.0f, 1.0f) * 65535 + 0.5f);
 }
 
-// Such that the pixel's mix by own_weights, whose sum the profile's integral over a plane is, is the mean
-// over this surface: more of the wide Gaussians where there is more skin around the point.
-Vec3 stored_mean(const Sums& sums, size_t c, Vec3 n_own, float own_weight) {
-    if (own_weight > 1 - 1e-4f || sums.weight[c] <= 0) return n_own;
-    const Vec3 mean = (n_own * own_weight + sums.normal[c]) * (1 / (own_weight + sums.weight[c]));
-    return (mean - n_own * own_weight) * (1 / (1 - own_weight));
+// Such that its mix with the pixel's own normal, by the weights that the profile has over a plane, is the
+// mean over this surface: more of the wide Gaussians where there is more skin around the point.
+Vec3 stored_mean(Float4 sums, Vec3 n_own, float narrow_weight) {
+    if (narrow_weight > 1 - 1e-4f || sums[0] <= 0) return n_own;
+    const Vec3 sum = n_own * narrow_weight + Vec3{sums[1], sums[2], sums[3]};
+    return (sum * (1 / (narrow_weight + sums[0])) - n_own * narrow_weight) * (1 / (1 - narrow_weight));
 }
 
 DiffusedNormals bake(const SkinTexelReader& reader, const GaussianSum& profile,
                      const DiffusedNormalsRequest& request) {
     const SkinTexels skin = reader.read(request.size);
-    const float texel_mm = typical_texel_mm(skin);
-    std::vector<Sums> sums_of(skin.texels.size());
-    for (int level = 0; level < kLevels; ++level) {
-        const LevelProfile part = level_profile(profile, request.finest_variance_mm2, level, texel_mm);
-        if (part.steps.empty()) continue;
-        gather(skin, reader.read(std::max(request.size >> level, 1)), part, sums_of);
-    }
-    const Vec3 own = own_normal_weights(profile, request);
+    const std::vector<Sums> sums_of = summed(skin, profile, request.finest_variance_mm2);
+    const Vec2 narrow = narrow_weights(profile, request.finest_variance_mm2);
     Image red(request.size, request.size, 4), green(request.size, request.size, 4);
     parallel_for(skin.texels.size(), 4096, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const SkinTexel& texel = skin.texels[i];
             const Sums& sums = sums_of[i];
-            const Vec2 uneven =
-                sums.weight[0] > 0 ? unevenness(sums, sums.normal[0] * (1 / sums.weight[0])) : Vec2{};
-            const Vec3 r = stored_mean(sums, 0, texel.n, own.x), g = stored_mean(sums, 1, texel.n, own.y);
+            const Vec2 uneven = unevenness(sums);
+            const Vec3 r = stored_mean(sums.red, texel.n, narrow.x),
+                       g = stored_mean(sums.green, texel.n, narrow.y);
             const Vec4 values[] = {{r.x, r.y, r.z, uneven.x}, {g.x, g.y, g.z, uneven.y}};
             std::memcpy(&red.floats()[4 * size_t(texel.index)], &values[0], sizeof values[0]);
             std::memcpy(&green.floats()[4 * size_t(texel.index)], &values[1], sizeof values[1]);
@@ -233,7 +379,7 @@ DiffusedNormals bake(const SkinTexelReader& reader, const GaussianSum& profile,
 Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
                                  const DiffusedNormalsRequest& request) {
     Hasher hasher;
-    hasher.add("diffused normals 3").add(request.size).add(request.finest_variance_mm2);
+    hasher.add("diffused normals 7").add(request.size).add(request.finest_variance_mm2);
     for (const GaussianTerm& term : profile.terms)
         hasher.add(std::as_bytes(std::span(&term.variance_mm2, 1)))
             .add(std::as_bytes(std::span(term.weight)));

@@ -22,6 +22,7 @@ struct DiffusedNormals {
     vec3 n[3];       // of each channel, normalised
     vec3 mean_length;
     vec3 k_per_mm;   // of the spheres that have these lengths
+    vec3 band_2;     // what is left of the cosine lobe's second band on them
     vec2 uneven;     // the spread around n[0] is [[1 + x, y], [y, 1 - x]] in its frame
 };
 
@@ -40,7 +41,9 @@ DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight) {
     for (int c = 0; c < 3; ++c) {
         d.mean_length[c] = length(mean[c]);
         d.n[c] = mean[c] / d.mean_length[c];
-        d.k_per_mm[c] = curvature_of_mean(d.mean_length[c])[c];
+        vec2 sphere = sphere_of_mean(d.mean_length[c], c);
+        d.k_per_mm[c] = sphere.x;
+        d.band_2[c] = sphere.y;
     }
     d.uneven = vec2(red.a, green.a);
     return d;

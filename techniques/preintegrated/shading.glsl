@@ -215,11 +215,9 @@ vec3 scattered_occlusion(Surface s) {
 }
 
 #ifdef DERMIS_BAKED_NORMALS
-// The mean of the lobe's first band is as long as the mean normal; that of the second is near its cube, as of a narrow
-// lobe.
+// The mean of the lobe's first band is as long as the mean normal.
 vec3 ambient_of_diffused_normals() {
-    vec3 a = diffused.mean_length, arriving;
-    vec3 band_1 = 2.0 * kPi / 3.0 * a, band_2 = 0.25 * kPi * a * a * a;
+    vec3 band_1 = 2.0 * kPi / 3.0 * diffused.mean_length, band_2 = 0.25 * kPi * diffused.band_2, arriving;
     for (int c = 0; c < 3; ++c) arriving[c] = environment_convolved(diffused.n[c], vec3(kPi), band_1, band_2)[c];
     return arriving;
 }

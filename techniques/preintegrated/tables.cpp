@@ -120,32 +120,35 @@ Result<Rows> normals_row(const TableSettings& settings, const SkinContext& skin)
     return row;
 }
 
-// Curvature over kMaxCurvaturePerMm, over sqrt(1 - A), A the mean cosine of the profile on its sphere, which
-// falls with curvature; 1 where no sphere has it.
-Result<Rows> curvature_row(const TableSettings& settings, const SkinContext& skin) {
+// Of each channel: curvature over kMaxCurvaturePerMm, and the mean of the second Legendre polynomial, over
+// sqrt(1 - A), A the mean cosine of the profile on its sphere, which falls with curvature; as at the largest
+// curvature where no sphere has it.
+Result<Rows> rows_of_mean(const TableSettings& settings, const SkinContext& skin) {
     constexpr int kSteps = 4 * kRowTexels;
-    std::vector<Rgb> place;  // sqrt(1 - A) at even steps of curvature
+    constexpr double kSecondBand = 0.495415912;  // sqrt(5 pi) / 8: of a plane
+    std::vector<Rgb> place, second;              // sqrt(1 - A) at even steps of curvature
     for (int i = 0; i <= kSteps; ++i) {
         const double curvature = std::max(double(kMaxCurvaturePerMm) * i / kSteps, 1e-6);
-        const Rgb a =
-            preintegrated_mean_cosine(skin.gaussians, 1 / curvature, {.construction = settings.construction});
+        const Preintegration how{.construction = settings.construction};
+        const Rgb a = preintegrated_mean_cosine(skin.gaussians, 1 / curvature, how);
+        second.push_back(preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature, how)[2]);
         place.push_back({});
-        for (size_t c = 0; c < 3; ++c) place.back()[c] = std::sqrt(std::max(1 - a[c], 0.0));
-    }
-    Rows row;
-    for (int i = 0; i < kRowTexels; ++i) {
-        Rgb curvature = {1, 1, 1};
         for (size_t c = 0; c < 3; ++c) {
+            place.back()[c] = std::sqrt(std::max(1 - a[c], 0.0));
+            second.back()[c] /= kSecondBand;
+        }
+    }
+    Rows rows;
+    for (size_t c = 0; c < 3; ++c)
+        for (int i = 0; i < kRowTexels; ++i) {
             const double x = double(i) / (kRowTexels - 1);
             size_t k = 0;
-            while (k < size_t(kSteps) && place[k + 1][c] <= x) ++k;
-            if (k == size_t(kSteps)) continue;
-            const double step = place[k + 1][c] - place[k][c];
-            curvature[c] = (double(k) + std::clamp((x - place[k][c]) / step, 0.0, 1.0)) / kSteps;
+            while (k < size_t(kSteps) - 1 && place[k + 1][c] <= x) ++k;
+            const double part = std::clamp((x - place[k][c]) / (place[k + 1][c] - place[k][c]), 0.0, 1.0);
+            rows.push_back(
+                texel({(double(k) + part) / kSteps, std::lerp(second[k][c], second[k + 1][c], part), 0}, 1));
         }
-        row.push_back(texel(curvature, 1));
-    }
-    return row;
+    return rows;
 }
 
 // Weights, the penumbra's in alpha; places, turned from one to the next by the golden angle, and their
@@ -163,10 +166,10 @@ Result<Rows> tap_rows(const TableSettings&, const SkinContext& skin) {
     return rows;
 }
 
-// The order is that of kRowZonal, kRowShadow, kRowNormals, kRowCurvature, kRowTapWeights.
+// The order is that of kRowZonal, kRowShadow, kRowNormals, kRowOfMean, kRowTapWeights.
 Result<TableImage> rows_table(const TableSettings& settings, const SkinContext& skin) {
     Rows all;
-    for (const auto make : {zonal_rows, shadow_row, normals_row, curvature_row, tap_rows}) {
+    for (const auto make : {zonal_rows, shadow_row, normals_row, rows_of_mean, tap_rows}) {
         const Result<Rows> rows = make(settings, skin);
         if (!rows) return rows.error();
         all.insert(all.end(), rows->begin(), rows->end());

@@ -40,9 +40,10 @@ vec4 normal_blend(float sharp_mm) {
     return read_row(kRowNormals, (log2(sharp_mm) - kMinLogMm) / (kMaxLogMm - kMinLogMm));
 }
 
-// Of a sphere over which the normals have a mean of this length, a channel each.
-vec3 curvature_of_mean(float mean_length) {
-    return kMaxCurvaturePerMm * read_row(kRowCurvature, sqrt(max(1.0 - mean_length, 0.0))).rgb;
+// Of a sphere over which the normals have a mean of this length in one channel: curvature, and the mean of the second
+// Legendre polynomial of the angle between them.
+vec2 sphere_of_mean(float mean_length, int channel) {
+    return read_row(kRowOfMean + channel, sqrt(max(1.0 - mean_length, 0.0))).rg * vec2(kMaxCurvaturePerMm, 1.0);
 }
 
 #endif

@@ -1,0 +1,164 @@
+#include "dermis/render/skin_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dermis/base/parallel.h"
+
+namespace dermis {
+namespace {
+
+using Cube = std::array<int, 3>;
+
+Cube cube_of(Vec3 p_mm, float side_mm) {
+    const auto part = [&](float x) { return int(std::floor(std::clamp(x / side_mm, -1e6f, 1e6f))); };
+    return {part(p_mm.x), part(p_mm.y), part(p_mm.z)};
+}
+
+uint64_t key_of(Cube cube) {
+    const auto part = [](int x) { return uint64_t(x + (1 << 20)) & 0x1FFFFF; };
+    return part(cube[0]) << 42 | part(cube[1]) << 21 | part(cube[2]);
+}
+
+// One of some 200 ranges of directions, about 15 degrees wide: points of a small sphere and of a sharp edge
+// stay apart, and so do two walls that face each other, however thin the gap or the flesh between them is.
+uint32_t facing(Vec3 n) {
+    const auto part = [](float x) { return uint32_t(std::clamp(int(std::lround(4 * x)), -4, 4) + 4); };
+    return (part(n.x) * 9 + part(n.y)) * 9 + part(n.z);
+}
+
+SkinPoint point_of(const SkinTexel& texel) {
+    const Vec3 n = texel.n;
+    return {.p_mm = texel.p_mm,
+            .area_mm2 = texel.area_mm2,
+            .n_geometry = texel.n_geometry,
+            .n = n,
+            .squares = n * n,
+            .mixed = {n.y * n.z, n.x * n.z, n.x * n.y}};
+}
+
+SkinCube bounded(size_t first, std::span<const SkinPoint> points) {
+    SkinCube cube{first, points, points[0].p_mm, points[0].p_mm};
+    for (const SkinPoint& point : points) {
+        cube.low_mm = {std::min(cube.low_mm.x, point.p_mm.x), std::min(cube.low_mm.y, point.p_mm.y),
+                       std::min(cube.low_mm.z, point.p_mm.z)};
+        cube.high_mm = {std::max(cube.high_mm.x, point.p_mm.x), std::max(cube.high_mm.y, point.p_mm.y),
+                        std::max(cube.high_mm.z, point.p_mm.z)};
+    }
+    return cube;
+}
+
+// Skin inside a cavity has no area; it has a place all the same.
+constexpr float kLeastArea = 1e-12f;
+
+}  // namespace
+
+struct SkinPoints::Place {
+    uint64_t cube;
+    uint32_t part, number;  // part: the small cube in the cube, and the facing
+
+    friend bool operator<(const Place& a, const Place& b) {
+        return a.cube != b.cube ? a.cube < b.cube : a.part != b.part ? a.part < b.part : a.number < b.number;
+    }
+};
+
+void SkinPoints::sort(std::vector<Place> places,
+                      const std::function<SkinPoint(std::span<const Place>)>& merged) {
+    std::sort(places.begin(), places.end());
+    std::vector<size_t> starts;
+    for (size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+        while (end < places.size() && places[end].cube == places[begin].cube &&
+               places[end].part == places[begin].part)
+            ++end;
+        if (begin == 0 || places[begin].cube != places[begin - 1].cube) {
+            index_.emplace(places[begin].cube, starts.size());
+            starts.push_back(points_.size());
+        }
+        points_.push_back(merged(std::span(places).subspan(begin, end - begin)));
+    }
+    starts.push_back(points_.size());
+    for (size_t i = 0; i + 1 < starts.size(); ++i)
+        cubes_.push_back(
+            bounded(starts[i], std::span(points_).subspan(starts[i], starts[i + 1] - starts[i])));
+}
+
+SkinPoints::SkinPoints(std::span<const SkinTexel> texels, float cube_mm) : cube_mm_(cube_mm) {
+    std::vector<Place> places;
+    places.reserve(texels.size());
+    points_.reserve(texels.size());
+    order_.reserve(texels.size());
+    for (size_t i = 0; i < texels.size(); ++i)
+        places.push_back({key_of(cube_of(texels[i].p_mm, cube_mm)), uint32_t(i), uint32_t(i)});
+    sort(std::move(places), [&](std::span<const Place> one) {
+        order_.push_back(one[0].number);
+        return point_of(texels[one[0].number]);
+    });
+}
+
+SkinPoints::SkinPoints(const SkinPoints& finer, float side_mm, float cube_mm) {
+    const int sides = std::max(int(std::lround(cube_mm / side_mm)), 1);
+    cube_mm_ = side_mm * float(sides);
+    std::vector<Place> places;
+    places.reserve(finer.points_.size());
+    for (const SkinPoint& point : finer.points_) {
+        const Cube small = cube_of(point.p_mm, side_mm), cube = cube_of(point.p_mm, cube_mm_);
+        uint32_t part = facing(point.n_geometry);
+        for (size_t axis = 0; axis < 3; ++axis)
+            part = part << 7 | uint32_t(std::clamp(small[axis] - cube[axis] * sides, 0, 127));
+        places.push_back({key_of(cube), part, uint32_t(finer.number_of(point))});
+    }
+    sort(std::move(places), [&](std::span<const Place> parts) {
+        SkinPoint sum;
+        float total = 0;
+        for (const Place& place : parts) {
+            const SkinPoint& point = finer.points_[place.number];
+            const float weight = std::max(point.area_mm2, kLeastArea);
+            total += weight;
+            sum.area_mm2 += point.area_mm2;
+            sum.p_mm += point.p_mm * weight;
+            sum.variance_mm2 += point.variance_mm2 * weight;
+            sum.n_geometry += point.n_geometry * weight;
+            sum.n += point.n * weight;
+            sum.squares += point.squares * weight;
+            sum.mixed += point.mixed * weight;
+        }
+        const float scale = 1 / total;
+        const Vec3 centre_mm = sum.p_mm * scale;
+        for (const Place& place : parts) {
+            const SkinPoint& point = finer.points_[place.number];
+            const Vec3 way_mm = point.p_mm - centre_mm;
+            sum.variance_mm2 += 0.5f * dot(way_mm, way_mm) * std::max(point.area_mm2, kLeastArea);
+        }
+        return SkinPoint{.p_mm = centre_mm,
+                         .area_mm2 = sum.area_mm2,
+                         .variance_mm2 = sum.variance_mm2 * scale,
+                         .n_geometry = normalize(sum.n_geometry),
+                         .n = sum.n * scale,
+                         .squares = sum.squares * scale,
+                         .mixed = sum.mixed * scale};
+    });
+}
+
+std::vector<const SkinCube*> SkinPoints::around(Vec3 low_mm, Vec3 high_mm) const {
+    std::vector<const SkinCube*> found;
+    const Cube low = cube_of(low_mm, cube_mm_), high = cube_of(high_mm, cube_mm_);
+    for (int x = low[0]; x <= high[0]; ++x)
+        for (int y = low[1]; y <= high[1]; ++y)
+            for (int z = low[2]; z <= high[2]; ++z)
+                if (const auto i = index_.find(key_of({x, y, z})); i != index_.end())
+                    found.push_back(&cubes_[i->second]);
+    return found;
+}
+
+void SkinPoints::for_each_cube(const SkinPoints& others, float reach_mm, size_t step,
+                               const std::function<void(const SkinCube& cube, Near near)>& body) const {
+    const Vec3 reach{reach_mm, reach_mm, reach_mm};
+    parallel_for((cubes_.size() + step - 1) / step, 16, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const SkinCube& cube = cubes_[i * step];
+            body(cube, others.around(cube.low_mm - reach, cube.high_mm + reach));
+        }
+    });
+}
+
+}  // namespace dermis
