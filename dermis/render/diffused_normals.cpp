@@ -21,7 +21,7 @@
 namespace dermis {
 namespace {
 
-constexpr int kGutterTexels = 16, kProfileSteps = 2048;
+constexpr int kProfileSteps = 2048;
 // Of the narrowest Gaussian's standard deviation: the side of the cubes over which points are merged, and how
 // much wider the others of the same points may be.
 constexpr float kSide = 0.85f, kWidest = 1.5f;
@@ -368,7 +368,7 @@ DiffusedNormals bake(const SkinTexelReader& reader, const GaussianSum& profile,
     });
     DiffusedNormals made{.size = request.size, .red = {}, .green = {}};
     for (const auto& [image, texels] : {std::pair{&red, &made.red}, std::pair{&green, &made.green}}) {
-        dilate(*image, skin.coverage, kGutterTexels);
+        dilate(*image, skin.coverage, kDiffusedNormalsGutter);
         texels->resize(image->pixel_count());
         for (size_t i = 0; i < texels->size(); ++i)
             for (size_t c = 0; c < 4; ++c) (*texels)[i][c] = encoded(image->floats()[4 * i + c]);

@@ -21,6 +21,9 @@
 
 namespace dermis {
 
+/// Texels by which each chart is grown.
+inline constexpr int kDiffusedNormalsGutter = 16;
+
 /// n * 0.5 + 0.5 in 16 bits, n in the scene's axes. In alpha, as x * 0.5 + 0.5, how the spread of red's
 /// normals differs from an even one: in the frame of techniques/preintegrated/diffused_normals.glsl around
 /// the mean, the spread is half of its trace times [[1 + p, q], [q, 1 - p]]. Red holds p, green q.

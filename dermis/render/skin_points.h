@@ -41,10 +41,12 @@ struct SkinCube {
 /// Points in the order of the cubes that they lie in, so that those near a place are found.
 class SkinPoints {
   public:
-    /// One point a texel; in_order()[i] is the texel of point i.
+    /// One point a texel; order()[i] is the texel of point i.
     SkinPoints(std::span<const SkinTexel> texels, float cube_mm);
     /// `finer` merged over cubes of side_mm, in cubes of about cube_mm.
     SkinPoints(const SkinPoints& finer, float side_mm, float cube_mm);
+
+    SkinPoints(SkinPoints&&) = default;  // a copy's cubes would show the points of the first
 
     [[nodiscard]] const std::vector<SkinPoint>& points() const { return points_; }
     [[nodiscard]] const std::vector<uint32_t>& order() const { return order_; }

@@ -1,0 +1,72 @@
+// `dermis bake normals`: what preintegrated draws with by normals=baked, as files.
+
+#include <cstdio>
+#include <memory>
+
+#include "bake_options.h"
+#include "catalog/catalog.h"
+#include "dermis/base/text.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/presets.h"
+#include "dermis/render/atlas_check.h"
+#include "dermis/render/diffused_normals_file.h"
+#include "dermis/scene/load_scene.h"
+
+namespace dermis::cli {
+namespace {
+
+constexpr int kLeastSize = 16, kLargestSize = 8192;
+
+struct BakeNormalsOptions {
+    std::string mesh, output, profile;
+    float unit_mm = 0;
+    int size = DiffusedNormalsRequest{}.size;
+};
+
+Result<int> run(const BakeNormalsOptions& options) {
+    if (options.size < kLeastSize || options.size > kLargestSize)
+        return Error{"--size " + std::to_string(options.size) + ": " + std::to_string(kLeastSize) + " to " +
+                     std::to_string(kLargestSize)};
+    SceneOptions how = {.subjects = built_in_catalog().subjects};
+    if (options.unit_mm > 0) how.mesh_unit_mm = options.unit_mm;
+    const Result<Scene> scene = load_scene(options.mesh, how);
+    if (!scene) return scene.error();
+    const std::string profile_name = options.profile.empty() ? scene->skin.profile : options.profile;
+    const Result<Profile> profile = find_profile(profile_name);
+    if (!profile) return profile.error();
+    const Result<std::vector<std::string>> warnings = check_skin_atlas(*scene);
+    if (!warnings) return warnings.error();
+    const DiffusedNormalsOrigin origin = {.mesh = options.mesh,
+                                          .profile_name = profile_name,
+                                          .profile = to_gaussian_sum(*profile).sum,
+                                          .request = {.size = options.size}};
+    const Result<DiffusedNormals> normals = bake_diffused_normals(*scene, origin.profile, origin.request);
+    if (!normals) return normals.error();
+    if (Result<void> written = write_diffused_normals(options.output, *normals, origin); !written)
+        return written.error();
+    for (const std::string& warning : *warnings) print_warning(warning);
+    for (const auto& path : diffused_normals_paths(options.output))
+        std::printf("%s\n", path.string().c_str());
+    return 0;
+}
+
+}  // namespace
+
+void add_bake_normals_command(CommandLine& line) {
+    auto options = std::make_shared<BakeNormalsOptions>();
+    Command* command = line.add("normals", "Mean of the normals that each colour's scattering covers",
+                                "dermis bake normals head_scan --profile gpu_gems_3 -o normals.exr\n"
+                                "  dermis bake normals head.obj --unit-mm 45 --size 2048 -o normals.png",
+                                bake_group(line));
+    command->add_option("mesh", options->mesh, "mesh, scene file, scene name or builtin:NAME")->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "NAME.exr or NAME.png: writes NAME_red and NAME_green, and a .json beside each")
+        ->required();
+    command->add_option("--profile", options->profile, "diffusion profile instead of the scene's");
+    command->add_option("--size", options->size, "side of the maps in texels")->capture_default_str();
+    command->add_option("--unit-mm", options->unit_mm, "length of one unit of the mesh file in mm");
+    line.when_chosen(command, [options] { return run(*options); });
+}
+
+}  // namespace dermis::cli

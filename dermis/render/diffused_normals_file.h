@@ -1,0 +1,31 @@
+#pragma once
+// Baked normals as files for use elsewhere.
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "dermis/render/diffused_normals.h"
+
+namespace dermis {
+
+/// What the sidecar says beyond the maps themselves.
+struct DiffusedNormalsOrigin {
+    std::string mesh;  ///< file or scene
+    std::string profile_name;
+    GaussianSum profile;
+    DiffusedNormalsRequest request;
+};
+
+/// "skin.exr" gives skin_red.exr and skin_green.exr.
+[[nodiscard]] std::array<std::filesystem::path, 2> diffused_normals_paths(const std::filesystem::path& path);
+
+/// Two maps and FILE.json beside each (the same text inside the picture under "dermis"): channel, axes,
+/// encoding, profile, the weights that mix them with the shaded point's own normal. .exr holds the numbers
+/// themselves in 32 bits, .png x * 0.5 + 0.5 in 16. All four files or none. Errors: another extension, a file
+/// that cannot be written.
+[[nodiscard]] Result<void> write_diffused_normals(const std::filesystem::path& path,
+                                                  const DiffusedNormals& normals,
+                                                  const DiffusedNormalsOrigin& origin);
+
+}  // namespace dermis
