@@ -11,6 +11,7 @@ namespace {
 
 // Beyond the defaults of every technique.
 constexpr std::string_view kSettings =
+    "preintegrated[normals=baked,shadow=gathered],"
     "preintegrated[shadow=plain],"
     "preintegrated[diffuse=closed_form,shadow=plain],"
     "preintegrated[diffuse=curve_2015,ambient=curve_2015],"
