@@ -11,6 +11,5 @@ void main() {
     if (light_out.a > 0.0) return;
     vec2 at = carried_to(texel);
     if (at.x < 0.0) return;
-    light_out =
-        normalize_by_alpha(textureLod(sampler2D(source, linear_clamp), at / vec2(textureSize(sampler2D(source, linear_clamp), 0)), 0.0));
+    light_out = half_rounded(normalize_by_alpha(light_at(at)));
 }

@@ -3,6 +3,7 @@
 // The diffuse light of every point of the skin, at its place in the atlas (Gosselin, Sander, Mitchell 2004, step 2). In
 // texels alpha is the size of the blur there and the target is cleared to 1, which no written texel has; in millimetres
 // alpha is 1 where skin was written, the target is cleared to 0, and the size is in the atlas's metric.
+#include "shaders/atlas/half_floats.glsl"
 #include "shaders/atlas/light.glsl"
 
 uniform sampler2D kernel_size_map;
@@ -44,5 +45,5 @@ void main() {
     float kernel_size = texture(kernel_size_map, s.uv).r;
     vec3 exitance = unblurred_exitance(s, direct_exitance(s)).of_mean;
     if (pre_scatter > 0.0) exitance *= pow(s.albedo_linear, vec3(pre_scatter));
-    light_out = vec4(exitance, space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten));
+    light_out = half_rounded(vec4(exitance, space == kSpaceMm ? 1.0 : min(kernel_size, kLargestWritten)));
 }

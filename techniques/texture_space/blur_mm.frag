@@ -20,5 +20,5 @@ void main() {
         weight += light.a * t.z * share;
     }
     if (here.a == 0.0 && weight == vec3(0.0)) return;
-    light_out = vec4(mix(here.rgb, sum / max(weight, vec3(1e-6)), greaterThan(weight, vec3(1e-6))), 1.0);
+    light_out = half_rounded(vec4(mix(here.rgb, sum / max(weight, vec3(1e-6)), greaterThan(weight, vec3(1e-6))), 1.0));
 }

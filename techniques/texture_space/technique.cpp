@@ -128,16 +128,16 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const BlurPlan plan = blur_plan(params, frame);
     const ImageSize size = {plan.size, plan.size};
     const std::string result = source_of(plan, plan.passes.size());
-    // In mm, charts and gutters must agree to 1/1000; half floats lose that in a few passes.
-    const ImageFormat format = plan.in_mm ? ImageFormat::rgba32f : ImageFormat::rgba16f;
     PassList list;
     for (const std::string name : {"light_map_a", "light_map_b", "light_map_c"}) {
         const bool read_later = name == result || (plan.keeps_lit && name == "light_map_a");
         const bool passed = name == "light_map_c" ? plan.keeps_lit && plan.passes.size() > 1
                                                   : !plan.passes.empty() || plan.in_mm;
         if (!read_later && (kept || !passed)) continue;
-        list.images.push_back(
-            {.name = name, .format = format, .size = size, .persistent = params.cull_distance && read_later});
+        list.images.push_back({.name = name,
+                               .format = ImageFormat::rgba16f,
+                               .size = size,
+                               .persistent = params.cull_distance && read_later});
     }
     const AtlasLightSettings atlas = atlas_settings(params, plan, frame, far);
     add_shadow_channels(list, atlas.shadow, frame);

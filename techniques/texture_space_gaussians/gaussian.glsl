@@ -5,10 +5,6 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/atlas/walk_mm.glsl"
 
-layout(push_constant, scalar) uniform PassValues {
-    float sigma_mm;
-    vec4 share;  // of this Gaussian in the sum; alpha: its part of a valid texel's 1
-};
 layout(constant_id = 0) const int along_second = 0;
 layout(constant_id = 1) const int half_taps = 3;
 layout(constant_id = 2) const int pieces = 1;  // of the way from tap to tap
@@ -29,7 +25,7 @@ float spacing() {
 // half a texel have a variance of their own length instead of its square.
 float tap_sigma_texels(float variance) { return variance < 0.5 ? variance : sqrt(variance - 0.25); }
 
-vec4 gaussian() {
+vec4 gaussian(float sigma_mm) {
     BlurCentre centre = blur_centre(ivec2(gl_FragCoord.xy));
     if (!centre.is_skin) return vec4(0.0);
     float texels_per_mm = sqrt(max(abs(centre.steps.x * centre.steps.w - centre.steps.y * centre.steps.z), 1e-12));

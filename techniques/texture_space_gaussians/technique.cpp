@@ -2,24 +2,29 @@
 // the light map is blurred by each Gaussian of the diffusion profile, each from the one before, in two
 // passes along the surface, and the results are summed by the profile's weights. Changed: the steps of the
 // blur follow shear as well as stretch and agree across seams (shaders/atlas/blur_mm.glsl); gutter texels
-// hold the light from across the UV seam; the sum is accumulated by blending, so that any number of Gaussians
-// needs four images; what is too small for the texels is lit at the pixel (detail=pixel); transmission is
-// summed from the shadow map itself. The energy that the specular takes is an option of the scene.
+// hold the light from across the UV seam; the Gaussians are those that the texels can tell apart
+// (shared_gaussians.h); the sum is accumulated, so that any number of Gaussians needs five images; what is
+// too small for the texels is lit at the pixel (detail=pixel); transmission is summed from the shadow map
+// itself. The energy that the specular takes is an option of the scene.
 
 #include <algorithm>
 #include <cmath>
 
 #include "dermis/technique/atlas_light.h"
 #include "dermis/technique/forward.h"
+#include "techniques/texture_space_gaussians/shared_gaussians.h"
 
 namespace dermis {
 namespace {
 
 constexpr const char* kOwnView = "light_map";
 
+enum class Gaussians : int32_t { fitted, profile };
+
 struct Params {
     AtlasParams atlas;
     float width = 1;
+    Gaussians gaussians = Gaussians::fitted;
     int32_t half_taps = 3;
     bool carry_seams = true;
     float pre_scatter = 0;
@@ -30,6 +35,8 @@ ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
         .part(&Params::atlas, atlas_parameters())
         .number(&Params::width, "width", "", 0, 10, "scales the profile's lengths")
+        .choice(&Params::gaussians, "gaussians", {"fitted", "profile"},
+                "as few as the texels can tell apart, or every one of the profile, as in the source")
         .integer(&Params::half_taps, "half_taps", "", 2, 12, "taps on each side of a Gaussian's centre")
         .toggle(&Params::carry_seams, "carry_seams",
                 "blur across the atlas's seams; off: taps that leave a chart are dropped")
@@ -48,37 +55,10 @@ struct Step {
     Vec3 share;
 };
 
-// Terms narrower than this part of a texel take one blur together: a texel cannot tell them apart. Captured
-// share of the bust .822 without, .821 with .5, .803 with .8 (light map 512, texel 1.0 mm, light crossing
-// folds).
-constexpr double kToldApartTexels = 0.5;
-
-// Those up to `variance_mm2` as one, of their mean variance over all channels.
-std::vector<GaussianTerm> narrow_terms_joined(std::vector<GaussianTerm> sorted, double variance_mm2) {
-    const auto wide = std::ranges::find_if(
-        sorted, [&](const GaussianTerm& term) { return term.variance_mm2 > variance_mm2; });
-    if (wide - sorted.begin() < 2) return sorted;
-    GaussianTerm joined = {.variance_mm2 = 0, .weight = {0, 0, 0}};
-    double sum = 0;
-    for (auto term = sorted.begin(); term != wide; ++term)
-        for (size_t c = 0; c < 3; ++c) {
-            joined.weight[c] += term->weight[c];
-            joined.variance_mm2 += term->weight[c] * term->variance_mm2;
-            sum += term->weight[c];
-        }
-    joined.variance_mm2 /= std::max(sum, 1e-9);
-    sorted.erase(sorted.begin() + 1, wide);
-    sorted.front() = joined;
-    return sorted;
-}
-
 // The profile's terms, narrowest first, equal variances together; shares sum to 1 per channel, as albedo lies
 // in the base colour.
-std::vector<Step> steps_of(const GaussianSum& sum, float width, double texel_mm) {
-    std::vector<GaussianTerm> terms = sum.terms;
+std::vector<Step> steps_of(std::vector<GaussianTerm> terms) {
     std::ranges::sort(terms, {}, &GaussianTerm::variance_mm2);
-    const double narrow_mm = kToldApartTexels * texel_mm / std::max(double(width), 1e-6);
-    terms = narrow_terms_joined(std::move(terms), narrow_mm * narrow_mm);
     double total[3] = {0, 0, 0};
     for (const GaussianTerm& term : terms)
         for (int c = 0; c < 3; ++c) total[c] += term.weight[size_t(c)];
@@ -92,11 +72,34 @@ std::vector<Step> steps_of(const GaussianSum& sum, float width, double texel_mm)
             continue;
         }
         steps.push_back({.variance_mm2 = term.variance_mm2,
-                         .sigma_mm = width * std::sqrt(term.variance_mm2 - before_mm2),
+                         .sigma_mm = std::sqrt(term.variance_mm2 - before_mm2),
                          .share = own});
         before_mm2 = term.variance_mm2;
     }
     return steps;
+}
+
+GaussianSum widened(GaussianSum sum, float width) {
+    for (GaussianTerm& term : sum.terms) term.variance_mm2 *= double(width) * double(width);
+    return sum;
+}
+
+struct Blur {
+    std::vector<Step> steps;
+    Vec3 unblurred = {0, 0, 0};  // share of the light before the blur
+};
+
+Blur blur_of(const Params& params, const FrameContext& frame) {
+    GaussianSum sum = widened(frame.skin_gaussians, params.width);
+    if (params.gaussians == Gaussians::fitted)
+        sum = texture_space_gaussians::shared_gaussians(sum,
+                                                        typical_texel_mm(params.atlas.light_map_size, frame));
+    Blur blur = {.steps = steps_of(std::move(sum.terms))};
+    if (!blur.steps.empty() && blur.steps[0].sigma_mm <= 0) {
+        blur.unblurred = blur.steps[0].share;
+        blur.steps.erase(blur.steps.begin());
+    }
+    return blur;
 }
 
 AtlasLightSettings atlas_settings(const Params& params, const std::vector<Step>& steps,
@@ -115,11 +118,21 @@ AtlasLightSettings atlas_settings(const Params& params, const std::vector<Step>&
     return settings;
 }
 
-void add_gaussian(PassList& list, const Params& params, const AtlasLightSettings& atlas, const Step& step,
-                  size_t index, size_t count) {
+Vec4 in_sum(const Vec3& share, float part) {
+    return {share.x, share.y, share.z, part};
+}
+
+// Two images in turn, so that the last sum is in light_sum.
+std::string sum_after(const Blur& blur, size_t index) {
+    return (blur.steps.size() - index) % 2 == 1 ? "light_sum" : "light_sum_before";
+}
+
+void add_gaussian(PassList& list, const Params& params, const AtlasLightSettings& atlas, const Blur& blur,
+                  size_t index) {
+    const Step& step = blur.steps[index];
     const std::string name = "gaussian " + std::to_string(index + 1);
-    const float part = 1 / float(count);
-    // The light before the blur stays in light_map_a, for the final mesh.
+    const float part = 1 / float(blur.steps.size());
+    // The light before the blur stays in light_map_a, for the sum and the final mesh.
     const std::string from = index == 0 ? "light_map_a" : "light_map_c";
     for (const bool second : {false, true}) {
         Pass pass = {.name = name + (second ? " second" : " first"),
@@ -128,37 +141,37 @@ void add_gaussian(PassList& list, const Params& params, const AtlasLightSettings
                                (second ? "second" : "first") + ".frag",
                      .colors = {{.image = second ? "light_map_c" : "light_map_b", .load = LoadOp::discard}},
                      .constants = {{"along_second", int32_t(second)}, {"half_taps", params.half_taps}},
-                     .values = {{"sigma_mm", float(step.sigma_mm)},
-                                {"share", Vec4{step.share.x, step.share.y, step.share.z, part}}}};
+                     .values = {{"sigma_mm", float(step.sigma_mm)}}};
         read_atlas_walk(pass, second ? "light_map_b" : from, atlas, kLongestTapSigmas * float(step.sigma_mm));
         keep_unculled(pass, atlas.cull);
-        if (second)
-            pass.colors.push_back({.image = "light_sum",
-                                   .load = index == 0 ? LoadOp::clear : LoadOp::load,
-                                   .blend = Blend::additive});
+        if (second) {
+            pass.reads.emplace_back("sum_before", index == 0 ? "light_map_a" : sum_after(blur, index - 1));
+            pass.colors.push_back({.image = sum_after(blur, index), .load = LoadOp::discard});
+            pass.values.emplace_back("share", in_sum(step.share, part));
+            pass.values.emplace_back("share_before",
+                                     index == 0 ? in_sum(blur.unblurred, 0) : Vec4{1, 1, 1, 1});
+        }
         list.passes.push_back(std::move(pass));
     }
 }
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
-    const std::vector<Step> steps =
-        steps_of(frame.skin_gaussians, params.width, typical_texel_mm(params.atlas.light_map_size, frame));
-    const AtlasLightSettings atlas = atlas_settings(params, steps, frame);
+    const Blur blur = blur_of(params, frame);
+    const AtlasLightSettings atlas = atlas_settings(params, blur.steps, frame);
     const ImageSize size = {params.atlas.light_map_size, params.atlas.light_map_size};
     PassList list;
-    // Not half floats: the rounding of a dozen passes in a row is visible.
     for (const char* name : {"light_map_a", "light_map_b"})
-        list.images.push_back({.name = name, .format = ImageFormat::rgba32f, .size = size});
-    if (!steps.empty())
-        for (const char* name : {"light_map_c", "light_sum"})
-            list.images.push_back({.name = name, .format = ImageFormat::rgba32f, .size = size});
+        list.images.push_back({.name = name, .format = ImageFormat::rgba16f, .size = size});
+    if (!blur.steps.empty())
+        for (const char* name : {"light_map_c", "light_sum", "light_sum_before"})
+            list.images.push_back({.name = name, .format = ImageFormat::rgba16f, .size = size});
     add_shadow_channels(list, atlas.shadow, frame);
     add_atlas_light(list, atlas, frame);
-    for (size_t i = 0; i < steps.size(); ++i) add_gaussian(list, params, atlas, steps[i], i, steps.size());
+    for (size_t i = 0; i < blur.steps.size(); ++i) add_gaussian(list, params, atlas, blur, i);
 
     Pass skin = forward_skin_pass("texture_space_gaussians/final.frag", params.specular, frame, kOwnView);
-    skin.reads = {{"light_map", steps.empty() ? "light_map_a" : "light_sum"},
+    skin.reads = {{"light_map", blur.steps.empty() ? "light_map_a" : "light_sum"},
                   {"light_map_lit", "light_map_a"}};
     skin.constants.emplace_back("detail", int32_t(params.atlas.detail));
     read_shadow_channels(skin, atlas.shadow, frame);
@@ -182,9 +195,7 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
 }
 
 Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
-    const auto width = double(values.as<Params>().width);
-    GaussianSum blur = skin.gaussians;
-    for (GaussianTerm& term : blur.terms) term.variance_mm2 *= width * width;
+    const GaussianSum blur = widened(skin.gaussians, values.as<Params>().width);
     return detail_values([&](double texel_mm) { return kept_of_shortest_wave(blur, texel_mm); });
 }
 
