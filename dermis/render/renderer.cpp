@@ -296,6 +296,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     list_ = frame_passes(technique.build(values, frame), shared);
     list_.constants = uploaded_->map_constants();
     list_.constants.emplace_back("one_light", scene_->lights.size() == 1);
+    list_.constants.emplace_back("one_sample", settings.samples == 1);
     list_.constants.emplace_back("all_directional",
                                  std::ranges::all_of(scene_->lights, [](const Light& light) {
                                      return light.kind == LightKind::directional;

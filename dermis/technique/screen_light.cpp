@@ -3,7 +3,7 @@
 namespace dermis {
 
 void add_screen_light(PassList& list, SpecularModel specular, const FrameContext& frame) {
-    list.images.push_back({.name = "skin_light", .format = ImageFormat::rgba32f});
+    list.images.push_back({.name = "skin_light", .format = ImageFormat::rgba16f});
     list.images.push_back({.name = "skin_z", .format = ImageFormat::r32f});
     list.images.push_back({.name = "skin_key_visibility", .format = ImageFormat::r16f});
     list.images.push_back({.name = "skin_depth", .format = ImageFormat::depth32f});

@@ -6,7 +6,7 @@
 #define DERMIS_ATLAS_MM_GLSL
 
 #include "shaders/atlas/constants.h"
-#include "shaders/atlas/half_floats.glsl"
+#include "shaders/include/half_floats.glsl"
 #include "shaders/include/frame.glsl"
 
 uniform texture2D source;

@@ -3,7 +3,7 @@
 // The diffuse light of every point of the skin, at its place in the atlas (Gosselin, Sander, Mitchell 2004, step 2). In
 // texels alpha is the size of the blur there and the target is cleared to 1, which no written texel has; in millimetres
 // alpha is 1 where skin was written, the target is cleared to 0, and the size is in the atlas's metric.
-#include "shaders/atlas/half_floats.glsl"
+#include "shaders/include/half_floats.glsl"
 #include "shaders/atlas/light.glsl"
 
 uniform sampler2D kernel_size_map;

@@ -11,10 +11,12 @@ uniform texture2D blurred_light;
 uniform texture2D skin_z;
 uniform texture2D skin_key_visibility;  // so that the shadow's filter runs once a pixel
 
+layout(constant_id = 37) const int one_sample = 0;  // a pixel, at its middle
+
 layout(location = 0) out vec4 radiance_out;
 
-// The blurred picture has one value per pixel, at its middle. A sample at an edge may be of another surface than the
-// middle: then the neighbour nearest in depth is taken, and where none is near, the light is not blurred at all.
+// The blurred picture has one value per pixel, at its middle. With several samples one at an edge may be of another surface than
+// the middle: then the neighbour nearest in depth is taken, and where none is near, the light is not blurred at all.
 const float kSameSurfaceMm = 3.0;
 const float kSeenMm = 0.5;
 
@@ -24,19 +26,24 @@ float gap_mm(ivec2 pixel, float z_mm) {
     return stored > 0.0 ? abs(stored - z_mm) : 1e9;
 }
 
-bool read_blurred(vec3 p_world_mm, out vec3 exitance, out float key_visibility) {
-    float z_mm = dot(p_world_mm - eye_world_mm, normalize(toward(vec2(0.0))));
-    ivec2 pixel = ivec2(gl_FragCoord.xy), nearest = pixel;
-    float least = gap_mm(pixel, z_mm);
-    for (int i = 0; least > kSameSurfaceMm && i < 9; ++i) {
+ivec2 nearest_in_depth(ivec2 pixel, float z_mm, out float least_mm) {
+    ivec2 nearest = pixel;
+    least_mm = gap_mm(pixel, z_mm);
+    for (int i = 0; least_mm > kSameSurfaceMm && i < 9; ++i) {
         ivec2 other = pixel + ivec2(i % 3 - 1, i / 3 - 1);
         float gap = gap_mm(other, z_mm);
-        if (gap < least) least = gap, nearest = other;
+        if (gap < least_mm) least_mm = gap, nearest = other;
     }
-    ivec2 inside = clamp(nearest, ivec2(0), textureSize(sampler2D(skin_z, nearest_clamp), 0) - 1);
-    exitance = texelFetch(sampler2D(blurred_light, nearest_clamp), inside, 0).rgb;
-    key_visibility = texelFetch(sampler2D(skin_key_visibility, nearest_clamp), inside, 0).r;
-    return least <= kSameSurfaceMm;
+    return clamp(nearest, ivec2(0), textureSize(sampler2D(skin_z, nearest_clamp), 0) - 1);
+}
+
+bool read_blurred(vec3 p_world_mm, out vec3 exitance, out float key_visibility) {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float least_mm = 0.0;
+    if (one_sample == 0) pixel = nearest_in_depth(pixel, dot(p_world_mm - eye_world_mm, normalize(toward(vec2(0.0)))), least_mm);
+    exitance = texelFetch(sampler2D(blurred_light, nearest_clamp), pixel, 0).rgb;
+    key_visibility = texelFetch(sampler2D(skin_key_visibility, nearest_clamp), pixel, 0).r;
+    return least_mm <= kSameSurfaceMm;
 }
 
 // The blur has the points that the camera sees: not those that face away, nor those behind the skin that is drawn there.

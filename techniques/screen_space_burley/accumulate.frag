@@ -92,5 +92,5 @@ void main() {
     if (now.a == 0.0) return;
     around_out = accumulated(now);
     vec3 middle = texelFetch(sampler2D(light, nearest_clamp), ivec2(gl_FragCoord.xy), 0).rgb;
-    light_out = vec4(gathered_light(disk_here(), middle, around_out.rgb), 1.0);
+    light_out = half_rounded(vec4(gathered_light(disk_here(), middle, around_out.rgb), 1.0));
 }

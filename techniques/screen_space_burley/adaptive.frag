@@ -38,7 +38,5 @@ void main() {
     int count = wanted_samples();
     Disk disk = disk_here();
     vec3 gathered = light_around(disk, middle.rgb, count);
-    // Over frames the samples are accumulated alone: what is at the pixel has no noise, and is not to be read elsewhere.
-    if (accumulate == 0) gathered = gathered_light(disk, middle.rgb, gathered);
-    light_out = vec4(show_count == 1 ? vec3(kPi * float(count) / float(sample_count)) : gathered, 1.0);
+    light_out = show_count == 1 ? vec4(vec3(kPi * float(count) / float(sample_count)), 1.0) : gathered_out(disk, middle.rgb, gathered);
 }

@@ -5,6 +5,7 @@
 #ifndef DERMIS_BURLEY_GATHER_GLSL
 #define DERMIS_BURLEY_GATHER_GLSL
 
+#include "shaders/include/half_floats.glsl"
 #include "shaders/include/pixel_turn.glsl"
 #include "shaders/include/skin/table.glsl"
 #include "shaders/screen/rays.glsl"
@@ -106,5 +107,11 @@ vec3 light_around(Disk disk, vec3 middle, int count) {
 
 // The samples share what is not inside the pixel.
 vec3 gathered_light(Disk disk, vec3 middle, vec3 around) { return mix(around, middle, disk.inside.rgb); }
+
+// Over frames the samples are accumulated alone: what is at the pixel has no noise, and is not to be read elsewhere.
+vec4 gathered_out(Disk disk, vec3 middle, vec3 around) {
+    if (accumulate != 0) return vec4(around, 1.0);
+    return half_rounded(vec4(gathered_light(disk, middle, around), 1.0));
+}
 
 #endif

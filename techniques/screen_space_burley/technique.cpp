@@ -73,7 +73,7 @@ Pass disk_pass(const Params& params, const char* name, const char* shader, int32
 // Each frame reads what the frame before wrote, so two sets of images take turns.
 void add_accumulation(PassList& list, const FrameContext& frame) {
     list.frames_to_settle = kMostFrames;
-    list.images.push_back({.name = "skin_light_accumulated", .format = ImageFormat::rgba32f});
+    list.images.push_back({.name = "skin_light_accumulated", .format = ImageFormat::rgba16f});
     for (const char* turn : {"_even", "_odd"}) {
         list.images.push_back(
             {.name = std::string("accumulated") + turn, .format = ImageFormat::rgba32f, .persistent = true});
@@ -109,7 +109,8 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const bool accumulates = params.accumulate == Accumulate::frames && !shows_count;
     PassList list;
     add_screen_light(list, params.specular, frame);
-    list.images.push_back({.name = "skin_light_gathered", .format = ImageFormat::rgba32f});
+    list.images.push_back(
+        {.name = "skin_light_gathered", .format = accumulates ? ImageFormat::rgba32f : ImageFormat::rgba16f});
     if (adaptive) add_pilot(list, params);
     Pass gather = disk_pass(
         params, "gather", adaptive ? "screen_space_burley/adaptive.frag" : "screen_space_burley/gather.frag",

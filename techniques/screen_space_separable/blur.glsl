@@ -6,6 +6,7 @@
 #ifndef DERMIS_SEPARABLE_BLUR_GLSL
 #define DERMIS_SEPARABLE_BLUR_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/include/skin/table.glsl"
 #include "shaders/screen/rays.glsl"
 #include "techniques/screen_space_separable/constants.h"
@@ -65,7 +66,7 @@ bool blur(out vec3 blurred[DERMIS_TERMS]) {
     vec2 uv_per_mm = along_v == 0 ? vec2(1.0 / (z_mm * length(rays.right)), 0.0)
                                   : vec2(0.0, 1.0 / (z_mm * length(rays.down)));
     float middle_stretch = 1e9;
-    for (int side = -1; side <= 1; side += 2)
+    [[unroll]] for (int side = -1; side <= 1; side += 2)
         for (int i = 1; i <= half_taps; ++i) {
             float offset_mm = tap_mm(float(i));
             vec2 tap_uv = uv + float(side) * offset_mm * uv_per_mm;

@@ -15,7 +15,6 @@ using namespace screen_space_separable;
 
 constexpr const char* kOwnView = "blurred_light";
 constexpr int kTexels = 256;
-constexpr ImageFormat kLightFormat = ImageFormat::rgba32f;
 
 enum class Kernel : int32_t { profile, two_gaussians, artistic, rank_1, rank_2 };
 enum class Taps : int32_t { taps_7, taps_11, taps_17, taps_25 };
@@ -76,8 +75,10 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const bool two = params.kernel == Kernel::rank_2;
     std::vector<std::string> along_x = {"skin_light_x"};
     if (two) along_x.push_back("skin_light_x_of_second");
-    for (const std::string& name : along_x) list.images.push_back({.name = name, .format = kLightFormat});
-    list.images.push_back({.name = "skin_light_xy", .format = kLightFormat});
+    // Two products may be far larger than their sum.
+    const ImageFormat format_x = two ? ImageFormat::rgba32f : ImageFormat::rgba16f;
+    for (const std::string& name : along_x) list.images.push_back({.name = name, .format = format_x});
+    list.images.push_back({.name = "skin_light_xy", .format = ImageFormat::rgba16f});
     for (const bool along_v : {false, true}) {
         Pass pass = {.name = along_v ? "blur along y" : "blur along x",
                      .kind = PassKind::fullscreen,

@@ -57,6 +57,11 @@ TEST_F(FrameConstants, one_light_is_the_loop_over_lights_with_one_in_it) {
         expect_same(*scene_, technique, "one_light");
 }
 
+TEST_F(FrameConstants, one_sample_is_the_search_for_its_surface) {
+    for (const char* technique : {"screen_space_burley", "screen_space_separable"})
+        expect_same(*scene_, technique, "one_sample");
+}
+
 // It asks the outermost taps for the nearest texel first, and where these agree no others (shadow.glsl): at
 // the edge of a shadow that is up to a tap's share of the light.
 TEST_F(FrameConstants, a_software_device_draws_the_shadows_of_others_to_a_taps_share) {

@@ -1,6 +1,6 @@
 // Values that are stored in half floats.
-#ifndef DERMIS_ATLAS_HALF_FLOATS_GLSL
-#define DERMIS_ATLAS_HALF_FLOATS_GLSL
+#ifndef DERMIS_HALF_FLOATS_GLSL
+#define DERMIS_HALF_FLOATS_GLSL
 
 // To the nearest half float, so that storing it is exact (Veltkamp 1968's splitting, of 13 bits). Vulkan leaves open how
 // a value between two half floats is rounded; a driver that cuts it off takes up to 1/1024 of the light in every pass.
