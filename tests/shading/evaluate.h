@@ -14,13 +14,10 @@ namespace dermis::shading {
 [[nodiscard]] Result<Outputs> evaluate_on_gpu(gpu::Device& device, const std::string& text, Language language,
                                               const std::vector<Sampled>& functions);
 
-/// Samples of each function in a browser, the first ones: their texts would take 100 MB of all.
-inline constexpr size_t kBrowserSamples = 90 * 90;
-
 /// How the error starts when the browser has no WebGPU or WebGL 2.
 inline constexpr const char* kBrowserLacks = "not here: ";
 
-/// wgsl and essl, by headless Chromium.
+/// wgsl and essl, by headless Chromium: a page for as many functions as have 16 MiB of arguments together.
 [[nodiscard]] Result<Outputs> evaluate_in_browser(const std::string& chromium, const std::string& text,
                                                   Language language, const std::vector<Sampled>& functions);
 

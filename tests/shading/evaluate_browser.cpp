@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "dermis/base/file.h"
@@ -37,24 +39,29 @@ std::string call_of(const Sampled& function, Language language) {
     return call + ")";
 }
 
-std::string job_of(const std::string& text, Language language, const std::vector<Sampled>& functions) {
-    nlohmann::json job = {{"language", language_name(language)}, {"text", text}, {"count", kBrowserSamples}};
+std::string job_of(const std::string& text, Language language, std::span<const Sampled> functions) {
+    nlohmann::json job = {{"language", language_name(language)}, {"text", text}, {"count", kSampleCount}};
     std::vector<float> inputs;
     for (const Sampled& function : functions) {
         job["functions"].push_back({{"call", call_of(function, language)},
                                     {"floats", function.argument_floats},
                                     {"components", component_count(function.result)}});
-        const auto end = function.inputs.begin() + std::ptrdiff_t(kBrowserSamples * function.argument_floats);
-        inputs.insert(inputs.end(), function.inputs.begin(), end);
+        inputs.insert(inputs.end(), function.inputs.begin(), function.inputs.end());
     }
     job["inputs"] = base64(std::as_bytes(std::span(inputs)));
     return job.dump();
 }
 
-}  // namespace
+// How many of the functions a page takes.
+size_t functions_of_a_page(std::span<const Sampled> functions) {
+    constexpr size_t kMostFloats = 4 << 20;
+    size_t floats = 0, count = 0;
+    while (count < functions.size() && (floats += functions[count].inputs.size()) <= kMostFloats) ++count;
+    return std::max(count, size_t(1));
+}
 
-Result<Outputs> evaluate_in_browser(const std::string& chromium, const std::string& text, Language language,
-                                    const std::vector<Sampled>& functions) {
+Result<Outputs> evaluate_on_a_page(const std::string& chromium, const std::string& text, Language language,
+                                   std::span<const Sampled> functions) {
     const TemporaryDirectory directory;
     Result<std::string> page = read_text_file(DERMIS_SOURCE_DIR "/tests/shading/evaluate.html");
     if (!page) return page.error();
@@ -72,12 +79,27 @@ Result<Outputs> evaluate_in_browser(const std::string& chromium, const std::stri
     }
     const Result<std::vector<std::byte>> bytes = read_file(output);
     if (!bytes) return bytes.error();
-    const size_t each = kBrowserSamples * 16;
+    const size_t each = kSampleCount * 16;
     if (bytes->size() != functions.size() * each) return Error{"the page gave too little"};
-    Outputs outputs(functions.size(), std::vector<float>(kBrowserSamples * 4));
+    Outputs outputs(functions.size(), std::vector<float>(kSampleCount * 4));
     for (size_t i = 0; i < outputs.size(); ++i)
         std::memcpy(outputs[i].data(), bytes->data() + i * each, each);
     return outputs;
+}
+
+}  // namespace
+
+Result<Outputs> evaluate_in_browser(const std::string& chromium, const std::string& text, Language language,
+                                    const std::vector<Sampled>& functions) {
+    Outputs all;
+    for (std::span<const Sampled> left = functions; !left.empty();) {
+        const size_t count = functions_of_a_page(left);
+        Result<Outputs> outputs = evaluate_on_a_page(chromium, text, language, left.first(count));
+        if (!outputs) return outputs.error();
+        std::ranges::move(*outputs, std::back_inserter(all));
+        left = left.subspan(count);
+    }
+    return all;
 }
 
 }  // namespace dermis::shading
