@@ -2,6 +2,7 @@
 //
 //     node web_page.mjs CHROMIUM drive FOLDER              moves every control and checks that the pixels follow
 //     node web_page.mjs CHROMIUM shot FOLDER PICTURE SIDE  the picture alone, without controls, as PNG
+//     node web_page.mjs CHROMIUM load FOLDER               prints when the first picture was there, at 1280 x 800
 
 import { writeFileSync } from "node:fs";
 import { openBrowser, serve, until } from "./browser.mjs";
@@ -112,6 +113,9 @@ async function checkPhone(server) {
       return b.width > 0 && (b.height < 40 || b.width < 40);
     }).map(c => c.id || c.name)`);
     check(small.length === 0, "too small on a phone: " + small.join(", "));
+    const fine = await page.evaluate(`[...document.querySelectorAll("body *")].filter(e => e.offsetParent && parseFloat(getComputedStyle(e).fontSize) < 12 &&
+      [...e.childNodes].some(n => n.nodeType === Node.TEXT_NODE && n.data.trim())).map(e => e.textContent)`);
+    check(fine.length === 0, "text under 12 px on a phone: " + fine.join(", "));
     check(await page.evaluate("document.documentElement.scrollWidth") <= 390, "the page is wider than a phone");
   } finally {
     await page.close();
@@ -144,9 +148,23 @@ async function shoot(server) {
   }
 }
 
+// From the navigation to the first picture, with an empty cache.
+async function load(server) {
+  const page = await open(server, { width: 1280, height: 800 }, "",
+    "new MutationObserver((_, seen) => { if (document.body?.dataset.state === 'drawn') { window.drawnMs ??= performance.now(); seen.disconnect(); } })" +
+    ".observe(document, { subtree: true, childList: true, attributes: true });");
+  try {
+    const [ms, bytes] = await page.evaluate("[window.drawnMs, performance.getEntriesByType('resource').reduce((sum, r) => sum + r.encodedBodySize, 0)]");
+    console.log(`first picture after ${(ms / 1000).toFixed(1)} s, ${(bytes / 1e6).toFixed(1)} MB`);
+  } finally {
+    await page.close();
+  }
+}
+
 const server = await serve(folder);
 try {
   if (mode === "shot") await shoot(server);
+  else if (mode === "load") await load(server);
   else {
     await drive(server);
     await checkPhone(server);
