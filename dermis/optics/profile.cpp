@@ -222,7 +222,7 @@ TabulatedProfile scaled_model(const TabulatedProfile& table, double factor) {
 
 // The part u of the light lies within [low, high] throughout; 80 halvings reach the last bit.
 double bisected_inverse_cdf_mm(const Profile& profile, int channel, double u) {
-    double low = 0, high = mean_radius_mm(profile, channel);
+    double low = 0, high = std::max(1e-9, mean_radius_mm(profile, channel));
     while (cdf(profile, channel, high) < u && high < 1e300) low = high, high *= 2;
     for (int i = 0; i < 80; ++i) {
         const double middle = 0.5 * (low + high);

@@ -86,7 +86,7 @@ struct Profile {
 [[nodiscard]] double cdf(const Profile& profile, int channel, double r_mm);
 
 /// The radius within which the part u (clamped to 0..1) of the light leaves; infinite at u = 1 but for
-/// tables. Closed form for Burley, else 80 evaluations of the CDF; |cdf(inverse) - u| < 1e-12.
+/// tables. Closed form for Burley, else 80 or more evaluations of the CDF; |cdf(inverse) - u| < 1e-12.
 [[nodiscard]] double inverse_cdf_mm(const Profile& profile, int channel, double u);
 
 /// Mean and mean square of the distance at which light leaves. Burley: 2.5 d and 14 d^2. Closed forms.

@@ -9,11 +9,18 @@
 namespace dermis {
 namespace {
 
-// 2 pi times the integral of (at_zero + slope r) r^(1 + power) over [from, to].
-double linear_moment(double at_zero, double slope, int power, double from, double to) {
-    const auto raised = [&](int n) { return std::pow(to, n) - std::pow(from, n); };
-    return 2 * std::numbers::pi *
-           (at_zero * raised(power + 2) / (power + 2) + slope * raised(power + 3) / (power + 3));
+// 2 pi times the integral of R(r) r^(1 + power) over [from, to], R linear between its values at both ends.
+// With r = from + t h each power of t is summed by itself: no term is negative, so nothing cancels in a
+// segment that is short against its radius.
+double linear_moment(double at_from, double at_to, int power, double from, double to) {
+    const double h = to - from;
+    const int n = 1 + power;
+    double sum = 0, binomial = 1;
+    for (int k = 0; k <= n; ++k) {
+        sum += binomial * std::pow(from, n - k) * std::pow(h, k) * (at_from / (k + 1) + at_to) / (k + 2);
+        binomial = binomial * (n - k) / (k + 1);
+    }
+    return 2 * std::numbers::pi * h * sum;
 }
 
 }  // namespace
@@ -39,6 +46,7 @@ Result<TabulatedProfile> TabulatedProfile::make(std::span<const double> r_mm,
             if (r_mm[i] > 0 || i == 0) largest = std::max(largest, value);
         }
     }
+    if (r_mm.back() < 1e-6) return wrong(out_of_range("the last r_mm", r_mm.back(), "at least 1e-6"));
     if (largest == 0) return wrong({"the table has no reflectance at all; one value must be > 0"});
     TabulatedProfile profile({r_mm.begin(), r_mm.end()}, {r_per_mm2.begin(), r_per_mm2.end()});
     for (int c = 0; c < 3; ++c) {
@@ -54,7 +62,8 @@ TabulatedProfile::TabulatedProfile(std::vector<double> r_mm, std::vector<std::ar
     for (int power = 0; power < 3; ++power)
         for (int c = 0; c < 3; ++c) {
             const size_t p = size_t(power), channel = size_t(c);
-            moments_[0][p][channel] = linear_moment(values_[0][channel], 0, power, 0, r_mm_[0]);
+            moments_[0][p][channel] =
+                linear_moment(values_[0][channel], values_[0][channel], power, 0, r_mm_[0]);
             for (size_t i = 1; i < r_mm_.size(); ++i)
                 moments_[i][p][channel] =
                     moments_[i - 1][p][channel] + segment_moment(i - 1, c, power, r_mm_[i]);
@@ -65,8 +74,8 @@ TabulatedProfile::TabulatedProfile(std::vector<double> r_mm, std::vector<std::ar
 double TabulatedProfile::segment_moment(size_t segment, int channel, int power, double r_mm) const {
     const size_t c = size_t(channel);
     const double r0 = r_mm_[segment], r1 = r_mm_[segment + 1];
-    const double slope = (values_[segment + 1][c] - values_[segment][c]) / (r1 - r0);
-    return linear_moment(values_[segment][c] - slope * r0, slope, power, r0, r_mm);
+    const double v0 = values_[segment][c], v1 = values_[segment + 1][c];
+    return linear_moment(v0, std::lerp(v0, v1, (r_mm - r0) / (r1 - r0)), power, r0, r_mm);
 }
 
 double TabulatedProfile::reflectance_at(int channel, double r_mm) const {
@@ -80,7 +89,8 @@ double TabulatedProfile::reflectance_at(int channel, double r_mm) const {
 
 double TabulatedProfile::moment_within(int channel, int power, double r_mm) const {
     const size_t c = size_t(channel), p = size_t(power);
-    if (r_mm <= r_mm_.front()) return linear_moment(values_.front()[c], 0, power, 0, std::max(0.0, r_mm));
+    const double first = values_.front()[c];
+    if (r_mm <= r_mm_.front()) return linear_moment(first, first, power, 0, std::max(0.0, r_mm));
     if (r_mm >= r_mm_.back()) return moments_.back()[p][c];
     const size_t next = size_t(std::lower_bound(r_mm_.begin(), r_mm_.end(), r_mm) - r_mm_.begin());
     return moments_[next - 1][p][c] + segment_moment(next - 1, channel, power, r_mm);

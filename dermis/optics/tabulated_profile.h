@@ -18,8 +18,8 @@ inline constexpr size_t kMaxProfileRows = 100'000;
 /// Immutable once made; holds prefix sums so that its CDF costs one binary search.
 class TabulatedProfile {
   public:
-    /// At least two rows; radii finite, >= 0 and strictly increasing; R finite and >= 0, not all zero in
-    /// every channel. `place` begins the error ("skin.csv"). At most kMaxProfileRows rows.
+    /// At least two rows; radii finite, >= 0, strictly increasing, the last 1e-6 to 1e6; R finite and >= 0,
+    /// not all zero in every channel. `place` begins the error ("skin.csv"). At most kMaxProfileRows rows.
     [[nodiscard]] static Result<TabulatedProfile> make(std::span<const double> r_mm,
                                                        std::span<const std::array<double, 3>> r_per_mm2,
                                                        std::string_view place);

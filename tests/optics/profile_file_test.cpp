@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 
@@ -83,9 +85,30 @@ TEST(ProfileFile, refusals_name_the_place_the_value_and_what_would_be_right) {
     EXPECT_THAT(message("r_mm,r,g,b\n0,1,-1,1\n1,1,1,1\n"),
                 HasSubstr("the green reflectance of row 1 is -1"));
     EXPECT_THAT(message("r_mm,r,g,b\n0,0,0,0\n1,0,0,0\n"), HasSubstr("no reflectance at all"));
+    EXPECT_THAT(message("r_mm,r,g,b\n0,1,1,1\n12e-83,1,1,1\n"),
+                HasSubstr("the last r_mm is 1.2e-82; it must be at least 1e-6"));
     EXPECT_THAT(message("variance_mm2,r,g,b\n"), HasSubstr("the sum of Gaussians is empty"));
     EXPECT_THAT(message("variance_mm2,r,g,b\n0,1,1,1\n"), HasSubstr("variance_mm2 of term 1 is 0"));
     EXPECT_THAT(message("variance_mm2,r,g,b\n1,-1,1,1\n"), HasSubstr("red weight of term 1 is -1"));
+}
+
+// An annulus from 3 to 3 + width mm: the light leaves at its mean radius, however narrow it is.
+TEST(ProfileFile, a_step_between_neighbouring_numbers_has_its_radius) {
+    for (const double width : {1e-3, 1e-9, 1e-15}) {
+        const std::vector<double> radii = {0, 3, 3 + width};
+        const std::vector<std::array<double, 3>> values = {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}};
+        const Profile step{"step", "test", *TabulatedProfile::make(radii, values, "step")};
+        EXPECT_NEAR(diffuse_albedo(step, kRed) / (3 * std::numbers::pi * (radii[2] - 3)), 1, width);
+        EXPECT_NEAR(mean_radius_mm(step, kRed), 3, 1e-12 + width);
+        EXPECT_NEAR(inverse_cdf_mm(step, kRed, 0.5), 3, 1e-12 + width);
+    }
+}
+
+// All light within 1e-160 mm: the moments underflow, the median is found nevertheless.
+TEST(ProfileFile, a_profile_that_is_nearly_a_point_has_a_median) {
+    const Result<Profile> point = parse_profile_csv("r_mm,r,g,b\n0,1,1,1\n1e-160,0,0,0\n1,0,0,0\n", "p.csv");
+    ASSERT_TRUE(point);
+    EXPECT_LT(inverse_cdf_mm(*point, kRed, 0.5), 1e-6);
 }
 
 TEST(ProfileFile, every_prefix_is_read_or_refused_in_one_line) {
