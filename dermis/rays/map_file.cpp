@@ -13,7 +13,24 @@ namespace {
 
 constexpr Vec3 kBackground = {0.02f, 0.02f, 0.02f};
 
-std::string sidecar_text(const BakedMap& map, const MapOrigin& origin) {
+bool is_engine_map(const std::filesystem::path& path, MapKind kind) {
+    return kind == MapKind::thickness && to_lower(path.extension().string()) == ".png";
+}
+
+// 8 bit, linear, the same in red, green and blue; 1 is `max_mm`, and what holds no skin: smaller mip levels
+// mix it in.
+Image engine_map(const BakedMap& map, float max_mm) {
+    Image picture(map.values.width, map.values.height, 3, PixelFormat::u8, Encoding::linear);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) {
+            const bool is_empty = map.coverage.at(x, y, 0) == 0 && map.values.at(x, y, 0) == 0;
+            const float part = is_empty ? 1 : std::clamp(map.values.at(x, y, 0) / max_mm, 0.0f, 1.0f);
+            for (int c = 0; c < 3; ++c) picture.set(x, y, c, part);
+        }
+    return picture;
+}
+
+std::string sidecar_text(const BakedMap& map, const MapOrigin& origin, bool is_png) {
     const BakeMapSettings& s = origin.settings;
     nlohmann::ordered_json json = {{"kind", map_kind_name(map.kind)},
                                    {"unit", map.unit},
@@ -25,6 +42,7 @@ std::string sidecar_text(const BakedMap& map, const MapOrigin& origin) {
                                    {"range", {map.min, map.max}},
                                    {"gutter_texels", s.gutter_texels},
                                    {"mesh", origin.mesh}};
+    if (is_png) json["value_1_mm"] = s.max_mm;
     if (s.material) json["material"] = *s.material;
     switch (map.kind) {
         case MapKind::curvature:
@@ -100,12 +118,18 @@ Image map_preview(const BakedMap& map) {
 }
 
 Result<void> write_map(const std::filesystem::path& path, const BakedMap& map, const MapOrigin& origin) {
-    if (to_lower(path.extension().string()) != ".exr")
-        return Error{path.string() + ": maps are written as .exr (a preview .png comes beside it)"};
-    const std::string text = sidecar_text(map, origin);
-    const Image half = convert(map.values, PixelFormat::f16, Encoding::linear);
+    const bool is_png = is_engine_map(path, map.kind);
+    if (!is_png && to_lower(path.extension().string()) != ".exr")
+        return Error{path.string() + ": maps are written as .exr (a preview .png comes beside it)" +
+                     (map.kind == MapKind::thickness ? ", thickness as .png too" : "")};
+    if (is_png && origin.settings.max_mm <= 0)
+        return Error{path.string() + ": max_mm is the thickness of a value of 1, and has to be above 0"};
+    const std::string text = sidecar_text(map, origin, is_png);
     const std::filesystem::path preview_path = map_preview_path(path);
-    const Result<std::vector<std::byte>> picture = encode_image(".exr", half, {{"dermis", text}});
+    const Result<std::vector<std::byte>> picture =
+        is_png ? encode_image(".png", engine_map(map, origin.settings.max_mm))
+               : encode_image(".exr", convert(map.values, PixelFormat::f16, Encoding::linear),
+                              {{"dermis", text}});
     if (!picture) return Error{path.string() + ": " + picture.error().message};
     const Result<std::vector<std::byte>> preview = encode_image(".png", map_preview(map));
     if (!preview) return Error{preview_path.string() + ": " + preview.error().message};

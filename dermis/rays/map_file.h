@@ -1,5 +1,6 @@
 #pragma once
-// Baked maps as files: EXR half with what its numbers mean inside and beside it, and a picture to look at.
+// Baked maps as files: EXR half with what its numbers mean inside and beside it, and a picture to look at;
+// thickness as 8-bit PNG too, which engines read.
 
 #include <filesystem>
 
@@ -17,7 +18,8 @@ struct MapOrigin {
 
 /// FILE.exr (half), FILE.exr.json (kind, unit, channels, size, v_origin, encoding, range of the covered
 /// texels, gutter, settings, tool; the same text inside the EXR under "dermis"), and FILE_preview.png. Each
-/// is written whole or not at all. Errors: an extension other than .exr, a file that cannot be written.
+/// is written whole or not at all. Thickness also as FILE.png: 8 bit, linear, grey, 1 is the settings'
+/// max_mm. Errors: an extension other than .exr, a file that cannot be written.
 [[nodiscard]] Result<void> write_map(const std::filesystem::path& path, const BakedMap& map,
                                      const MapOrigin& origin);
 

@@ -254,5 +254,29 @@ TEST(MapFile, a_map_comes_back_from_its_file_with_its_meaning) {
     EXPECT_FALSE(write_map("map.png", *map, {"ball", settings}));
 }
 
+// As engines read it: a byte of 255 is max_mm.
+TEST(MapFile, a_thickness_is_written_as_png_too) {
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "dermis_thickness.png";
+    BakeMapSettings settings = small(MapKind::thickness, 32);
+    settings.max_mm = 100;
+    auto map = bake_map(object_of(test::uv_sphere(20, 128, 64)), settings);
+    ASSERT_TRUE(map);
+    ASSERT_TRUE(write_map(path, *map, {"ball", settings}));
+    const auto image = read_image(path, ImageUse::data);
+    ASSERT_TRUE(image);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(image->image.at(16, 16, c), map->values.at(16, 16, 0) / 100, 0.5 / 255 + 1e-4);
+    map->values.set(0, 0, 0, 0);
+    map->coverage.set(0, 0, 0, 0);
+    ASSERT_TRUE(write_map(path, *map, {"ball", settings}));
+    EXPECT_EQ(read_image(path, ImageUse::data)->image.at(0, 0, 1), 1) << "without skin";
+    EXPECT_NEAR(map->values.at(16, 16, 0), 30, 1.5);  // R (1 + cos^2 45 degrees)
+    std::ifstream sidecar(map_sidecar_path(path));
+    EXPECT_NE(std::string(std::istreambuf_iterator<char>(sidecar), {}).find("\"value_1_mm\": 100"),
+              std::string::npos);
+    settings.max_mm = 0;
+    EXPECT_FALSE(write_map(path, *map, {"ball", settings}));
+}
+
 }  // namespace
 }  // namespace dermis

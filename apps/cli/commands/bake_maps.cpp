@@ -45,10 +45,14 @@ Result<int> run(const BakeMapsOptions& options) {
 
 void add_common(Command* command, BakeMapsOptions& options) {
     BakeMapSettings& s = options.map.settings;
+    const bool thickness = options.map.settings.kind == MapKind::thickness;
     command->add_option("mesh", options.map.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
     command
         ->add_option("-o,--output", options.output,
-                     "file to write, .exr; FILE.exr.json and FILE_preview.png are written too")
+                     thickness
+                         ? "file to write, .exr in mm, or .png: 8 bit, linear, 1 is --max-mm; FILE.json and "
+                           "FILE_preview.png are written too"
+                         : "file to write, .exr; FILE.exr.json and FILE_preview.png are written too")
         ->required();
     command->add_option("--size", s.size, "side of the map in texels")->capture_default_str();
     command->add_option("--gutter", s.gutter_texels, "width of the gutter around UV islands in texels")
