@@ -84,7 +84,14 @@ std::string transmission_function(const std::vector<ChannelGaussians>& terms) {
            "ignores the far "
            "boundary\n// (d'Eon, Luebke 2007, section 14.5). thickness_mm is 0 upwards.\n"
            "vec3 skin_transmittance(float thickness_mm) {\n    vec3 total = " +
-           total + ";\n    return (" + sum + ") / total;\n}\n";
+           total + ";\n    return (" + sum +
+           ") / total;\n}\n\n"
+           "// Of what a point of a slab sends out, the share that has entered its far side, 0 to 0.5; the "
+           "rest has entered\n// here. mix(skin_diffuse(...), vec3(max(-N.L, 0.0)), skin_far_share(t)), each "
+           "times the visibility of the light on\n// its side, is exact for a slab and keeps the energy. "
+           "thickness_mm is 0 upwards.\n"
+           "vec3 skin_far_share(float thickness_mm) {\n    vec3 through = skin_transmittance(thickness_mm);\n"
+           "    return through / (1.0 + through);\n}\n";
 }
 
 }  // namespace dermis::export_text

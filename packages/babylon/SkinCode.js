@@ -1,5 +1,10 @@
 // What the plugin puts into the shader of PBRMaterial: by place, a name of Babylon's, or an expression to be replaced ("!").
 // skinSettings: millimetres in a unit, factor on the curvature, reflectance at normal incidence, height of the picture in pixels.
+// skinThicknessMaxMm: thickness in mm of a map value of 1.
+//
+// Light that comes through thin parts has entered on their far side: its shadow is looked up past the far wall, as the skin would
+// shade its own back. That is a second look into the shadow map, with the same call at another place. Cascades have several maps:
+// there this light has no shadow.
 //
 // Light from all around: Babylon has computed an irradiance E(n) for Lambert, three bands of spherical harmonics (Ramamoorthi,
 // Hanrahan 2001). The even ones are in (E(n) + E(-n)) / 2, the odd one is (E(n) - E(-n)) / 2; skin multiplies those of order 1
@@ -10,6 +15,10 @@ import { glslText, wgslText } from "./skin.js";
 // The light of one light of the scene, in the loop that Babylon unrolls; preInfo and diffuse0, diffuse1 ... are its words.
 const kDiffuseCall = "!computeDiffuseLighting\\(preInfo,(\\w+)\\.rgb\\);";
 const kSpecularCall = "!computeSpecularLighting\\(preInfo,normalW,[^;]*?,(\\w+)\\.rgb\\);";
+// The place in the light's map; for point lights in the world.
+const kShadowCall = "!shadow=(computeShadow\\w*)\\(((?:fragmentInputs\\.)?)vPositionFromLight(\\d+),(?:fragmentInputs\\.)?vDepthMetric\\d+,([^;]*)\\);";
+const kCubeShadowCall = "!shadow=(computeShadow\\w*)\\(((?:fragmentInputs\\.)?)vPositionW,([^;]*)\\);";
+const kSum = "!diffuseBase\\+=info\\.diffuse\\*shadow;";
 const kHemisphericCall = "!computeHemisphericDiffuseLighting\\(preInfo,(\\w+)\\.rgb,(\\w+)\\.vLightGround\\);";
 
 export const glslCode = {
@@ -31,6 +40,17 @@ varying float vSkinCurvature;
 #endif
 #ifdef SKIN_TABLE
 uniform sampler2D skinTable;
+#endif
+#ifdef SKIN_THICKNESS
+uniform sampler2D skinThickness;
+
+float skinDepth(vec4 placeInMap, vec2 depthValues) {
+#ifdef USE_REVERSE_DEPTHBUFFER
+  return (depthValues.x - placeInMap.z) / depthValues.y;
+#else
+  return (depthValues.x + placeInMap.z) / depthValues.y;
+#endif
+}
 #endif
 const float kMaxCurvaturePerMm = @max_curvature_per_mm@;
 
@@ -79,8 +99,40 @@ float skinCurvature = abs(vSkinCurvature);
 #else
 float skinCurvature = curvature_from_derivatives(fwidth(geometricNormalW), fwidth(vPositionW) * skinSettings.x);
 #endif
-skinCurvature = min(skinCurvature * skinSettings.y, kMaxCurvaturePerMm);`,
-    [kDiffuseCall]: "skinDiffuseLight(preInfo, skinCurvature, $1.rgb);",
+skinCurvature = min(skinCurvature * skinSettings.y, kMaxCurvaturePerMm);
+#ifdef SKIN_THICKNESS
+float skinThicknessMm = texture2D(skinThickness, vMainUV1).g * skinThicknessMaxMm;
+vec3 skinFarShare = skin_far_share(skinThicknessMm);
+vec3 skinFarPosition = vPositionW - geometricNormalW * (past_far_wall_mm(skinThicknessMm) / skinSettings.x);
+vec3 skinBehind = vec3(0.0);
+float skinFarShadow = 1.0;
+#endif`,
+    [kDiffuseCall]: `skinDiffuseLight(preInfo, skinCurvature, $1.rgb);
+#ifdef SKIN_THICKNESS
+info.diffuse *= 1.0 - skinFarShare;
+skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kPi;
+#endif
+`,
+    [kShadowCall]: `shadow=$1($2vPositionFromLight$3,$2vDepthMetric$3,$4);
+#ifdef SKIN_THICKNESS
+{
+  vec4 placeInMap = lightMatrix$3 * vec4(skinFarPosition, 1.0);
+  skinFarShadow = $1(placeInMap, skinDepth(placeInMap, light$3.depthValues), $4);
+}
+#endif
+`,
+    [kCubeShadowCall]: `shadow=$1($2vPositionW,$3);
+#ifdef SKIN_THICKNESS
+skinFarShadow = $1(skinFarPosition,$3);
+#endif
+`,
+    [kSum]: `diffuseBase+=info.diffuse*shadow;
+#ifdef SKIN_THICKNESS
+diffuseBase += skinBehind * skinFarShadow;
+skinBehind = vec3(0.0);
+skinFarShadow = 1.0;
+#endif
+`,
     [kSpecularCall]: "skinSpecularLight(preInfo, normalW, $1.rgb);",
     [kHemisphericCall]: "skinHemisphericLight(preInfo, skinCurvature, $1.rgb, $2.vLightGround);",
     CUSTOM_FRAGMENT_BEFORE_FINALCOLORCOMPOSITION: `
@@ -142,6 +194,18 @@ varying vSkinCurvature: f32;
 var skinTableSampler: sampler;
 var skinTable: texture_2d<f32>;
 #endif
+#ifdef SKIN_THICKNESS
+var skinThicknessSampler: sampler;
+var skinThickness: texture_2d<f32>;
+
+fn skinDepth(placeInMap: vec4f, depthValues: vec2f) -> f32 {
+#ifdef USE_REVERSE_DEPTHBUFFER
+  return (depthValues.x - placeInMap.z) / depthValues.y;
+#else
+  return (depthValues.x + placeInMap.z) / depthValues.y;
+#endif
+}
+#endif
 const kMaxCurvaturePerMm: f32 = @max_curvature_per_mm@;
 
 fn skinDiffuseLight(info: preLightingInfo, curvature: f32, lightColor: vec3f) -> vec3f {
@@ -188,8 +252,40 @@ var skinCurvature: f32 = abs(fragmentInputs.vSkinCurvature);
 var skinCurvature: f32 = curvature_from_derivatives(fwidth(geometricNormalW),
     fwidth(fragmentInputs.vPositionW) * uniforms.skinSettings.x);
 #endif
-skinCurvature = min(skinCurvature * uniforms.skinSettings.y, kMaxCurvaturePerMm);`,
-    [kDiffuseCall]: "skinDiffuseLight(preInfo, skinCurvature, $1.rgb);",
+skinCurvature = min(skinCurvature * uniforms.skinSettings.y, kMaxCurvaturePerMm);
+#ifdef SKIN_THICKNESS
+let skinThicknessMm = textureSample(skinThickness, skinThicknessSampler, fragmentInputs.vMainUV1).g * uniforms.skinThicknessMaxMm;
+let skinFarShare = skin_far_share(skinThicknessMm);
+let skinFarPosition = fragmentInputs.vPositionW - geometricNormalW * (past_far_wall_mm(skinThicknessMm) / uniforms.skinSettings.x);
+var skinBehind = vec3f(0.0);
+var skinFarShadow = 1.0;
+#endif`,
+    [kDiffuseCall]: `skinDiffuseLight(preInfo, skinCurvature, $1.rgb);
+#ifdef SKIN_THICKNESS
+info.diffuse *= 1.0 - skinFarShare;
+skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kPi;
+#endif
+`,
+    [kShadowCall]: `shadow=$1($2vPositionFromLight$3,$2vDepthMetric$3,$4);
+#ifdef SKIN_THICKNESS
+{
+  let placeInMap = uniforms.lightMatrix$3 * vec4f(skinFarPosition, 1.0);
+  skinFarShadow = $1(placeInMap, skinDepth(placeInMap, light$3.depthValues), $4);
+}
+#endif
+`,
+    [kCubeShadowCall]: `shadow=$1($2vPositionW,$3);
+#ifdef SKIN_THICKNESS
+skinFarShadow = $1(skinFarPosition,$3);
+#endif
+`,
+    [kSum]: `diffuseBase+=info.diffuse*shadow;
+#ifdef SKIN_THICKNESS
+diffuseBase += skinBehind * skinFarShadow;
+skinBehind = vec3f(0.0);
+skinFarShadow = 1.0;
+#endif
+`,
     [kSpecularCall]: "skinSpecularLight(preInfo, normalW, $1.rgb);",
     [kHemisphericCall]: "skinHemisphericLight(preInfo, skinCurvature, $1.rgb, $2.vLightGround);",
     CUSTOM_FRAGMENT_BEFORE_FINALCOLORCOMPOSITION: `

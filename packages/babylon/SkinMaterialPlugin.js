@@ -1,6 +1,6 @@
-// Skin, pre-integrated (Penner 2011): diffuse light over N.L and curvature from skin_table.dds, two specular lobes, light from
-// all around by its bands of spherical harmonics. Every light of the scene, with its shadow, and its environment, on a
-// PBRMaterial, in WebGL 2 and WebGPU. Made by dermis @version@ for @profile@.
+// Skin, pre-integrated (Penner 2011): diffuse light over N.L and curvature from skin_table.dds, two specular lobes, transmission
+// through thin parts by a map of their thickness, light from all around by its bands of spherical harmonics. Every light of the
+// scene, with its shadow, and its environment, on a PBRMaterial, in WebGL 2 and WebGPU. Made by dermis @version@ for @profile@.
 //
 //     const material = new PBRMaterial("skin", scene);
 //     const skin = new SkinMaterialPlugin(material);
@@ -21,13 +21,15 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
   constructor(material) {
     super(material, "DermisSkin", 200, {
       SKIN_TABLE: false, SKIN_VERTEX_CURVATURE: false, SKIN_NO_TABLE: false, SKIN_NO_CURVATURE: false,
-      SKIN_ENVIRONMENT: false, SKIN_REFLECTION: false, SKIN_CHANGED_ENGINE: false,
+      SKIN_ENVIRONMENT: false, SKIN_REFLECTION: false, SKIN_CHANGED_ENGINE: false, SKIN_THICKNESS: false,
     });
     this._table = null;
     this._closedForm = false;
     this._curvatureFromVertices = false;
+    this._thicknessTexture = null;
     this._said = "";
     this._engineFault = null;  // null: not looked at yet
+    this.thicknessMaxMm = 20;  // thickness in mm of a map value of 1
     this.mmPerUnit = 1000;   // millimetres in a unit of the scene: 1000 where units are metres
     this.curvatureGain = 1;  // factor on the curvature, 0 to 4: 1 is the skin as measured
     this.f0 = 0.028;         // reflectance at normal incidence, 0 to 0.08
@@ -57,6 +59,10 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
   // true: the curvature is the attribute curvature_per_mm of the mesh; false: from derivatives, which see its facets.
   get curvatureFromVertices() { return this._curvatureFromVertices; }
   set curvatureFromVertices(on) { this._change("_curvatureFromVertices", on); }
+  // Transmission through thin parts: green is their thickness, linear (gammaSpace false), in the first texture coordinates; null: none
+  // goes through.
+  get thicknessTexture() { return this._thicknessTexture; }
+  set thicknessTexture(texture) { this._change("_thicknessTexture", texture); }
 
   _change(name, value) {
     this[name] = value;
@@ -66,12 +72,17 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
   getClassName() { return "SkinMaterialPlugin"; }
   isCompatible(language) { return language === ShaderLanguage.GLSL || language === ShaderLanguage.WGSL; }
 
+  prepareDefinesBeforeAttributes(defines) {
+    if (this._thicknessTexture) defines._needUVs = defines.MAINUV1 = true;
+  }
+
   // What is missing is written over the surface, and said once on the console.
   prepareDefines(defines, scene, mesh) {
     const fault = this._closedForm ? "" : faultOfTable(this._table);
     const attribute = this._curvatureFromVertices ? curvatureAttribute : "normal";
     const hasCurvature = mesh.isVerticesDataPresent(attribute);
     defines.SKIN_TABLE = !this._closedForm && fault === "";
+    defines.SKIN_THICKNESS = Boolean(this._thicknessTexture);
     defines.SKIN_VERTEX_CURVATURE = this._curvatureFromVertices && hasCurvature;
     // An irradiance texture in place of the harmonics stays Lambert's.
     defines.SKIN_ENVIRONMENT = Boolean(defines.USESPHERICALFROMREFLECTIONMAP && !defines.REALTIME_FILTERING);
@@ -88,21 +99,22 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
   getAttributes(attributes) {
     if (this._curvatureFromVertices) attributes.push(curvatureAttribute);
   }
-  getSamplers(samplers) { samplers.push("skinTable"); }
-  getActiveTextures(textures) {
-    if (this._table) textures.push(this._table);
-  }
-  hasTexture(texture) { return texture === this._table; }
-  isReadyForSubMesh() { return this._engineFault !== null && (!this._table || this._table.isReady()); }
+  getSamplers(samplers) { samplers.push("skinTable", "skinThickness"); }
+  get _textures() { return [this._table, this._thicknessTexture].filter(texture => texture); }
+  getActiveTextures(textures) { textures.push(...this._textures); }
+  hasTexture(texture) { return this._textures.includes(texture); }
+  isReadyForSubMesh() { return this._engineFault !== null && this._textures.every(texture => texture.isReady()); }
 
   getUniforms(language) {
-    const ubo = [{ name: "skinSettings", size: 4, type: "vec4" }];
-    return language === ShaderLanguage.WGSL ? { ubo } : { ubo, fragment: "uniform vec4 skinSettings;" };
+    const ubo = [{ name: "skinSettings", size: 4, type: "vec4" }, { name: "skinThicknessMaxMm", size: 1, type: "float" }];
+    return language === ShaderLanguage.WGSL ? { ubo } : { ubo, fragment: "uniform vec4 skinSettings; uniform float skinThicknessMaxMm;" };
   }
 
   bindForSubMesh(uniforms, scene, engine) {
     uniforms.updateFloat4("skinSettings", this.mmPerUnit, this.curvatureGain, this.f0, engine.getRenderHeight());
+    uniforms.updateFloat("skinThicknessMaxMm", this.thicknessMaxMm);
     if (this._table) uniforms.setTexture("skinTable", this._table);
+    if (this._thicknessTexture) uniforms.setTexture("skinThickness", this._thicknessTexture);
   }
 
   getCustomCode(shaderType, language) {

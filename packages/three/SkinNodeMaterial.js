@@ -1,6 +1,6 @@
-// Skin, pre-integrated (Penner 2011): diffuse light over N.L and curvature from skin_table.exr, two specular lobes, light from
-// all around by its bands of spherical harmonics. Every light of the scene, with its shadow, and its environment, in
-// WebGPURenderer on WebGPU and on WebGL 2. Made by dermis @version@ for @profile@.
+// Skin, pre-integrated (Penner 2011): diffuse light over N.L and curvature from skin_table.exr, two specular lobes, transmission
+// through thin parts by a map of their thickness, light from all around by its bands of spherical harmonics. Every light of the
+// scene, with its shadow, and its environment, in WebGPURenderer on WebGPU and on WebGL 2. Made by dermis @version@ for @profile@.
 //
 //     const skin = new SkinNodeMaterial({ table: await loadSkinTable(), map: albedo, normalMap: normals });
 
@@ -12,9 +12,10 @@ import {
 import { changeOfEnvironment, changeOfLight } from "./SkinAmbient.js";
 import {
   curvatureFromDerivatives, diffuseCoordinate, fresnelSchlick, signOfMissingCurvature, signOfMissingTable, skinAmbientBand1,
-  skinAmbientBand2, skinDiffuse, twoLobeGgx,
+  skinAmbientBand2, skinDiffuse, skinFarShare, twoLobeGgx,
 } from "./SkinFunction.js";
 import { faultOfTable, maxCurvaturePerMm } from "./SkinTable.js";
+import { colorBehind, thicknessMm } from "./SkinThickness.js";
 
 export * from "./SkinFunction.js";
 export * from "./SkinTable.js";
@@ -30,13 +31,20 @@ class SkinLightingModel extends PhysicalLightingModel {
     this.curvature = this.material.setupCurvature(builder).toVar("skinCurvature");
     this.bands = [skinAmbientBand1(this.curvature).div(2 / 3 * Math.PI), skinAmbientBand2(this.curvature).div(Math.PI / 4)]
       .map(band => band.toVar());
+    this.thickness = thicknessMm(this.material)?.toVar("skinThickness");
+    this.farShare = this.thickness && skinFarShare(this.thickness).toVar("skinFarShare");
     super.start(builder);
   }
 
-  direct({ lightDirection, lightColor, reflectedLight }) {
+  direct({ lightDirection, lightColor, lightNode, reflectedLight }, builder) {
     const nDotL = normalView.dot(lightDirection).toVar();
-    const diffuse = this.material.setupDiffuse(nDotL, this.curvature);
-    reflectedLight.directDiffuse.addAssign(lightColor.mul(diffuse).mul(diffuseContribution).div(Math.PI));
+    let entered = lightColor.mul(this.material.setupDiffuse(nDotL, this.curvature));
+    if (this.farShare) {
+      const farCosine = normalViewGeometry.dot(lightDirection).negate().max(0);
+      const behind = colorBehind(lightNode, lightColor, this.thickness, builder).mul(farCosine);
+      entered = mix(entered, behind, this.farShare);
+    }
+    reflectedLight.directDiffuse.addAssign(entered.mul(diffuseContribution).div(Math.PI));
 
     const h = lightDirection.add(positionViewDirection).normalize();
     const roughness = this.material.roughnessNode ?? materialRoughness;
@@ -69,6 +77,9 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
     this.table = null;               // of loadSkinTable()
     this.closedForm = false;         // true: no table is read, about 90 multiply-adds a light instead
     this.curvatureAttribute = null;  // name of a vertex attribute, a float in 1/mm; null: from derivatives
+    this.thicknessMap = null;        // transmission through thin parts: green is their thickness, linear; null: none goes through
+    this.thicknessMaxMm = 20;        // thickness in mm of a map value of 1
+    this.thicknessNode = null;       // in place of the map: a node of the thickness in mm
     this.mmPerUnit = 1000;           // millimetres in a unit of the scene: 1000 where units are metres
     this.curvatureGain = 1;          // factor on the curvature, 0 to 4: 1 is the skin as measured
     this.f0 = 0.028;                 // reflectance at normal incidence, 0 to 0.08
@@ -77,14 +88,16 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
   }
 
   copy(source) {
-    for (const name of ["table", "closedForm", "curvatureAttribute", "mmPerUnit", "curvatureGain", "f0"]) this[name] = source[name];
+    const own = ["table", "closedForm", "curvatureAttribute", "thicknessMap", "thicknessMaxMm", "thicknessNode", "mmPerUnit",
+      "curvatureGain", "f0"];
+    for (const name of own) this[name] = source[name];
     return super.copy(source);
   }
 
   // What decides about the shader's text: another table or attribute builds it anew.
   customProgramCacheKey() {
     const table = this.closedForm ? "none" : this.table?.uuid ?? "missing";
-    return `${super.customProgramCacheKey()} ${table} ${faultOfTable(this.table)} ${this.curvatureAttribute}`;
+    return `${super.customProgramCacheKey()} ${table} ${faultOfTable(this.table)} ${this.curvatureAttribute} ${this.thicknessMap?.uuid}`;
   }
 
   setupEnvironment(builder) {

@@ -12,6 +12,7 @@
 #include "cli/run_program.h"
 #include "dermis/base/file.h"
 #include "packages/host_scenes.h"
+#include "packages/host_transmission.h"
 #include "packages/packages.h"
 #include "support/sphere_pictures.h"
 #include "support/temporary_directory.h"
@@ -187,12 +188,14 @@ struct HostDifference {
     int pixels = 0, beyond = 0, largest_level = 0;
 };
 
-HostDifference difference_in(const HostScene& scene, const Image& ours, const Image& theirs) {
+HostDifference difference_in(const HostScene& scene, const Image& rendered, const Image& ours,
+                             const Image& theirs) {
     HostDifference found;
-    const SpherePixels sphere(ours);
+    const SpherePixels sphere(rendered);
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             if (!sphere.is_inside(x, y) || !is_compared(scene, x, y, kSide)) continue;
+            if (scene.transmission && is_overexposed(rendered, x, y)) continue;
             const int level = level_difference(ours, theirs, x, y);
             ++found.pixels;
             found.beyond += level > scene.largest_level;
@@ -221,13 +224,35 @@ TEST_P(BrowserPackage, draws_other_lights_bumps_and_shadows_as_the_renderer) {
             ADD_FAILURE() << "no picture";
             continue;
         }
-        const Image& ours =
+        const Image& plain =
             renderer_picture((page / (std::string(scenes[i].name) + ".toml")).string(), scenes[i].settings);
-        const HostDifference difference = difference_in(scenes[i], ours, drawn[i].picture);
+        const Image& ours = scenes[i].transmission ? with_transmission(plain, kProfile) : plain;
+        const HostDifference difference = difference_in(scenes[i], plain, ours, drawn[i].picture);
         EXPECT_GT(difference.pixels, kMinPixels / 3);
         EXPECT_LE(difference.beyond, scenes[i].share_beyond * difference.pixels) << difference.largest_level;
         RecordProperty(scenes[i].name, difference.largest_level);
     }
+}
+
+// A sheet of 1 mm lit from behind: its own front does not shade that light, a board behind it does.
+TEST_P(BrowserPackage, light_through_thin_skin_has_the_shadows_of_its_far_side) {
+    write_test_page();
+    const auto drawn = pictures({"package/test/index.html?sheet"});
+    if (drawn.empty()) GTEST_SKIP() << "this browser has no " << GetParam().device;
+    EXPECT_EQ(drawn[0].said, "");
+    ASSERT_EQ(drawn[0].picture.width, kSide) << "no picture";
+    const Vec3 color = sheet_color_srgb(kProfile);
+    const float lit[] = {color.x, color.y, color.z};
+    ASSERT_GT(lit[0], 0.4f);
+    const double mm_per_pixel = 2 * std::tan(3.5 * 3.14159265 / 180) * 149.5 / kSide;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const double from_edge_mm = (x + 0.5 - 0.5 * kSide) * mm_per_pixel - shadow_edge_x_mm();
+            if (std::abs(from_edge_mm) < 1.5) continue;
+            const float part = from_edge_mm > 0 ? 1.0f : 0.0f;
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(drawn[0].picture.at(x, y, c), part * lit[c], 2.0 / 255) << x << " " << y;
+        }
 }
 
 // A shader in which nothing is replaced would be drawn without the skin's light.

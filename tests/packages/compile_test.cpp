@@ -5,6 +5,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/process.h"
+#include "dermis/base/text.h"
 #include "packages/packages.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
@@ -46,7 +47,7 @@ std::string hlsl_errors(const fs::path& folder, const fs::path& include, const s
 }
 
 struct Pass {
-    std::string file, stage, entry, define;
+    std::string file, stage, entry, defines;  // with spaces between
 };
 
 const std::vector<Pass> kUnityPasses = {
@@ -55,6 +56,10 @@ const std::vector<Pass> kUnityPasses = {
     {"SkinForward.hlsl", "fragment", "SkinFragment", "_ADDITIONAL_LIGHTS"},
     {"SkinForward.hlsl", "fragment", "SkinFragment", "_FORWARD_PLUS"},
     {"SkinForward.hlsl", "fragment", "SkinFragment", "_CLUSTER_LIGHT_LOOP"},
+    {"SkinForward.hlsl", "fragment", "SkinFragment", "_SKIN_THIN"},
+    {"SkinForward.hlsl", "fragment", "SkinFragment",
+     "_SKIN_THIN _ADDITIONAL_LIGHTS _MAIN_LIGHT_SHADOWS_SCREEN"},
+    {"SkinForward.hlsl", "fragment", "SkinFragment", "_SKIN_THIN _FORWARD_PLUS"},
     {"SkinDepth.hlsl", "vertex", "SkinShadowVertex", "_CASTING_PUNCTUAL_LIGHT_SHADOW"},
     {"SkinDepth.hlsl", "vertex", "SkinShadowVertex", ""},
     {"SkinDepth.hlsl", "vertex", "SkinDepthVertex", ""},
@@ -74,7 +79,8 @@ class UnityShaders : public testing::Test {
     }
     std::string errors(const std::string& text, const Pass& pass) const {
         std::vector<std::string> defines;
-        if (!pass.define.empty()) defines.push_back(pass.define);
+        for (const std::string_view define : split(pass.defines, ' '))
+            if (!define.empty()) defines.emplace_back(define);
         return hlsl_errors(directory_.path, directory_.path / "Runtime", text, pass.stage, pass.entry,
                            defines);
     }
@@ -83,7 +89,7 @@ class UnityShaders : public testing::Test {
 
 TEST_F(UnityShaders, compile_in_every_pass_and_path) {
     for (const Pass& pass : kUnityPasses)
-        EXPECT_EQ(errors("#include \"" + pass.file + "\"\n", pass), "") << pass.entry << " " << pass.define;
+        EXPECT_EQ(errors("#include \"" + pass.file + "\"\n", pass), "") << pass.entry << " " << pass.defines;
 }
 
 TEST_F(UnityShaders, of_the_graph_nodes_compile) {
@@ -91,8 +97,8 @@ TEST_F(UnityShaders, of_the_graph_nodes_compile) {
         "#include \"SkinNode.hlsl\"\n"
         "float4 main(float3 n : NORMAL, float3 p : TEXCOORD0) : SV_Target {\n"
         "    float k;\n    float3 d, t;\n    SkinCurvature_float(n, p, 1000.0, k);\n"
-        "    SkinDiffuse_float(n.z, k, d);\n    SkinTransmittance_float(k, t);\n    return float4(d * t, "
-        "1.0);\n}\n";
+        "    SkinDiffuse_float(n.z, k, d);\n    SkinTransmittance_float(k, t);\n"
+        "    SkinThin_float(d, 1.0, n.z, 2.0, d);\n    return float4(d * t, 1.0);\n}\n";
     EXPECT_EQ(errors(text, {"", "fragment", "main", ""}), "");
 }
 
@@ -136,11 +142,11 @@ TEST(UnrealShaders, compile_as_a_custom_node_calls_them) {
         "struct FParameters { float4 SvPosition; };\n"
         "float3 CustomExpression(FParameters Parameters, float3 Normal, float3 Position, float3 "
         "LightDirection, "
-        "float4 Albedo, float4 LightColor) {\n" +
+        "float4 Albedo, float4 LightColor, float Thickness) {\n" +
         node +
         "\n}\nfloat4 main(float4 p : SV_Position, float3 n : NORMAL, float3 w : TEXCOORD0) : SV_Target {\n"
         "    FParameters parameters = { p };\n"
-        "    return float4(CustomExpression(parameters, n, w, float3(0, 0, 1), (float4)1, (float4)1), "
+        "    return float4(CustomExpression(parameters, n, w, float3(0, 0, 1), (float4)1, (float4)1, 2.0), "
         "1.0);\n}\n";
     EXPECT_EQ(
         hlsl_errors(directory.path, directory.path / "DermisSkin/Shaders", text, "fragment", "main", {}), "");
@@ -172,13 +178,22 @@ class GodotShader : public testing::Test {
     mutable std::string log_;
 };
 
-// The engine has no file system here: the include is put in its place.
+// The engine has no file system here: files are put in the place of their includes.
+std::string with_includes(const std::map<std::string, std::string>& files, const std::string& name) {
+    const std::string word = "#include \"";
+    std::string text = files.at("addons/dermis_skin/" + name);
+    for (size_t at; (at = text.find(word)) != std::string::npos;) {
+        const size_t start = at + word.size(), end = text.find('"', start);
+        text.replace(at, end + 1 - at, files.at("addons/dermis_skin/" + text.substr(start, end - start)));
+    }
+    return text;
+}
+
 TEST_F(GodotShader, compiles_in_godot_and_a_mistake_does_not) {
     const auto files = package_of("godot", "openpbr_skin_5");
-    std::string text = files.at("addons/dermis_skin/skin.gdshader");
-    const std::string include = "#include \"skin.gdshaderinc\"\n";
-    ASSERT_NE(text.find(include), std::string::npos);
-    text.replace(text.find(include), include.size(), files.at("addons/dermis_skin/skin.gdshaderinc"));
+    for (const char* name : {"skin_thin.gdshader", "skin_through.gdshader"})
+        EXPECT_EQ(compiled(with_includes(files, name)), 0) << name << ": " << log_;
+    std::string text = with_includes(files, "skin.gdshader");
     EXPECT_EQ(compiled(text), 0) << log_;
     text.replace(text.find("two_lobe_ggx(n_dot_h"), 12, "two_lobe_gxx");
     EXPECT_EQ(compiled(text), 1);

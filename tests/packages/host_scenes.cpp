@@ -12,12 +12,13 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/io.h"
 #include "dermis/scene/panorama.h"
+#include "packages/host_transmission.h"
 
 namespace dermis {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr float kRadiusMm = 8;
+constexpr float kRadiusMm = kHostRadiusMm;
 constexpr Vec3 kToLight{-0.6275f, 0.5736f, 0.5266f};
 
 // Radiance from all around: a, b, c, d of a + b x + c y + d x z, a channel each. No band above the third.
@@ -111,6 +112,30 @@ HostMesh card() {
         mesh.uvs.push_back({0, 0});
     }
     mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
+void add_square(HostMesh& mesh, Vec3 middle, Vec3 x, Vec3 y, float u) {
+    const int first = int(mesh.positions_mm.size());
+    for (const Vec3& corner : {-x - y, x - y, x + y, y - x}) {
+        mesh.positions_mm.push_back(middle + corner);
+        mesh.normals.push_back(normalize(cross(x, y)));
+        mesh.uvs.push_back({u, 0.5f});
+    }
+    for (const int i : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(first + i);
+}
+
+// Skin of an even thickness, larger than the picture, and a board behind it before the light.
+HostMesh sheet() {
+    HostMesh mesh;
+    const Vec3 x = {14, 0, 0}, y = {0, 14, 0}, half = {0, 0, 0.5f * thickness_mm(kSheetU)};
+    add_square(mesh, half, x, y, kSheetU);
+    add_square(mesh, -half, -x, y, kSheetU);
+    return mesh;
+}
+HostMesh board() {
+    HostMesh mesh;
+    add_square(mesh, {kBoardEdgeMm - 40, 0, kBoardZMm}, {40, 0, 0}, {0, 60, 0}, 0);
     return mesh;
 }
 
@@ -217,6 +242,7 @@ void write_host_data(const std::filesystem::path& folder) {
     };
     ASSERT_TRUE(write_image(folder / "environment.hdr", panorama_of(radiance)));
     ASSERT_TRUE(write_image(folder / "bumps.png", bumps()));
+    ASSERT_TRUE(write_image(folder / "thickness.png", thickness_ramp()));
     const nlohmann::json data = {
         {"to_light", {kToLight.x, kToLight.y, kToLight.z}},
         {"radiance_sh", radiance_sh()},
@@ -230,7 +256,13 @@ void write_host_data(const std::filesystem::path& folder) {
           {"outer_deg", kSpotOuterDeg}}},
         {"distant", distant_lights()},
         {"sphere", json_of(sphere())},
-        {"card", json_of(card())}};
+        {"card", json_of(card())},
+        {"behind",
+         {{"to_light", channels(to_light_behind())},
+          {"intensity", kBehindIntensity},
+          {"max_mm", kThicknessMaxMm}}},
+        {"sheet", json_of(sheet())},
+        {"board", json_of(board())}};
     ASSERT_TRUE(write_text_file(folder / "scene.json", data.dump()));
 }
 
@@ -247,6 +279,9 @@ void write_renderer_scenes(const std::filesystem::path& folder) {
                              "target_mm = " + list_text(kSpotAsideMm * card_side()) +
                              "\ninner_angle_deg = " + std::to_string(kSpotInnerDeg) +
                              "\nouter_angle_deg = " + std::to_string(kSpotOuterDeg) + "\n",
+                      behind = "[[light]]\nshadow = false\nyaw_deg = " + std::to_string(kBehindYawDeg) +
+                               "\npitch_deg = " + std::to_string(kBehindPitchDeg) +
+                               "\nintensity = " + std::to_string(kBehindIntensity) + "\n",
                       none = "[[light]]\nintensity = 0\nshadow = false\n";
     const std::pair<const char*, std::string> scenes[] = {
         {"environment", scene_text(mesh, none + "[environment]\nfile = \"environment.hdr\"\n")},
@@ -257,17 +292,24 @@ void write_renderer_scenes(const std::filesystem::path& folder) {
         {"lights", scene_text(mesh, dark + distant_text() + point)},
         {"shadow",
          scene_text(mesh + "[[mesh]]\nfile = \"card.obj\"\ndefault_class = \"other\"\n", dark + key)},
+        {"through", scene_text(mesh, dark + behind)},
         {"bumps", scene_text(mesh, dark + key + "shadow = false\n[maps]\nnormal = \"bumps.png\"\n")}};
     for (const auto& [name, text] : scenes)
         ASSERT_TRUE(write_text_file(folder / (std::string(name) + ".toml"), text));
 }
 
+Vec3 sphere_normal(int x, int y, int side) {
+    const double per_pixel = 2 * std::tan(3.5 * kPi / 180) / side;
+    const Vec3 way = normalize(
+        Vec3{float((x + 0.5 - 0.5 * side) * per_pixel), float((0.5 * side - y - 0.5) * per_pixel), -1});
+    // From the eye, at 150 mm, along `way` to the sphere; beside it, to where it passes.
+    const float towards = -150 * way.z, beside2 = 150 * 150 - towards * towards;
+    const float length_mm = towards - std::sqrt(std::max(kRadiusMm * kRadiusMm - beside2, 0.0f));
+    return normalize(Vec3{0, 0, 150} + length_mm * way);
+}
+
 bool is_compared(const HostScene& scene, int x, int y, int side) {
-    // The sphere's edge is at the tangent of asin(8 / 150), the picture's at that of 3.5 degrees.
-    const double pixels = 0.5 * side * std::tan(std::asin(8.0 / 150)) / std::tan(3.5 * kPi / 180);
-    const double across = (x + 0.5 - 0.5 * side) / pixels, up = (0.5 * side - y - 0.5) / pixels;
-    const double towards = std::sqrt(std::max(1 - across * across - up * up, 0.0));
-    const Vec3 n{float(across), float(up), float(towards)};
+    const Vec3 n = sphere_normal(x, y, side);
     const double from_edge_mm = kRadiusMm * dot(n, card_side()) - kCardEdgeMm;
     return dot(n, kToLight) >= scene.min_n_dot_l && std::abs(from_edge_mm) >= scene.skipped_edge_mm;
 }

@@ -1,11 +1,12 @@
 #pragma once
 // The scenes in which the packages for browsers are compared with the renderer: a sphere of 8 mm under one
-// kind of light each, as files for both. A page reads scene.json, environment.hdr and bumps.png
-// (tests/packages/hosts).
+// kind of light each, as files for both. A page reads scene.json, environment.hdr, bumps.png and
+// thickness.png (tests/packages/hosts).
 
 #include <filesystem>
 #include <string>
 
+#include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
 namespace dermis {
@@ -19,6 +20,7 @@ struct HostScene {
     double skipped_edge_mm = 0;  ///< half the width of what is left out at the edge of the shadow
     const char* engine = "";     ///< the only engine that has it; empty: both
     const char* settings = "";   ///< of the technique, beside those of all scenes
+    bool transmission = false;   ///< is added to the renderer's picture: host_transmission.h
 };
 
 inline constexpr HostScene kHostScenes[] = {
@@ -38,8 +40,15 @@ inline constexpr HostScene kHostScenes[] = {
      .min_n_dot_l = 0.4,
      .skipped_edge_mm = 1.5,
      .settings = "--set shadow=plain"},
+    // A few pixels of the edge, where the reflection is steep, are beyond.
+    {.name = "through", .largest_level = 2, .share_beyond = 0.0005, .transmission = true},
     {.name = "bumps", .largest_level = 3, .settings = "--set normals=sharp"},
 };
+
+inline constexpr float kHostRadiusMm = 8;
+
+/// Of the sphere at a pixel of a picture.
+[[nodiscard]] Vec3 sphere_normal(int x, int y, int side);
 
 /// What pages read.
 void write_host_data(const std::filesystem::path& folder);

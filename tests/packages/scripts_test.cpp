@@ -63,7 +63,8 @@ TEST(UnrealScript, imports_the_table_with_its_settings_and_connects_every_input_
          {"set filename ", "/DermisSkin/Resources/SkinTable.exr\n", "set destination_path /DermisSkin\n",
           "set srgb False\n", "set compression_settings object\n", "set never_stream True\n",
           "set address_x object\n", "set include_file_paths object\n", "connect Table\n", "connect Normal\n",
-          "connect Position\n", "connect LightDirection\n", "connect Albedo\n", "connect LightColor\n"})
+          "connect Position\n", "connect LightDirection\n", "connect Albedo\n", "connect LightColor\n",
+          "connect Thickness\n"})
         EXPECT_THAT(*said, testing::HasSubstr(line));
 }
 

@@ -86,7 +86,7 @@ const std::vector<Settings>& all_settings() {
     static const std::vector<Settings> all = {
         {"unity", "Runtime/SkinTable.exr.meta", kUnity},
         {"godot", "addons/dermis_skin/skin_table.exr.import", kGodot},
-        {"godot", "addons/dermis_skin/skin.gdshader", kGodotShader},
+        {"godot", "addons/dermis_skin/skin_surface.gdshaderinc", kGodotShader},
         {"unreal", "DermisSkin/Content/Python/dermis_skin.py", kUnreal},
         {"three", "SkinTable.js", kThree},
         {"babylon", "SkinTable.js", kBabylon},

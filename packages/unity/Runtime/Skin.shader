@@ -1,4 +1,5 @@
-// Skin for URP, pre-integrated: diffuse light over N.L and curvature from SkinTable.exr, two specular lobes. Made by dermis
+// Skin for URP, pre-integrated: diffuse light over N.L and curvature from SkinTable.exr, two specular lobes, transmission
+// through thin parts by a map of their thickness. Made by dermis
 // @version@ for @profile@.
 Shader "Dermis/Skin"
 {
@@ -12,6 +13,9 @@ Shader "Dermis/Skin"
         _F0("Reflectance at normal incidence", Range(0, 0.08)) = 0.028
         _MmPerUnit("Millimetres in a unit of the scene", Float) = 1000
         _CurvatureGain("Factor on the curvature", Range(0, 4)) = 1
+        [Toggle(_SKIN_THIN)] _Thin("Transmission through thin parts", Float) = 0
+        [NoScaleOffset] _ThicknessMap("Their thickness: green, linear", 2D) = "white" {}
+        _ThicknessMaxMm("Thickness in mm of a map value of 1", Float) = 20
         [NoScaleOffset] _SkinTable("Skin table", 2D) = "black" {}
     }
     SubShader
@@ -31,6 +35,7 @@ Shader "Dermis/Skin"
             #pragma multi_compile _ _FORWARD_PLUS _CLUSTER_LIGHT_LOOP
             #pragma multi_compile_fragment _ _ADDITIONAL_LIGHT_SHADOWS
             #pragma multi_compile_fragment _ _SHADOWS_SOFT
+            #pragma shader_feature_local_fragment _SKIN_THIN
             #pragma multi_compile_fog
             #pragma multi_compile_instancing
             #include "SkinForward.hlsl"

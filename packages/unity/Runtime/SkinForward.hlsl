@@ -13,6 +13,8 @@ TEXTURE2D(_BaseMap);
 SAMPLER(sampler_BaseMap);
 TEXTURE2D(_BumpMap);
 SAMPLER(sampler_BumpMap);
+TEXTURE2D(_ThicknessMap);
+SAMPLER(sampler_ThicknessMap);
 TEXTURE2D(_SkinTable);
 SAMPLER(sampler_SkinTable);
 
@@ -51,6 +53,9 @@ SkinVaryings SkinVertex(SkinAttributes input) {
 struct SkinSurface {
     float3 albedo, n, v;  // linear; world space, normalised
     float curvature_per_mm;
+#if defined(_SKIN_THIN)
+    float3 n_geometry, far_share, far_position;  // where the shadow of what comes through is looked up, world space
+#endif
 };
 
 // Reflected radiance of one light.
@@ -60,6 +65,9 @@ float3 SkinLight(SkinSurface s, Light light) {
     float2 uv = diffuse_coordinate(n_dot_l, s.curvature_per_mm, kMaxCurvaturePerMm);
     // URP leaves out the 1 / pi of Lambert and of the lobes alike.
     float3 radiance = s.albedo * SAMPLE_TEXTURE2D_LOD(_SkinTable, sampler_SkinTable, uv, 0).rgb;
+#if defined(_SKIN_THIN)
+    radiance *= 1.0 - s.far_share;
+#endif
     if (n_dot_l > 0.0) {
         float3 h = normalize(light.direction + s.v);
         float lobes = two_lobe_ggx(saturate(dot(s.n, h)), n_dot_l, max(dot(s.n, s.v), 1e-3), _Roughness);
@@ -68,9 +76,37 @@ float3 SkinLight(SkinSurface s, Light light) {
     return radiance * irradiance;
 }
 
+#if defined(_SKIN_THIN)
+// Radiance of what has entered the far side. The lights are those of far_position: at the surface itself the skin would shade
+// its own back.
+float3 SkinLightBehind(SkinSurface s, Light light) {
+    float3 irradiance = light.color * (light.distanceAttenuation * light.shadowAttenuation);
+    return s.albedo * s.far_share * saturate(-dot(s.n_geometry, light.direction)) * irradiance;
+}
+
+float3 SkinMainLightBehind(SkinSurface s) {
+    Light light = GetMainLight(TransformWorldToShadowCoord(s.far_position), s.far_position, half4(1, 1, 1, 1));
+#if defined(_MAIN_LIGHT_SHADOWS_SCREEN)
+    light.shadowAttenuation = 1.0;  // that of the screen is of the visible side alone
+#endif
+    return SkinLightBehind(s, light);
+}
+#endif
+
+float3 SkinAdditionalLight(SkinSurface s, uint index, float3 positionWS) {
+    float3 radiance = SkinLight(s, GetAdditionalLight(index, positionWS, half4(1, 1, 1, 1)));
+#if defined(_SKIN_THIN)
+    radiance += SkinLightBehind(s, GetAdditionalLight(index, s.far_position, half4(1, 1, 1, 1)));
+#endif
+    return radiance;
+}
+
 float3 SkinLights(SkinSurface s, SkinVaryings input) {
     float4 shadow_coordinate = TransformWorldToShadowCoord(input.positionWS);
     float3 radiance = SkinLight(s, GetMainLight(shadow_coordinate, input.positionWS, half4(1, 1, 1, 1)));
+#if defined(_SKIN_THIN)
+    radiance += SkinMainLightBehind(s);
+#endif
 #if defined(_ADDITIONAL_LIGHTS) || defined(_FORWARD_PLUS) || defined(_CLUSTER_LIGHT_LOOP)
     // What the macros of the light loop read.
     InputData inputData = (InputData)0;
@@ -80,10 +116,10 @@ float3 SkinLights(SkinSurface s, SkinVaryings input) {
 #if defined(_FORWARD_PLUS) || defined(_CLUSTER_LIGHT_LOOP)
     // Directional lights after the main one are not in the clusters.
     for (uint i = 0; i < min(URP_FP_DIRECTIONAL_LIGHTS_COUNT, MAX_VISIBLE_LIGHTS); ++i)
-        radiance += SkinLight(s, GetAdditionalLight(i, input.positionWS, half4(1, 1, 1, 1)));
+        radiance += SkinAdditionalLight(s, i, input.positionWS);
 #endif
     LIGHT_LOOP_BEGIN(pixelLightCount)
-        radiance += SkinLight(s, GetAdditionalLight(lightIndex, input.positionWS, half4(1, 1, 1, 1)));
+        radiance += SkinAdditionalLight(s, lightIndex, input.positionWS);
     LIGHT_LOOP_END
 #endif
     return radiance;
@@ -105,6 +141,12 @@ float4 SkinFragment(SkinVaryings input) : SV_Target {
     s.curvature_per_mm = min(_CurvatureGain * curvature_from_derivatives(fwidth(n_geometry),
                                                                          fwidth(input.positionWS) * _MmPerUnit),
                              kMaxCurvaturePerMm);
+#if defined(_SKIN_THIN)
+    float thickness_mm = SAMPLE_TEXTURE2D(_ThicknessMap, sampler_ThicknessMap, input.uv).g * _ThicknessMaxMm;
+    s.n_geometry = n_geometry;
+    s.far_share = skin_far_share(thickness_mm);
+    s.far_position = input.positionWS - n_geometry * (past_far_wall_mm(thickness_mm) / _MmPerUnit);
+#endif
     float3 radiance = SkinLights(s, input) + s.albedo * SampleSH(s.n);
     return float4(MixFog(radiance, input.fog), 1.0);
 }

@@ -12,6 +12,7 @@ CBUFFER_START(UnityPerMaterial)
     float _F0;
     float _MmPerUnit;
     float _CurvatureGain;
+    float _ThicknessMaxMm;
     float4 _SkinTable_TexelSize;
 CBUFFER_END
 

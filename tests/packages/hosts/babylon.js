@@ -1,5 +1,5 @@
 // The package's plugin in the scenes of the test (host_scenes.h): ?environment, ?hemisphere, ?point, ?spot, ?lights, ?shadow,
-// ?bumps; units are metres.
+// ?bumps, ?through, ?sheet; units are metres.
 
 import { ArcRotateCamera } from "@babylonjs/core/Cameras/arcRotateCamera.js";
 import { Engine } from "@babylonjs/core/Engines/engine.js";
@@ -58,11 +58,42 @@ const keyLight = () => {
   key.intensity = Math.PI;
   return key;
 };
-const name = ["environment", "hemisphere", "point", "spot", "lights", "shadow", "bumps"].find(one => query.has(one));
-const sphere = name === "bumps" ? meshOf("sphere", data.sphere) : CreateSphere("sphere", { diameter: 0.016, segments: 96 }, scene);
+const name = ["environment", "hemisphere", "point", "spot", "lights", "shadow", "bumps", "through", "sheet"].find(one => query.has(one));
+const own = { bumps: data.sphere, through: data.sphere, sheet: data.sheet }[name];
+const sphere = own ? meshOf("sphere", own) : CreateSphere("sphere", { diameter: 0.016, segments: 96 }, scene);
 sphere.material = material;
 
+const textureOf = (file, options) => new Promise((done, fail) => {
+  const texture = new Texture(file, scene, { ...options, onLoad: () => done(texture), onError: fail });
+});
+const castShadow = (light, card, half) => {
+  light.position = light.direction.scale(-0.15);
+  Object.assign(light, { autoUpdateExtends: false, autoCalcShadowZBounds: false, shadowMinZ: 0.01, shadowMaxZ: 0.3,
+    orthoLeft: -half, orthoRight: half, orthoTop: half, orthoBottom: -half });
+  const shadows = new ShadowGenerator(1024, light);
+  shadows.usePercentageCloserFiltering = true;
+  shadows.bias = 0.001;
+  const board = meshOf("card", card);
+  board.material = new PBRMaterial("card", scene);
+  board.material.backFaceCulling = false;
+  shadows.addShadowCaster(board);
+  shadows.addShadowCaster(sphere);
+  sphere.receiveShadows = true;
+};
+// A light from behind, through skin of the thickness in thickness.png.
+const addBehind = async () => {
+  const { to_light, intensity, max_mm } = data.behind;
+  const light = new DirectionalLight("behind", Vector3.FromArray(to_light).scale(-1), scene);
+  light.intensity = intensity;
+  skin.thicknessTexture = await textureOf("thickness.png", { noMipmap: true, samplingMode: Texture.BILINEAR_SAMPLINGMODE });
+  Object.assign(skin.thicknessTexture, { gammaSpace: false, wrapU: Texture.CLAMP_ADDRESSMODE });
+  skin.thicknessMaxMm = max_mm;
+  return light;
+};
+
 const add = {
+  through: addBehind,
+  async sheet() { castShadow(await addBehind(), data.board, 0.02); },
   environment: () => new Promise((done, fail) => {
     scene.environmentTexture = new HDRCubeTexture("environment.hdr", scene, 128, false, true, false, true, done, fail);
   }),
@@ -93,26 +124,12 @@ const add = {
       light.intensity = Math.PI;
     }
   },
-  shadow() {
-    const key = keyLight();
-    key.position = Vector3.FromArray(data.to_light).scale(0.15);
-    Object.assign(key, { autoUpdateExtends: false, autoCalcShadowZBounds: false, shadowMinZ: 0.01, shadowMaxZ: 0.3,
-      orthoLeft: -0.012, orthoRight: 0.012, orthoTop: 0.012, orthoBottom: -0.012 });
-    const shadows = new ShadowGenerator(1024, key);
-    shadows.usePercentageCloserFiltering = true;
-    shadows.bias = 0.001;
-    const card = meshOf("card", data.card);
-    card.material = new PBRMaterial("card", scene);
-    card.material.backFaceCulling = false;
-    shadows.addShadowCaster(card);
-    shadows.addShadowCaster(sphere);
-    sphere.receiveShadows = true;
-  },
-  bumps: () => new Promise((done, fail) => {
+  shadow() { castShadow(keyLight(), data.card, 0.012); },
+  async bumps() {
     keyLight();
-    material.bumpTexture = new Texture("bumps.png", scene, { onLoad: done, onError: fail });
+    material.bumpTexture = await textureOf("bumps.png");
     material.bumpTexture.anisotropicFilteringLevel = 1;
-  }),
+  },
 };
 await add[name]();
 

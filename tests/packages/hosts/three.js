@@ -1,9 +1,9 @@
 // The package's material in the scenes of the test (host_scenes.h): ?environment, ?probe, ?hemisphere, ?point, ?spot, ?lights, ?shadow,
-// ?bumps; units are metres.
+// ?bumps, ?through, ?sheet; units are metres.
 
 import {
   BufferAttribute, BufferGeometry, Color, DirectionalLight, EquirectangularReflectionMapping, HemisphereLight, LightProbe, Mesh,
-  MeshBasicMaterial, NoToneMapping, PCFShadowMap, PerspectiveCamera, PointLight, Scene, SphereGeometry, SpotLight,
+  LinearFilter, MeshBasicMaterial, NoToneMapping, PCFShadowMap, PerspectiveCamera, PointLight, Scene, SphereGeometry, SpotLight,
   TextureLoader, WebGPURenderer,
 } from "three/webgpu";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
@@ -25,7 +25,29 @@ const geometryOf = ({ positions_mm, normals, tangents, uvs, indices }) => {
   return geometry;
 };
 
+// A light from behind, through skin of the thickness in thickness.png.
+const addBehind = async () => {
+  const light = new DirectionalLight(0xffffff, data.behind.intensity);
+  light.position.fromArray(data.behind.to_light).multiplyScalar(0.15);
+  scene.add(light);
+  skin.thicknessMap = await new TextureLoader().loadAsync("thickness.png");
+  Object.assign(skin.thicknessMap, { minFilter: LinearFilter, generateMipmaps: false });
+  skin.thicknessMaxMm = data.behind.max_mm;
+  return light;
+};
+const castShadow = (light, card, half) => {
+  light.castShadow = true;
+  light.shadow.mapSize.set(1024, 1024);
+  Object.assign(light.shadow.camera, { left: -half, right: half, top: half, bottom: -half, near: 0.01, far: 0.3 });
+  light.shadow.normalBias = 0.0001;
+  const board = new Mesh(geometryOf(card), new MeshBasicMaterial({ side: 2 }));
+  board.castShadow = true;
+  scene.add(board);
+};
+
 const add = {
+  through: addBehind,
+  async sheet() { castShadow(await addBehind(), data.board, 0.02); },
   async environment() {
     scene.environment = await new HDRLoader().loadAsync("environment.hdr");
     scene.environment.mapping = EquirectangularReflectionMapping;
@@ -63,14 +85,8 @@ const add = {
   shadow() {
     const key = new DirectionalLight(0xffffff, Math.PI);
     key.position.fromArray(data.to_light).multiplyScalar(0.15);
-    key.castShadow = true;
-    key.shadow.mapSize.set(1024, 1024);
-    Object.assign(key.shadow.camera, { left: -0.012, right: 0.012, top: 0.012, bottom: -0.012, near: 0.01, far: 0.3 });
-    key.shadow.normalBias = 0.0001;
     scene.add(key);
-    const card = new Mesh(geometryOf(data.card), new MeshBasicMaterial({ side: 2 }));
-    card.castShadow = true;
-    scene.add(card);
+    castShadow(key, data.card, 0.012);
   },
   async bumps() {
     const key = new DirectionalLight(0xffffff, Math.PI);
@@ -82,8 +98,9 @@ const add = {
 };
 const name = Object.keys(add).find(one => query.has(one));
 await add[name]();
-const sphere = new Mesh(name === "bumps" ? geometryOf(data.sphere) : new SphereGeometry(0.008, 256, 128), skin);
-sphere.receiveShadow = sphere.castShadow = name === "shadow";
+const own = { bumps: data.sphere, through: data.sphere, sheet: data.sheet }[name];
+const sphere = new Mesh(own ? geometryOf(own) : new SphereGeometry(0.008, 256, 128), skin);
+sphere.receiveShadow = sphere.castShadow = name === "shadow" || name === "sheet";
 scene.add(sphere);
 
 const camera = new PerspectiveCamera(7, innerWidth / innerHeight, 0.01, 10);

@@ -74,14 +74,18 @@ def make_material(table):
                       default_value=unreal.LinearColor(0.48, 0.19, 0.11, 1.0)),
         "LightColor": add(material, unreal.MaterialExpressionVectorParameter, -900, 650, parameter_name="LightColor",
                           default_value=unreal.LinearColor(1.0, 1.0, 1.0, 1.0)),
+        # In mm, of ears and other thin parts; 0: no light goes through. A map goes in its place.
+        "Thickness": add(material, unreal.MaterialExpressionScalarParameter, -900, 850, parameter_name="ThicknessMm",
+                         default_value=0.0),
     }
     node = add(material, unreal.MaterialExpressionCustom, -400, 200, description="Skin",
                output_type=unreal.CustomMaterialOutputType.CMOT_FLOAT3,
                include_file_paths=["/Plugin/DermisSkin/SkinNode.ush"],
                inputs=[custom_input(name) for name in inputs],
-               code="float3 Diffuse = SkinDiffuseOfTable(Table, TableSampler, dot(normalize(Normal), LightDirection),\n"
-                    "    SkinCurvature(Normal, Position), Parameters.SvPosition.xy);\n"
-                    "return Diffuse * Albedo.rgb * LightColor.rgb;")
+               code="float NdotL = dot(normalize(Normal), LightDirection);\n"
+                    "float3 Diffuse = SkinDiffuseOfTable(Table, TableSampler, NdotL, SkinCurvature(Normal, Position),\n"
+                    "    Parameters.SvPosition.xy);\n"
+                    "return SkinThin(Diffuse, NdotL, Thickness) * Albedo.rgb * LightColor.rgb;")
     for name, source in inputs.items():
         unreal.MaterialEditingLibrary.connect_material_expressions(source, "", node, name)
     unreal.MaterialEditingLibrary.connect_material_property(node, "", unreal.MaterialProperty.MP_EMISSIVE_COLOR)
