@@ -103,7 +103,7 @@ skinCurvature = min(skinCurvature * skinSettings.y, kMaxCurvaturePerMm);
 #ifdef SKIN_THICKNESS
 float skinThicknessMm = texture2D(skinThickness, vMainUV1).g * skinThicknessMaxMm;
 vec3 skinFarShare = skin_far_share(skinThicknessMm);
-vec3 skinFarPosition = vPositionW - geometricNormalW * (past_far_wall_mm(skinThicknessMm) / skinSettings.x);
+vec3 skinFarPosition = vPositionW;
 vec3 skinBehind = vec3(0.0);
 float skinFarShadow = 1.0;
 #endif`,
@@ -111,6 +111,7 @@ float skinFarShadow = 1.0;
 #ifdef SKIN_THICKNESS
 info.diffuse *= 1.0 - skinFarShare;
 skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kPi;
+skinFarPosition = vPositionW + preInfo.L * (past_far_wall_mm(skinThicknessMm) / skinSettings.x);
 #endif
 `,
     [kShadowCall]: `shadow=$1($2vPositionFromLight$3,$2vDepthMetric$3,$4);
@@ -256,7 +257,7 @@ skinCurvature = min(skinCurvature * uniforms.skinSettings.y, kMaxCurvaturePerMm)
 #ifdef SKIN_THICKNESS
 let skinThicknessMm = textureSample(skinThickness, skinThicknessSampler, fragmentInputs.vMainUV1).g * uniforms.skinThicknessMaxMm;
 let skinFarShare = skin_far_share(skinThicknessMm);
-let skinFarPosition = fragmentInputs.vPositionW - geometricNormalW * (past_far_wall_mm(skinThicknessMm) / uniforms.skinSettings.x);
+var skinFarPosition = fragmentInputs.vPositionW;
 var skinBehind = vec3f(0.0);
 var skinFarShadow = 1.0;
 #endif`,
@@ -264,6 +265,7 @@ var skinFarShadow = 1.0;
 #ifdef SKIN_THICKNESS
 info.diffuse *= 1.0 - skinFarShare;
 skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kPi;
+skinFarPosition = fragmentInputs.vPositionW + preInfo.L * (past_far_wall_mm(skinThicknessMm) / uniforms.skinSettings.x);
 #endif
 `,
     [kShadowCall]: `shadow=$1($2vPositionFromLight$3,$2vDepthMetric$3,$4);

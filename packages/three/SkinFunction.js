@@ -46,7 +46,7 @@ export const skinAmbientBand2 = /*@__PURE__*/ skinFunction("skin_ambient_band_2"
 export const skinTransmittance = /*@__PURE__*/ skinFunction("skin_transmittance", "vec3", "float");
 // Of the diffuse light of a thin part, the share that has entered its far side, 0 to 0.5, by its thickness in mm.
 export const skinFarShare = /*@__PURE__*/ skinFunction("skin_far_share", "vec3", "float");
-// How far behind the surface the shadow of that light is looked up, in mm, by the thickness in mm.
+// How far towards the light the shadow of that light is looked up, in mm, by the thickness in mm.
 export const pastFarWallMm = /*@__PURE__*/ skinFunction("past_far_wall_mm", "float", "float");
 // Light in a penumbra 3 mm wide, by the share of the light that is visible, 0 to 1.
 export const skinShadowEdge = /*@__PURE__*/ skinFunction("skin_shadow_edge", "vec3", "float");

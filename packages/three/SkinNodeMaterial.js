@@ -41,7 +41,7 @@ class SkinLightingModel extends PhysicalLightingModel {
     let entered = lightColor.mul(this.material.setupDiffuse(nDotL, this.curvature));
     if (this.farShare) {
       const farCosine = normalViewGeometry.dot(lightDirection).negate().max(0);
-      const behind = colorBehind(lightNode, lightColor, this.thickness, builder).mul(farCosine);
+      const behind = colorBehind(lightNode, lightDirection, lightColor, this.thickness, builder).mul(farCosine);
       entered = mix(entered, behind, this.farShare);
     }
     reflectedLight.directDiffuse.addAssign(entered.mul(diffuseContribution).div(Math.PI));

@@ -1,7 +1,7 @@
 // Light that comes through thin parts (ears, nostrils): how thick they are, and the light on their far side.
 
 import { Node, NoColorSpace } from "three/webgpu";
-import { lightShadowMatrix, materialReference, mix, normalWorldGeometry, positionWorld, reference, texture } from "three/tsl";
+import { cameraWorldMatrix, lightShadowMatrix, materialReference, mix, positionWorld, reference, texture } from "three/tsl";
 import { pastFarWallMm } from "./SkinFunction.js";
 
 // Null where no light goes through.
@@ -40,12 +40,13 @@ class ShadowAtNode extends Node {
 
 // The colour of a light where it enters the far side. Its shadow is looked up past the far wall: at the surface itself the skin
 // would shade its own back.
-export function colorBehind(lightNode, lightColor, thickness, builder) {
+export function colorBehind(lightNode, lightDirection, lightColor, thickness, builder) {
   const { shadowNode, baseColorNode, colorNode } = lightNode;
   if (!shadowNode || !baseColorNode || colorNode === baseColorNode) return lightColor;  // it has no shadow here
   const far = pastFarWallMm(thickness).div(materialReference("mmPerUnit", "float"));
   // Cascades have several maps, and no place in them is known: no shadow.
-  const visibility = shadowNode.setupShadowCoord ? new ShadowAtNode(shadowNode, positionWorld.sub(normalWorldGeometry.mul(far))) : 1;
+  const position = positionWorld.add(lightDirection.transformDirection(cameraWorldMatrix).mul(far));
+  const visibility = shadowNode.setupShadowCoord ? new ShadowAtNode(shadowNode, position) : 1;
   lightNode.colorNode = baseColorNode.mul(visibility);
   const { lightColor: behind } = lightNode.setupDirect(builder);
   lightNode.colorNode = colorNode;

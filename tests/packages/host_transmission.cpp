@@ -105,8 +105,8 @@ Vec3 sheet_color_srgb(const std::string& profile_name) {
 
 float shadow_edge_x_mm() {
     const Vec3 to_light = to_light_behind();
-    const float far_z_mm = -0.5f * thickness_mm(kSheetU);
-    return kBoardEdgeMm - to_light.x / to_light.z * (kBoardZMm - far_z_mm);
+    const float z_mm = 0.5f * thickness_mm(kSheetU);
+    return kBoardEdgeMm - to_light.x / to_light.z * (kBoardZMm - z_mm);
 }
 
 }  // namespace dermis

@@ -27,7 +27,7 @@ inline constexpr float kSheetU = 0.25f, kBoardZMm = -20, kBoardEdgeMm = 7;
 
 /// The sheet where the board does not shade it.
 [[nodiscard]] Vec3 sheet_color_srgb(const std::string& profile);
-/// Where the board's shadow ends, on the far wall.
+/// Where the board's shadow ends on the visible side.
 [[nodiscard]] float shadow_edge_x_mm();
 
 }  // namespace dermis

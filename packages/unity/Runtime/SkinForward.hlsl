@@ -54,7 +54,8 @@ struct SkinSurface {
     float3 albedo, n, v;  // linear; world space, normalised
     float curvature_per_mm;
 #if defined(_SKIN_THIN)
-    float3 n_geometry, far_share, far_position;  // where the shadow of what comes through is looked up, world space
+    float3 n_geometry, far_share;
+    float past_far_wall;  // towards a light, to where the shadow of what comes through is looked up, in units
 #endif
 };
 
@@ -77,36 +78,41 @@ float3 SkinLight(SkinSurface s, Light light) {
 }
 
 #if defined(_SKIN_THIN)
-// Radiance of what has entered the far side. The lights are those of far_position: at the surface itself the skin would shade
-// its own back.
+// Radiance of what has entered the far side. The light is that past the far wall: at the surface itself the skin would shade its
+// own back.
 float3 SkinLightBehind(SkinSurface s, Light light) {
     float3 irradiance = light.color * (light.distanceAttenuation * light.shadowAttenuation);
     return s.albedo * s.far_share * saturate(-dot(s.n_geometry, light.direction)) * irradiance;
 }
 
-float3 SkinMainLightBehind(SkinSurface s) {
-    Light light = GetMainLight(TransformWorldToShadowCoord(s.far_position), s.far_position, half4(1, 1, 1, 1));
-#if defined(_MAIN_LIGHT_SHADOWS_SCREEN)
-    light.shadowAttenuation = 1.0;  // that of the screen is of the visible side alone
-#endif
-    return SkinLightBehind(s, light);
-}
 #endif
 
-float3 SkinAdditionalLight(SkinSurface s, uint index, float3 positionWS) {
-    float3 radiance = SkinLight(s, GetAdditionalLight(index, positionWS, half4(1, 1, 1, 1)));
+float3 SkinMainLight(SkinSurface s, float3 positionWS) {
+    Light light = GetMainLight(TransformWorldToShadowCoord(positionWS), positionWS, half4(1, 1, 1, 1));
+    float3 radiance = SkinLight(s, light);
 #if defined(_SKIN_THIN)
-    radiance += SkinLightBehind(s, GetAdditionalLight(index, s.far_position, half4(1, 1, 1, 1)));
+    float3 far_position = positionWS + light.direction * s.past_far_wall;
+    Light behind = GetMainLight(TransformWorldToShadowCoord(far_position), far_position, half4(1, 1, 1, 1));
+#if defined(_MAIN_LIGHT_SHADOWS_SCREEN)
+    behind.shadowAttenuation = 1.0;  // that of the screen is of the visible side alone
+#endif
+    radiance += SkinLightBehind(s, behind);
+#endif
+    return radiance;
+}
+
+float3 SkinAdditionalLight(SkinSurface s, uint index, float3 positionWS) {
+    Light light = GetAdditionalLight(index, positionWS, half4(1, 1, 1, 1));
+    float3 radiance = SkinLight(s, light);
+#if defined(_SKIN_THIN)
+    float3 far_position = positionWS + light.direction * s.past_far_wall;
+    radiance += SkinLightBehind(s, GetAdditionalLight(index, far_position, half4(1, 1, 1, 1)));
 #endif
     return radiance;
 }
 
 float3 SkinLights(SkinSurface s, SkinVaryings input) {
-    float4 shadow_coordinate = TransformWorldToShadowCoord(input.positionWS);
-    float3 radiance = SkinLight(s, GetMainLight(shadow_coordinate, input.positionWS, half4(1, 1, 1, 1)));
-#if defined(_SKIN_THIN)
-    radiance += SkinMainLightBehind(s);
-#endif
+    float3 radiance = SkinMainLight(s, input.positionWS);
 #if defined(_ADDITIONAL_LIGHTS) || defined(_FORWARD_PLUS) || defined(_CLUSTER_LIGHT_LOOP)
     // What the macros of the light loop read.
     InputData inputData = (InputData)0;
@@ -145,7 +151,7 @@ float4 SkinFragment(SkinVaryings input) : SV_Target {
     float thickness_mm = SAMPLE_TEXTURE2D(_ThicknessMap, sampler_ThicknessMap, input.uv).g * _ThicknessMaxMm;
     s.n_geometry = n_geometry;
     s.far_share = skin_far_share(thickness_mm);
-    s.far_position = input.positionWS - n_geometry * (past_far_wall_mm(thickness_mm) / _MmPerUnit);
+    s.past_far_wall = past_far_wall_mm(thickness_mm) / _MmPerUnit;
 #endif
     float3 radiance = SkinLights(s, input) + s.albedo * SampleSH(s.n);
     return float4(MixFog(radiance, input.fog), 1.0);
