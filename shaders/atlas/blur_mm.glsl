@@ -50,12 +50,6 @@ vec4 light_at(vec2 at) {
     return textureLod(sampler2D(source, linear_clamp), at / vec2(textureSize(sampler2D(source, linear_clamp), 0)), 0.0);
 }
 
-// One tap at `offset` steps; 0 when it leaves the chart and its gutter.
-vec4 blur_tap(BlurCentre centre, vec2 offset) {
-    vec2 at = centre.at + centre.steps.xy * offset.x + centre.steps.zw * offset.y;
-    return chart_at(at) == centre.chart ? light_at(at) : vec4(0.0);
-}
-
 vec4 normalize_by_alpha(vec4 sum) { return sum.a > 0.0 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0); }
 
 #endif

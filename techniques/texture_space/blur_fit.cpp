@@ -5,42 +5,36 @@
 #include <cmath>
 #include <limits>
 
+#include "dermis/optics/blur_waves.h"
+
 namespace dermis::texture_space {
 namespace {
 
-constexpr int kSamples = 24;
 constexpr double kLeastShare = 0.01;
 
-using Curve = std::array<double, kSamples>;
-using Curves = std::array<Curve, 3>;
+using Curve = WaveCurve;
 
 // Reading a texture between its texels spreads light like a Gaussian of this variance, in squares of a texel.
 constexpr double kBilinearVariance = 1.0 / 6;
 
-// Logarithmic steps from waves that the widest Gaussian hardly damps to those that the narrowest removes or
-// that the texels cannot hold.
-Curve samples_of(const GaussianSum& profile, double texel_mm) {
-    const auto [narrowest, widest] = std::ranges::minmax(profile.terms, {}, &GaussianTerm::variance_mm2);
-    const double first = 0.1 / widest.variance_mm2;
-    const double nyquist = 4.93 / (texel_mm * texel_mm);  // 2 pi^2 / (2 texel)^2
-    const double last = std::max(std::min(4 / narrowest.variance_mm2, nyquist), 10 * first);
+// What the profile leaves of the waves in each colour.
+struct Target {
     Curve x;
-    for (size_t i = 0; i < kSamples; ++i) x[i] = first * std::pow(last / first, double(i) / (kSamples - 1));
-    return x;
-}
+    std::array<Curve, 3> kept;
+};
 
-Curves target_of(const GaussianSum& profile, const Curve& x) {
-    Curves target;
-    for (size_t i = 0; i < kSamples; ++i) {
-        const Vec3 t = profile_transfer(profile, x[i]);
-        target[0][i] = t.x, target[1][i] = t.y, target[2][i] = t.z;
+Target target_of(const GaussianSum& profile, double texel_mm) {
+    Target target{.x = blur_waves(profile, texel_mm), .kept = {}};
+    for (size_t i = 0; i < kBlurWaves; ++i) {
+        const Vec3 t = profile_transfer(profile, target.x[i]);
+        target.kept[0][i] = t.x, target.kept[1][i] = t.y, target.kept[2][i] = t.z;
     }
     return target;
 }
 
 Curve damping(double variance_mm2, const Curve& x) {
     Curve curve;
-    for (size_t i = 0; i < kSamples; ++i) curve[i] = std::exp(-variance_mm2 * x[i]);
+    for (size_t i = 0; i < kBlurWaves; ++i) curve[i] = std::exp(-variance_mm2 * x[i]);
     return curve;
 }
 
@@ -58,9 +52,12 @@ double taps_transfer(double radius_mm, const BlurFitSettings& settings, double x
     return sum * read_transfer(settings, x);
 }
 
-double squared_error(const Curve& a, const Curve& b) {
+double squared_error(const Curve& kept, const Curve& target) {
     double sum = 0;
-    for (size_t i = 0; i < kSamples; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    for (size_t i = 0; i < kBlurWaves; ++i) {
+        const double error = wave_importance(target[i]) * (kept[i] - target[i]);
+        sum += error * error;
+    }
     return sum;
 }
 
@@ -71,7 +68,7 @@ double fit_shares(const Curve& target, const Curve& reading, const std::vector<C
     const auto product_without = [&](size_t left_out) {
         Curve product = reading;
         for (size_t k = 0; k < taps.size(); ++k)
-            for (size_t i = 0; k != left_out && i < kSamples; ++i)
+            for (size_t i = 0; k != left_out && i < kBlurWaves; ++i)
                 product[i] *= 1 - shares[k] + shares[k] * taps[k][i];
         return product;
     };
@@ -79,9 +76,10 @@ double fit_shares(const Curve& target, const Curve& reading, const std::vector<C
         for (size_t k = 0; k < taps.size(); ++k) {
             const Curve others = product_without(k);
             double above = 0, below = 1e-12;
-            for (size_t i = 0; i < kSamples; ++i) {
-                const double slope = others[i] * (1 - taps[k][i]);
-                above += (others[i] - target[i]) * slope;
+            for (size_t i = 0; i < kBlurWaves; ++i) {
+                const double importance = wave_importance(target[i]);
+                const double slope = importance * others[i] * (1 - taps[k][i]);
+                above += importance * (others[i] - target[i]) * slope;
                 below += slope * slope;
             }
             shares[k] = std::clamp(above / below, 0.0, 1.0);
@@ -95,20 +93,20 @@ struct Fit {
     double error = std::numeric_limits<double>::infinity();
 };
 
-Fit fit_at(std::vector<double> radii_mm, const Curves& target, const Curve& x,
-           const BlurFitSettings& settings) {
+Fit fit_at(std::vector<double> radii_mm, const Target& target, const BlurFitSettings& settings) {
     Fit fit{.radii_mm = std::move(radii_mm), .error = 0};
     std::vector<Curve> taps;
     for (const double radius_mm : fit.radii_mm) {
         taps.emplace_back();
-        for (size_t i = 0; i < kSamples; ++i) taps.back()[i] = taps_transfer(radius_mm, settings, x[i]);
+        for (size_t i = 0; i < kBlurWaves; ++i)
+            taps.back()[i] = taps_transfer(radius_mm, settings, target.x[i]);
     }
     Curve reading;
-    for (size_t i = 0; i < kSamples; ++i)
-        reading[i] = settings.read_blurs ? read_transfer(settings, x[i]) : 1;
+    for (size_t i = 0; i < kBlurWaves; ++i)
+        reading[i] = settings.read_blurs ? read_transfer(settings, target.x[i]) : 1;
     for (size_t c = 0; c < 3; ++c) {
         fit.shares[c].assign(taps.size(), 0.5);
-        fit.error += fit_shares(target[c], reading, taps, fit.shares[c]);
+        fit.error += fit_shares(target.kept[c], reading, taps, fit.shares[c]);
     }
     return fit;
 }
@@ -133,8 +131,7 @@ Vec3 blur_transfer(const std::vector<BlurPass>& passes, const BlurFitSettings& s
 
 std::vector<BlurPass> fit_blur(const GaussianSum& profile, const BlurFitSettings& settings) {
     if (profile.terms.empty() || settings.passes <= 0) return {};
-    const Curve x = samples_of(profile, settings.texel_mm);
-    const Curves target = target_of(profile, x);
+    const Target target = target_of(profile, settings.texel_mm);
     const auto radius_of = [&](double variance_mm2) {
         return std::sqrt(variance_mm2 / tap_variance(settings.rings));
     };
@@ -145,7 +142,7 @@ std::vector<BlurPass> fit_blur(const GaussianSum& profile, const BlurFitSettings
         for (const double ratio : {1.5, 1.8, 2.1, 2.5, 3.0, 3.6}) {
             std::vector<double> radii_mm(size_t(settings.passes), last);
             for (size_t i = radii_mm.size() - 1; i-- > 0;) radii_mm[i] = radii_mm[i + 1] / ratio;
-            Fit fit = fit_at(std::move(radii_mm), target, x, settings);
+            Fit fit = fit_at(std::move(radii_mm), target, settings);
             if (fit.error < best.error) best = std::move(fit);
         }
     std::vector<BlurPass> passes;
@@ -160,15 +157,14 @@ std::vector<BlurPass> fit_blur(const GaussianSum& profile, const BlurFitSettings
 int nearest_pass_count(const GaussianSum& profile, const std::vector<double>& variances_texels,
                        double texel_mm) {
     if (profile.terms.empty()) return 0;
-    const Curve x = samples_of(profile, texel_mm);
-    const Curves target = target_of(profile, x);
+    const Target target = target_of(profile, texel_mm);
     double variance_texels = kBilinearVariance, best = std::numeric_limits<double>::infinity();
     int count = 0;
     for (size_t n = 0; n <= variances_texels.size(); ++n) {
         if (n > 0) variance_texels += variances_texels[n - 1];
-        const Curve blurred = damping(variance_texels * texel_mm * texel_mm, x);
+        const Curve blurred = damping(variance_texels * texel_mm * texel_mm, target.x);
         double error = 0;
-        for (const Curve& color : target) error += squared_error(blurred, color);
+        for (const Curve& color : target.kept) error += squared_error(blurred, color);
         if (error < best) best = error, count = int(n);
     }
     return count;

@@ -4,8 +4,9 @@
 // A pass replaces a share a_c of the light of every colour c by the mean of its taps around the point, which
 // leaves t(f) of a wave of frequency f, by the distances of the taps: one pass leaves 1 - a_c + a_c t(f), and
 // passes multiply. The profile leaves the sum of w_c exp(-v x) over its Gaussians, x = 2 pi^2 f^2. Shares are
-// least squares over x; radii are a geometric series, the best of a grid. (Taps taken as a Gaussian of their
-// variance left .48 instead of .58 of waves of 5 mm in red.)
+// least squares over x, relative to what the profile takes (wave_importance()); radii are a geometric series,
+// the best of a grid. (Taps taken as a Gaussian of their variance left .48 instead of .58 of waves of 5 mm in
+// red.)
 
 #include <numbers>
 #include <vector>
@@ -30,8 +31,7 @@ struct TapRing {
 
 struct BlurFitSettings {
     int passes = 3;
-    /// Of the filter, without the centre. These are those of filter=gaussian; the technique passes those of
-    /// its filter, poisson by default.
+    /// Of the filter, without the centre. These are those of filter=gaussian.
     std::vector<TapRing> rings = {{1, 2.0 / 3}, {std::numbers::sqrt2, 1.0 / 3}};
     double texel_mm = 0.3;   ///< of the light map: reading between texels blurs too
     bool read_blurs = true;  ///< the last reading too; not where the pixel has what it takes away

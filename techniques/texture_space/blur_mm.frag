@@ -1,9 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One pass of the same blur with its radius in millimetres: taps are on a disk on the surface, independent of the UV layout, and
-// follow it across seams. The steps of the metric have the kernel size in them.
-#include "shaders/atlas/blur_mm.glsl"
+// One pass of the same blur with its radius in millimetres: the way to each tap is walked on the surface, independent of the UV
+// layout and across seams. The steps of the metric have the kernel size in them.
+#include "shaders/atlas/walk_mm.glsl"
 #include "techniques/texture_space/taps.glsl"
+
+layout(constant_id = 3) const int pieces = 1;  // of the way to a tap
 
 layout(location = 0) out vec4 light_out;
 
@@ -11,11 +13,14 @@ void main() {
     BlurCentre centre = blur_centre(ivec2(gl_FragCoord.xy));
     light_out = vec4(0.0);
     if (!centre.is_skin) return;
-    vec4 here = blur_tap(centre, vec2(0.0));
+    vec4 here = light_at(centre.at);
     vec3 sum = here.rgb * (1.0 - share), weight = here.a * (1.0 - share);
     for (int i = 0; i < tap_count(); ++i) {
         vec3 t = tap(i);
-        vec4 light = blur_tap(centre, t.xy * radius);
+        float way = length(t.xy);
+        Walk walk = walk_from(centre, t.xy / way);
+        for (int piece = 0; piece < pieces; ++piece) advance(walk, radius * way / float(pieces));
+        vec4 light = light_at(walk);
         sum += light.rgb * t.z * share;
         weight += light.a * t.z * share;
     }

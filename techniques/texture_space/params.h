@@ -32,7 +32,7 @@ inline constexpr float kMaxBlurRadius = 64;
 struct Params {
     AtlasParams atlas;
     Blur blur = Blur::profile;
-    Filter filter = Filter::poisson;
+    Filter filter = Filter::gaussian;
     int32_t blur_passes = 4;
     float blur_scale = 2;
     float blur_bias = 1;

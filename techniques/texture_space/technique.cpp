@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "techniques/texture_space/figures.h"
@@ -95,7 +96,8 @@ Pass blur_mm_pass(const Params& params, const BlurPlan& plan, const AtlasLightSe
     pass.reads.clear();
     std::erase_if(pass.constants, [](const auto& constant) { return constant.first == "dilate"; });
     pass.colors[0].clear = {0, 0, 0, 0};
-    read_atlas_metric(pass, from, atlas);
+    // The corners of 3 x 3 taps are farthest.
+    read_atlas_walk(pass, from, atlas, std::numbers::sqrt2_v<float> * plan.passes[index].radius);
     return pass;
 }
 

@@ -4,46 +4,34 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "dermis/optics/blur_waves.h"
 
 namespace dermis::texture_space_gaussians {
 namespace {
 
-constexpr int kSamples = 24;
 constexpr double kLeastShare = 0.01;
 
-using Curve = std::array<double, kSamples>;
-
-// x from waves that the widest Gaussian hardly damps to those that the narrowest removes or that texels
-// cannot hold.
-Curve samples_of(const GaussianSum& profile, double texel_mm) {
-    const auto [narrowest, widest] = std::ranges::minmax(profile.terms, {}, &GaussianTerm::variance_mm2);
-    const double first = 0.1 / widest.variance_mm2;
-    const double shortest_wave = 2 * std::pow(std::numbers::pi / (2 * texel_mm), 2);
-    const double last = std::max(std::min(4 / narrowest.variance_mm2, shortest_wave), 10 * first);
-    Curve x;
-    for (size_t i = 0; i < kSamples; ++i) x[i] = first * std::pow(last / first, double(i) / (kSamples - 1));
-    return x;
-}
+using Curve = WaveCurve;
 
 double dot(const Curve& a, const Curve& b, const Curve& importance) {
     double sum = 0;
-    for (size_t i = 0; i < kSamples; ++i) sum += a[i] * b[i] * importance[i] * importance[i];
+    for (size_t i = 0; i < kBlurWaves; ++i) sum += a[i] * b[i] * importance[i] * importance[i];
     return sum;
 }
 
 // What is taken of the waves: 1 - exp(-v x) of a Gaussian, 1 - T of the profile.
 struct Target {
     Curve x;
-    std::array<Curve, 3> taken, importance;  // importance: 1 / (kTakenOffset + taken)
+    std::array<Curve, 3> taken, importance;
 };
 
 Target target_of(const GaussianSum& profile, double texel_mm) {
-    Target target = {.x = samples_of(profile, texel_mm), .taken = {}, .importance = {}};
-    for (size_t i = 0; i < kSamples; ++i) {
+    Target target = {.x = blur_waves(profile, texel_mm), .taken = {}, .importance = {}};
+    for (size_t i = 0; i < kBlurWaves; ++i) {
         const Vec3 kept = profile_transfer(profile, target.x[i]);
         target.taken[0][i] = 1 - kept.x, target.taken[1][i] = 1 - kept.y, target.taken[2][i] = 1 - kept.z;
-        for (size_t c = 0; c < 3; ++c) target.importance[c][i] = 1 / (kTakenOffset + target.taken[c][i]);
+        for (size_t c = 0; c < 3; ++c) target.importance[c][i] = wave_importance(1 - target.taken[c][i]);
     }
     return target;
 }
@@ -94,7 +82,8 @@ Fit fit_at(std::vector<double> variances_mm2, const Target& target) {
     Fit fit{.variances_mm2 = std::move(variances_mm2), .shares = {}, .error = 0};
     std::vector<Curve> bases(fit.variances_mm2.size());
     for (size_t k = 0; k < bases.size(); ++k)
-        for (size_t i = 0; i < kSamples; ++i) bases[k][i] = -std::expm1(-fit.variances_mm2[k] * target.x[i]);
+        for (size_t i = 0; i < kBlurWaves; ++i)
+            bases[k][i] = -std::expm1(-fit.variances_mm2[k] * target.x[i]);
     std::array<std::vector<double>, 3> shares;
     for (size_t c = 0; c < 3; ++c)
         fit.error += fit_shares(target.taken[c], target.importance[c], bases, shares[c]);
@@ -132,7 +121,7 @@ Fit moved(Fit best, const Target& target) {
 
 double largest_error(const Fit& fit, const Target& target) {
     double largest = 0;
-    for (size_t i = 0; i < kSamples; ++i) {
+    for (size_t i = 0; i < kBlurWaves; ++i) {
         Vec3 taken = {0, 0, 0};
         for (size_t k = 0; k < fit.shares.size(); ++k)
             taken += fit.shares[k] * float(-std::expm1(-fit.variances_mm2[k] * target.x[i]));

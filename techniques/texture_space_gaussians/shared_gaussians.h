@@ -16,8 +16,7 @@
 namespace dermis::texture_space_gaussians {
 
 inline constexpr int kMostSharedGaussians = 4;
-inline constexpr double kTakenOffset = 0.1;
-inline constexpr double kSharedGaussiansError = 0.033;  ///< of T_c(x), over kTakenOffset + 1 - T_c(x)
+inline constexpr double kSharedGaussiansError = 0.033;  ///< of T_c(x), times wave_importance()
 
 /// As few as leave no wave and no colour off by more than kSharedGaussiansError, at most
 /// kMostSharedGaussians. Narrowest first; the first has variance 0: what stays as it is. One that would have
