@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "dermis/base/text.h"
 
@@ -28,6 +29,9 @@ Result<void> parse_line(std::string_view line, const Table& table, int x, int y,
         if (!number || !std::isfinite(*number))
             return Error{"'" + std::string(cells[i].substr(0, 40)) + "' is no finite number"};
         if (i >= 2) {
+            if (std::abs(*number) > double(std::numeric_limits<float>::max()))
+                return Error{"'" + std::string(cells[i].substr(0, 40)) +
+                             "' is beyond a float, 3.4e38 at most"};
             values[i - 2] = float(*number);
             continue;
         }

@@ -178,6 +178,8 @@ TEST(TableFile, a_bad_csv_names_the_line_and_what_is_wrong) {
     EXPECT_NE(message("-0.8888889,", "-0.5,").find("a.csv:2: n_dot_l is -0.5, the convention puts -0.888"),
               std::string::npos);
     EXPECT_NE(message("-0.8888889,0.05,", "-0.8888889,0.05,nan").find("a.csv:2: 'nan"), std::string::npos);
+    const std::string beyond_float = "-0.6666667,0.05," + std::string(60, '9');
+    EXPECT_NE(message("-0.6666667,0.05,", beyond_float).find("is beyond a float"), std::string::npos);
     EXPECT_NE(message("-0.8888889,0.05,", "-0.8888889,0.05,1,").find("a.csv:2: has 6 cells, needs 5"),
               std::string::npos);
 }
