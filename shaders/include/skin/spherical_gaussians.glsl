@@ -15,12 +15,12 @@ const float kHillBend = 0.36;
 // Below, the lobe is replaced by that of 1.5 and the whole sphere, whose light is 1/4, in the proportion that the mean
 // cosine, kappa / 3 - kappa^3 / 45, asks for: at most 0.018 off.
 vec3 lobe_light(float n_dot_l, vec3 kappa) {
-    vec3 sharpness = max(kappa, vec3(kLeastSharpness)), low = min(kappa, vec3(kLeastSharpness));
+    vec3 sharpness = max(kappa, kLeastSharpness), low = min(kappa, kLeastSharpness);
     vec3 inverse = 1.0 / sharpness, e = exp(-sharpness), e2 = e * e;
     vec3 root = sqrt(inverse - 2.0 * e2), reach = root / (4.0 * kHillBend);
     // A parabola from -reach to reach around the terminator, a line beyond.
     vec3 crossing = clamp(kHillBend * n_dot_l + reach, vec3(0.0), 2.0 * reach);
-    vec3 lit = crossing * crossing / root + max(n_dot_l - reach / kHillBend, vec3(0.0));
+    vec3 lit = crossing * crossing / root + max(n_dot_l - reach / kHillBend, 0.0);
     vec3 blurred = (1.0 + 2.0 * e2 - inverse) * lit + (e - e2) * inverse - e2;
     vec3 part = low * (15.0 - low * low) / (kLeastSharpness * (15.0 - kLeastSharpness * kLeastSharpness));
     return mix(vec3(0.25), blurred, part);

@@ -11,13 +11,13 @@ const float kReachScale = 1.3;
 // How far light reaches on skin of this mean curvature, any sign. second_moment_mm2 and bend_mm2 are the profile's.
 vec3 wrap_reach(float curvature_per_mm, vec3 second_moment_mm2, vec3 bend_mm2) {
     float k2 = curvature_per_mm * curvature_per_mm;
-    return min(kReachScale * second_moment_mm2 * k2 / (1.0 + bend_mm2 * k2), vec3(1.0));
+    return min(kReachScale * second_moment_mm2 * k2 / (1.0 + bend_mm2 * k2), 1.0);
 }
 
 // Radiant exitance over irradiance at normal incidence, 0 to 1; n_dot_l from -1 to 1. (n.l + w) / (1 + w), scaled by a
 // further 1 / (1 + w) so that energy is conserved: the integral over the sphere of directions then is pi (McAuley
 // 2010).
-vec3 wrapped_cosine(float n_dot_l, vec3 w) { return max(n_dot_l + w, vec3(0.0)) / ((1.0 + w) * (1.0 + w)); }
+vec3 wrapped_cosine(float n_dot_l, vec3 w) { return max(n_dot_l + w, 0.0) / ((1.0 + w) * (1.0 + w)); }
 
 // Light from all around, as spherical harmonics: what the bands of order 1 and 2 are multiplied with in place of
 // Lambert's 2 pi / 3 and pi / 4; order 0 keeps pi. 2 pi times the integral of the wrapped cosine's f(t) P_l(t) over t

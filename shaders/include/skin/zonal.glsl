@@ -16,7 +16,7 @@ vec3 lobe_part(vec3 kappa) { return 1.0 - exp(-2.0 * kappa); }
 
 // rho_1 and rho_2, 0 to 1; both differences of near numbers at small kappa, where their series take over (error 1e-5).
 vec3 lobe_band_1(vec3 kappa) {
-    vec3 low = min(kappa, vec3(0.5)), high = max(kappa, vec3(0.5));
+    vec3 low = min(kappa, 0.5), high = max(kappa, 0.5);
     vec3 k2 = low * low, e = exp(-2.0 * high);
     vec3 series = low * (1.0 / 3.0 - k2 * (1.0 / 45.0 - k2 * (2.0 / 945.0)));
     vec3 closed = (1.0 + e) / (1.0 - e) - 1.0 / high;
@@ -24,7 +24,7 @@ vec3 lobe_band_1(vec3 kappa) {
 }
 
 vec3 lobe_band_2(vec3 kappa) {
-    vec3 low = min(kappa, vec3(0.5)), high = max(kappa, vec3(0.5));
+    vec3 low = min(kappa, 0.5), high = max(kappa, 0.5);
     vec3 k2 = low * low;
     vec3 series = k2 * (1.0 / 15.0 - k2 * (2.0 / 315.0 - k2 / 1575.0));
     vec3 closed = 1.0 - 3.0 * lobe_band_1(high) / high;
