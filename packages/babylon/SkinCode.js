@@ -21,6 +21,20 @@ const kCubeShadowCall = "!shadow=(computeShadow\\w*)\\(((?:fragmentInputs\\.)?)v
 const kSum = "!diffuseBase\\+=info\\.diffuse\\*shadow;";
 const kHemisphericCall = "!computeHemisphericDiffuseLighting\\(preInfo,(\\w+)\\.rgb,(\\w+)\\.vLightGround\\);";
 
+// Of both languages.
+const cubeShadow = `shadow=$1($2vPositionW,$3);
+#ifdef SKIN_THICKNESS
+skinFarShadow = $1(skinFarPosition,$3);
+#endif
+`;
+const sumWith = (vec3) => `diffuseBase+=info.diffuse*shadow;
+#ifdef SKIN_THICKNESS
+diffuseBase += skinBehind * skinFarShadow;
+skinBehind = ${vec3}(0.0);
+skinFarShadow = 1.0;
+#endif
+`;
+
 export const glslCode = {
   vertex: {
     CUSTOM_VERTEX_DEFINITIONS: `
@@ -122,18 +136,8 @@ skinFarPosition = vPositionW + preInfo.L * (past_far_wall_mm(skinThicknessMm) / 
 }
 #endif
 `,
-    [kCubeShadowCall]: `shadow=$1($2vPositionW,$3);
-#ifdef SKIN_THICKNESS
-skinFarShadow = $1(skinFarPosition,$3);
-#endif
-`,
-    [kSum]: `diffuseBase+=info.diffuse*shadow;
-#ifdef SKIN_THICKNESS
-diffuseBase += skinBehind * skinFarShadow;
-skinBehind = vec3(0.0);
-skinFarShadow = 1.0;
-#endif
-`,
+    [kCubeShadowCall]: cubeShadow,
+    [kSum]: sumWith("vec3"),
     [kSpecularCall]: "skinSpecularLight(preInfo, normalW, $1.rgb);",
     [kHemisphericCall]: "skinHemisphericLight(preInfo, skinCurvature, $1.rgb, $2.vLightGround);",
     CUSTOM_FRAGMENT_BEFORE_FINALCOLORCOMPOSITION: `
@@ -276,18 +280,8 @@ skinFarPosition = fragmentInputs.vPositionW + preInfo.L * (past_far_wall_mm(skin
 }
 #endif
 `,
-    [kCubeShadowCall]: `shadow=$1($2vPositionW,$3);
-#ifdef SKIN_THICKNESS
-skinFarShadow = $1(skinFarPosition,$3);
-#endif
-`,
-    [kSum]: `diffuseBase+=info.diffuse*shadow;
-#ifdef SKIN_THICKNESS
-diffuseBase += skinBehind * skinFarShadow;
-skinBehind = vec3f(0.0);
-skinFarShadow = 1.0;
-#endif
-`,
+    [kCubeShadowCall]: cubeShadow,
+    [kSum]: sumWith("vec3f"),
     [kSpecularCall]: "skinSpecularLight(preInfo, normalW, $1.rgb);",
     [kHemisphericCall]: "skinHemisphericLight(preInfo, skinCurvature, $1.rgb, $2.vLightGround);",
     CUSTOM_FRAGMENT_BEFORE_FINALCOLORCOMPOSITION: `
