@@ -66,7 +66,7 @@ vec3 scattered_exitance(texture2D map, texture2D map_lit, Surface s, vec3 direct
 // have normals that differ little; opposite walls of a thin part have opposite ones. The blur walks on the surface, so
 // that it goes around small parts by itself: of light on the side of a sphere the fourth power counts. On the dark side of
 // spheres of 4 mm blur and transmission then come to 0.69 (texture_space) and 0.63 (Gaussians) times the integral, of 2 mm to
-// 1.18 and 1.01, where a point that counts in full wherever it is would come to 1.3 to 2.
+// 1.18 and 1.01, where a point that counts in full wherever it is would come to 1.5 to 1.9.
 float part_not_counted(LightMap map, LitPoint lit) {
     float turned = turned_away(lit), squared = turned * turned;
     return squared * squared;

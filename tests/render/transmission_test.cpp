@@ -138,8 +138,8 @@ TEST_F(Transmissions, come_around_the_edge_of_an_opaque_frame) {
 
 // Light 30 degrees off the axis behind the sphere, so that a part of its lit side is seen. A technique's own
 // blur or model may lose light there; what transmission adds must bring the whole nearer to the integral, and
-// not above it. A sphere of 2 mm is smaller than what a head has: there blurs that walk on the surface come
-// around it by themselves, and transmission may add some of that again.
+// not above it. A sphere of 2 mm is smaller than what a head has: there the blur of texture_space, which
+// walks on the surface, comes around it by itself, and transmission may add some of that again.
 TEST_F(Transmissions, around_a_sphere_lit_from_behind_no_light_is_counted_twice) {
     for (const float radius_mm : {2.0f, 4.0f}) {
         Scene scene = lit(make_sphere(radius_mm, 96), {0.5f, 0, -0.866f}, 1.1f * radius_mm);
@@ -170,7 +170,8 @@ TEST_F(Transmissions, around_a_sphere_lit_from_behind_no_light_is_counted_twice)
                         double(radius_mm), dark / dark_exact, rms, rms_without);
             EXPECT_GT(dark / dark_exact, 0.6) << technique->id << ", " << radius_mm << " mm";
             EXPECT_LT(dark / dark_exact, 1.2) << technique->id << ", " << radius_mm << " mm";
-            EXPECT_LE(rms, rms_without + (radius_mm < 3 ? 4e-3 : 2e-4))
+            const bool counted_twice = radius_mm < 3 && technique->id == "texture_space";
+            EXPECT_LE(rms, rms_without + (counted_twice ? 4e-3 : 2e-4))
                 << technique->id << ", " << radius_mm << " mm";
         }
     }
