@@ -6,7 +6,8 @@
 // The source marks texels that are in view and face the camera by v.n + 0.3 > 0; the 0.3 is to keep what the
 // blur carries into view (it exempts the ears, where that fails). Here the marked area grows by the blur's
 // whole reach, in tiles of 8 texels, so that every texel that can touch a visible one is kept, whatever the
-// curvature.
+// curvature. A blur in mm reaches more texels where the atlas has more of them for a millimetre, so the reach
+// of a tile follows from the steps of the metric in the tiles that it may reach.
 
 #include "dermis/technique/technique.h"
 
@@ -21,7 +22,9 @@ struct AtlasCullSettings {
     bool frustum = false, back_face = false;
     float bias = 0.3f;  ///< added to v.n, for normals that are smoother than the triangles
     UvCircle exempt[2];
-    int reach_texels = 0;       ///< how far the passes that follow carry light, all together
+    /// How far the passes that follow carry light, all together: texels, and steps of the atlas's metric
+    /// (atlas_light.h), none of which is longer than longest_texels. Steps need the image "atlas_metric".
+    float reach_texels = 0, reach_steps = 0, longest_texels = 0;
     int size = 1024;            ///< of the light map
     bool across_seams = false;  ///< what follows carries light over seams (needs PassList::seams)
 

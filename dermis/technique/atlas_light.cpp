@@ -102,7 +102,12 @@ void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const F
             list.images.push_back(
                 {.name = name, .format = ImageFormat::rgba16f, .size = {settings.size, settings.size}});
     }
-    add_atlas_cull(list, settings.cull);
+    // Whole, as it says how far the light of each tile may come from.
+    if (settings.in_mm) list.passes.push_back(metric_pass(settings));
+    AtlasCullSettings cull = settings.cull;
+    // Of two steps at right angles, each of which may be longest_texels long.
+    cull.longest_texels = std::numbers::sqrt2_v<float> * settings.longest_texels;
+    add_atlas_cull(list, cull);
     Pass light = {.name = "light map",
                   .kind = PassKind::geometry_uv_atlas,
                   .shader = "atlas/light.frag",
@@ -115,10 +120,9 @@ void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const F
     keep_unculled(light, settings.cull);
     list.passes.push_back(std::move(light));
     if (!settings.in_mm) return;
-    for (Pass pass : {metric_pass(settings), carry_pass(settings)}) {
-        keep_unculled(pass, settings.cull);
-        list.passes.push_back(std::move(pass));
-    }
+    Pass carry = carry_pass(settings);
+    keep_unculled(carry, settings.cull);
+    list.passes.push_back(std::move(carry));
 }
 
 void read_atlas_metric(Pass& pass, const std::string& source, const AtlasLightSettings& settings) {

@@ -4,8 +4,11 @@
 #include "shaders/atlas/constants.h"
 #include "shaders/include/frame.glsl"
 
-uniform texture2D tiles;
+uniform texture2D tiles, tiles_beyond;
 
 void main() {
-    if (texelFetch(sampler2D(tiles, nearest_clamp), ivec2(gl_FragCoord.xy) / kCullTile, 0).r == 0.0) discard;
+    ivec2 tile = ivec2(gl_FragCoord.xy) / kCullTile;
+    if (texelFetch(sampler2D(tiles, nearest_clamp), tile, 0).r == 0.0 &&
+        texelFetch(sampler2D(tiles_beyond, nearest_clamp), tile, 0).r == 0.0)
+        discard;
 }

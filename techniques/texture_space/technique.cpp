@@ -26,15 +26,18 @@ using texture_space::Space;
 constexpr const char* kOwnView = "light_map";
 
 // How far the passes after the light map carry light: the widest tap of every blur and its bilinear
-// neighbour, and the bilinear lookup of the final mesh. In mm a tap goes along two steps at once.
-// `kernel_texels` is the longest radius of a pass with BlurPass::radius 1.
-int reach_texels(const BlurPlan& plan, float kernel_texels) {
-    float reach = 1;
+// neighbour, and the bilinear lookups of the final mesh and of the light from across seams.
+void set_reach(AtlasCullSettings& cull, const BlurPlan& plan) {
+    cull.reach_texels = 2 + float(plan.passes.size());
     for (size_t i = 0; i < plan.passes.size(); ++i) {
-        const float radius = plan.filter == Filter::kawase ? 1 : plan.passes[i].radius * kernel_texels;
-        reach += std::ceil(widest_tap(plan.filter, i) * radius * (plan.in_mm ? 2.0f : 1.0f)) + 1;
+        const float radius = plan.filter == Filter::kawase ? 1 : plan.passes[i].radius;
+        const float way = widest_tap(plan.filter, i) * radius;
+        if (plan.in_mm)
+            cull.reach_steps += way * std::numbers::sqrt2_v<float>;  // to the corner of 3 x 3 taps
+        else
+            cull.reach_texels +=
+                std::ceil(way * (plan.filter == Filter::kawase ? 1 : plan.kernel_scale + plan.kernel_bias));
     }
-    return int(std::min(reach, float(plan.size)));
 }
 
 AtlasLightSettings atlas_settings(const Params& params, const BlurPlan& plan, const FrameContext& frame,
@@ -52,7 +55,7 @@ AtlasLightSettings atlas_settings(const Params& params, const BlurPlan& plan, co
     settings.cull.exempt[0] = {params.exempt_1_u, params.exempt_1_v, params.exempt_1_radius};
     settings.cull.exempt[1] = {params.exempt_2_u, params.exempt_2_v, params.exempt_2_radius};
     settings.longest_texels = longest_step_texels(kernel, settings.size, frame);
-    settings.cull.reach_texels = reach_texels(plan, plan.in_mm ? settings.longest_texels : kernel);
+    set_reach(settings.cull, plan);
     settings.cull.across_seams = settings.in_mm && carry;
     settings.carry_seams = carry;
     settings.kernel_scale_mm = plan.kernel_scale;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dermis/technique/atlas_light.h"
 #include "dermis/technique/forward.h"
@@ -110,11 +111,11 @@ AtlasLightSettings atlas_settings(const Params& params, const std::vector<Step>&
     settings.pre_scatter = params.pre_scatter;
     settings.specular = params.specular;
     settings.longest_texels = longest_step_texels(1 + params.atlas.kernel_growth, settings.size, frame);
-    // Taps go to 3 sigma along each of two steps; a bilinear neighbour each, and one of the final mesh.
-    double reach = 2;
+    // Taps go to 3 sigma along each of two directions at right angles; a bilinear neighbour each, and one of
+    // the final mesh and of the light from across seams.
+    settings.cull.reach_texels = 2 + 2 * float(steps.size());
     for (const Step& step : steps)
-        reach += 2 * std::ceil(3.1 * step.sigma_mm * double(settings.longest_texels)) + 2;
-    settings.cull.reach_texels = int(std::min(reach, double(settings.size)));
+        settings.cull.reach_steps += std::numbers::sqrt2_v<float> * 3.1f * float(step.sigma_mm);
     return settings;
 }
 
