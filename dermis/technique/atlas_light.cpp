@@ -82,8 +82,8 @@ std::vector<NamedValue> detail_values(const std::function<Vec3(double texel_mm)>
     return values;
 }
 
-Vec3 kept_of_shortest_wave(const GaussianSum& blur, double texel_mm) {
-    const double wave_mm = 2 * texel_mm;
+Vec3 kept_of_half_held_wave(const GaussianSum& blur, double texel_mm) {
+    const double wave_mm = 2.5 * texel_mm;
     return profile_transfer(blur, 2 * std::numbers::pi * std::numbers::pi / (wave_mm * wave_mm));
 }
 

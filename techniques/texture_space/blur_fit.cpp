@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dermis/optics/blur_waves.h"
+#include "techniques/texture_space/constants.h"
 
 namespace dermis::texture_space {
 namespace {
@@ -13,9 +14,6 @@ namespace {
 constexpr double kLeastShare = 0.01;
 
 using Curve = WaveCurve;
-
-// Reading a texture between its texels spreads light like a Gaussian of this variance, in squares of a texel.
-constexpr double kBilinearVariance = 1.0 / 6;
 
 // What the profile leaves of the waves in each colour.
 struct Target {
@@ -40,7 +38,7 @@ Curve damping(double variance_mm2, const Curve& x) {
 
 // What reading between texels leaves of a wave.
 double read_transfer(const BlurFitSettings& settings, double x) {
-    return std::exp(-kBilinearVariance * settings.texel_mm * settings.texel_mm * x);
+    return std::exp(-double(kBilinearVariance) * settings.texel_mm * settings.texel_mm * x);
 }
 
 // What the mean of the taps leaves: a ring of radius r turns a wave of frequency f into J0(2 pi f r) of it,

@@ -85,6 +85,9 @@ BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
         case Blur::profile:
             plan.kernel_scale = params.atlas.kernel_growth;
             plan.passes = passes_of_profile(params, frame, plan);
+            if (!plan.in_mm) return plan;
+            plan.fitted_texel_mm = float(typical_texel_mm(plan.size, frame));
+            plan.tap_variance = float(tap_variance(taps_of(plan.filter).rings));
             return plan;
         case Blur::source:
             plan.kernel_scale = kSourceScale;

@@ -15,6 +15,9 @@ const int kDilateOff = 0, kDilateSource = 1, kDilateWrittenOnly = 2;
 // Specialisation constant specular_shadow.
 const int kSpecularShadowOff = 0, kSpecularShadowSource = 1, kSpecularShadowMap = 2;
 
+// Reading a texture between its texels spreads light like a Gaussian of this variance, in squares of a texel.
+const float kBilinearVariance = 1.0f / 6;
+
 #ifdef __cplusplus
 }  // namespace dermis
 #endif

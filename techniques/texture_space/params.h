@@ -62,6 +62,8 @@ struct BlurPlan {
     bool keeps_lit = true;  ///< the map before the blur is read by the final mesh too
     float kernel_scale = 0, kernel_bias = 1;
     std::vector<BlurPass> passes;
+    float fitted_texel_mm = 0;  ///< for which passes were fitted; 0: set by hand, or in texels
+    float tap_variance = 1;     ///< along one axis, at radius 1
 };
 
 [[nodiscard]] BlurPlan blur_plan(const Params& params, const FrameContext& frame);

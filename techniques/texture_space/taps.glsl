@@ -10,6 +10,8 @@ layout(push_constant, scalar) uniform PassValues {
     float kernel_bias;
     float pass_index;
     vec3 share;          // of the light that the taps replace, a colour each
+    float fitted_texel_mm;  // of the map that the radius was fitted for; 0: for none
+    float tap_variance;     // along one axis, at radius 1
 };
 
 layout(constant_id = 0) const int blur_filter = kFilterPoisson;

@@ -89,7 +89,9 @@ Pass blur_pass(const Params& params, const BlurPlan& plan, size_t index) {
                    {"kernel_scale", plan.kernel_scale},
                    {"kernel_bias", plan.kernel_bias},
                    {"pass_index", float(index)},
-                   {"share", blur.share}}};
+                   {"share", blur.share},
+                   {"fitted_texel_mm", plan.fitted_texel_mm},
+                   {"tap_variance", plan.tap_variance}}};
 }
 
 Pass blur_mm_pass(const Params& params, const BlurPlan& plan, const AtlasLightSettings& atlas, size_t index) {
@@ -176,7 +178,7 @@ Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const
     const bool in_texels = params.blur == Blur::set && params.space == Space::texels;
     return detail_values([&](double texel_mm) {
         return params.blur_passes == 0 ? Vec3{1, 1, 1}
-                                       : kept_of_shortest_wave(blur, in_texels ? 1.0 : texel_mm);
+                                       : kept_of_half_held_wave(blur, in_texels ? 1.0 : texel_mm);
     });
 }
 

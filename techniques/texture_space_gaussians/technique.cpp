@@ -197,7 +197,7 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
 
 Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
     const GaussianSum blur = widened(skin.gaussians, values.as<Params>().width);
-    return detail_values([&](double texel_mm) { return kept_of_shortest_wave(blur, texel_mm); });
+    return detail_values([&](double texel_mm) { return kept_of_half_held_wave(blur, texel_mm); });
 }
 
 }  // namespace
