@@ -141,8 +141,9 @@ float taps_lit(texture2D map, ShadowDisk disk, int first, int end) {
 
 // The same for a software device. It reads the four texels of a filtered tap one by one, so the outermost taps are asked for
 // the nearest alone. It computes both sides of a branch, but leaves a loop when all its pixels have: so all taps are read in
-// rounds, from the last to the first, and the angle is turned from tap to tap.
-float disk_visibility_in_rounds(texture2D map, ShadowDisk disk) {
+// a loop, from the last to the first, and the angle is turned from tap to tap. One tap each time around: the first time is
+// computed even where no pixel asks for it.
+float disk_visibility_on_cpu(texture2D map, ShadowDisk disk) {
     float nearest = 0.0;
     for (int i = kShadowTaps - kShadowOuterTaps; i < kShadowTaps; ++i) {
         vec3 p = shadow_tap_position(disk, vogel_disk(i, kShadowTaps));
@@ -153,17 +154,16 @@ float disk_visibility_in_rounds(texture2D map, ShadowDisk disk) {
     vec2 direction = vec2(cos(kLastAngle), sin(kLastAngle));
     float lit = 0.0;
     int count = outer_taps_agree(nearest) ? 0 : kShadowTaps;
-    [[dont_unroll]] for (int done = 0; done < count; done += kShadowOuterTaps)
-        for (int i = 0; i < kShadowOuterTaps; ++i) {
-            float radius = sqrt((float(kShadowTaps - 1 - done - i) + 0.5) / float(kShadowTaps));
-            lit += shadow_depth_tap(map, shadow_tap_position(disk, radius * direction));
-            direction = vec2(kCos * direction.x + kSin * direction.y, kCos * direction.y - kSin * direction.x);
-        }
+    [[dont_unroll]] for (int i = 0; i < count; ++i) {
+        float radius = sqrt((float(kShadowTaps - 1 - i) + 0.5) / float(kShadowTaps));
+        lit += shadow_depth_tap(map, shadow_tap_position(disk, radius * direction));
+        direction = vec2(kCos * direction.x + kSin * direction.y, kCos * direction.y - kSin * direction.x);
+    }
     return count == 0 ? nearest / float(kShadowOuterTaps) : lit / float(kShadowTaps);
 }
 
 float disk_visibility(texture2D map, ShadowDisk disk) {
-    if (on_cpu != 0) return disk_visibility_in_rounds(map, disk);
+    if (on_cpu != 0) return disk_visibility_on_cpu(map, disk);
     float outer = taps_lit(map, disk, kShadowTaps - kShadowOuterTaps, kShadowTaps);
     if (outer_taps_agree(outer)) return outer / float(kShadowOuterTaps);
     return (outer + taps_lit(map, disk, 0, kShadowTaps - kShadowOuterTaps)) / float(kShadowTaps);
