@@ -159,8 +159,8 @@ float turned_away(LitPoint lit) { return 0.5 - 0.5 * lit.cosine; }
 uniform texture2D skin_transmission;  // distance from 0 to the reach, read without interpolation; the reach in alpha
 
 vec4 transmission_texel(float distance_over_reach) {
-    int texel = int(distance_over_reach * float(kTransmissionTexels - 1) + 0.5);
-    return texelFetch(sampler2D(skin_transmission, nearest_clamp), ivec2(min(texel, kTransmissionTexels - 1), 0), 0);
+    float u = distance_over_reach * (1.0 - 1.0 / float(kTransmissionTexels)) + 0.5 / float(kTransmissionTexels);
+    return textureLod(sampler2D(skin_transmission, nearest_clamp), vec2(u, 0.5), 0.0);
 }
 vec3 transmission_profile(float distance_over_reach) { return transmission_texel(distance_over_reach).rgb; }
 float transmission_reach() { return transmission_texel(0.0).a; }
@@ -170,6 +170,12 @@ float transmission_reach() { return transmission_texel(0.0).a; }
 vec4 sum_of_quad(int lane, vec4 v) {
     vec4 across = dFdxFine(v), pair = 2.0 * v + ((lane & 1) != 0 ? -across : across), down = dFdyFine(pair);
     return 2.0 * pair + ((lane & 2) != 0 ? -down : down);
+}
+
+// Above 0 where it is so in any pixel of the quad; v is not below 0. All four must come here together.
+float any_of_quad(float v) {
+    float row = v + abs(dFdxFine(v));
+    return row + abs(dFdyFine(row));
 }
 
 // Taps are in rings at even steps of radius, which is closer than even cover where R is large; each counts for its
@@ -182,7 +188,7 @@ vec3 gathered_light(LightMap map, bool needed) {
     ivec2 in_quad = ivec2(gl_FragCoord.xy) & 1;
     int lane = in_quad.x + 2 * in_quad.y;
     vec4 drawn = vec4(equal(ivec4(lane), ivec4(0, 1, 2, 3))) * float(map.valid);
-    bool any_needs = sum_of_quad(lane, vec4(needed && map.valid)).x > 0.5;
+    bool any_needs = any_of_quad(float(needed && map.valid)) > 0.0;
     drawn = sum_of_quad(lane, drawn);
     float stride = together ? dot(drawn, vec4(1.0)) : 2.0;
     float first = together ? dot(drawn, vec4(lessThan(ivec4(0, 1, 2, 3), ivec4(lane)))) : 0.0;
@@ -191,17 +197,17 @@ vec3 gathered_light(LightMap map, bool needed) {
     vec2 direction = vec2(cos(turn), sin(turn)), step = vec2(cos(step_angle), sin(step_angle));
     float ring_mm = map.reach_mm * kWidestRing / float(kTransmissionTaps), per_reach = 1.0 / map.reach_mm;
     LitNormals normals = lit_normals(map);
+    float radius_mm = (first + 0.5) * ring_mm, step_mm = stride * ring_mm, end_mm = float(kTransmissionTaps) * ring_mm;
     vec3 light = vec3(0.0), behind = vec3(0.0);
     if (any_needs && map.valid) {
-        for (float i = first; i < float(kTransmissionTaps); i += stride) {
-            float radius_mm = (i + 0.5) * ring_mm;
+        for (; radius_mm < end_mm; radius_mm += step_mm) {
             vec2 across_mm = radius_mm * direction;
             direction = vec2(direction.x * step.x - direction.y * step.y, direction.x * step.y + direction.y * step.x);
             vec2 place = map.here.xy + across_mm.x * map.axis_x + across_mm.y * map.axis_y;
             vec4 z4 = lit_skin_z4(map.index, place);
             float z = nearest_of(place * shadow_map_texels, z4);
             vec3 offset_mm = vec3(across_mm, (map.here.z - z) * map.mm_per_z);
-            float way2_mm2 = max(dot(offset_mm, offset_mm), 1e-18), per_way = inversesqrt(way2_mm2);
+            float way2_mm2 = dot(offset_mm, offset_mm), per_way = inversesqrt(way2_mm2);
             LitPoint lit = lit_point(normals, offset_mm, z4);
             float weight = z == 1.0 ? 0.0 : radius_mm * part_not_counted(map, lit);  // 1: no lit skin
             vec3 profile = transmission_profile(way2_mm2 * per_way * per_reach);

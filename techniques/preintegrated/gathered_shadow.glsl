@@ -15,7 +15,7 @@
 #include "techniques/preintegrated/tables.glsl"
 
 // Of shares tried on the head scan and the bust; half as much or twice as much loses .01 to .05 of either.
-const float kGatherLiftTexels = 2.25, kGatherLiftMm = 0.45, kGatherLiftSlope = 0.15;
+const float kGatherLiftTexels = 2.25, kGatherLiftMm = 0.45;  // kGatherLiftSlope: constants.h
 // Pixels nearer to each other share their taps.
 const float kGatherTogetherMm = 1.0;
 
@@ -52,6 +52,7 @@ vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibi
     vec3 here = shadow_map_position(source.light_view_projection, s.p_world_mm);
     vec3 step_x = shadow_map_step(source.light_view_projection, s.p_world_mm, here, q.x);
     vec3 step_y = shadow_map_step(source.light_view_projection, s.p_world_mm, here, q.y);
+    if (all_directional != 0) step_y.z = 0.0;  // across the light
     vec3 step_n = shadow_map_step(source.light_view_projection, s.p_world_mm, here, q.n);
     here += max(kGatherLiftTexels * shadow_texel_mm, kGatherLiftMm) * step_n;
     // Beside the triangle a storage buffer is not everywhere loaded.
@@ -59,19 +60,20 @@ vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibi
     int lane = (int(gl_FragCoord.x) & 1) + 2 * (int(gl_FragCoord.y) & 1);
     int first = together ? lane : 0, stride = together ? 4 : 1;
     vec4 lit = vec4(0.0), all = vec4(0.0);  // the fourth: of the penumbra alone
-    float differ = 0.0;
     for (int i = first; i < kShadowGatherTaps; i += stride) {
-        if (i - first == kShadowFirstTaps && (together ? sum_of_quad(lane, vec4(differ)).x : differ) == 0.0) break;
+        if (i - first == kShadowFirstTaps) {
+            // Red reaches farthest: its weight is 0 nowhere.
+            float differ = abs(lit.r - visibility * all.r);
+            if ((together ? any_of_quad(differ) : differ) == 0.0) break;
+        }
         vec4 weight = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapWeights), 0);
-        vec3 d_mm = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapPlaces), 0).xyz;  // z: its length
+        vec3 d_mm = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapPlaces), 0).xyz;  // z: how far it is lifted
         vec2 bend = vec2(q.xx_per_mm * d_mm.x + q.xy_per_mm * d_mm.y, q.xy_per_mm * d_mm.x + q.yy_per_mm * d_mm.y);
         float n_dot_l = max(q.cosine_sine.x + q.cosine_sine.y * bend.x, 0.0);
-        float rise_mm = kGatherLiftSlope * d_mm.z - 0.5 * dot(d_mm.xy, bend);
+        float rise_mm = d_mm.z - 0.5 * dot(d_mm.xy, bend);
         float v = shadow_depth_tap(source.shadow_map_index, here + d_mm.x * step_x + d_mm.y * step_y + rise_mm * step_n);
-        vec4 enters = vec4(n_dot_l * weight.rgb, weight.a);
-        lit += v * enters;
-        all += enters;
-        differ += n_dot_l * abs(v - visibility);
+        all += vec4(n_dot_l, n_dot_l, n_dot_l, 1.0) * weight;
+        lit += vec4(vec3(v * n_dot_l), v) * weight;
     }
     if (together) {
         lit = sum_of_quad(lane, lit);

@@ -151,8 +151,8 @@ Result<Rows> rows_of_mean(const TableSettings& settings, const SkinContext& skin
     return rows;
 }
 
-// Weights, the penumbra's in alpha; places, turned from one to the next by the golden angle, and their
-// distance.
+// Weights, the penumbra's in alpha; places, turned from one to the next by the golden angle, and how far they
+// are lifted.
 Result<Rows> tap_rows(const TableSettings&, const SkinContext& skin) {
     Rows rows(size_t(kRowTexels) * 2);
     const std::vector<ShadowTap> taps = shadow_taps(skin.gaussians);
@@ -161,7 +161,8 @@ Result<Rows> tap_rows(const TableSettings&, const SkinContext& skin) {
         const size_t at = i % kEvery * kShadowFirstTaps + i / kEvery;
         rows[at] = texel(taps[i].weight, taps[i].penumbra_weight);
         const double r = taps[i].radius_mm, angle = double(i) * kGoldenAngle;
-        rows[kRowTexels + at] = texel({r * std::cos(angle), r * std::sin(angle), r}, 1);
+        rows[kRowTexels + at] =
+            texel({r * std::cos(angle), r * std::sin(angle), double(kGatherLiftSlope) * r}, 1);
     }
     return rows;
 }

@@ -63,7 +63,8 @@ class AtlasCull : public RenderTest {
             kept += lit, all += lit_whole;
         }
         EXPECT_LT(double(kept), share * double(all)) << name;
-        RecordProperty("kept", std::to_string(double(kept) / double(all)));
+        RecordProperty("kept_" + name + (step == 1 ? "" : "_" + std::to_string(step)),
+                       std::to_string(double(kept) / double(all)));
     }
 };
 
