@@ -127,6 +127,8 @@ const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowOfMean = 5, kRowTa
           kRowTapPlaces = 9, kRowCount = 10, kRowTexels = 257;
 // Every fourth stands first.
 const int kShadowGatherTaps = 64, kShadowFirstTaps = 16;
+// How far a place is lifted off the quadric, over its distance.
+const float kGatherLiftSlope = 0.15f;
 
 // 4 microns to 16 mm.
 const float kMinLogMm = -8.0, kMaxLogMm = 4.0;
