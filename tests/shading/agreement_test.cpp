@@ -2,6 +2,9 @@
 // whole domain of each function, evaluated by g++ and by lavapipe. MSL is compiled as C++, over a header with
 // Metal's vectors and functions: that is its arithmetic only. gdshader is compiled as GLSL.
 
+#include <cstdlib>
+#include <string_view>
+
 #include "catalog/catalog.h"
 #include "dermis/export/profile_source.h"
 #include "dermis/optics/gaussian_fit.h"
@@ -141,9 +144,11 @@ TEST_F(Agreement, of_the_diffuse_functions_with_the_integral_is_as_good_as_they_
 TEST_F(Agreement, of_wgsl_and_essl_in_a_browser) {
     const std::string chromium = find_program({"chromium", "chromium-browser", "google-chrome"});
     if (chromium.empty() || find_program({"node"}).empty()) GTEST_SKIP() << "no chromium or no node here";
+    const char* wanted = std::getenv("DERMIS_BROWSER_SAMPLES");
+    const size_t side = wanted && std::string_view(wanted) == "all" ? kSampleSide : 112;
     for (const Language language : {Language::wgsl, Language::essl}) {
         const Result<Outputs> outputs =
-            evaluate_in_browser(chromium, text_of(language), language, functions_);
+            evaluate_in_browser(chromium, text_of(language), language, functions_, side);
         if (!outputs && outputs.error().message.starts_with(kBrowserLacks))
             GTEST_SKIP() << outputs.error().message;
         EXPECT_THAT(differing(outputs), IsEmpty()) << language_name(language);
@@ -151,7 +156,7 @@ TEST_F(Agreement, of_wgsl_and_essl_in_a_browser) {
     const std::string wrong = text_of(Language::wgsl, "step(kappa, vec3f(0.5))", "step(vec3f(0.5), kappa)");
     const auto [sampled, right] = sampled_function("lobe_band_1");
     ASSERT_TRUE(sampled);
-    const Result<Outputs> outputs = evaluate_in_browser(chromium, wrong, Language::wgsl, {*sampled});
+    const Result<Outputs> outputs = evaluate_in_browser(chromium, wrong, Language::wgsl, {*sampled}, side);
     ASSERT_TRUE(outputs) << outputs.error().message;
     EXPECT_GT(worst_difference(*sampled, *right, outputs->front()), 1);
 }

@@ -17,8 +17,10 @@ namespace dermis::shading {
 /// How the error starts when the browser has no WebGPU or WebGL 2.
 inline constexpr const char* kBrowserLacks = "not here: ";
 
-/// wgsl and essl, by headless Chromium: a page for as many functions as have 16 MiB of arguments together.
+/// wgsl and essl, by headless Chromium, for the first `side`² samples, which lie as random as all: a page for
+/// as many functions as have 16 MiB of arguments together. With all samples it takes minutes.
 [[nodiscard]] Result<Outputs> evaluate_in_browser(const std::string& chromium, const std::string& text,
-                                                  Language language, const std::vector<Sampled>& functions);
+                                                  Language language, const std::vector<Sampled>& functions,
+                                                  size_t side);
 
 }  // namespace dermis::shading

@@ -39,34 +39,37 @@ std::string call_of(const Sampled& function, Language language) {
     return call + ")";
 }
 
-std::string job_of(const std::string& text, Language language, std::span<const Sampled> functions) {
-    nlohmann::json job = {{"language", language_name(language)}, {"text", text}, {"count", kSampleCount}};
+std::string job_of(const std::string& text, Language language, std::span<const Sampled> functions,
+                   size_t samples) {
+    nlohmann::json job = {{"language", language_name(language)}, {"text", text}, {"count", samples}};
     std::vector<float> inputs;
     for (const Sampled& function : functions) {
         job["functions"].push_back({{"call", call_of(function, language)},
                                     {"floats", function.argument_floats},
                                     {"components", component_count(function.result)}});
-        inputs.insert(inputs.end(), function.inputs.begin(), function.inputs.end());
+        const auto first = function.inputs.begin();
+        inputs.insert(inputs.end(), first, first + ptrdiff_t(samples * function.argument_floats));
     }
     job["inputs"] = base64(std::as_bytes(std::span(inputs)));
     return job.dump();
 }
 
 // How many of the functions a page takes.
-size_t functions_of_a_page(std::span<const Sampled> functions) {
+size_t functions_of_a_page(std::span<const Sampled> functions, size_t samples) {
     constexpr size_t kMostFloats = 4 << 20;
     size_t floats = 0, count = 0;
-    while (count < functions.size() && (floats += functions[count].inputs.size()) <= kMostFloats) ++count;
+    while (count < functions.size() && (floats += samples * functions[count].argument_floats) <= kMostFloats)
+        ++count;
     return std::max(count, size_t(1));
 }
 
 Result<Outputs> evaluate_on_a_page(const std::string& chromium, const std::string& text, Language language,
-                                   std::span<const Sampled> functions) {
+                                   std::span<const Sampled> functions, size_t samples) {
     const TemporaryDirectory directory;
     Result<std::string> page = read_text_file(DERMIS_SOURCE_DIR "/tests/shading/evaluate.html");
     if (!page) return page.error();
     const std::string mark = "@JOB@";
-    page->replace(page->find(mark), mark.size(), job_of(text, language, functions));
+    page->replace(page->find(mark), mark.size(), job_of(text, language, functions, samples));
     const auto path = directory.path / "page.html", output = directory.path / "out",
                log = directory.path / "log.txt";
     if (const Result<void> written = write_text_file(path, *page); !written) return written.error();
@@ -79,9 +82,9 @@ Result<Outputs> evaluate_on_a_page(const std::string& chromium, const std::strin
     }
     const Result<std::vector<std::byte>> bytes = read_file(output);
     if (!bytes) return bytes.error();
-    const size_t each = kSampleCount * 16;
+    const size_t each = samples * 16;
     if (bytes->size() != functions.size() * each) return Error{"the page gave too little"};
-    Outputs outputs(functions.size(), std::vector<float>(kSampleCount * 4));
+    Outputs outputs(functions.size(), std::vector<float>(samples * 4));
     for (size_t i = 0; i < outputs.size(); ++i)
         std::memcpy(outputs[i].data(), bytes->data() + i * each, each);
     return outputs;
@@ -90,11 +93,12 @@ Result<Outputs> evaluate_on_a_page(const std::string& chromium, const std::strin
 }  // namespace
 
 Result<Outputs> evaluate_in_browser(const std::string& chromium, const std::string& text, Language language,
-                                    const std::vector<Sampled>& functions) {
+                                    const std::vector<Sampled>& functions, size_t side) {
+    const size_t samples = side * side;
     Outputs all;
     for (std::span<const Sampled> left = functions; !left.empty();) {
-        const size_t count = functions_of_a_page(left);
-        Result<Outputs> outputs = evaluate_on_a_page(chromium, text, language, left.first(count));
+        const size_t count = functions_of_a_page(left, samples);
+        Result<Outputs> outputs = evaluate_on_a_page(chromium, text, language, left.first(count), samples);
         if (!outputs) return outputs.error();
         std::ranges::move(*outputs, std::back_inserter(all));
         left = left.subspan(count);
