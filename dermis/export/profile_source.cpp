@@ -9,6 +9,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/gaussian_lobes.h"
 #include "dermis/optics/wrap_reach.h"
+#include "dermis/shading/prefix.h"
 
 namespace dermis {
 namespace {
@@ -136,8 +137,9 @@ Result<std::string> skin_text(const Profile& profile, std::span<const shading::S
     if (!own) return own.error();
     std::vector<shading::Source> sources(functions.begin(), functions.end());
     sources.push_back(std::move(*own));
-    const Result<std::vector<shading::Unit>> units = shading::read_sources(sources);
+    Result<std::vector<shading::Unit>> units = shading::read_sources(sources);
     if (!units) return units.error();
+    shading::prefix_names(*units);
     const std::vector<std::string> heading = {
         "Shading functions for skin: " + printable_line(profile.name) +
             ". Printed by `dermis export`; change its source, not this file.",

@@ -9,9 +9,6 @@
 namespace dermis::shading {
 namespace {
 
-bool is_word(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
@@ -118,6 +115,10 @@ class Lexer {
 };
 
 }  // namespace
+
+bool is_word(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
 
 Error error_at(const std::string& path, int line, const std::string& what) {
     return {path + ":" + std::to_string(line) + ": " + what};

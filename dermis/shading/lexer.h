@@ -17,6 +17,9 @@ struct Token {
     bool first_on_line = false, blank_line_before = false;
 };
 
+/// A letter, a digit or _.
+[[nodiscard]] bool is_word(char c);
+
 /// Ends with a token of kind end. Errors: a character or a comment that is not of the subset.
 [[nodiscard]] Result<std::vector<Token>> tokenize(const std::string& path, std::string_view text);
 

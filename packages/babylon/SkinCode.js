@@ -66,28 +66,28 @@ float skinDepth(vec4 placeInMap, vec2 depthValues) {
 #endif
 }
 #endif
-const float kMaxCurvaturePerMm = @max_curvature_per_mm@;
+const float kSkinMaxCurvaturePerMm = @max_curvature_per_mm@;
 
 vec3 skinDiffuseLight(preLightingInfo info, float curvature, vec3 lightColor) {
 #ifdef SKIN_TABLE
-  vec2 uv = diffuse_coordinate(info.NdotLUnclamped, curvature, kMaxCurvaturePerMm);
+  vec2 uv = skin_diffuse_coordinate(info.NdotLUnclamped, curvature, kSkinMaxCurvaturePerMm);
   vec3 light = textureLod(skinTable, uv, 0.0).rgb;
 #else
   vec3 light = skin_diffuse(info.NdotLUnclamped, curvature);
 #endif
-  return light * info.attenuation * lightColor / kPi;
+  return light * info.attenuation * lightColor / kSkinPi;
 }
 
 vec3 skinSpecularLight(preLightingInfo info, vec3 n, vec3 lightColor) {
   if (info.NdotLUnclamped <= 0.0) return vec3(0.0);
   float nDotH = clamp(dot(n, info.H), 0.0, 1.0);
-  float lobes = two_lobe_ggx(nDotH, info.NdotLUnclamped, max(info.NdotV, 1e-3), clamp(info.roughness, 0.03, 1.0));
-  return lobes * fresnel_schlick(skinSettings.z, info.VdotH) * info.attenuation * lightColor;
+  float lobes = skin_two_lobe_ggx(nDotH, info.NdotLUnclamped, max(info.NdotV, 1e-3), clamp(info.roughness, 0.03, 1.0));
+  return lobes * skin_fresnel_schlick(skinSettings.z, info.VdotH) * info.attenuation * lightColor;
 }
 
 // What Lambert's bands are multiplied with.
-vec3 skinBand1(float curvature) { return skin_ambient_band_1(curvature) * (1.5 / kPi); }
-vec3 skinBand2(float curvature) { return skin_ambient_band_2(curvature) * (4.0 / kPi); }
+vec3 skinBand1(float curvature) { return skin_ambient_band_1(curvature) * (1.5 / kSkinPi); }
+vec3 skinBand2(float curvature) { return skin_ambient_band_2(curvature) * (4.0 / kSkinPi); }
 
 vec3 skinHemisphericLight(preLightingInfo info, float curvature, vec3 sky, vec3 ground) {
   return mix(ground, sky, 0.5 + (info.NdotL - 0.5) * skinBand1(curvature));
@@ -111,9 +111,9 @@ vec3 skinEnvironmentChange(vec3 n, float curvature) {
 #ifdef SKIN_VERTEX_CURVATURE
 float skinCurvature = abs(vSkinCurvature);
 #else
-float skinCurvature = curvature_from_derivatives(fwidth(geometricNormalW), fwidth(vPositionW) * skinSettings.x);
+float skinCurvature = skin_curvature_from_derivatives(fwidth(geometricNormalW), fwidth(vPositionW) * skinSettings.x);
 #endif
-skinCurvature = min(skinCurvature * skinSettings.y, kMaxCurvaturePerMm);
+skinCurvature = min(skinCurvature * skinSettings.y, kSkinMaxCurvaturePerMm);
 #ifdef SKIN_THICKNESS
 float skinThicknessMm = texture2D(skinThickness, vMainUV1).g * skinThicknessMaxMm;
 vec3 skinFarShare = skin_far_share(skinThicknessMm);
@@ -124,8 +124,8 @@ float skinFarShadow = 1.0;
     [kDiffuseCall]: `skinDiffuseLight(preInfo, skinCurvature, $1.rgb);
 #ifdef SKIN_THICKNESS
 info.diffuse *= 1.0 - skinFarShare;
-skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kPi;
-skinFarPosition = vPositionW + preInfo.L * (past_far_wall_mm(skinThicknessMm) / skinSettings.x);
+skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kSkinPi;
+skinFarPosition = vPositionW + preInfo.L * (skin_past_far_wall_mm(skinThicknessMm) / skinSettings.x);
 #endif
 `,
     [kShadowCall]: `shadow=$1($2vPositionFromLight$3,$2vDepthMetric$3,$4);
@@ -167,13 +167,13 @@ finalRadianceScaled += reflectionOut.environmentRadiance.rgb * skinReflectance *
 vec2 skinPixel = vec2(gl_FragCoord.x, skinSettings.w - gl_FragCoord.y);
 #endif
 #ifdef SKIN_NO_TABLE
-finalColor = vec4(vec3(mix(0.02, 1.0, sign_of_missing_table(skinPixel))), 1.0);
+finalColor = vec4(vec3(mix(0.02, 1.0, skin_sign_of_missing_table(skinPixel))), 1.0);
 #endif
 #ifdef SKIN_NO_CURVATURE
-finalColor = vec4(vec3(mix(0.02, 1.0, sign_of_missing_curvature(skinPixel))), 1.0);
+finalColor = vec4(vec3(mix(0.02, 1.0, skin_sign_of_missing_curvature(skinPixel))), 1.0);
 #endif
 #ifdef SKIN_CHANGED_ENGINE
-finalColor = vec4(vec3(mix(0.02, 1.0, sign_of_changed_engine(skinPixel))), 1.0);
+finalColor = vec4(vec3(mix(0.02, 1.0, skin_sign_of_changed_engine(skinPixel))), 1.0);
 #endif`,
   },
 };
@@ -211,27 +211,27 @@ fn skinDepth(placeInMap: vec4f, depthValues: vec2f) -> f32 {
 #endif
 }
 #endif
-const kMaxCurvaturePerMm: f32 = @max_curvature_per_mm@;
+const kSkinMaxCurvaturePerMm: f32 = @max_curvature_per_mm@;
 
 fn skinDiffuseLight(info: preLightingInfo, curvature: f32, lightColor: vec3f) -> vec3f {
 #ifdef SKIN_TABLE
-  let uv = diffuse_coordinate(info.NdotLUnclamped, curvature, kMaxCurvaturePerMm);
+  let uv = skin_diffuse_coordinate(info.NdotLUnclamped, curvature, kSkinMaxCurvaturePerMm);
   let light = textureSampleLevel(skinTable, skinTableSampler, uv, 0.0).rgb;
 #else
   let light = skin_diffuse(info.NdotLUnclamped, curvature);
 #endif
-  return light * info.attenuation * lightColor / kPi;
+  return light * info.attenuation * lightColor / kSkinPi;
 }
 
 fn skinSpecularLight(info: preLightingInfo, n: vec3f, lightColor: vec3f) -> vec3f {
   if (info.NdotLUnclamped <= 0.0) { return vec3f(0.0); }
   let nDotH = clamp(dot(n, info.H), 0.0, 1.0);
-  let lobes = two_lobe_ggx(nDotH, info.NdotLUnclamped, max(info.NdotV, 1e-3), clamp(info.roughness, 0.03, 1.0));
-  return lobes * fresnel_schlick(uniforms.skinSettings.z, info.VdotH) * info.attenuation * lightColor;
+  let lobes = skin_two_lobe_ggx(nDotH, info.NdotLUnclamped, max(info.NdotV, 1e-3), clamp(info.roughness, 0.03, 1.0));
+  return lobes * skin_fresnel_schlick(uniforms.skinSettings.z, info.VdotH) * info.attenuation * lightColor;
 }
 
-fn skinBand1(curvature: f32) -> vec3f { return skin_ambient_band_1(curvature) * (1.5 / kPi); }
-fn skinBand2(curvature: f32) -> vec3f { return skin_ambient_band_2(curvature) * (4.0 / kPi); }
+fn skinBand1(curvature: f32) -> vec3f { return skin_ambient_band_1(curvature) * (1.5 / kSkinPi); }
+fn skinBand2(curvature: f32) -> vec3f { return skin_ambient_band_2(curvature) * (4.0 / kSkinPi); }
 
 fn skinHemisphericLight(info: preLightingInfo, curvature: f32, sky: vec3f, ground: vec3f) -> vec3f {
   return mix(ground, sky, 0.5 + (info.NdotL - 0.5) * skinBand1(curvature));
@@ -254,10 +254,10 @@ fn skinEnvironmentChange(n: vec3f, curvature: f32) -> vec3f {
 #ifdef SKIN_VERTEX_CURVATURE
 var skinCurvature: f32 = abs(fragmentInputs.vSkinCurvature);
 #else
-var skinCurvature: f32 = curvature_from_derivatives(fwidth(geometricNormalW),
+var skinCurvature: f32 = skin_curvature_from_derivatives(fwidth(geometricNormalW),
     fwidth(fragmentInputs.vPositionW) * uniforms.skinSettings.x);
 #endif
-skinCurvature = min(skinCurvature * uniforms.skinSettings.y, kMaxCurvaturePerMm);
+skinCurvature = min(skinCurvature * uniforms.skinSettings.y, kSkinMaxCurvaturePerMm);
 #ifdef SKIN_THICKNESS
 let skinThicknessMm = textureSample(skinThickness, skinThicknessSampler, fragmentInputs.vMainUV1).g * uniforms.skinThicknessMaxMm;
 let skinFarShare = skin_far_share(skinThicknessMm);
@@ -268,8 +268,8 @@ var skinFarShadow = 1.0;
     [kDiffuseCall]: `skinDiffuseLight(preInfo, skinCurvature, $1.rgb);
 #ifdef SKIN_THICKNESS
 info.diffuse *= 1.0 - skinFarShare;
-skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kPi;
-skinFarPosition = fragmentInputs.vPositionW + preInfo.L * (past_far_wall_mm(skinThicknessMm) / uniforms.skinSettings.x);
+skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kSkinPi;
+skinFarPosition = fragmentInputs.vPositionW + preInfo.L * (skin_past_far_wall_mm(skinThicknessMm) / uniforms.skinSettings.x);
 #endif
 `,
     [kShadowCall]: `shadow=$1($2vPositionFromLight$3,$2vDepthMetric$3,$4);
@@ -311,13 +311,13 @@ finalRadianceScaled += reflectionOut.environmentRadiance.rgb * skinReflectance *
 let skinPixel = vec2f(fragmentInputs.position.x, uniforms.skinSettings.w - fragmentInputs.position.y);
 #endif
 #ifdef SKIN_NO_TABLE
-finalColor = vec4f(vec3f(mix(0.02, 1.0, sign_of_missing_table(skinPixel))), 1.0);
+finalColor = vec4f(vec3f(mix(0.02, 1.0, skin_sign_of_missing_table(skinPixel))), 1.0);
 #endif
 #ifdef SKIN_NO_CURVATURE
-finalColor = vec4f(vec3f(mix(0.02, 1.0, sign_of_missing_curvature(skinPixel))), 1.0);
+finalColor = vec4f(vec3f(mix(0.02, 1.0, skin_sign_of_missing_curvature(skinPixel))), 1.0);
 #endif
 #ifdef SKIN_CHANGED_ENGINE
-finalColor = vec4f(vec3f(mix(0.02, 1.0, sign_of_changed_engine(skinPixel))), 1.0);
+finalColor = vec4f(vec3f(mix(0.02, 1.0, skin_sign_of_changed_engine(skinPixel))), 1.0);
 #endif`,
   },
 };

@@ -35,9 +35,9 @@ const skinFunction = (name, type, ...inputTypes) => (...inputs) => {
 // Light of one direction: in place of max(N.L, 0), 0 to 1. N.L from -1 to 1; curvature in 1/mm, 0 to 1. Needs no table.
 export const skinDiffuse = /*@__PURE__*/ skinFunction("skin_diffuse", "vec3", "float", "float");
 // Where the table is read: N.L, curvature, the table's largest curvature.
-export const diffuseCoordinate = /*@__PURE__*/ skinFunction("diffuse_coordinate", "vec2", "float", "float", "float");
+export const diffuseCoordinate = /*@__PURE__*/ skinFunction("skin_diffuse_coordinate", "vec2", "float", "float", "float");
 // In 1/mm: fwidth() of the normal and of the position in mm.
-export const curvatureFromDerivatives = /*@__PURE__*/ skinFunction("curvature_from_derivatives", "float", "vec3", "vec3");
+export const curvatureFromDerivatives = /*@__PURE__*/ skinFunction("skin_curvature_from_derivatives", "float", "vec3", "vec3");
 // Light from all around: what the bands of order 1 and 2 of the environment's radiance are multiplied with, in place of
 // Lambert's 2 pi / 3 and pi / 4. Curvature in 1/mm.
 export const skinAmbientBand1 = /*@__PURE__*/ skinFunction("skin_ambient_band_1", "vec3", "float");
@@ -47,13 +47,13 @@ export const skinTransmittance = /*@__PURE__*/ skinFunction("skin_transmittance"
 // Of the diffuse light of a thin part, the share that has entered its far side, 0 to 0.5, by its thickness in mm.
 export const skinFarShare = /*@__PURE__*/ skinFunction("skin_far_share", "vec3", "float");
 // How far towards the light the shadow of that light is looked up, in mm, by the thickness in mm.
-export const pastFarWallMm = /*@__PURE__*/ skinFunction("past_far_wall_mm", "float", "float");
+export const pastFarWallMm = /*@__PURE__*/ skinFunction("skin_past_far_wall_mm", "float", "float");
 // Light in a penumbra 3 mm wide, by the share of the light that is visible, 0 to 1.
 export const skinShadowEdge = /*@__PURE__*/ skinFunction("skin_shadow_edge", "vec3", "float");
 // BRDF times N.L, per steradian, without Fresnel: N.H, N.L, N.V, perceptual roughness.
-export const twoLobeGgx = /*@__PURE__*/ skinFunction("two_lobe_ggx", "float", "float", "float", "float", "float");
+export const twoLobeGgx = /*@__PURE__*/ skinFunction("skin_two_lobe_ggx", "float", "float", "float", "float", "float");
 // Reflectance: at normal incidence, cosine of the half vector and the view.
-export const fresnelSchlick = /*@__PURE__*/ skinFunction("fresnel_schlick", "float", "float", "float");
+export const fresnelSchlick = /*@__PURE__*/ skinFunction("skin_fresnel_schlick", "float", "float", "float");
 // Words over the screen, 1 on their letters. A position in pixels, y downwards.
-export const signOfMissingTable = /*@__PURE__*/ skinFunction("sign_of_missing_table", "float", "vec2");
-export const signOfMissingCurvature = /*@__PURE__*/ skinFunction("sign_of_missing_curvature", "float", "vec2");
+export const signOfMissingTable = /*@__PURE__*/ skinFunction("skin_sign_of_missing_table", "float", "vec2");
+export const signOfMissingCurvature = /*@__PURE__*/ skinFunction("skin_sign_of_missing_curvature", "float", "vec2");

@@ -151,6 +151,7 @@ void expect_words(const PageResult& theirs) {
 
 // The T of both texts, upright: its bar at the top.
 void expect_upright(const Image& picture) {
+    ASSERT_EQ(picture.width, kSide);
     EXPECT_GT(picture.at(129, 145, 0), 0.99f);
     EXPECT_LT(picture.at(129, 161, 0), 0.2f);
     EXPECT_GT(picture.at(133, 161, 0), 0.99f);

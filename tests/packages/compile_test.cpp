@@ -195,7 +195,7 @@ TEST_F(GodotShader, compiles_in_godot_and_a_mistake_does_not) {
         EXPECT_EQ(compiled(with_includes(files, name)), 0) << name << ": " << log_;
     std::string text = with_includes(files, "skin.gdshader");
     EXPECT_EQ(compiled(text), 0) << log_;
-    text.replace(text.find("two_lobe_ggx(n_dot_h"), 12, "two_lobe_gxx");
+    text.replace(text.find("skin_two_lobe_ggx(n_dot_h"), 17, "skin_two_lobe_gxx");
     EXPECT_EQ(compiled(text), 1);
 }
 

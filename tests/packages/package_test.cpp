@@ -60,8 +60,8 @@ Rgb sample(const Image& image, double u, double v) {
     return value;
 }
 
-// Read as the engine reads it, at the coordinates of diffuse_coordinate(). Unity, three.js and Babylon.js
-// have v = 0 at the bottom.
+// Read as the engine reads it, at the coordinates of skin_diffuse_coordinate(). Unity, three.js and
+// Babylon.js have v = 0 at the bottom.
 TEST(Packages, tables_give_the_light_of_the_skin) {
     const auto skin = find_profile("openpbr_skin_5");
     ASSERT_TRUE(skin);

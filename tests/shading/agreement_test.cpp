@@ -10,6 +10,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
+#include "dermis/shading/prefix.h"
 #include "shading/evaluate.h"
 #include "support/gpu_fixture.h"
 
@@ -32,6 +33,7 @@ class Agreement : public gpu::GpuTest {
         const auto units = read_sources(sources);
         ASSERT_TRUE(units) << units.error().message;
         units_ = *units;
+        prefix_names(units_);
         auto sampled = sample_functions(units_);
         ASSERT_TRUE(sampled) << sampled.error().message;
         functions_ = std::move(*sampled);
@@ -101,17 +103,18 @@ TEST_F(Agreement, of_every_language_with_cpp) {
 // A mistake in one place of one language is found, and only there.
 TEST_F(Agreement, finds_a_mistake_in_each_language) {
     EXPECT_THAT(differing(evaluate(Language::glsl, "mix(dark, lit,", "mix(lit, dark,")),
-                ElementsAre("curve_2015_direct"));
+                ElementsAre("skin_curve_2015_direct"));
     EXPECT_THAT(differing(evaluate(Language::hlsl, "lerp(dark, lit,", "lerp(lit, dark,")),
-                ElementsAre("curve_2015_direct"));
-    EXPECT_THAT(differing(evaluate(Language::essl, "return kPi * (2.0 - w)", "return kPi * (2.001 - w)")),
-                ElementsAre("wrapped_band_1"));
+                ElementsAre("skin_curve_2015_direct"));
+    EXPECT_THAT(
+        differing(evaluate(Language::essl, "return kSkinPi * (2.0 - w)", "return kSkinPi * (2.001 - w)")),
+        ElementsAre("skin_wrapped_band_1"));
     EXPECT_THAT(differing(evaluate(Language::gdshader, "m.z * d.y + m.y", "m.z * d.y - m.y")),
-                ElementsAre("tensor_times", "curvature_towards"));
+                ElementsAre("skin_tensor_times", "skin_curvature_towards"));
     EXPECT_THAT(differing(evaluate(Language::msl, "saturate(length(fwidth_n))", "length(fwidth_n)")),
-                ElementsAre("curvature_from_derivatives"));
+                ElementsAre("skin_curvature_from_derivatives"));
     EXPECT_THAT(differing(evaluate(Language::cpp, "max(4.0f * h_dot_v", "max(4.01f * h_dot_v")),
-                ElementsAre("kelemen_szirmay_kalos"));
+                ElementsAre("skin_kelemen_szirmay_kalos"));
 }
 
 // What the comments of the table-free diffuse functions promise, on spheres of every radius that they name.
@@ -154,7 +157,7 @@ TEST_F(Agreement, of_wgsl_and_essl_in_a_browser) {
         EXPECT_THAT(differing(outputs), IsEmpty()) << language_name(language);
     }
     const std::string wrong = text_of(Language::wgsl, "step(kappa, vec3f(0.5))", "step(vec3f(0.5), kappa)");
-    const auto [sampled, right] = sampled_function("lobe_band_1");
+    const auto [sampled, right] = sampled_function("skin_lobe_band_1");
     ASSERT_TRUE(sampled);
     const Result<Outputs> outputs = evaluate_in_browser(chromium, wrong, Language::wgsl, {*sampled}, side);
     ASSERT_TRUE(outputs) << outputs.error().message;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "catalog/catalog.h"
 #include "dermis/base/text.h"
 #include "dermis/export/profile_source.h"
@@ -100,6 +102,27 @@ TEST(Print, long_lines_are_broken_at_the_outermost_place) {
     EXPECT_THAT(text, HasSubstr("    return " + sum + " +\n            " + sum + ";\n"));
 }
 
+// Pasted into a shader that has its own `ggx` and `kPi`, it must not meet them: comments, calls and constants
+// too.
+TEST(Print, every_name_of_the_skin_begins_with_skin) {
+    const std::string own = *skin_text(*find_profile("gpu_gems_3"), built_in_skin_sources(), Language::glsl);
+    const std::regex function("^[a-z]+[2-4]? (\\w+)\\("), constant("^const [a-z]+[2-4]? (\\w+)");
+    std::vector<std::string> names;
+    for (const std::string_view line : split(own, '\n')) {
+        std::cmatch match;
+        if (std::regex_search(line.begin(), line.end(), match, function)) {
+            names.push_back(match[1]);
+            EXPECT_TRUE(names.back().starts_with("skin_")) << line;
+        } else if (std::regex_search(line.begin(), line.end(), match, constant)) {
+            names.push_back(match[1]);
+            EXPECT_TRUE(names.back().starts_with("kSkin")) << line;
+        }
+    }
+    EXPECT_GT(names.size(), 60u);
+    for (const char* old : {"ggx", "kPi", "polynomial_6", "curvature_towards"})
+        EXPECT_FALSE(std::regex_search(own, std::regex("\\b" + std::string(old) + "\\b"))) << old;
+}
+
 // What is handed over: every language, a measured and an OpenPBR skin.
 TEST(Print, the_skin_is_printed_in_every_language_the_same_every_time) {
     for (const char* name : {"gpu_gems_3", "openpbr_skin_5", "jensen_skin1"}) {
@@ -111,8 +134,8 @@ TEST(Print, the_skin_is_printed_in_every_language_the_same_every_time) {
             EXPECT_EQ(*text, *skin_text(*profile, built_in_skin_sources(), *find_language(language)));
             EXPECT_THAT(*text, HasSubstr(name));
             for (const char* function :
-                 {"ggx(", "kelemen_szirmay_kalos(", "skin_wrap(", "skin_ambient_band_1(", "skin_diffuse(",
-                  "skin_spherical_gaussians(", "skin_shadow_edge(", "skin_transmittance("})
+                 {"skin_ggx(", "skin_kelemen_szirmay_kalos(", "skin_wrap(", "skin_ambient_band_1(",
+                  "skin_diffuse(", "skin_spherical_gaussians(", "skin_shadow_edge(", "skin_transmittance("})
                 EXPECT_THAT(*text, HasSubstr(function)) << language;
             EXPECT_THAT(*text, Not(HasSubstr("shaders/include"))) << language;
             for (const std::string_view line : split(*text, '\n')) {

@@ -25,15 +25,15 @@ Domain logarithmic(double min, double max) {
 const std::map<std::string, Domain>& domains() {
     static const std::map<std::string, Domain> kDomains = {
         {"n_dot_l", {-1, 1}},
-        {"ggx.n_dot_l", {0, 1}},
-        {"two_lobe_ggx.n_dot_l", {0, 1}},
+        {"skin_ggx.n_dot_l", {0, 1}},
+        {"skin_two_lobe_ggx.n_dot_l", {0, 1}},
         {"n_dot_h", {0, 1}},
         {"n_dot_v", {0.001, 1}},
         {"h_dot_v", {0, 1}},
         {"cos_theta", {0, 1}},
         {"f0", {0, 1}},
         {"alpha", {0.0009, 1}},
-        {"blinn_phong.alpha", {0.03, 1}},
+        {"skin_blinn_phong.alpha", {0.03, 1}},
         {"roughness", {0.03, 1}},
         {"distribution", {0, 1000}},
         {"curvature_per_mm", {0, 1}},
@@ -65,8 +65,8 @@ const std::map<std::string, Domain>& domains() {
         {"of_smooth_normal", {0, 1}},
         {"smooth_weight", {0, 1}},
         {"knee", {0.1, 1}},
-        {"line_and_hyperbola.a", {0, 1}},
-        {"line_and_hyperbola.s", {0, 1}},
+        {"skin_line_and_hyperbola.a", {0, 1}},
+        {"skin_line_and_hyperbola.s", {0, 1}},
         {"q", {0, 2}},
         {"k0", {-1, 1}},
         {"k1", {-1, 1}},
@@ -80,7 +80,7 @@ const std::map<std::string, Domain>& domains() {
         {"slope", {-1, 1}},
         {"cubic", {-1, 1}},
         {"quintic", {-1, 1}},
-        {"edge_of_hyperbolas.root", {-1, 1}},
+        {"skin_edge_of_hyperbolas.root", {-1, 1}},
         {"narrow", {-1, 1}},
         {"narrow2", {0.01, 1}},
         {"wide", {-1, 1}},
@@ -97,8 +97,8 @@ const std::map<std::string, Domain>& domains() {
 // Differences of near numbers and steep powers lose digits; everything else agrees to 1e-5.
 double bound_of(const std::string& function) {
     static const std::map<std::string, double> kBounds = {
-        {"blinn_phong", 5e-4},
-        {"lobe_band_2", 1e-4},
+        {"skin_blinn_phong", 5e-4},
+        {"skin_lobe_band_2", 1e-4},
     };
     const auto found = kBounds.find(function);
     return found == kBounds.end() ? 1e-5 : found->second;

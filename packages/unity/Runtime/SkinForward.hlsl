@@ -6,7 +6,7 @@
 #include "Packages/com.unity.render-pipelines.universal/ShaderLibrary/Lighting.hlsl"
 #include "Skin.hlsl"
 
-static const float kMaxCurvaturePerMm = @max_curvature_per_mm@;
+static const float kSkinMaxCurvaturePerMm = @max_curvature_per_mm@;
 static const float2 kTableSize = float2(@table_width@, @table_height@);
 
 TEXTURE2D(_BaseMap);
@@ -63,7 +63,7 @@ struct SkinSurface {
 float3 SkinLight(SkinSurface s, Light light) {
     float3 irradiance = light.color * (light.distanceAttenuation * light.shadowAttenuation);
     float n_dot_l = dot(s.n, light.direction);
-    float2 uv = diffuse_coordinate(n_dot_l, s.curvature_per_mm, kMaxCurvaturePerMm);
+    float2 uv = skin_diffuse_coordinate(n_dot_l, s.curvature_per_mm, kSkinMaxCurvaturePerMm);
     // URP leaves out the 1 / pi of Lambert and of the lobes alike.
     float3 radiance = s.albedo * SAMPLE_TEXTURE2D_LOD(_SkinTable, sampler_SkinTable, uv, 0).rgb;
 #if defined(_SKIN_THIN)
@@ -71,8 +71,8 @@ float3 SkinLight(SkinSurface s, Light light) {
 #endif
     if (n_dot_l > 0.0) {
         float3 h = normalize(light.direction + s.v);
-        float lobes = two_lobe_ggx(saturate(dot(s.n, h)), n_dot_l, max(dot(s.n, s.v), 1e-3), _Roughness);
-        radiance += kPi * lobes * fresnel_schlick(_F0, saturate(dot(h, s.v)));
+        float lobes = skin_two_lobe_ggx(saturate(dot(s.n, h)), n_dot_l, max(dot(s.n, s.v), 1e-3), _Roughness);
+        radiance += kSkinPi * lobes * skin_fresnel_schlick(_F0, saturate(dot(h, s.v)));
     }
     return radiance * irradiance;
 }
@@ -134,7 +134,7 @@ float3 SkinLights(SkinSurface s, SkinVaryings input) {
 float4 SkinFragment(SkinVaryings input) : SV_Target {
     UNITY_SETUP_STEREO_EYE_INDEX_POST_VERTEX(input);
     // Not assigned, or imported with a size limit: words instead of wrong light.
-    if (any(_SkinTable_TexelSize.zw != kTableSize)) return float4((float3)sign_of_missing_table(input.positionCS.xy), 1.0);
+    if (any(_SkinTable_TexelSize.zw != kTableSize)) return float4((float3)skin_sign_of_missing_table(input.positionCS.xy), 1.0);
 
     float3 n_geometry = normalize(input.normalWS);
     float3 bump = UnpackNormalScale(SAMPLE_TEXTURE2D(_BumpMap, sampler_BumpMap, input.uv), _BumpScale);
@@ -144,14 +144,14 @@ float4 SkinFragment(SkinVaryings input) : SV_Target {
     s.n = normalize(bump.x * input.tangentWS.xyz + bump.y * bitangent + bump.z * n_geometry);
     s.v = GetWorldSpaceNormalizeViewDir(input.positionWS);
     // Of the mesh: a bump of the map is smaller than what scatters.
-    s.curvature_per_mm = min(_CurvatureGain * curvature_from_derivatives(fwidth(n_geometry),
+    s.curvature_per_mm = min(_CurvatureGain * skin_curvature_from_derivatives(fwidth(n_geometry),
                                                                          fwidth(input.positionWS) * _MmPerUnit),
-                             kMaxCurvaturePerMm);
+                             kSkinMaxCurvaturePerMm);
 #if defined(_SKIN_THIN)
     float thickness_mm = SAMPLE_TEXTURE2D(_ThicknessMap, sampler_ThicknessMap, input.uv).g * _ThicknessMaxMm;
     s.n_geometry = n_geometry;
     s.far_share = skin_far_share(thickness_mm);
-    s.past_far_wall = past_far_wall_mm(thickness_mm) / _MmPerUnit;
+    s.past_far_wall = skin_past_far_wall_mm(thickness_mm) / _MmPerUnit;
 #endif
     float3 radiance = SkinLights(s, input) + s.albedo * SampleSH(s.n);
     return float4(MixFog(radiance, input.fog), 1.0);

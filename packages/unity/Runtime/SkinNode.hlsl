@@ -13,7 +13,7 @@ void SkinDiffuse_float(float NdotL, float Curvature, out float3 Diffuse) {
 
 // Name SkinCurvature. In 1/mm, of the mesh. MmPerUnit is 1000 where a unit is a metre.
 void SkinCurvature_float(float3 Normal, float3 Position, float MmPerUnit, out float Curvature) {
-    Curvature = saturate(curvature_from_derivatives(fwidth(Normal), fwidth(Position) * MmPerUnit));
+    Curvature = saturate(skin_curvature_from_derivatives(fwidth(Normal), fwidth(Position) * MmPerUnit));
 }
 
 // Name SkinTransmittance. Thickness in mm.
