@@ -82,7 +82,7 @@ std::vector<ShadowTap> shadow_taps(const GaussianSum& profile) {
     double whole = 0;
     for (const Around& here : around) whole += here.light[channel] * here.radius_mm;
     std::vector<ShadowTap> taps;
-    double up_to = 0;
+    double up_to = 0, penumbra = 0;
     for (const Around& here : around) {
         up_to += here.light[channel] * here.radius_mm;
         while (taps.size() < size_t(kShadowGatherTaps) &&
@@ -91,8 +91,10 @@ std::vector<ShadowTap> shadow_taps(const GaussianSum& profile) {
                              .radius_mm = here.radius_mm};
             for (size_t c = 0; c < 3; ++c) tap.weight[c] = here.light[c] / here.light[channel];
             taps.push_back(tap);
+            penumbra += tap.penumbra_weight / kShadowGatherTaps;
         }
     }
+    for (ShadowTap& tap : taps) tap.penumbra_weight /= penumbra;
     return taps;
 }
 

@@ -9,7 +9,7 @@ namespace dermis::preintegrated {
 
 struct ShadowTap {
     Rgb weight = {};
-    double penumbra_weight = 0;  ///< of the light at the point itself, whose shadow is filtered
+    double penumbra_weight = 0;  ///< of the light at the point itself, whose shadow is filtered; 1 on average
     double radius_mm = 0;        ///< on the skin
 };
 
