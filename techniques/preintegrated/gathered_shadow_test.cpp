@@ -125,3 +125,20 @@ TEST_F(GatheredShadow, an_edge_on_flat_skin_is_the_exact_one) {
         EXPECT_LT(error(gathered, channel), error(scattered, channel)) << channel;
     }
 }
+
+// The cheek below the lobe of an ear is lit through a gap, at grazing light. Of its quadric a few places only
+// are lit: where they decided, a patch of light with a hard edge stood there.
+TEST_F(GatheredShadow, a_few_lit_places_at_grazing_light_do_not_decide) {
+    Renderer renderer = make_renderer(load("ear"));
+    constexpr int kSide = 250;
+    const auto light = [&](const char* shadow) {
+        return radiance(renderer, technique(),
+                        values_of({{"transmission", "none"}, {"specular", "none"}, {"shadow", shadow}}),
+                        {.width = kSide, .height = kSide});
+    };
+    const Image gathered = light("gathered"), plain = light("plain");
+    int brighter = 0;
+    for (int y = kSide / 2; y < kSide; ++y)
+        for (int x = 30; x < 110; ++x) brighter += gathered.at(x, y, 0) > plain.at(x, y, 0) + 0.05f;
+    EXPECT_LT(brighter, 30);
+}
