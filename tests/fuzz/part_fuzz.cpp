@@ -1,5 +1,6 @@
 // A part of a picture: the header as JSON, sums as floats. What is taken for a part adds up without an
-// overflow. Dictionary: dermis/jobs/part.cpp
+// overflow.
+// Dictionary: dermis/jobs/part.cpp
 
 #include "dermis/image/codec/codec.h"
 #include "dermis/jobs/part.h"
