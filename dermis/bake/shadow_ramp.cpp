@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "dermis/bake/shadow_table.h"
+#include "dermis/base/parallel.h"
+#include "dermis/optics/gaussian_fit.h"
 
 namespace dermis {
 
@@ -22,22 +24,50 @@ double disk_offset(double share) {
     return 0.5 * (low + high);
 }
 
-Result<std::vector<Rgb>> shadow_ramp(const Profile& profile, double width_mm, int count) {
-    constexpr int kFine = 1024;
-    const Result<Table> table = bake_shadow({.profile = profile,
-                                             .width = kFine,
-                                             .height = 1,
-                                             .min_width_mm = width_mm,
-                                             .max_width_mm = width_mm * 1.0001,
-                                             .sharpening = std::max(1.0, width_mm / kLightEdgeMm)});
-    if (!table) return table.error();
-    const Rgb dark = lookup(*table, 0, width_mm), lit = lookup(*table, 1, width_mm);
-    std::vector<Rgb> ramp;
-    for (int i = 0; i < count; ++i) {
-        Rgb light = lookup(*table, 0.5 + 0.5 * disk_offset(double(i) / (count - 1)), width_mm);
-        for (size_t c = 0; c < 3; ++c) light[c] = (light[c] - dark[c]) / (lit[c] - dark[c]);
-        ramp.push_back(light);
+namespace {
+
+// Of a straight edge in the light of a disk, blurred by a Gaussian: the disk's lines of light at u radii have
+// a length of sqrt(1 - u^2), for which the nodes are Chebyshev's of the second kind.
+double blurred_disk_share(double x_mm, double radius_mm, double sigma_mm) {
+    constexpr int kLines = 127;
+    double light = 0;
+    for (int i = 1; i <= kLines; ++i) {
+        const double angle = i * std::numbers::pi / (kLines + 1), sine = std::sin(angle);
+        const double away = (x_mm - radius_mm * std::cos(angle)) / sigma_mm;
+        light += 2.0 / (kLines + 1) * sine * sine * 0.5 * std::erfc(-away * std::numbers::sqrt2 / 2);
     }
+    return light;
+}
+
+Rgb scattered_edge(const GaussianSum& profile, double x_mm, double radius_mm) {
+    Rgb light = {}, total = {};
+    for (const GaussianTerm& term : profile.terms) {
+        const double lit = blurred_disk_share(x_mm, radius_mm, std::sqrt(term.variance_mm2));
+        for (size_t c = 0; c < 3; ++c) {
+            light[c] += term.weight[c] * lit;
+            total[c] += term.weight[c];
+        }
+    }
+    for (size_t c = 0; c < 3; ++c) light[c] /= total[c];
+    return light;
+}
+
+}  // namespace
+
+Result<std::vector<Rgb>> shadow_ramp(const Profile& profile, double width_mm, int count) {
+    if (const Result<void> valid = check_preintegrable(profile, {}); !valid) return valid.error();
+    const GaussianSum gaussians = to_gaussian_sum(profile, kShadowGaussians).sum;
+    const double filter_mm = 0.5 * width_mm, light_mm = 0.5 * std::min(kLightEdgeMm, width_mm);
+    const Rgb dark = scattered_edge(gaussians, -filter_mm, light_mm),
+              lit = scattered_edge(gaussians, filter_mm, light_mm);
+    std::vector<Rgb> ramp(static_cast<size_t>(count));
+    parallel_for(ramp.size(), 16, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const double x_mm = filter_mm * disk_offset(double(i) / (count - 1));
+            ramp[i] = scattered_edge(gaussians, x_mm, light_mm);
+            for (size_t c = 0; c < 3; ++c) ramp[i][c] = (ramp[i][c] - dark[c]) / (lit[c] - dark[c]);
+        }
+    });
     return ramp;
 }
 

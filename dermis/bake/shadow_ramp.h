@@ -22,10 +22,10 @@ inline constexpr double kLightEdgeMm = 2;
 /// The filter's width that the renderer has by default and that exported shaders are for.
 inline constexpr float kShadowWidthMm = 3;
 
-/// Light for visibilities 0 to 1 in even steps, both ends included, under a filter of `width_mm`. An edge of
-/// kLightEdgeMm blurred by the profile; what has not arrived at the ends of the filter, where it sees nothing
-/// more, is left out by scaling them to 0 and 1. Without that all lit skin would be darker by it (red: 15 %
-/// at 2 mm, 8 % at 3 mm, 0.1 % at 16).
+/// Light for visibilities 0 to 1 in even steps, both ends included, under a filter of `width_mm`. An edge in
+/// the light of a disk of kLightEdgeMm, blurred by the profile; what has not arrived at the ends of the
+/// filter, where it sees nothing more, is left out by scaling them to 0 and 1. Without that all lit skin
+/// would be darker by it (red: 15 % at 2 mm, 8 % at 3 mm, 0.1 % at 16).
 [[nodiscard]] Result<std::vector<Rgb>> shadow_ramp(const Profile& profile, double width_mm, int count);
 
 }  // namespace dermis

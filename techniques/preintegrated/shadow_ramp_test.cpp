@@ -23,18 +23,18 @@ const Profile& skin() {
     return profile;
 }
 
-// An edge of kLightEdgeMm as a smoothstep, blurred by the profile: midpoint sums over where the light comes
-// from.
+// An edge in the light of a disk of kLightEdgeMm, blurred by the profile: midpoint sums over where the light
+// comes from.
 double light_at_mm(double x_mm, size_t channel) {
     double light = 0, total = 0;
     for (const GaussianTerm& term : gpu_gems_3_skin().terms) {
         const double sigma = std::sqrt(term.variance_mm2), step = sigma / 50;
         for (double d = -6 * sigma; d < 6 * sigma; d += step) {
-            const double u = std::clamp(0.5 + (x_mm + d + 0.5 * step) / kLightEdgeMm, 0.0, 1.0);
+            const double radii = (x_mm + d + 0.5 * step) / (0.5 * kLightEdgeMm);
             const double weight = term.weight[channel] *
                                   std::exp(-0.5 * std::pow((d + 0.5 * step) / sigma, 2)) * step /
                                   (sigma * std::sqrt(2 * std::numbers::pi));
-            light += weight * u * u * (3 - 2 * u);
+            light += weight * disk_share(radii);
             total += weight;
         }
     }
