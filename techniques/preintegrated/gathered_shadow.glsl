@@ -17,7 +17,7 @@
 // Of shares tried on the head scan and the bust; half as much or twice as much loses .01 to .05 of either.
 const float kGatherLiftTexels = 2.25, kGatherLiftMm = 0.45;  // kGatherLiftSlope: constants.h
 // Where the quadric gets less light than this part of what comes straight down, the few places that are lit would decide: the
-// difference counts less. Of .25 to .7 tried, too.
+// difference counts less. Half as much loses up to .01 of a head's share.
 const float kGatherFaint = 0.3;
 // Pixels nearer to each other share their taps.
 const float kGatherTogetherMm = 1.0;
