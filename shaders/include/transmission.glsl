@@ -57,6 +57,9 @@ struct LightMap {
 
 // Cosine to the normal from which on a lit point is of another wall.
 const float kOtherWall = 0.5;
+// Normals of lit points that face the light less are differences of depth across a silhouette. They say nothing: skin beside
+// the point was taken for another wall, a speck of white at the terminator.
+const float kLeastFacing = 0.03;
 
 // Along x_world, y_world and to_light_world of the light's map.
 struct LitPoint {
@@ -209,7 +212,8 @@ vec3 gathered_light(LightMap map, bool needed) {
             vec3 offset_mm = vec3(across_mm, (map.here.z - z) * map.mm_per_z);
             float way2_mm2 = dot(offset_mm, offset_mm), per_way = inversesqrt(way2_mm2);
             LitPoint lit = lit_point(normals, offset_mm, z4);
-            float weight = z == 1.0 ? 0.0 : radius_mm * part_not_counted(map, lit);  // 1: no lit skin
+            bool usable = z < 1.0 && lit.n.z > kLeastFacing;  // 1: no lit skin
+            float weight = usable ? radius_mm * part_not_counted(map, lit) : 0.0;
             vec3 profile = transmission_profile(way2_mm2 * per_way * per_reach);
             light += weight * profile;
             behind += weight * smoothstep(0.0, kOtherWall, abs(dot(map.n_in_light, offset_mm)) * per_way) * profile;
