@@ -24,8 +24,10 @@ vec3 direct_response(Surface s, vec3 to_light_world) {
     float n_dot_l = dot(s.n_world, to_light_world), k = curvature_towards_per_mm(s, to_light_world);
     vec3 light = vec3(0.0), total = vec3(0.0);
     for (int i = 0; i < lobe_count; ++i) {
-        vec3 kappa = lobe_kappa(k, lobe_variance_mm2[i]), weight = lobe_weight[i] * lobe_part(kappa);
-        light += weight * lobe_light(n_dot_l, kappa);
+        // In this order it needs no register beyond 64.
+        vec3 kappa = lobe_kappa(k, lobe_variance_mm2[i]), of_lobe = lobe_light(n_dot_l, kappa);
+        vec3 weight = lobe_weight[i] * lobe_part(kappa);
+        light += weight * of_lobe;
         total += weight;
     }
     return light / total;
