@@ -10,6 +10,10 @@ FormatInfo format_info(ImageFormat format) {
     switch (format) {
         case ImageFormat::r8:
             return {VK_FORMAT_R8_UNORM, kColor, 1, PixelFormat::u8};
+        case ImageFormat::rg8:
+            return {VK_FORMAT_R8G8_UNORM, kColor, 2, PixelFormat::u8};
+        case ImageFormat::rgb10a2:  // four bytes; pictures are not read in it
+            return {VK_FORMAT_A2B10G10R10_UNORM_PACK32, kColor, 4, PixelFormat::u8};
         case ImageFormat::rgba8:
             return {VK_FORMAT_R8G8B8A8_UNORM, kColor, 4, PixelFormat::u8};
         case ImageFormat::rgba16:

@@ -10,7 +10,7 @@ namespace dermis {
 namespace {
 
 constexpr int kFirstTile = 1001;
-constexpr double kOverlapWorthSaying = 1e-3;
+constexpr double kOverlapWorthSaying = 1e-3, kOverlapUnfit = 0.01;
 
 std::string percent(double share) {
     const double rounded = std::round(share * 1000) / 10;
@@ -53,39 +53,71 @@ void append_skin(const SceneObject& object, Mesh& all) {
     }
 }
 
+std::string name_of(const SceneObject& object, const Submesh& submesh) {
+    return object.mesh.materials[submesh.material].name;
+}
+
+bool is_skin(const SceneObject& object, const Submesh& submesh) {
+    return object.classes[submesh.material] == MaterialClass::skin && submesh.index_count > 0;
+}
+
+// "'head': skin material 'face' has no UVs", of the first for which that is so.
+std::optional<std::string> without_uvs(const Scene& scene) {
+    for (const SceneObject& object : scene.objects)
+        for (const Submesh& submesh : object.mesh.submeshes)
+            if (is_skin(object, submesh) && object.mesh.uvs.size() != object.mesh.positions_mm.size())
+                return "'" + object.name + "': skin material '" + name_of(object, submesh) + "' has no UVs";
+    return std::nullopt;
+}
+
+// Share of the atlas's covered texels under more than one triangle. Needs UVs.
+double overlap_of_skin(const Scene& scene) {
+    Mesh all;
+    for (const SceneObject& object : scene.objects)
+        if (std::ranges::any_of(object.mesh.submeshes,
+                                [&](const Submesh& submesh) { return is_skin(object, submesh); }))
+            append_skin(object, all);
+    if (all.indices.empty()) return 0;
+    all.materials.resize(1);
+    all.submeshes = {{.name = "skin", .first_index = 0, .index_count = uint32_t(all.indices.size())}};
+    return analyze_uvs(all).overlap;
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> check_skin_atlas(const Scene& scene) {
+    if (const auto missing = without_uvs(scene))
+        return Error{*missing +
+                     ", and this technique lights the skin in its UV atlas; add UVs to the mesh, or choose a "
+                     "technique that needs no atlas"};
     std::vector<std::string> warnings, materials;
-    Mesh all;
-    for (const SceneObject& object : scene.objects) {
-        const Mesh& mesh = object.mesh;
-        bool has_skin = false;
-        for (const Submesh& submesh : mesh.submeshes) {
-            if (object.classes[submesh.material] != MaterialClass::skin || submesh.index_count == 0) continue;
-            has_skin = true;
-            const std::string& name = mesh.materials[submesh.material].name;
-            if (mesh.uvs.size() != mesh.positions_mm.size())
-                return Error{"'" + object.name + "': skin material '" + name +
-                             "' has no UVs, and this technique lights the skin in its UV atlas; add UVs to "
-                             "the mesh, or choose a technique that needs no atlas"};
-            if (std::ranges::find(materials, "'" + name + "'") == materials.end())
-                materials.push_back("'" + name + "'");
-            if (std::string warning = tiles_warning(mesh, submesh); !warning.empty())
+    for (const SceneObject& object : scene.objects)
+        for (const Submesh& submesh : object.mesh.submeshes) {
+            if (!is_skin(object, submesh)) continue;
+            const std::string name = "'" + name_of(object, submesh) + "'";
+            if (std::ranges::find(materials, name) == materials.end()) materials.push_back(name);
+            if (std::string warning = tiles_warning(object.mesh, submesh); !warning.empty())
                 warnings.push_back(std::move(warning));
         }
-        if (has_skin) append_skin(object, all);
-    }
-    if (all.indices.empty()) return warnings;
-    all.materials.resize(1);
-    all.submeshes = {{.name = "skin", .first_index = 0, .index_count = uint32_t(all.indices.size())}};
-    const UvReport report = analyze_uvs(all);
-    if (report.overlap > kOverlapWorthSaying)
+    if (const double overlap = overlap_of_skin(scene); overlap > kOverlapWorthSaying)
         warnings.push_back(
-            percent(report.overlap) + " of the skin's atlas is covered by more than one triangle (" +
+            percent(overlap) + " of the skin's atlas is covered by more than one triangle (" +
             join(materials, ", ") +
             "): these parts of the skin share texels, so that each has the light and shadows of the other");
     return warnings;
+}
+
+std::optional<std::string> unfit_for_baked_maps(const Scene& scene) {
+    std::optional<std::string> reason = without_uvs(scene);
+    if (!reason)
+        if (const double overlap = overlap_of_skin(scene); overlap > kOverlapUnfit)
+            reason = percent(overlap) + " of the skin's UV atlas is covered by more than one triangle";
+    if (reason)
+        *reason +=
+            ": nothing is baked over it, and bumps scatter by a smaller level of the normal map; give each "
+            "place "
+            "of the skin texels of its own";
+    return reason;
 }
 
 }  // namespace dermis

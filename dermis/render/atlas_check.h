@@ -1,6 +1,7 @@
 #pragma once
 // Whether the skin's UVs can hold a light map, and the consequences where they cannot.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,10 @@ namespace dermis {
 /// scattering), UVs that overlap by more than 0.1 % (places that share texels share light). Error: skin
 /// without UVs. Cost: 20 ms for 20,000 triangles.
 [[nodiscard]] Result<std::vector<std::string>> check_skin_atlas(const Scene& scene);
+
+/// What keeps maps that are baked over the skin's atlas from being used, and the mend; nothing where each
+/// place has texels of its own, but for 1 %. UVs in other tiles are no reason: they have no texels, which a
+/// shader sees.
+[[nodiscard]] std::optional<std::string> unfit_for_baked_maps(const Scene& scene);
 
 }  // namespace dermis

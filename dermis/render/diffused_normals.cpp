@@ -24,9 +24,9 @@ namespace {
 constexpr int kProfileSteps = 2048;
 // Of the narrowest Gaussian's standard deviation: the side of the cubes over which points are merged, and how
 // much wider the others of the same points may be.
-constexpr float kSide = 0.85f, kWidest = 1.5f;
+constexpr float kSide = 0.6f, kWidest = 1.5f;
 constexpr float kReach = 3.2f;        // of a Gaussian's standard deviation
-constexpr float kKernel = 1.5f;       // radius of the interpolation, of the points' cubes
+constexpr float kKernel = 2.1f;       // radius of the interpolation, of the points' cubes
 constexpr float kLeastCube = 4;       // in texels: to find a cube takes longer than to pass over some points
 constexpr size_t kSampledCubes = 16;  // one in so many, to measure a mean
 // Cosine of the normals of two walls that no way through air may join. The head scan's share under its key
@@ -379,7 +379,7 @@ DiffusedNormals bake(const SkinTexelReader& reader, const GaussianSum& profile,
 Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
                                  const DiffusedNormalsRequest& request) {
     Hasher hasher;
-    hasher.add("diffused normals 7").add(request.size).add(request.finest_variance_mm2);
+    hasher.add("diffused normals 8").add(request.size).add(request.finest_variance_mm2);
     for (const GaussianTerm& term : profile.terms)
         hasher.add(std::as_bytes(std::span(&term.variance_mm2, 1)))
             .add(std::as_bytes(std::span(term.weight)));

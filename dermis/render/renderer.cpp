@@ -8,7 +8,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/atlas_check.h"
-#include "dermis/render/diffused_normals.h"
+#include "dermis/render/diffused_normals_textures.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
 #include "dermis/render/material_maps.h"
@@ -167,11 +167,24 @@ Result<const SkinContext*> Renderer::skin_context() {
     return &*skin_;
 }
 
-// Once, for the first technique that draws into the skin's atlas or reads normals baked over it.
+// The technique's list, where it asks for baked normals and the atlas cannot hold them that without them.
+PassList Renderer::passes_of(const Technique& technique, const ParameterValues& values, FrameContext frame) {
+    PassList list = technique.build(values, frame);
+    if (!list.diffused_normals) return list;
+    if (!atlas_fit_) {
+        const std::optional<std::string> unfit = unfit_for_baked_maps(*scene_);
+        atlas_fit_ = !unfit;
+        if (unfit) warnings_.push_back(technique.id + ": " + *unfit);
+    }
+    if (*atlas_fit_) return list;
+    frame.has_skin_atlas = false;
+    return technique.build(values, frame);
+}
+
+// Once, for the first technique that draws into the skin's atlas.
 Result<void> Renderer::check_atlas() {
     const auto draws_atlas = [](const Pass& pass) { return pass.kind == PassKind::geometry_uv_atlas; };
-    if (atlas_checked_ || (!list_.diffused_normals && std::ranges::none_of(list_.passes, draws_atlas)))
-        return {};
+    if (atlas_checked_ || std::ranges::none_of(list_.passes, draws_atlas)) return {};
     Result<std::vector<std::string>> checked = check_skin_atlas(*scene_);
     if (!checked) return checked.error();
     warnings_.insert(warnings_.end(), checked->begin(), checked->end());
@@ -201,18 +214,10 @@ Result<void> Renderer::prepare_diffused_normals(const GaussianSum& profile) {
     if (key == diffused_normals_key_) return {};
     const Result<DiffusedNormals> baked = bake_diffused_normals(*scene_, profile, *list_.diffused_normals);
     if (!baked) return baked.error();
-    for (const auto& [name, texels] : {std::pair{"diffused_normals_red", &baked->red},
-                                       std::pair{"diffused_normals_green", &baked->green}}) {
-        const auto bytes = std::as_bytes(std::span(*texels));
-        gpu::TextureData data{.name = name,
-                              .format = ImageFormat::rgba16,
-                              .width = baked->size,
-                              .height = baked->size,
-                              .bytes = {bytes.begin(), bytes.end()}};
-        data.generate_mips = true;
+    for (const gpu::TextureData& data : diffused_normals_textures(*baked)) {
         Result<gpu::Texture> texture = gpu::Texture::upload(*device_, data);
         if (!texture) return texture.error();
-        diffused_normals_.insert_or_assign(name, std::move(*texture));
+        diffused_normals_.insert_or_assign(data.name, std::move(*texture));
     }
     diffused_normals_key_ = std::move(key);
     return {};
@@ -281,6 +286,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
         .reduced_diffuse = scene_->skin.specular_reduces_diffuse,
         .densest_uv_per_mm = uploaded_->uv_density().densest_uv_per_mm,
         .typical_uv_per_mm = uploaded_->uv_density().typical_uv_per_mm,
+        .has_zonal_table = !scene_->skin.zonal_table.empty(),
         .skin_gaussians = (*skin)->gaussians};
     const SharedPassSettings shared = {.samples = settings.samples,
                                        .shadow_map_size = settings.shadow_map_size,
@@ -293,7 +299,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
                                        .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
                                        .has_cut_outs = uploaded_->has_cut_outs(),
                                        .gbuffer = settings.gbuffer};
-    list_ = frame_passes(technique.build(values, frame), shared);
+    list_ = frame_passes(passes_of(technique, values, frame), shared);
     list_.constants = uploaded_->map_constants();
     list_.constants.emplace_back("one_light", scene_->lights.size() == 1);
     list_.constants.emplace_back("one_sample", settings.samples == 1);

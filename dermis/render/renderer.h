@@ -74,6 +74,8 @@ class Renderer {
                                        const DrawSettings& settings);
     Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
     Result<void> prepare_legend(const std::string& view);
+    [[nodiscard]] PassList passes_of(const Technique& technique, const ParameterValues& values,
+                                     FrameContext frame);
     Result<void> check_atlas();
     void check_maps();
     Result<void> prepare_seams();
@@ -99,6 +101,7 @@ class Renderer {
     std::unique_ptr<gpu::Texture> legend_;
     std::vector<std::string> warnings_;
     bool atlas_checked_ = false;
+    std::optional<bool> atlas_fit_;  ///< for baked maps; empty: not asked yet
     std::optional<SeamTextures> seams_;
     std::map<std::string, gpu::Texture> diffused_normals_;
     std::string diffused_normals_key_;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "dermis/base/text.h"
+#include "dermis/technique/diffused_normals.h"
 
 namespace dermis {
 namespace {
@@ -44,7 +45,8 @@ class Checker {
         for (const ImageDeclaration& image : list.images)
             if (image.persistent) written_.insert(image.name);
         if (list.seams) inputs_.insert({"seam_map", "chart_map"});
-        if (list.diffused_normals) inputs_.insert({"diffused_normals_red", "diffused_normals_green"});
+        if (list.diffused_normals)
+            inputs_.insert(kDiffusedNormalsTextures.begin(), kDiffusedNormalsTextures.end());
     }
 
     std::vector<std::string> run() {
@@ -131,13 +133,13 @@ class Checker {
 }  // namespace
 
 std::string_view format_name(ImageFormat format) {
-    static constexpr std::string_view kNames[] = {"r8",      "rgba8", "rgba16",  "r16f",    "rg16f",
-                                                  "rgba16f", "r32f",  "rgba32f", "depth32f"};
+    static constexpr std::string_view kNames[] = {"r8",    "rg8",     "rgba8", "rgb10a2", "rgba16",  "r16f",
+                                                  "rg16f", "rgba16f", "r32f",  "rgba32f", "depth32f"};
     return kNames[size_t(format)];
 }
 
 size_t bytes_per_texel(ImageFormat format) {
-    static constexpr size_t kBytes[] = {1, 4, 8, 2, 4, 8, 4, 16, 4};
+    static constexpr size_t kBytes[] = {1, 2, 4, 4, 8, 2, 4, 8, 4, 16, 4};
     return kBytes[size_t(format)];
 }
 
@@ -173,7 +175,7 @@ std::string describe(const PassList& list) {
     std::string text;
     if (list.seams) text += "input seam_map, chart_map  " + std::to_string(list.seams->size) + "\n";
     if (list.diffused_normals)
-        text += "input diffused_normals_red, diffused_normals_green  " +
+        text += "input diffused_normals_red, diffused_normals_green, diffused_normals_uneven  " +
                 std::to_string(list.diffused_normals->size) + "\n";
     for (const ImageDeclaration& image : list.images) {
         text += "image " + image.name + "  " + std::string(format_name(image.format)) + "  " +

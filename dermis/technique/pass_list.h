@@ -22,7 +22,7 @@
 
 namespace dermis {
 
-enum class ImageFormat { r8, rgba8, rgba16, r16f, rg16f, rgba16f, r32f, rgba32f, depth32f };
+enum class ImageFormat { r8, rg8, rgba8, rgb10a2, rgba16, r16f, rg16f, rgba16f, r32f, rgba32f, depth32f };
 [[nodiscard]] std::string_view format_name(ImageFormat format);
 [[nodiscard]] size_t bytes_per_texel(ImageFormat format);
 
@@ -130,8 +130,7 @@ struct SeamRequest {
     friend bool operator==(const SeamRequest&, const SeamRequest&) = default;
 };
 
-/// Asks for the textures "diffused_normals_red" and "diffused_normals_green" of the skin's atlas
-/// (render/diffused_normals.h), `size` texels a side.
+/// Asks for the textures of technique/diffused_normals.h over the skin's atlas, `size` texels a side.
 struct DiffusedNormalsRequest {
     int size = 1024;
     /// Along an axis; what is narrower is left to the pixel's own normal.

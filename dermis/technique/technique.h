@@ -39,7 +39,10 @@ struct FrameContext {
     float densest_uv_per_mm = 0.004f;
     /// The median by area of the mean step over all directions.
     float typical_uv_per_mm = 0.003f;
-    GaussianSum skin_gaussians;  ///< of the scene's profile
+    /// Each place of the skin has texels of its own in its UV atlas, so that maps can be baked over it.
+    bool has_skin_atlas = true;
+    bool has_zonal_table = false;  ///< SkinContext::zonal_table is given
+    GaussianSum skin_gaussians;    ///< of the scene's profile
 };
 
 /// The skin and the scene that tables are baked for.

@@ -26,11 +26,11 @@ const int kTransmissionGaussians = 6;
 
 // Rows of skin_rows, each over its own argument from 0 to 1: zonal harmonics of order 0 to 2 over curvature,
 // the shadow's edge over visibility, weights and levels of the smoother normal over log2 of a texel of the
-// normal map in mm, and for each channel the sphere of a mean normal over sqrt(1 - its length): curvature
-// over kMaxCurvaturePerMm, and what is left of the cosine lobe's second band. Two are read by texels: weights
+// normal map in mm, and the sphere of red's mean normal over sqrt(1 - its length): curvature over
+// kMaxCurvaturePerMm, and what is left of the cosine lobe's second band. Two are read by texels: weights
 // and places of shadow_taps.h.
-const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowOfMean = 5, kRowTapWeights = 8,
-          kRowTapPlaces = 9, kRowCount = 10, kRowTexels = 257;
+const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowOfMean = 5, kRowTapWeights = 6,
+          kRowTapPlaces = 7, kRowCount = 8, kRowTexels = 257;
 // Every fourth stands first.
 const int kShadowGatherTaps = 64, kShadowFirstTaps = 16;
 // How far a place is lifted off the quadric, over its distance.

@@ -2,7 +2,7 @@
 // (dermis/render/diffused_normals.h).
 //
 // On a sphere of curvature k the mean is the point's own normal, A(k) long, A the mean cosine of the profile there. So
-// its direction gives N.L and its length, by the inverse of A, the curvature, with which the diffuse table is read: on a
+// its direction gives N.L, and red's length, by the inverse of A, the curvature, with which the diffuse table is read: on a
 // sphere that is the table as ever. Elsewhere the odd part of the light, half of A N.L, is the mean's cosine itself, so it
 // is exact on any shape; the even part, which says how wide the terminator is, is that of a sphere whose normals spread
 // as much.
@@ -16,36 +16,53 @@
 #include "shaders/include/surface.glsl"
 #include "techniques/preintegrated/tables.glsl"
 
-uniform texture2D diffused_normals_red, diffused_normals_green;
+uniform texture2D diffused_normals_red, diffused_normals_green, diffused_normals_uneven;
 
 struct DiffusedNormals {
     vec3 n[3];       // of each channel, normalised
     vec3 mean_length;
-    vec3 k_per_mm;   // of the spheres that have these lengths
-    vec3 band_2;     // what is left of the cosine lobe's second band on them
+    float k_per_mm;  // of the sphere that has red's length
+    vec3 band_2;     // what is left of the cosine lobe's second band
     vec2 uneven;     // the spread around n[0] is [[1 + x, y], [y, 1 - x]] in its frame
 };
 
-// Texels that no skin lies on hold 0; UVs in other tiles have none.
-const float kNoSkin = 0.04;
+// Texels that no skin lies on hold a direction of length 0; UVs in other tiles have none.
+const float kNoSkin = 0.25;
 
-// own_weight: dermis/technique/diffused_normals.h.
-DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight) {
-    vec4 red = 2.0 * texture(sampler2D(diffused_normals_red, trilinear_clamp), s.uv) - 1.0;
-    vec4 green = 2.0 * texture(sampler2D(diffused_normals_green, trilinear_clamp), s.uv) - 1.0;
-    bool in_atlas = all(equal(clamp(s.uv, 0.0, 1.0), s.uv)) && dot(red.xyz, red.xyz) > kNoSkin;
+// The mip level of the narrow side of the pixel's footprint. Along a silhouette the wide side covers the whole flank, whose
+// mean would be read; the maps are blurred by the profile, so that they hold little that is finer.
+float diffused_normals_level(vec2 uv, float texels) {
+    vec2 x = dFdx(uv) * texels, y = dFdy(uv) * texels;
+    float area = x.x * y.y - x.y * y.x;
+    return 0.5 * log2(area * area / max(max(dot(x, x), dot(y, y)), 1e-12));
+}
+
+// own_weight, green_spread: dermis/technique/diffused_normals.h. Outside the atlas the surface is a sphere of around_per_mm.
+DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight, float green_spread, float around_per_mm, float level) {
+    vec3 red = 2.0 * textureLod(sampler2D(diffused_normals_red, trilinear_clamp), s.uv, level).rgb - 1.0;
+    vec4 green = textureLod(sampler2D(diffused_normals_green, trilinear_clamp), s.uv, level);
+    vec2 uneven = 2.0 * textureLod(sampler2D(diffused_normals_uneven, trilinear_clamp), s.uv, level).rg - 1.0;
+    vec3 apart = green.rgb * (255.0 / 127.0) - 128.0 / 127.0;
+    float shorter = green.a * green.a;
+    bool in_atlas = all(equal(clamp(s.uv, 0.0, 1.0), s.uv)) && dot(red, red) > kNoSkin;
     if (!in_atlas) own_weight = vec3(1.0);
-    vec3 mean[3] = vec3[3](mix(red.xyz, s.n_world, own_weight.r), mix(green.xyz, s.n_world, own_weight.g),
-                           mix(green.xyz, s.n_world, own_weight.b));
+    red *= inversesqrt(max(dot(red, red), kNoSkin));
+    vec3 n_green = red + apart * abs(apart);
+    n_green *= inversesqrt(max(dot(n_green, n_green), kNoSkin)) * (1.0 - green_spread * shorter);
+    red *= 1.0 - shorter;
+    vec3 mean[3] = vec3[3](mix(red, s.n_world, own_weight.r), mix(n_green, s.n_world, own_weight.g),
+                           mix(n_green, s.n_world, own_weight.b));
     DiffusedNormals d;
     for (int c = 0; c < 3; ++c) {
         d.mean_length[c] = length(mean[c]);
         d.n[c] = mean[c] / d.mean_length[c];
-        vec2 sphere = sphere_of_mean(d.mean_length[c], c);
-        d.k_per_mm[c] = sphere.x;
-        d.band_2[c] = sphere.y;
     }
-    d.uneven = vec2(red.a, green.a);
+    vec2 sphere = sphere_of_mean(d.mean_length.r);
+    d.k_per_mm = in_atlas ? sphere.x : around_per_mm;
+    // Green's and blue's normals differ by little: of a lobe of mean cosine 1 - x to second order in x.
+    vec3 less = 1.0 - d.mean_length;
+    d.band_2 = vec3(sphere.y, 1.0 - 3.0 * less.gb + 3.0 * less.gb * less.gb);
+    d.uneven = in_atlas ? uneven : vec2(0.0);
     return d;
 }
 
@@ -59,9 +76,9 @@ float spread_towards(vec3 n, vec2 uneven, vec3 to_light_world) {
 }
 
 vec3 falloff_of_diffused_normals(DiffusedNormals d, vec3 to_light_world, float max_per_mm) {
-    vec3 k = min(d.k_per_mm * sqrt(spread_towards(d.n[0], d.uneven, to_light_world)), max_per_mm);
-    return vec3(profile_falloff(dot(d.n[0], to_light_world), k.r).r, profile_falloff(dot(d.n[1], to_light_world), k.g).g,
-                profile_falloff(dot(d.n[2], to_light_world), k.b).b);
+    float k = min(d.k_per_mm * sqrt(spread_towards(d.n[0], d.uneven, to_light_world)), max_per_mm);
+    return vec3(profile_falloff(dot(d.n[0], to_light_world), k).r, profile_falloff(dot(d.n[1], to_light_world), k).g,
+                profile_falloff(dot(d.n[2], to_light_world), k).b);
 }
 
 #endif

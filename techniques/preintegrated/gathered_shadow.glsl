@@ -19,8 +19,8 @@ const float kGatherLiftTexels = 2.25, kGatherLiftMm = 0.45;  // kGatherLiftSlope
 // Where the quadric gets less light than this part of what comes straight down, the few places that are lit would decide: the
 // difference counts less. Half as much loses up to .01 of a head's share.
 const float kGatherFaint = 0.3;
-// Pixels nearer to each other share their taps.
-const float kGatherTogetherMm = 1.0;
+// Pixels whose diagonal is shorter share their taps.
+const float kGatherTogetherMm = 0.7;
 
 // The surface around the point: x towards the light, as far as that goes along it, and y across.
 struct Quadric {
@@ -29,14 +29,13 @@ struct Quadric {
     float xx_per_mm, yy_per_mm, xy_per_mm;  // the curvature tensor
 };
 
-Quadric quadric_around(Surface s, vec3 to_light_world) {
+Quadric quadric_around(Surface s, vec3 to_light_world, vec3 across_light_world) {
     Quadric q;
     q.n = s.n_geometry_world;
     float cosine = dot(q.n, to_light_world);
     vec3 along = to_light_world - cosine * q.n;
     float sine = length(along);
-    vec3 any = abs(q.n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    q.x = sine > 1e-3 ? along / sine : normalize(cross(q.n, any));
+    q.x = sine > 1e-3 ? along / sine : across_light_world;
     q.y = cross(q.n, q.x);
     q.cosine_sine = vec2(cosine, sine);
     vec3 bent_x = tensor_times(s.curvature_diagonal_per_mm, s.curvature_mixed_per_mm, q.x);
@@ -51,7 +50,9 @@ Quadric quadric_around(Surface s, vec3 to_light_world) {
 // comes first: where these and the filtered shadow agree that all is lit, or nothing, the others are not read.
 vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
     LightSource source = light_source(light);
-    Quadric q = quadric_around(s, to_light_world);
+    vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    vec3 across_light_world = all_directional != 0 ? source.x_world : normalize(cross(up, to_light_world));
+    Quadric q = quadric_around(s, to_light_world, across_light_world);
     vec3 here = shadow_map_position(source.light_view_projection, s.p_world_mm);
     vec3 step_x = shadow_map_step(source.light_view_projection, s.p_world_mm, here, q.x);
     vec3 step_y = shadow_map_step(source.light_view_projection, s.p_world_mm, here, q.y);
@@ -59,7 +60,8 @@ vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibi
     vec3 step_n = shadow_map_step(source.light_view_projection, s.p_world_mm, here, q.n);
     here += max(kGatherLiftTexels * shadow_texel_mm, kGatherLiftMm) * step_n;
     // Beside the triangle a storage buffer is not everywhere loaded.
-    bool together = one_light != 0 && length(dFdxCoarse(s.p_world_mm)) + length(dFdyCoarse(s.p_world_mm)) < kGatherTogetherMm;
+    vec3 right_mm = dFdxCoarse(s.p_world_mm), down_mm = dFdyCoarse(s.p_world_mm);
+    bool together = one_light != 0 && dot(right_mm, right_mm) + dot(down_mm, down_mm) < kGatherTogetherMm * kGatherTogetherMm;
     int lane = (int(gl_FragCoord.x) & 1) + 2 * (int(gl_FragCoord.y) & 1);
     int first = together ? lane : 0, stride = together ? 4 : 1;
     vec4 lit = vec4(0.0);  // the fourth: of the penumbra alone, of whose weights the mean is 1
@@ -67,8 +69,7 @@ vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibi
     for (int i = first; i < kShadowGatherTaps; i += stride) {
         if (i - first == kShadowFirstTaps) {
             // Red reaches farthest: its weight is 0 nowhere.
-            float differ = abs(lit.r - visibility * all.r);
-            if ((together ? any_of_quad(differ) : differ) == 0.0) return vec3(visibility);
+            if (any_of_quad(abs(lit.r - visibility * all.r)) == 0.0) return vec3(visibility);
         }
         vec4 weight = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapWeights), 0);
         vec3 d_mm = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapPlaces), 0).xyz;  // z: how far it is lifted

@@ -19,6 +19,7 @@ layout(push_constant, scalar) uniform PassValues {
     vec3 occlusion_weight_0, occlusion_weight_1, occlusion_weight_2;  // of Surface::occlusion_blurred
 #ifdef DERMIS_BAKED_NORMALS
     vec3 own_normal_weight;  // dermis/technique/diffused_normals.h
+    float green_spread, diffused_texels;
 #endif
 };
 layout(constant_id = 3) const int shadow = kShadowScattered;
@@ -77,6 +78,7 @@ float bumps;          // variance of the normals over which the smoother read me
 #ifdef DERMIS_BAKED_NORMALS
 #include "techniques/preintegrated/diffused_normals.glsl"
 DiffusedNormals diffused;
+float diffused_level;
 #endif
 
 void choose_curvature(Surface s) {
@@ -102,6 +104,9 @@ void prepare_geometry(Surface s) {
     choose_curvature(s);
     curvature_around_per_mm = min(curvature_around(skin_diagonal_per_mm, skin_mixed_per_mm), kMaxCurvaturePerMm);
     if (normals == kNormalsSharp) return;
+#ifdef DERMIS_BAKED_NORMALS
+    diffused_level = diffused_normals_level(s.uv, diffused_texels);
+#endif
     float lod = max(textureQueryLod(normal_map, s.uv).x, 0.0);
     sharp_normal_mm = max(texel_of_normal_map_mm(s), 1e-8) * exp2(lod);
     normal_magnification = magnification_levels(normal_map, s.uv);
@@ -120,7 +125,7 @@ void prepare_surface(inout Surface s) {
         smooth_levels = blend.a;
     }
 #ifdef DERMIS_BAKED_NORMALS
-    diffused = read_diffused_normals(s, own_normal_weight);
+    diffused = read_diffused_normals(s, own_normal_weight, green_spread, curvature_around_per_mm, diffused_level);
     diffused.k_per_mm *= curvature_gain;
 #else
     float bias = smooth_levels + normal_magnification;
@@ -215,11 +220,11 @@ vec3 scattered_occlusion(Surface s) {
 }
 
 #ifdef DERMIS_BAKED_NORMALS
-// The mean of the lobe's first band is as long as the mean normal.
+// The mean of the lobe's first band is as long as the mean normal. Blue's normal is nearly green's.
 vec3 ambient_of_diffused_normals() {
-    vec3 band_1 = 2.0 * kPi / 3.0 * diffused.mean_length, band_2 = 0.25 * kPi * diffused.band_2, arriving;
-    for (int c = 0; c < 3; ++c) arriving[c] = environment_convolved(diffused.n[c], vec3(kPi), band_1, band_2)[c];
-    return arriving;
+    vec3 band_1 = 2.0 * kPi / 3.0 * diffused.mean_length, band_2 = 0.25 * kPi * diffused.band_2;
+    return vec3(environment_convolved(diffused.n[0], vec3(kPi), band_1, band_2).r,
+                environment_convolved(diffused.n[1], vec3(kPi), band_1, band_2).gb);
 }
 vec3 ambient_response(Surface s) { return ambient_of_diffused_normals() * scattered_occlusion(s); }
 #else

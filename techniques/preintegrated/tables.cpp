@@ -120,35 +120,30 @@ Result<Rows> normals_row(const TableSettings& settings, const SkinContext& skin)
     return row;
 }
 
-// Of each channel: curvature over kMaxCurvaturePerMm, and the mean of the second Legendre polynomial, over
-// sqrt(1 - A), A the mean cosine of the profile on its sphere, which falls with curvature; as at the largest
-// curvature where no sphere has it.
-Result<Rows> rows_of_mean(const TableSettings& settings, const SkinContext& skin) {
+// Of red: curvature over kMaxCurvaturePerMm, and the mean of the second Legendre polynomial, over sqrt(1 -
+// A), A the mean cosine of the profile on its sphere, which falls with curvature; as at the largest curvature
+// where no sphere has it.
+Result<Rows> row_of_mean(const TableSettings& settings, const SkinContext& skin) {
     constexpr int kSteps = 4 * kRowTexels;
     constexpr double kSecondBand = 0.495415912;  // sqrt(5 pi) / 8: of a plane
-    std::vector<Rgb> place, second;              // sqrt(1 - A) at even steps of curvature
+    std::vector<double> place, second;           // place: sqrt(1 - A) at even steps of curvature
     for (int i = 0; i <= kSteps; ++i) {
         const double curvature = std::max(double(kMaxCurvaturePerMm) * i / kSteps, 1e-6);
         const Preintegration how{.construction = settings.construction};
-        const Rgb a = preintegrated_mean_cosine(skin.gaussians, 1 / curvature, how);
-        second.push_back(preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature, how)[2]);
-        place.push_back({});
-        for (size_t c = 0; c < 3; ++c) {
-            place.back()[c] = std::sqrt(std::max(1 - a[c], 0.0));
-            second.back()[c] /= kSecondBand;
-        }
+        const double a = preintegrated_mean_cosine(skin.gaussians, 1 / curvature, how)[0];
+        place.push_back(std::sqrt(std::max(1 - a, 0.0)));
+        second.push_back(preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature, how)[2][0] /
+                         kSecondBand);
     }
-    Rows rows;
-    for (size_t c = 0; c < 3; ++c)
-        for (int i = 0; i < kRowTexels; ++i) {
-            const double x = double(i) / (kRowTexels - 1);
-            size_t k = 0;
-            while (k < size_t(kSteps) - 1 && place[k + 1][c] <= x) ++k;
-            const double part = std::clamp((x - place[k][c]) / (place[k + 1][c] - place[k][c]), 0.0, 1.0);
-            rows.push_back(
-                texel({(double(k) + part) / kSteps, std::lerp(second[k][c], second[k + 1][c], part), 0}, 1));
-        }
-    return rows;
+    Rows row;
+    for (int i = 0; i < kRowTexels; ++i) {
+        const double x = double(i) / (kRowTexels - 1);
+        size_t k = 0;
+        while (k < size_t(kSteps) - 1 && place[k + 1] <= x) ++k;
+        const double part = std::clamp((x - place[k]) / (place[k + 1] - place[k]), 0.0, 1.0);
+        row.push_back(texel({(double(k) + part) / kSteps, std::lerp(second[k], second[k + 1], part), 0}, 1));
+    }
+    return row;
 }
 
 // Weights, the penumbra's in alpha; places, turned from one to the next by the golden angle, and how far they
@@ -170,7 +165,7 @@ Result<Rows> tap_rows(const TableSettings&, const SkinContext& skin) {
 // The order is that of kRowZonal, kRowShadow, kRowNormals, kRowOfMean, kRowTapWeights.
 Result<TableImage> rows_table(const TableSettings& settings, const SkinContext& skin) {
     Rows all;
-    for (const auto make : {zonal_rows, shadow_row, normals_row, rows_of_mean, tap_rows}) {
+    for (const auto make : {zonal_rows, shadow_row, normals_row, row_of_mean, tap_rows}) {
         const Result<Rows> rows = make(settings, skin);
         if (!rows) return rows.error();
         all.insert(all.end(), rows->begin(), rows->end());

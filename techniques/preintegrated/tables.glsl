@@ -40,10 +40,10 @@ vec4 normal_blend(float sharp_mm) {
     return read_row(kRowNormals, (log2(sharp_mm) - kMinLogMm) / (kMaxLogMm - kMinLogMm));
 }
 
-// Of a sphere over which the normals have a mean of this length in one channel: curvature, and the mean of the second
-// Legendre polynomial of the angle between them.
-vec2 sphere_of_mean(float mean_length, int channel) {
-    return read_row(kRowOfMean + channel, sqrt(max(1.0 - mean_length, 0.0))).rg * vec2(kMaxCurvaturePerMm, 1.0);
+// Of a sphere over which red's normals have a mean of this length: curvature, and the mean of the second Legendre polynomial
+// of the angle between them.
+vec2 sphere_of_mean(float mean_length) {
+    return read_row(kRowOfMean, sqrt(max(1.0 - mean_length, 0.0))).rg * vec2(kMaxCurvaturePerMm, 1.0);
 }
 
 #endif

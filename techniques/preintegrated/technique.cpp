@@ -3,6 +3,8 @@
 // light; a point then needs only N.L and curvature. Tables come from the bakers (exact on the sphere, or the
 // published ring), the closed form from dermis/optics, the hand-made curves from Yeung 2015.
 
+#include <algorithm>
+
 #include "dermis/technique/diffused_normals.h"
 #include "dermis/technique/forward.h"
 #include "dermis/technique/transmission.h"
@@ -47,10 +49,11 @@ struct Params {
     Curvature curvature = Curvature::vertex;
     float curvature_gain = 1;
     float tune_curvature = 1;
-    Normals normals = Normals::blended;
+    Normals normals = Normals::baked;
     float normal_lod_bias = 3;
     Shadow shadow = Shadow::scattered;
-    float shadow_width_mm = kShadowWidthMm;
+    float shadow_width_mm =
+        2.5f;  // kShadowWidthMm lets light around a nose: green's share of the bust -.22 for .19
     Transmission transmission = Transmission::shadow_map;
     Ambient ambient = Ambient::lut;
     SpecularModel specular = SpecularModel::ggx;
@@ -72,10 +75,12 @@ ParameterTable parameters() {
                 "factor on the curvature; 1 is physically right")
         .number(&Params::tune_curvature, "tune_curvature", "", 0.01, 100,
                 "divides the curvature from derivatives; 1 is right for positions in mm")
-        .choice(&Params::normals, "normals", {"sharp", "smooth", "blended", "lerp", "baked"},
-                "diffuse normal: as mapped, from a smaller mip level, or both by the profile's width in "
-                "each channel: their light blended, or as published the normals mixed; or the profile's mean "
-                "of the normals around each texel, baked once (with a table; else as blended)")
+        .choice(
+            &Params::normals, "normals", {"sharp", "smooth", "blended", "lerp", "baked"},
+            "diffuse normal: as mapped, from a smaller mip level, or both by the profile's width in "
+            "each channel: their light blended, or as published the normals mixed; or the profile's mean "
+            "of the normals around each texel, baked once over the UV atlas (needs one, and the defaults of "
+            "diffuse, construction, curvature and ambient; else as blended)")
         .number(&Params::normal_lod_bias, "normal_lod_bias", "mip levels", 0, 8,
                 "maximum difference of the smaller mip level")
         .choice(
@@ -100,9 +105,19 @@ bool reads_tables(const Params& params) {
     return params.diffuse == Diffuse::lut;
 }
 
+// Baked normals hold the curvature and what light from all around sees: they are no part of other models of
+// these. The curvature is that of red's.
+bool reads_baked_normals(const Params& params, const FrameContext& frame) {
+    const Vec3 own = own_normal_weights(frame.skin_gaussians, {});
+    return params.normals == Normals::baked && reads_tables(params) && frame.has_skin_atlas &&
+           params.construction == TableConstruction::sphere && params.curvature == Curvature::vertex &&
+           params.ambient == Ambient::lut && !frame.has_zonal_table && own.x < 1 &&
+           own.x <= std::min(own.y, own.z);
+}
+
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
-    const bool tables = reads_tables(params), baked = tables && params.normals == Normals::baked;
+    const bool tables = reads_tables(params), baked = reads_baked_normals(params, frame);
     Pass pass = forward_skin_pass(!tables ? "preintegrated/textureless.frag"
                                   : baked ? "preintegrated/baked_normals.frag"
                                           : "preintegrated/preintegrated.frag",
@@ -129,10 +144,11 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     PassList list;
     if (baked) {
         list.diffused_normals = DiffusedNormalsRequest{};
-        for (const char* texture : {"diffused_normals_red", "diffused_normals_green"})
-            pass.reads.push_back(texture);
+        for (const char* texture : kDiffusedNormalsTextures) pass.reads.push_back(texture);
         pass.values.emplace_back("own_normal_weight",
                                  own_normal_weights(frame.skin_gaussians, *list.diffused_normals));
+        pass.values.emplace_back("green_spread", green_spread(frame.skin_gaussians, *list.diffused_normals));
+        pass.values.emplace_back("diffused_texels", float(list.diffused_normals->size));
     }
     list.passes = {std::move(pass)};
     if (params.curvature == Curvature::image) list.needed_maps = {"curvature_map"};

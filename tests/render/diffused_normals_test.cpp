@@ -1,8 +1,11 @@
 // Normals averaged by the diffusion profile, over shapes with a known answer.
 
-#include "dermis/render/diffused_normals.h"
+#include "dermis/render/diffused_normals_textures.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
 
 #include "dermis/optics/preintegration.h"
 #include "dermis/technique/diffused_normals.h"
@@ -47,7 +50,67 @@ Baked bake(const Scene& scene, const GaussianSum& profile) {
     return {reader->read(kRequest.size), std::move(*normals), own_normal_weights(profile, kRequest)};
 }
 
+// Two halves of an atlas: on the left one normal, on the right two that alternate from texel to texel; below
+// no skin.
+DiffusedNormals made_normals(int size, Vec3 left, Vec3 right_a, Vec3 right_b) {
+    DiffusedNormals normals{.size = size, .red = {}, .green = {}};
+    const auto part = [](float x) { return uint16_t(std::lround((0.5f * x + 0.5f) * 65535)); };
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const Vec3 n = y >= size / 2 ? Vec3{} : x < size / 2 ? left : (x + y) % 2 ? right_a : right_b;
+            normals.red.push_back({part(n.x), part(n.y), part(n.z), part(0.5f)});
+            normals.green.push_back({part(n.x), part(n.y + 0.1f), part(n.z), part(-0.25f)});
+        }
+    return normals;
+}
+
+struct Decoded {
+    Vec3 red, green;
+    float length;
+};
+
+// Texel of a level, as the shader reads it.
+Decoded decoded(const std::vector<gpu::TextureData>& textures, int level, int x, int y) {
+    size_t before = 0;
+    for (int i = 0; i < level; ++i) before += size_t(textures[0].width >> i) * size_t(textures[0].width >> i);
+    const size_t at = 4 * (before + size_t(y) * size_t(textures[0].width >> level) + size_t(x));
+    uint32_t packed;
+    std::memcpy(&packed, &textures[0].bytes[at], 4);
+    const auto ten = [&](int shift) { return 2 * float(packed >> shift & 1023) / 1023 - 1; };
+    const auto byte = [&](size_t c) { return float(std::to_integer<int>(textures[1].bytes[at + c])); };
+    const auto apart = [&](size_t c) {
+        const float root = (byte(c) - 128) / 127;
+        return root * std::abs(root);
+    };
+    Decoded made{.red = {ten(0), ten(10), ten(20)}, .green = {}, .length = 1 - byte(3) * byte(3) / 65025};
+    if (length(made.red) > 0.5f) made.red = normalize(made.red);
+    made.green = normalize(made.red + Vec3{apart(0), apart(1), apart(2)});
+    return made;
+}
+
 }  // namespace
+
+TEST(DiffusedNormalsTextures, keep_direction_and_length_within_the_stated_errors) {
+    const Vec3 left = normalize(Vec3{0.3f, -0.2f, 0.9f}) * 0.9995f;  // the length of a head's cheek
+    const auto textures = diffused_normals_textures(made_normals(8, left, left, left));
+    ASSERT_EQ(textures.size(), 3u);
+    const Decoded texel = decoded(textures, 0, 1, 1);
+    EXPECT_LT(length(texel.red - normalize(left)), 0.0015f);
+    EXPECT_LT(length(texel.green - normalize(left + Vec3{0, 0.1f, 0})), 0.004f);
+    EXPECT_NEAR(texel.length, 0.9995f, 1e-4f);
+    EXPECT_LT(length(decoded(textures, 0, 1, 7).red), 0.01f) << "no skin";
+}
+
+TEST(DiffusedNormalsTextures, levels_are_means_of_the_skin_in_them_and_shorter_where_bumps_are) {
+    const Vec3 left{0, 0, 1}, a = normalize(Vec3{0.5f, 0, 1}), b = normalize(Vec3{-0.5f, 0, 1});
+    const auto textures = diffused_normals_textures(made_normals(8, left, a, b));
+    EXPECT_EQ(textures[0].mips, 4);
+    EXPECT_NEAR(decoded(textures, 1, 0, 0).length, 1, 1e-4f);
+    EXPECT_NEAR(decoded(textures, 1, 2, 0).length, a.z, 0.004f);
+    // The last level but one: a texel is half bumps, and half of the last lies beside the skin.
+    EXPECT_NEAR(decoded(textures, 3, 0, 0).length, 0.5f * (1 + a.z), 0.004f);
+    EXPECT_LT(length(decoded(textures, 2, 0, 1).red), 0.01f);
+}
 
 // So that the table of a sphere, read at the mean's direction and at the curvature that its length says, is
 // the same as without a map.

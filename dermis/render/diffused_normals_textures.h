@@ -1,0 +1,18 @@
+#pragma once
+// Baked normals as the textures that a shader reads: ten bytes a texel instead of sixteen.
+
+#include <vector>
+
+#include "dermis/gpu/device.h"
+#include "dermis/render/diffused_normals.h"
+
+namespace dermis {
+
+/// The textures of kDiffusedNormalsTextures (technique/diffused_normals.h) with all mip levels. A mean is
+/// kept as its direction and sqrt(1 - its length), since the length of a vector of 8 or 10 bits would say
+/// nothing of the curvature of a head: 1 - length is 5e-4 at a radius of 50 mm. Levels are means of the
+/// vectors of the skin in them, so that bumps that a level no longer shows are in its length. Errors: .001 of
+/// each part of red's direction, .004 sqrt(x) of what green's differs from it, x, .002 of sqrt(1 - length).
+[[nodiscard]] std::vector<gpu::TextureData> diffused_normals_textures(const DiffusedNormals& normals);
+
+}  // namespace dermis
