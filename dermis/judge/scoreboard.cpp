@@ -11,8 +11,9 @@ namespace {
 
 // Beyond the defaults of every technique.
 constexpr std::string_view kSettings =
-    "preintegrated[normals=baked,shadow=gathered],"
+    "preintegrated[shadow=gathered],"
     "preintegrated[shadow=plain],"
+    "preintegrated[normals=blended],"
     "preintegrated[diffuse=closed_form,shadow=plain],"
     "preintegrated[diffuse=curve_2015,ambient=curve_2015],"
     "preintegrated[diffuse=curve_2015,ambient=curve_2015,shadow=plain],"

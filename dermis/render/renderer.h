@@ -29,6 +29,8 @@ class Renderer {
     /// after changes of environment or materials call the functions below; objects and maps may not change.
     [[nodiscard]] static Result<Renderer> create(gpu::Device& device, gpu::ShaderSource shaders,
                                                  const Scene& scene);
+    static Result<Renderer> create(gpu::Device&, gpu::ShaderSource,
+                                   const Scene&&) = delete;  // it keeps a pointer
 
     /// Another renderer of the same scene, so that two pictures exist at once: its own images and tables,
     /// the same geometry and maps. The first must outlive it.

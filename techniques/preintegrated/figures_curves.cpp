@@ -10,6 +10,9 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 constexpr const char* kClose = "distance_mm=600";
 constexpr const char* kSource = "after Yeung 2015, Pre-Integrated Skin Shading";
 
+// What every table and curve can have, so that a difference is theirs.
+const std::pair<std::string, std::string> kNormals = {"normals", "blended"};
+
 // One way to shade, named as its row or column is.
 struct Variant {
     const char* id;
@@ -87,7 +90,7 @@ Figure spheres_figure(std::string id, std::string title, std::string environment
             row.cells.push_back(
                 {.label = std::string("r = ") + radius + " mm",
                  .id = std::string(variant.id) + radius,
-                 .settings = with(variant.settings, {{"shadow", "plain"}}),
+                 .settings = with(variant.settings, {{"shadow", "plain"}, kNormals}),
                  .view = "diffuse",
                  .object = std::string("sphere_") + radius + "mm",
                  .environment = environment,
@@ -116,8 +119,8 @@ Figure heads_figure(std::string id, std::string title, const FigureCell& common)
             if (name != "table") cell.compare_to = "table" + suffix;
             row.cells.push_back(std::move(cell));
         };
-        add("table", "table", {});
-        add("curves of 2015", "curve", {{"diffuse", "curve_2015"}, {"ambient", "curve_2015"}});
+        add("table", "table", {kNormals});
+        add("curves of 2015", "curve", {{"diffuse", "curve_2015"}, {"ambient", "curve_2015"}, kNormals});
         add("Lambert", "lambert", {});
         figure.rows.push_back(std::move(row));
     }
@@ -149,7 +152,7 @@ Figure baselines_figure() {
     };
     const auto variant = [](std::string label, Settings settings) {
         return FigureCell{.label = std::move(label),
-                          .settings = std::move(settings),
+                          .settings = with(std::move(settings), {kNormals}),
                           .view = "diffuse",
                           .camera = kClose,
                           .compare_to = "sphere"};

@@ -13,7 +13,7 @@ FigureCell table_cell(std::string id, std::string construction, CellEncoding enc
                                                       : "encoded for display (sRGB)",
             .id = std::move(id),
             .kind = CellKind::table,
-            .settings = {{"construction", std::move(construction)}},
+            .settings = {{"construction", std::move(construction)}, {"normals", "blended"}},
             .table = "skin_lut",
             .encoding = encoding};
 }

@@ -129,7 +129,8 @@ TEST_F(GatheredShadow, an_edge_on_flat_skin_is_the_exact_one) {
 // are lit: where they decided, a patch of light with a hard edge stood there, 893 pixels. The lobe's own rim,
 // which light reaches through its skin, is a few of these.
 TEST_F(GatheredShadow, a_few_lit_places_at_grazing_light_do_not_decide) {
-    Renderer renderer = make_renderer(load("ear"));
+    const Scene scene = load("ear");
+    Renderer renderer = make_renderer(scene);
     constexpr int kSide = 250;
     const auto light = [&](const char* shadow) {
         return radiance(renderer, technique(),

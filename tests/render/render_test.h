@@ -29,6 +29,7 @@ class RenderTest : public gpu::GpuTest {
         return scene;
     }
 
+    static Renderer make_renderer(const Scene&&) = delete;
     static Renderer make_renderer(const Scene& scene) {
         Result<Renderer> renderer =
             Renderer::create(device(), gpu::embedded_shaders(built_in_catalog().shaders), scene);

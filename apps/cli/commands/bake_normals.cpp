@@ -1,4 +1,4 @@
-// `dermis bake normals`: what preintegrated draws with by normals=baked, as files.
+// `dermis bake normals`: what preintegrated draws with, as files.
 
 #include <cstdio>
 #include <memory>

@@ -8,7 +8,7 @@
 // Hill's fit diverges below (0.19 off at 0.7).
 const float kLeastSharpness = 1.5;
 // Half the width of the band around the terminator that the lobe blurs, over its deviation. Hill's, 1 / (4 0.36^2),
-// suits wide lobes. With it a narrow lobe scatters 24 % too much light; the width of least error falls to kNarrowWidth.
+// suits wide lobes. With it a narrow lobe scatters 24 % too much light; the width of least error falls to the other.
 const float kHillWidth = 1.929, kNarrowWidth = 1.678;
 
 // Irradiance over irradiance at normal incidence, 0 to 1 a channel; n_dot_l from -1 to 1, kappa above 0. Stephen Hill's
