@@ -43,9 +43,12 @@ void print_table(const Comparison& comparison) {
                 comparison.rows.front().captured.channels[0].effect_rms,
                 comparison.rows.front().captured.channels[1].effect_rms,
                 comparison.rows.front().captured.channels[2].effect_rms);
-    std::printf("the ground truth's noise: %.5f of the effect, %.5f of the picture; %d samples a pixel, %s\n",
-                all.truth_noise, comparison.reference_rmse, comparison.truth.samples,
-                comparison.truth.from_cache ? "from the cache" : "made now");
+    std::printf(
+        "the ground truth's noise: rms %.5f in the effect (%.2f of it), %.5f in the picture; %d samples a "
+        "pixel, %s\n",
+        all.truth_noise, all.effect_rms > 0 ? all.truth_noise / all.effect_rms : 0.0,
+        comparison.reference_rmse, comparison.truth.samples,
+        comparison.truth.from_cache ? "from the cache" : "made now");
 }
 
 void print_set_table(const std::vector<SubjectCase>& cases, const std::vector<Comparison>& comparisons) {

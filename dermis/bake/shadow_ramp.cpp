@@ -7,23 +7,9 @@
 #include "dermis/bake/shadow_table.h"
 #include "dermis/base/parallel.h"
 #include "dermis/optics/gaussian_fit.h"
+#include "dermis/optics/shadow_edge.h"
 
 namespace dermis {
-
-double disk_share(double t) {
-    t = std::clamp(t, -1.0, 1.0);
-    return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / std::numbers::pi;
-}
-
-double disk_offset(double share) {
-    double low = -1, high = 1;
-    for (int i = 0; i < 40; ++i) {
-        const double middle = 0.5 * (low + high);
-        (disk_share(middle) < share ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
-
 namespace {
 
 // Of a straight edge in the light of a disk, blurred by a Gaussian: the disk's lines of light at u radii have
@@ -34,7 +20,7 @@ double blurred_disk_share(double x_mm, double radius_mm, double sigma_mm) {
     for (int i = 1; i <= kLines; ++i) {
         const double angle = i * std::numbers::pi / (kLines + 1), sine = std::sin(angle);
         const double away = (x_mm - radius_mm * std::cos(angle)) / sigma_mm;
-        light += 2.0 / (kLines + 1) * sine * sine * 0.5 * std::erfc(-away * std::numbers::sqrt2 / 2);
+        light += 2.0 / (kLines + 1) * sine * sine * normal_cdf(away);
     }
     return light;
 }

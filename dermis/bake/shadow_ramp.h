@@ -10,12 +10,6 @@
 
 namespace dermis {
 
-/// Share of a disk on the lit side of a straight edge that lies `t` radii, -1 to 1, behind its middle.
-[[nodiscard]] double disk_share(double t);
-
-/// Its inverse: within 1e-9, and -1 or 1 past 0 and 1.
-[[nodiscard]] double disk_offset(double share);
-
 /// The light's own edge: the default of DrawSettings::penumbra_mm.
 inline constexpr double kLightEdgeMm = 2;
 

@@ -13,13 +13,10 @@
 #include "dermis/base/text.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/preintegration/quadrature.h"
+#include "dermis/optics/shadow_edge.h"
 
 namespace dermis {
 namespace {
-
-double normal_cdf(double x) {
-    return 0.5 * std::erfc(-x * std::numbers::sqrt2 / 2);
-}
 
 double normal_density(double x) {
     return std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);

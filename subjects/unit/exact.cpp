@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dermis/optics/preintegration.h"
+#include "dermis/optics/shadow_edge.h"
 
 namespace dermis::unit {
 namespace {
@@ -15,11 +16,6 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 Vec3 rgb(const Rgb& value) {
     return {float(value[0]), float(value[1]), float(value[2])};
-}
-
-// The part of a normal distribution below z standard deviations.
-double normal_cdf(double z) {
-    return 0.5 * std::erfc(-z / std::numbers::sqrt2);
 }
 
 // sum_i w_i above_i / sum_i w_i below_i, for each channel; `of` gives {above, below} of a Gaussian.
@@ -37,14 +33,7 @@ Rgb weighted_quotient(const GaussianSum& profile, Of of) {
     return above;
 }
 
-// The edge of a shadow that a disk of radius 1 makes: the part of the disk that is lit at `s` radii from the
-// middle of the edge.
-double disk_part(double s) {
-    if (std::abs(s) >= 1) return s > 0 ? 1 : 0;
-    return 0.5 + (s * std::sqrt(1 - s * s) + std::asin(s)) / std::numbers::pi;
-}
-
-// The same edge as a sum of sharp ones at `s` with weights that sum to 1: the integral over its slope, (2 /
+// disk_share() as a sum of sharp edges at `s` with weights that sum to 1: the integral over its slope, (2 /
 // pi) sqrt(1 - s^2), by the Gauss-Chebyshev rule of the second kind.
 struct SharpEdge {
     double s, weight;
@@ -93,7 +82,7 @@ ExactExitance exact_shadow_edge(float half_width_mm, Vec3 to_light) {
             return std::pair(lit, border - normal_cdf((-b - p_mm.x) / sigma));
         });
         const double sharp = p_mm.x > 0 ? 1 : 0;
-        return {.irradiance = float(cosine * (half_edge_mm > 0 ? disk_part(p_mm.x / half_edge_mm) : sharp)),
+        return {.irradiance = float(cosine * (half_edge_mm > 0 ? disk_share(p_mm.x / half_edge_mm) : sharp)),
                 .exitance = rgb(part) * float(cosine)};
     };
 }

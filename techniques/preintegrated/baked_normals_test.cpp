@@ -17,7 +17,7 @@ namespace {
 
 class BakedNormals : public PreintegratedTest {
   protected:
-    static constexpr DrawSettings kSmall = {.width = 96, .height = 96, .view = "diffuse"};
+    static inline const DrawSettings kSmall = {.width = 96, .height = 96, .view = "diffuse"};
 
     static Image drawn(Renderer& renderer, const Settings& settings) {
         return radiance(renderer, technique(), values_of(settings), kSmall);

@@ -8,6 +8,7 @@
 #include "dermis/bake/shadow_ramp.h"
 #include "dermis/mesh/primitives.h"
 #include "dermis/optics/presets.h"
+#include "dermis/optics/shadow_edge.h"
 #include "render/grid_scene.h"
 #include "support/built_in.h"
 #include "techniques/preintegrated/constants.h"

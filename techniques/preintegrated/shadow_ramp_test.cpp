@@ -12,6 +12,7 @@
 #include "dermis/base/file.h"
 #include "dermis/optics/edge_expression.h"
 #include "dermis/optics/presets.h"
+#include "dermis/optics/shadow_edge.h"
 #include "test_paths.h"
 
 using namespace dermis;
