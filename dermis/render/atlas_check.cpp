@@ -120,4 +120,16 @@ std::optional<std::string> unfit_for_baked_maps(const Scene& scene) {
     return reason;
 }
 
+bool has_skin_outside_atlas(const Scene& scene) {
+    for (const SceneObject& object : scene.objects)
+        for (const Submesh& submesh : object.mesh.submeshes) {
+            if (!is_skin(object, submesh)) continue;
+            for (uint32_t i = 0; i < submesh.index_count; ++i) {
+                const Vec2 uv = object.mesh.uvs[object.mesh.indices[submesh.first_index + i]];
+                if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return true;
+            }
+        }
+    return false;
+}
+
 }  // namespace dermis

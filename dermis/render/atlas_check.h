@@ -20,4 +20,7 @@ namespace dermis {
 /// shader sees.
 [[nodiscard]] std::optional<std::string> unfit_for_baked_maps(const Scene& scene);
 
+/// Some of the skin has UVs below 0 or above 1.
+[[nodiscard]] bool has_skin_outside_atlas(const Scene& scene);
+
 }  // namespace dermis

@@ -167,17 +167,18 @@ Result<const SkinContext*> Renderer::skin_context() {
     return &*skin_;
 }
 
-// The technique's list, where it asks for baked normals and the atlas cannot hold them that without them.
+// The technique's list; where it asks for baked normals that for the skin's atlas as it is.
 PassList Renderer::passes_of(const Technique& technique, const ParameterValues& values, FrameContext frame) {
     PassList list = technique.build(values, frame);
     if (!list.diffused_normals) return list;
     if (!atlas_fit_) {
         const std::optional<std::string> unfit = unfit_for_baked_maps(*scene_);
         atlas_fit_ = !unfit;
+        skin_outside_atlas_ = unfit || has_skin_outside_atlas(*scene_);
         if (unfit) warnings_.push_back(technique.id + ": " + *unfit);
     }
-    if (*atlas_fit_) return list;
-    frame.has_skin_atlas = false;
+    frame.has_skin_atlas = *atlas_fit_;
+    frame.has_skin_outside_atlas = skin_outside_atlas_;
     return technique.build(values, frame);
 }
 

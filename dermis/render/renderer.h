@@ -104,6 +104,7 @@ class Renderer {
     std::vector<std::string> warnings_;
     bool atlas_checked_ = false;
     std::optional<bool> atlas_fit_;  ///< for baked maps; empty: not asked yet
+    bool skin_outside_atlas_ = true;
     std::optional<SeamTextures> seams_;
     std::map<std::string, gpu::Texture> diffused_normals_;
     std::string diffused_normals_key_;

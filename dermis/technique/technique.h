@@ -41,8 +41,9 @@ struct FrameContext {
     float typical_uv_per_mm = 0.003f;
     /// Each place of the skin has texels of its own in its UV atlas, so that maps can be baked over it.
     bool has_skin_atlas = true;
-    bool has_zonal_table = false;  ///< SkinContext::zonal_table is given
-    GaussianSum skin_gaussians;    ///< of the scene's profile
+    bool has_skin_outside_atlas = true;  ///< some of the skin has UVs in other tiles than 0..1
+    bool has_zonal_table = false;        ///< SkinContext::zonal_table is given
+    GaussianSum skin_gaussians;          ///< of the scene's profile
 };
 
 /// The skin and the scene that tables are baked for.

@@ -18,6 +18,9 @@
 
 uniform texture2D diffused_normals_red, diffused_normals_green, diffused_normals_uneven;
 
+// Where it is known to be 0, no curvature of the vertices is kept for it.
+layout(constant_id = 7) const int skin_outside_atlas = 1;
+
 struct DiffusedNormals {
     vec3 n[3];       // of each channel, normalised
     vec3 mean_length;
@@ -58,7 +61,7 @@ DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight, float green_sp
         d.n[c] = mean[c] / d.mean_length[c];
     }
     vec2 sphere = sphere_of_mean(d.mean_length.r);
-    d.k_per_mm = in_atlas ? sphere.x : around_per_mm;
+    d.k_per_mm = skin_outside_atlas == 0 || in_atlas ? sphere.x : around_per_mm;
     // Green's and blue's normals differ by little: of a lobe of mean cosine 1 - x to second order in x.
     vec3 less = 1.0 - d.mean_length;
     d.band_2 = vec3(sphere.y, 1.0 - 3.0 * less.gb + 3.0 * less.gb * less.gb);

@@ -144,6 +144,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     PassList list;
     if (baked) {
         list.diffused_normals = DiffusedNormalsRequest{};
+        pass.constants.emplace_back("skin_outside_atlas", int32_t(frame.has_skin_outside_atlas));
         for (const char* texture : kDiffusedNormalsTextures) pass.reads.push_back(texture);
         pass.values.emplace_back("own_normal_weight",
                                  own_normal_weights(frame.skin_gaussians, *list.diffused_normals));

@@ -59,11 +59,10 @@ TEST_F(SphericalGaussians, one_of_the_profiles_variance_is_off_by_what_was_compu
     for (size_t i = 0; i < 4; ++i) EXPECT_NEAR(error[i], computed[i], 0.0025) << kRadiiMm[i];
 }
 
-// One lobe of the best width for each radius has .039, .026, .009, .005.
 TEST_F(SphericalGaussians, of_the_profiles_deviation_are_near_the_best_of_their_number) {
     const std::array<double, 4> one = errors("1"), two = errors("2"), six = errors("6");
-    constexpr std::array<double, 4> kOne = {.047, .032, .012, .006}, kTwo = {.012, .012, .009, .005},
-                                    kSix = {.006, .009, .008, .005};
+    constexpr std::array<double, 4> kOne = {.047, .032, .012, .006}, kTwo = {.012, .007, .004, .002},
+                                    kSix = {.005, .003, .0025, .0015};
     for (size_t i = 0; i < 4; ++i) {
         EXPECT_LT(one[i], kOne[i]) << kRadiiMm[i];
         EXPECT_LT(two[i], kTwo[i]) << kRadiiMm[i];
