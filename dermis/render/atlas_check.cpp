@@ -115,8 +115,7 @@ std::optional<std::string> unfit_for_baked_maps(const Scene& scene) {
     if (reason)
         *reason +=
             ": nothing is baked over it, and bumps scatter by a smaller level of the normal map; give each "
-            "place "
-            "of the skin texels of its own";
+            "place of the skin texels of its own";
     return reason;
 }
 
