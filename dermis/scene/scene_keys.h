@@ -160,4 +160,7 @@ class KeyTable {
 [[nodiscard]] const KeyTable<EnvironmentDescription>& environment_keys();
 [[nodiscard]] const KeyTable<CameraDescription>& camera_keys();
 
+/// "[maps], [skin]": the sections that have a key of this name; empty where none has it.
+[[nodiscard]] std::string sections_with_key(std::string_view name);
+
 }  // namespace dermis

@@ -31,8 +31,8 @@ namespace dermis {
 [[nodiscard]] std::optional<std::string> setting_text(const TomlNode& node);
 
 /// Sets the key `name` of the section `path` ("" is the root) to the value that `node_of(const KeyInfo&)`
-/// gives for it. Errors: no such key (with the one that may be meant, out of the table and `nested`), a wrong
-/// type, out of range.
+/// gives for it. Errors: no such key (with the sections that have it, or the one that may be meant, out of
+/// the table and `nested`), a wrong type, out of range.
 template <class Target, class NodeOf>
 [[nodiscard]] Result<void> set_key(const KeyTable<Target>& table, Target& target, const std::string& path,
                                    const std::string& name, const TomlPlace& place, const NodeOf& node_of,
@@ -41,7 +41,10 @@ template <class Target, class NodeOf>
     if (!key) {
         std::vector<std::string> names(nested.begin(), nested.end());
         for (const Key<Target>& known : table.keys()) names.push_back(known.info.name);
-        return place.error(unknown_name(path.empty() ? "key" : "key in [" + path + "]:", name, names));
+        const std::string what = path.empty() ? "key" : "key in [" + path + "]:";
+        if (const std::string others = sections_with_key(name); !others.empty())
+            return place.error("unknown " + what + " '" + name + "'; it is a key of " + others);
+        return place.error(unknown_name(what, name, names));
     }
     const TomlNode& node = node_of(key->info);
     KeyValue value{.full_name = path.empty() ? name : path + "." + name,

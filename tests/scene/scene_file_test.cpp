@@ -173,6 +173,14 @@ TEST(SceneFile, an_unknown_key_proposes_the_one_that_was_meant) {
               "s.toml:4: unknown key in [material.lips.maps]: 'normals'; did you mean 'normal'? Known: ");
 }
 
+TEST(SceneFile, a_key_in_the_wrong_section_names_the_right_one) {
+    EXPECT_EQ(error_of(kSpheresMesh + "[skin]\nalbedo = \"a.png\"\n"),
+              "s.toml:4: unknown key in [skin]: 'albedo'; it is a key of [maps], [material.NAME]");
+    EXPECT_EQ(
+        error_of(kSpheresMesh + "exposure_ev = 1\n"),
+        "s.toml:3: unknown key in [mesh]: 'exposure_ev'; it is a key of the file, before every section");
+}
+
 TEST(SceneFile, a_value_out_of_range_says_the_range) {
     EXPECT_EQ(error_of(kSpheresMesh + "[skin]\nroughness = 2\n"),
               "s.toml:4: skin.roughness = 2: roughness is a number from 0 to 1");
