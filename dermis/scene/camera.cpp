@@ -50,8 +50,9 @@ Vec3 direction_from_yaw_pitch(float yaw_rad, float pitch_rad) {
 }
 
 YawPitch yaw_pitch_of(Vec3 direction) {
-    const Vec3 d = normalize(direction);
-    return {.yaw_rad = std::atan2(d.x, d.z), .pitch_rad = std::asin(std::clamp(d.y, -1.0f, 1.0f))};
+    // An arcsine would lose half of the digits near the poles.
+    return {.yaw_rad = std::atan2(direction.x, direction.z),
+            .pitch_rad = std::atan2(direction.y, std::hypot(direction.x, direction.z))};
 }
 
 }  // namespace dermis

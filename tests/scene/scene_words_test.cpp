@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "dermis/base/file.h"
 #include "dermis/optics/mtlx.h"
 #include "dermis/optics/presets.h"
@@ -53,6 +56,26 @@ TEST(SceneWords, every_key_of_a_loaded_scene_reads_back_what_it_was_set_to) {
         ASSERT_EQ(error_of(other, {word}), "") << word.key;
         EXPECT_EQ(words_of(other)[i].value, word.value) << word.key;
     }
+}
+
+// Positions are floats: their rounding must not come back as another yaw or distance each time.
+TEST(SceneWords, the_text_of_a_camera_stays_when_it_is_read_and_written_again) {
+    std::mt19937 random(1);
+    const auto uniform = [&](float low, float high) { return low + (high - low) * float(random()) / 4.3e9f; };
+    int changed = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 target_mm = {uniform(-200, 200), uniform(-200, 200), uniform(-200, 200)};
+        const float distance_mm = std::pow(10.0f, uniform(0, 5));
+        const Vec3 direction = direction_from_yaw_pitch(uniform(-3.1f, 3.1f), uniform(-1.5f, 1.5f));
+        Scene scene{.camera = {.eye_mm = target_mm + direction * distance_mm, .target_mm = target_mm}};
+        std::string texts[3];
+        for (std::string& text : texts) {
+            text = camera_text(scene.camera);
+            ASSERT_TRUE(set_section(scene, "camera", text)) << text;
+        }
+        changed += texts[2] != texts[1];
+    }
+    EXPECT_EQ(changed, 0);
 }
 
 TEST(SceneWords, the_hash_follows_every_key_but_those_of_the_display) {
