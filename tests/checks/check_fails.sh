@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# check_fails.sh CHECK SOURCE_DIR: each check of .ci/run must fail on a fault made for it, in a folder of its own, and pass
-# without. The faults are compiled with the presets that .ci/run uses and cmake/Compiler.cmake. 77: skipped.
+# check_fails.sh CHECK SOURCE_DIR: each check of .ci/run and tools/full_check must fail on a fault made for it, in a folder of its own,
+# and pass without. The faults are compiled with the presets that these use and cmake/Compiler.cmake. 77: skipped.
 set -euo pipefail
 check=$1
 source_dir=$2
