@@ -46,7 +46,8 @@ struct SceneKey {
     const KeyInfo* info = nullptr;
     KeyValue value;
 };
-/// All that set_words() could set, in the order of the tables.
+/// All that set_words() could set, in the order of the tables. Angles and distances of cameras and lights are
+/// without the digits that float positions cannot hold, so the words of a scene stay when they are set.
 [[nodiscard]] std::vector<SceneKey> keys_of(const Scene& scene);
 /// The same as words, numbers rounded to 1e-4; the key light is `light.key`, the others have numbers.
 [[nodiscard]] std::vector<SceneWord> words_of(const Scene& scene);
