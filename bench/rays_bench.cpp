@@ -6,8 +6,6 @@
 // The rays: from the camera through random points of the picture (closest hit), then from what they hit to
 // the key light and into the hemisphere (occlusion), then probes through the skin (all hits of a segment).
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +14,7 @@
 #include <random>
 
 #include "catalog/catalog.h"
+#include "dermis/rays/embree.h"
 #include "dermis/rays/ray_scene.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/scene/load_scene.h"
@@ -33,7 +32,7 @@ int fail(const std::string& message) {
 class EmbreeScene {
   public:
     explicit EmbreeScene(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | kEmbreeQueryFilters);
         for (const SceneObject& object : scene.objects) attach(object.mesh);
         rtcCommitScene(scene_);
     }
@@ -140,7 +139,7 @@ Rays make_rays(const RayScene& scene, Vec3 to_light_world, size_t count) {
 
 // Embree's filter that all_hits() needs, and no more: it counts.
 struct CountContext {
-    RTCIntersectContext embree;
+    EmbreeContext embree;
     size_t count;
 };
 
@@ -154,30 +153,29 @@ void run(const RayScene& scene, const EmbreeScene& embree, const Rays& rays) {
         return scene.closest_hit(RaySet::opaque, ray).has_value();
     };
     const auto closest_embree = [&](const Ray& ray) -> size_t {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
+        EmbreeContext context;
+        init_embree_context(&context);
         RTCRayHit query{.ray = embree_ray(ray), .hit = {}};
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(embree.get(), &context, &query);
+        embree_intersect(embree.get(), &context, &query);
         return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     };
     const auto occluded = [&](const Ray& ray) -> size_t { return scene.occluded(RaySet::opaque, ray); };
     const auto occluded_embree = [&](const Ray& ray) -> size_t {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
+        EmbreeContext context;
+        init_embree_context(&context);
         RTCRay query = embree_ray(ray);
-        rtcOccluded1(embree.get(), &context, &query);
+        embree_occluded(embree.get(), &context, &query);
         return query.tfar < 0;
     };
     std::vector<RayHit> hits(64);
     const auto all = [&](const Ray& ray) { return scene.all_hits(RaySet::opaque, ray, hits); };
     const auto all_embree = [&](const Ray& ray) {
         CountContext context{};
-        rtcInitIntersectContext(&context.embree);
-        context.embree.filter = count_hit;
+        init_embree_context(&context.embree);
         RTCRayHit query{.ray = embree_ray(ray), .hit = {}};
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(embree.get(), &context.embree, &query);
+        embree_intersect(embree.get(), &context.embree, &query, count_hit);
         return context.count;
     };
     print("closest, camera", rays.camera.size(), measure(rays.camera, closest, closest_embree));

@@ -9,7 +9,7 @@ namespace dermis::cli {
 
 Option* SceneChoice::add_to(Command& command) {
     add_options_to(command);
-    return command.add_option("scene", name,
+    return command.add_option("SCENE", name,
                               "scene file, mesh (.glb .gltf .obj), name of a scene, or builtin:NAME");
 }
 

@@ -1,8 +1,7 @@
 #include "dermis/rays/ray_scene.h"
 #include "dermis/base/parallel.h"
 #include "dermis/rays/cut_out.h"
-
-#include <embree3/rtcore.h>
+#include "dermis/rays/embree.h"
 
 #include <algorithm>
 #include <array>
@@ -69,13 +68,13 @@ Part select_triangles(const Mesh& mesh, std::span<const MaterialClass> classes, 
 }
 
 struct Context {
-    RTCIntersectContext embree;
+    EmbreeContext embree;
     bool blends;  // the ray stops wherever a blended material shows
 };
 
 Context make_context(bool blends) {
     Context context{.embree = {}, .blends = blends};
-    rtcInitIntersectContext(&context.embree);
+    init_embree_context(&context.embree);
     return context;
 }
 
@@ -228,7 +227,7 @@ struct RayScene::Impl {
         }
         if (set.parts.empty()) return true;
         set.scene.reset(rtcNewScene(device.get()));
-        rtcSetSceneFlags(set.scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+        rtcSetSceneFlags(set.scene.get(), RTC_SCENE_FLAG_ROBUST | kEmbreeQueryFilters);
         // Not high quality: its spatial splits report a triangle twice to all_hits.
         rtcSetSceneBuildQuality(set.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
         for (const Part& part : set.parts) {
@@ -309,7 +308,7 @@ std::optional<RayHit> RayScene::closest_hit(RaySet which, const Ray& ray) const 
     if (!set.scene) return std::nullopt;
     Context context = make_context(ray.blends);
     RTCRayHit query = embree_ray(ray);
-    rtcIntersect1(set.scene.get(), &context.embree, &query);
+    embree_intersect(set.scene.get(), &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return make_hit(set, query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v,
                     {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
@@ -320,7 +319,7 @@ bool RayScene::occluded(RaySet which, const Ray& ray) const {
     if (!set.scene) return false;
     Context context = make_context(ray.blends);
     RTCRay query = embree_ray(ray).ray;
-    rtcOccluded1(set.scene.get(), &context.embree, &query);
+    embree_occluded(set.scene.get(), &context.embree, &query);
     return query.tfar < 0;
 }
 
@@ -328,9 +327,8 @@ size_t RayScene::all_hits(RaySet which, const Ray& ray, std::span<RayHit> hits) 
     const TriangleSet& set = impl_->set(which);
     if (!set.scene) return 0;
     CollectContext collected{.context = make_context(ray.blends), .set = &set, .hits = hits, .count = 0};
-    collected.context.embree.filter = collect;
     RTCRayHit query = embree_ray(ray);
-    rtcIntersect1(set.scene.get(), &collected.context.embree, &query);
+    embree_intersect(set.scene.get(), &collected.context.embree, &query, collect);
     return collected.count;
 }
 

@@ -18,7 +18,7 @@ file(GLOB library ${work}/libdermis-dev_*.deb)
 
 # Two that are opened at run time and two that are linked.
 run(depends dpkg-deb -f ${program} Depends)
-foreach(name mesa-vulkan-drivers fonts-dejavu-core libembree3-3 libglfw3)
+foreach(name mesa-vulkan-drivers fonts-dejavu-core libembree[34] libglfw3)
     if(NOT depends MATCHES "(^|, )${name}")
         message(FATAL_ERROR "dermis does not depend on ${name}: ${depends}")
     endif()

@@ -46,7 +46,7 @@ Result<int> run(const BakeMapsOptions& options) {
 void add_common(Command* command, BakeMapsOptions& options) {
     BakeMapSettings& s = options.map.settings;
     const bool thickness = s.kind == MapKind::thickness;
-    command->add_option("mesh", options.map.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
+    command->add_option("MESH", options.map.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
     command
         ->add_option("-o,--output", options.output,
                      thickness

@@ -58,7 +58,7 @@ void add_bake_normals_command(CommandLine& line) {
                                 "dermis bake normals head_scan --profile gpu_gems_3 -o normals.exr\n"
                                 "  dermis bake normals head.obj --unit-mm 45 --size 2048 -o normals.png",
                                 bake_group(line));
-    command->add_option("mesh", options->mesh, "mesh, scene file, scene name or builtin:NAME")->required();
+    command->add_option("MESH", options->mesh, "mesh, scene file, scene name or builtin:NAME")->required();
     command
         ->add_option("-o,--output", options->output,
                      "NAME.exr or NAME.png: writes NAME_red and NAME_green, and a .json beside each")

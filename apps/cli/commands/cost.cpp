@@ -91,7 +91,7 @@ void add_cost_command(CommandLine& line) {
     Command* command =
         line.add("cost", "Models what techniques cost on graphics cards that need not be there",
                  "dermis cost lambert \"preintegrated[shadow=plain]\" --gpu navi21,gfx1100");
-    command->add_option("techniques", options->techniques,
+    command->add_option("TECHNIQUES", options->techniques,
                         "technique or technique[name=value,...]; several; all when none is given");
     std::string chips;
     for (const Card& card : cards()) chips += (chips.empty() ? "" : ", ") + std::string(card.chip);

@@ -56,7 +56,7 @@ void add_export_mesh_command(CommandLine& line) {
         line.add("export-mesh", "Writes the built-in head with its skin as GLB or OBJ",
                  "dermis export-mesh builtin:bust -o bust.glb\n"
                  "  dermis export-mesh builtin:bust --tone 5 --profile openpbr_skin_5 -o dark.glb");
-    command->add_option("mesh", options->mesh, "builtin:bust");
+    command->add_option("MESH", options->mesh, "builtin:bust");
     command->add_option("-o,--output", options->path, "file to write, .glb or .obj")->required();
     command->add_option("--profile", options->profile,
                         "of the GLB's material: preset, .csv, .mtlx or .glb file, or burley:R,G,B");

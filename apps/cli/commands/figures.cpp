@@ -80,9 +80,9 @@ void add_figures_command(CommandLine& line) {
     Command* command =
         line.add("figures", "Reproduces the figures of a technique's source, with differences in numbers",
                  "dermis figures preintegrated -o out/figures --size 400");
-    command->add_option("technique", options->technique, "id of the technique (dermis techniques lists them)")
+    command->add_option("TECHNIQUE", options->technique, "id of the technique (dermis techniques lists them)")
         ->required();
-    command->add_option("scene", options->scene.name, "draw this scene instead of each figure's own");
+    command->add_option("SCENE", options->scene.name, "draw this scene instead of each figure's own");
     options->scene.add_options_to(*command);
     command->add_option("-o,--output", options->output, "directory; each figure is one PNG")
         ->capture_default_str();

@@ -149,7 +149,7 @@ void add_jobs_command(CommandLine& line) {
                  "    render head_scan -t preintegrated --frames 240 --turn 360 -o out/turn/%04d.png\n"
                  "    compare head_scan -o out/compare\n"
                  "  Samples and frames are split, a comparison is one job. What is done is not done again.");
-    command->add_option("commands", options->commands, "file with a command a line")->required();
+    command->add_option("COMMANDS", options->commands, "file with a command a line")->required();
     command->add_option("--folder", options->folder, "folder for lists, parts and logs")
         ->capture_default_str();
     command->add_option("--parts", options->parts, "maximum parts of a picture or a turn")

@@ -34,7 +34,7 @@ void add_lint_command(CommandLine& line) {
     Command* command = line.add("lint", "Finds how a pre-integrated table was made, and its error",
                                 "dermis lint DiffuseScatteringOnRing.png --write-sidecar");
     command
-        ->add_option("file", options->path, "PNG, EXR, DDS, KTX2, or CSV with n_dot_l,curvature_per_mm,r,g,b")
+        ->add_option("FILE", options->path, "PNG, EXR, DDS, KTX2, or CSV with n_dot_l,curvature_per_mm,r,g,b")
         ->required();
     command->add_flag("--write-sidecar", options->write_sidecar,
                       "write what was found as FILE.json, so that diffuse_table takes the file");

@@ -69,7 +69,7 @@ void add_merge_command(CommandLine& line) {
         line.add("merge", "Makes a picture of its parts, which dermis reference --sample-range wrote",
                  "dermis merge part*.exr -o picture.exr --preview picture.png\n"
                  "  dermis merge --check part*.exr   (names parts that are cut off or damaged)");
-    command->add_option("parts", options->parts, "the parts, in any order")->required();
+    command->add_option("PARTS", options->parts, "the parts, in any order")->required();
     command->add_option("-o,--output", options->output, "FILE.exr");
     command->add_option("--preview", options->preview, "FILE.png: the picture with the scene's tone map");
     command->add_flag("--check", options->check, "only read the parts, and say of each whether it is whole");

@@ -39,7 +39,7 @@ void add_passes_command(CommandLine& line) {
     const auto options = std::make_shared<PassesOptions>();
     Command* command = line.add("passes", "Prints the passes of a technique's frame, without a GPU",
                                 "dermis passes lambert --set specular=blinn_phong");
-    command->add_option("id", options->technique, "id of the technique (dermis techniques lists them)")
+    command->add_option("ID", options->technique, "id of the technique (dermis techniques lists them)")
         ->required();
     command->add_option("--set", options->settings, "a parameter, name=value; may be repeated")
         ->allow_extra_args(false);

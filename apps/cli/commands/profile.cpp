@@ -188,7 +188,7 @@ void add_profile_command(CommandLine& line) {
 
     Command* show_command = line.add("show", "Prints a profile's lengths, albedo and Gaussians",
                                      "dermis profile show jensen_skin1 --plot skin1.svg", profile);
-    show_command->add_option("name", options->name, name_help)->required();
+    show_command->add_option("NAME", options->name, name_help)->required();
     show_command->add_option("--plot", options->plot, "SVG file: the curves of the profile");
     show_command->add_option("--terms", options->terms, "number of Gaussians of the fit, 1 to 12")
         ->capture_default_str();
@@ -198,7 +198,7 @@ void add_profile_command(CommandLine& line) {
     Command* convert_command = line.add(
         "convert", "Converts a profile to another tool's parameters, with quantity, unit and boundary",
         "dermis profile convert --from unreal --set mean_free_path_distance=3 --to blender_burley", profile);
-    convert_command->add_option("name", options->conversion.name, name_help);
+    convert_command->add_option("NAME", options->conversion.name, name_help);
     convert_command->add_option("--from", options->conversion.from,
                                 "read the settings of this tool instead of a profile");
     convert_command->add_option(

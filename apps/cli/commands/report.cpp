@@ -1,5 +1,6 @@
 // dermis report: the program and the machine as text for a fault report.
 
+#include <fnmatch.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -22,18 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Packages that can change a picture: drivers, loaders, and linked libraries.
-constexpr const char* kPackages[] = {"mesa-vulkan-drivers",
-                                     "libvulkan1",
-                                     "vulkan-validationlayers",
-                                     "libembree3-3",
-                                     "libopenexr-3-1-30",
-                                     "libpng16-16",
-                                     "libturbojpeg0",
-                                     "libfreetype6",
-                                     "libglfw3",
-                                     "glslc",
-                                     "fonts-dejavu-core"};
+// Packages that can change a picture: drivers, loaders, and linked libraries. Names of libraries carry a
+// version that differs between releases, so these are patterns of dpkg-query and fnmatch().
+constexpr const char* kPackages[] = {
+    "mesa-vulkan-drivers", "libvulkan1",     "vulkan-validationlayers", "libembree[0-9]*", "libopenexr-*",
+    "libpng16-16*",        "libturbojpeg0*", "libfreetype6*",           "libglfw3",        "glslc",
+    "fonts-dejavu-core"};
 constexpr const char* kVariables[] = {
     "DERMIS_ASSETS",  "DERMIS_FONT",      "VK_ICD_FILENAMES", "VK_DRIVER_FILES", "VK_INSTANCE_LAYERS",
     "LP_NUM_THREADS", "XDG_SESSION_TYPE", "DISPLAY",          "WAYLAND_DISPLAY"};
@@ -115,21 +110,23 @@ std::string device_text() {
     return text;
 }
 
+// dpkg-query also lists packages that are not installed, without a version.
+std::string installed_versions(const std::string& answer, const char* pattern) {
+    std::vector<std::string> found;
+    std::istringstream lines(answer);
+    for (std::string name, version; std::getline(std::getline(lines, name, '\t'), version);)
+        if (!version.empty() && !name.ends_with("-dev") && ::fnmatch(pattern, name.c_str(), 0) == 0)
+            found.push_back(name + " " + version);
+    return found.empty() ? std::string(pattern) + " (not installed)" : join(found, ", ");
+}
+
 std::string package_text() {
     std::vector<std::string> query = {"dpkg-query", "-W", "-f", "${Package}\t${Version}\n"};
     query.insert(query.end(), std::begin(kPackages), std::end(kPackages));
     const std::string answer = output_of(query);
     if (answer.empty()) return "unknown (no dpkg-query here)";
     std::vector<std::string> found;
-    for (const char* package : kPackages) {
-        const std::string start = std::string(package) + "\t";
-        const size_t at = ("\n" + answer).find("\n" + start);
-        const std::string version =
-            at == std::string::npos
-                ? ""
-                : answer.substr(at + start.size(), answer.find('\n', at) - at - start.size());
-        found.push_back(std::string(package) + (version.empty() ? " (not installed)" : " " + version));
-    }
+    for (const char* pattern : kPackages) found.push_back(installed_versions(answer, pattern));
     return join(found, ", ");
 }
 

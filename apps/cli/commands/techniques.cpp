@@ -48,7 +48,7 @@ void add_techniques_command(CommandLine& line) {
     const auto options = std::make_shared<TechniquesOptions>();
     Command* command =
         line.add("techniques", "Lists the techniques with their parameters", "dermis techniques wrap");
-    command->add_option("id", options->only, "list this technique only");
+    command->add_option("ID", options->only, "list this technique only");
     command->add_flag("--json", options->json, "as JSON");
     line.when_chosen(command, [options] { return list_techniques(options->only, options->json); });
 }
