@@ -33,10 +33,11 @@ constexpr Evidence kPackageEvidence[] = {
     {"libpng-dev", "PNG", "png.h", ""},
     {"libturbojpeg0-dev", "libjpeg-turbo", "turbojpeg.h", ""},
     {"libjpeg62-turbo-dev", "libjpeg-turbo", "", ""},
+    {"libjpeg-turbo8-dev", "libjpeg-turbo", "", ""},
     {"libfreetype-dev", "Freetype", "ft2build.h", ""},
     {"fonts-dejavu-core", "", "", "DejaVuSans.ttf"},
     {"libosd-dev", "osdCPU", "opensubdiv/", ""},
-    {"libembree-dev", "embree", "embree3/", ""},
+    {"libembree-dev", "embree", "embree3/ embree4/", ""},
     {"libvulkan-dev", "", "vulkan/", "GLFW_INCLUDE_VULKAN"},
     {"libvulkan-volk-dev", "", "volk.h", ""},
     {"mesa-vulkan-drivers", "", "", "lavapipe"},
@@ -60,7 +61,7 @@ constexpr Evidence kPackageEvidence[] = {
     {"ffmpeg", "", "", "ffmpeg"},
     {"clang", "", "", "clang++"},
     {"clang-format", "", "", "clang-format"},
-    {"libclang-rt-14-dev", "", "", "libclang-rt-14-dev"},
+    {"libclang-rt-dev", "", "", "libclang-rt-dev"},
     {"dpkg-dev", "dpkg-shlibdeps", "", ""},
     {"file", "file", "", ""},
     {"pybind11-dev", "pybind11", "pybind11/", ""},
@@ -74,7 +75,7 @@ constexpr Evidence kPackageEvidence[] = {
 const std::set<std::string> kOwnCmakeNames = {"Threads", "ccache", "dermis"};
 // Folders and files of the C library; a header without '.' or '/' is C++'s own.
 const std::regex kSystemHeader(
-    R"((sys/.*|unistd\.h|spawn\.h|signal\.h|fcntl\.h|std(lib|io)\.h|poll\.h|dlfcn\.h|pthread\.h|errno\.h))");
+    R"((sys/.*|fnmatch\.h|unistd\.h|spawn\.h|signal\.h|fcntl\.h|std(lib|io)\.h|poll\.h|dlfcn\.h|pthread\.h|errno\.h))");
 
 std::set<std::string> words(const std::string& text) {
     std::istringstream stream(text);
@@ -145,7 +146,9 @@ void check_uses(const std::set<std::string>& uses, const std::string& verb,
 }  // namespace
 
 std::set<std::string> listed_packages(const std::string& lists) {
-    return words(std::regex_replace(lists, std::regex("#[^\n]*"), " "));
+    std::set<std::string> names = words(std::regex_replace(lists, std::regex("#[^\n]*|\\|"), " "));
+    names.erase("-");
+    return names;
 }
 
 std::vector<std::string> disagreements(const PackageUse& use) {

@@ -11,7 +11,7 @@ namespace dermis {
 
 /// Texts of a repository, each in one string.
 struct PackageUse {
-    std::string lists;    ///< tools/packages*.txt: one name per line, '#' begins a comment
+    std::string lists;    ///< tools/packages*.txt: "NAME" or "NAME | NAME" per line, '#' begins a comment
     std::string readme;   ///< the table below "## Dependencies"
     std::string cmake;    ///< every CMake file
     std::string sources;  ///< every .cpp and .h

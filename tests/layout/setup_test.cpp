@@ -30,6 +30,7 @@ class Setup : public testing::Test {
         write("root/tools/packages.txt", "libone-dev  # for one\nlibtwo-dev\n");
         program("id", "echo 0");
         program("dpkg-query", "exit 1");  // nothing is installed
+        program("apt-cache", "exit 0");   // the archive has everything
         program("apt-get",
                 "case \"$*\" in *--print-uris*)\n"
                 "echo \"'http://a/one.deb' one.deb 1500000 MD5\"; echo \"'http://a/two.deb' two.deb 2000000 "
@@ -78,6 +79,35 @@ TEST_F(Setup, says_which_packages_and_how_many_megabytes_before_it_installs_and_
     ASSERT_NE(installed, std::string::npos) << first.err;
     EXPECT_LT(said, installed);
     EXPECT_THAT(shell("bash -c 'source tools/setup'").err, IsEmpty());
+}
+
+TEST_F(Setup, of_alternatives_installs_the_first_that_the_release_has_and_none_if_that_is_one) {
+    write("root/tools/packages.txt", "libold-dev | libnew-dev  # for one\nlibsnap-dev | -\nlibtwo-dev\n");
+    program("apt-cache", "case $2 in libnew-dev | libtwo-dev) exit 0;; *) exit 100;; esac");
+    const ProgramResult result = shell("bash -c 'source tools/setup'");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("dermis: installing with apt-get: libnew-dev libtwo-dev\n"));
+}
+
+TEST_F(Setup, an_alternative_that_is_installed_is_enough) {
+    write("root/tools/packages.txt", "libold-dev | libnew-dev\n");
+    program("dpkg-query", "[ \"${!#}\" = libnew-dev ] && echo 'install ok installed'");
+    const ProgramResult result = shell("bash -c 'source tools/setup'");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(Setup, a_package_that_the_release_does_not_have_is_named_with_its_list) {
+    write("root/tools/packages_checks.txt", "# tests\nlibold-14-dev  # what tests link\n");
+    write("root/tools/packages_python.txt", "");
+    program("apt-cache", "[ \"$2\" != libold-14-dev ]");
+    const ProgramResult result = shell("checks=1 bash -c 'source tools/setup; echo went on'");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err,
+                HasSubstr("dermis: this release has no package libold-14-dev; name the one that it "
+                          "has in tools/packages_checks.txt\n"));
+    EXPECT_THAT(result.err, Not(HasSubstr("CALLED apt-get install")));
+    EXPECT_THAT(result.out, IsEmpty());
 }
 
 TEST_F(Setup, says_that_sudo_is_used) {
@@ -151,9 +181,11 @@ TEST_F(Setup, run_installs_and_builds_the_python_module_only_when_it_is_asked_fo
 TEST_F(Setup, fresh_machine_has_help_with_an_example_and_refuses_what_it_does_not_know) {
     const ProgramResult help = shell(kFreshMachine + " --help");
     EXPECT_EQ(help.exit_code, 0);
-    EXPECT_THAT(help.out, HasSubstr("example: sudo tools/fresh_machine --configure"));
+    EXPECT_THAT(help.out, HasSubstr("example: sudo tools/fresh_machine --suite trixie --configure"));
     EXPECT_THAT(help.out, Not(HasSubstr("set -euo")));
     EXPECT_EQ(shell(kFreshMachine + " --nonsense").exit_code, 2);
+    EXPECT_EQ(shell(kFreshMachine + " --suite sarge").exit_code, 2);
+    EXPECT_EQ(shell(kFreshMachine + " --suite").exit_code, 2);
     EXPECT_EQ(folders_left(), 0u);
 }
 
@@ -175,6 +207,19 @@ TEST_F(Setup, fresh_machine_removes_its_folder_when_it_fails_and_when_it_is_ende
               "kill -TERM $!; wait $!'");
     EXPECT_EQ(ended.exit_code, 143) << ended.err;
     EXPECT_EQ(folders_left(), 0u);
+}
+
+TEST_F(Setup, fresh_machine_makes_the_release_that_it_is_told_from_this_machines_archive) {
+    for (const char* engine : {"podman", "docker"}) program(engine, "exit 1");
+    program("debootstrap", "exit 1");
+    program("unshare", "exit 1");
+    const std::string own = "$(. /etc/os-release; echo $VERSION_CODENAME)",
+                      id = "$(. /etc/os-release; echo $ID)";
+    program("apt-get", "[ $1 != indextargets ] || echo \"" + id + " http://archive/ " + own + " main\"");
+    program("setpriv", "echo \"$*\" >'" + path("called").string() + "'; exit 1");
+    EXPECT_EQ(shell(kFreshMachine + " --suite forky --configure").exit_code, 1);
+    EXPECT_THAT(slurp(path("called")), HasSubstr(" forky "));
+    EXPECT_THAT(slurp(path("called")), HasSubstr("/base http://archive/"));
 }
 
 // The tests that it runs to record exist in the repository, of all kinds (goldens, scores and costs).
