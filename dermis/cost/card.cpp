@@ -17,7 +17,7 @@ std::span<const Card> cards() {
          .bandwidth_gb_s = 512,
          .source = "AMD, product page of the Radeon RX 6900 XT, 2020: game clock 2015 MHz, 80 compute units, "
                    "16 Gbit/s over 256 bit"},
-        {.chip = "gfx1100",
+        {.chip = "navi31",
          .name = "Radeon RX 7900 XTX",
          .clock_ghz = 2.3,
          .compute_units = 96,

@@ -9,7 +9,7 @@
 namespace dermis {
 
 struct Card {
-    std::string_view chip;  ///< as RADV_FORCE_FAMILY has it
+    std::string_view chip;  ///< as RADV_FORCE_FAMILY has it since Mesa 23
     std::string_view name;
     double clock_ghz = 0;  ///< what the maker promises in games (Vega: the boost clock)
     int compute_units = 0, simds_per_unit = 0;

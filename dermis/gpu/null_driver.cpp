@@ -41,6 +41,28 @@ fs::path radv_manifest() {
     return {};
 }
 
+Result<Device> open_as(const fs::path& manifest, const std::string& family) {
+    // The loader reads the first two when an instance is made (the newer name wins where it is known), the
+    // driver the third when devices are listed.
+    const ScopedVariable driver("VK_DRIVER_FILES", manifest.string());
+    const ScopedVariable icd("VK_ICD_FILENAMES", manifest.string());
+    const ScopedVariable variable("RADV_FORCE_FAMILY", family);
+    Result<Device> device = Device::create({.keep_statistics = true});
+    if (!device)
+        return device.error().within("RADV (" + manifest.string() + ") without hardware, as '" + family +
+                                     "'");
+    return device;
+}
+
+// Mesa 22 calls RDNA 3's chip by its instruction set. Each version ends the process at the other's name, so
+// the version is read from a device of a chip that all of them know.
+Result<std::string> family_of(const fs::path& manifest, std::string_view chip) {
+    if (chip != "navi31") return std::string(chip);
+    const Result<Device> known = open_as(manifest, "navi21");
+    if (!known) return known.error();
+    return std::string(known->info().driver.find("Mesa 22.") != std::string::npos ? "gfx1100" : chip);
+}
+
 }  // namespace
 
 bool null_driver_installed() {
@@ -53,16 +75,9 @@ Result<Device> open_null_driver(std::string_view chip) {
         return Error{
             "no radeon_icd*.json in /usr/share/vulkan/icd.d: Mesa's RADV compiles for the chip and is not "
             "installed (Debian: apt-get install mesa-vulkan-drivers)"};
-    // The loader reads the first two when an instance is made (the newer name wins where it is known), the
-    // driver the third when devices are listed.
-    const ScopedVariable driver("VK_DRIVER_FILES", manifest.string());
-    const ScopedVariable icd("VK_ICD_FILENAMES", manifest.string());
-    const ScopedVariable family("RADV_FORCE_FAMILY", std::string(chip));
-    Result<Device> device = Device::create({.keep_statistics = true});
-    if (!device)
-        return device.error().within("RADV (" + manifest.string() + ") without hardware, as '" +
-                                     std::string(chip) + "'");
-    return device;
+    const Result<std::string> family = family_of(manifest, chip);
+    if (!family) return family.error();
+    return open_as(manifest, *family);
 }
 
 }  // namespace dermis::gpu

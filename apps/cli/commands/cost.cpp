@@ -90,7 +90,7 @@ void add_cost_command(CommandLine& line) {
     const auto options = std::make_shared<CostOptions>();
     Command* command =
         line.add("cost", "Models what techniques cost on graphics cards that need not be there",
-                 "dermis cost lambert \"preintegrated[shadow=plain]\" --gpu navi21,gfx1100");
+                 "dermis cost lambert \"preintegrated[shadow=plain]\" --gpu navi21,navi31");
     command->add_option("TECHNIQUES", options->techniques,
                         "technique or technique[name=value,...]; several; all when none is given");
     std::string chips;
