@@ -49,7 +49,8 @@ using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::stri
 /// has none (normals.h), and so are tangents (tangents.h).
 ///
 /// Of glTF: skins in the pose of the file's nodes, morph targets by their weights, the UV set and
-/// KHR_texture_transform of each material's first texture (maps with others are left out, with a warning).
+/// KHR_texture_transform of each material's first texture (maps with others are left out together with the
+/// factors that they multiply, with a warning that names both).
 ///
 /// Errors (one line, naming file and place): unreadable or truncated files, no triangles, positions that are
 /// not finite, indices out of range, missing buffers, URIs that leave the directory, required extensions

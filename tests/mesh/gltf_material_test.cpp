@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mesh/mesh_files.h"
 
 using namespace dermis;
@@ -137,6 +139,96 @@ TEST(GltfMaterial, the_older_key_and_the_newer_extension_are_read) {
     EXPECT_EQ(newer.anisotropy, -0.5f);
     EXPECT_EQ(newer.multiscatter_color, (Vec3{1, 1, 1})) << "its default is white";
     EXPECT_EQ(scatter(R"("KHR_materials_scatter":{})").scatter_strength, 0);
+}
+
+// Texture 2 has no source.
+TEST(GltfMaterial, a_map_that_is_left_out_takes_its_factor_with_it) {
+    const Material none;  // what a surface is where the file says nothing that can be used
+    const std::string other_set = R"({"index":1,"texCoord":1})",
+                      other_transform =
+                          R"({"index":1,"extensions":{"KHR_texture_transform":{"offset":[0.5,0]}}})",
+                      no_source = R"({"index":2})";
+    for (const std::string& info : {other_set, other_transform, no_source}) {
+        const LoadedMesh loaded = load_with(
+            R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicFactor":1,"roughnessFactor":0.1,)"
+            R"("metallicRoughnessTexture":)" +
+            info + R"(},"emissiveFactor":[1,1,1],"emissiveTexture":)" + info +
+            R"(,"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},)"
+            R"("KHR_materials_specular":{"specularFactor":0.2,"specularTexture":)" +
+            info + R"(},"KHR_materials_volume":{"thicknessFactor":0.01,"thicknessTexture":)" + info +
+            R"(},"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.3,"diffuseTransmissionTexture":)" +
+            info + "}}}");
+        const Material& m = loaded.mesh.materials[0];
+        EXPECT_EQ(m.emission_linear, none.emission_linear) << info;
+        EXPECT_EQ(m.metallic, none.metallic) << info;
+        EXPECT_EQ(m.roughness, none.roughness) << info;
+        EXPECT_EQ(m.specular, none.specular) << info;
+        ASSERT_TRUE(m.scattering);
+        EXPECT_EQ(m.scattering->thickness_mm, 0) << info;
+        EXPECT_EQ(m.scattering->diffuse_transmission, 0) << info;
+        for (const ImageSource* map : {&m.emission_map, &m.metallic_roughness_map, &m.specular_map,
+                                       &m.thickness_map, &m.transmission_map})
+            EXPECT_FALSE(map->present()) << info;
+        EXPECT_TRUE(m.base_color_map.present());
+        EXPECT_EQ(std::ranges::count_if(loaded.warnings,
+                                        [](const std::string& line) {
+                                            return line.find("emissiveTexture: ") != std::string::npos &&
+                                                   line.ends_with("not used, nor is emissiveFactor");
+                                        }),
+                  1)
+            << info;
+        EXPECT_TRUE(any_contains(loaded.warnings, "not used, nor are metallicFactor and roughnessFactor"));
+    }
+}
+
+TEST(GltfMaterial, factors_stay_beside_maps_that_are_read_and_where_there_is_none) {
+    for (const std::string map : {"", R"(,"emissiveTexture":{"index":1})"})
+        EXPECT_EQ(material_of(R"({"emissiveFactor":[1,0.5,0])" + map + "}").emission_linear,
+                  (Vec3{1, 0.5f, 0}));
+}
+
+TEST(GltfMaterial, a_base_colour_without_its_map_is_that_of_an_unknown_surface) {
+    const LoadedMesh loaded = load_with(
+        R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,0,1,0.5],"baseColorTexture":{"index":2}}})");
+    EXPECT_EQ(loaded.mesh.materials[0].base_color_linear, Material().base_color_linear);
+    EXPECT_EQ(loaded.mesh.materials[0].opacity, 1);
+    EXPECT_TRUE(any_contains(loaded.warnings, "not used, nor is baseColorFactor"));
+}
+
+TEST(GltfMaterial, coloured_maps_that_no_renderer_here_reads_are_left_out_with_their_factors) {
+    const LoadedMesh loaded = load_with(
+        R"({"extensions":{"KHR_materials_diffuse_transmission":{"diffuseTransmissionColorFactor":[1,0,0],)"
+        R"("diffuseTransmissionColorTexture":{"index":0}},)"
+        R"("KHR_materials_specular":{"specularColorFactor":[1,0,0],"specularColorTexture":{"index":0}}}})");
+    ASSERT_TRUE(loaded.mesh.materials[0].scattering);
+    EXPECT_EQ(loaded.mesh.materials[0].scattering->diffuse_transmission_color, (Vec3{1, 1, 1}));
+    EXPECT_TRUE(any_contains(loaded.warnings,
+                             "diffuseTransmissionColorTexture: is not read; not used, nor is "
+                             "diffuseTransmissionColorFactor"));
+    EXPECT_TRUE(any_contains(loaded.warnings, "specularColorTexture: is not read"));
+}
+
+TEST(GltfMaterial, an_empty_embedded_picture_is_named_once_with_its_factor) {
+    const auto loaded = parse_gltf_text(
+        square_gltf("",
+                    R"(,"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,"}],)"
+                    R"("materials":[{"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}}])",
+                    R"(,"material":0)"));
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->mesh.materials[0].emission_linear, (Vec3{0, 0, 0}));
+    EXPECT_EQ(
+        std::ranges::count_if(loaded->warnings,
+                              [](const std::string& line) { return line.find("is empty") != line.npos; }),
+        1);
+}
+
+// The first map that can be read decides on the UV set.
+TEST(GltfMaterial, a_map_without_a_picture_does_not_choose_the_uv_set) {
+    const Material m =
+        material_of(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":2}},"emissiveFactor":[1,1,1],)"
+                    R"("emissiveTexture":{"index":0,"texCoord":1}})");
+    EXPECT_TRUE(m.emission_map.present());
+    EXPECT_EQ(m.emission_linear, (Vec3{1, 1, 1}));
 }
 
 TEST(GltfMaterial, what_is_odd_is_warned_of_and_what_is_wrong_is_refused) {

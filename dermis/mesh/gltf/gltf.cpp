@@ -42,7 +42,7 @@ class SceneReader {
         const JsonView materials = document_.view()["materials"];
         material_scales_.assign(materials.size(), 0);
         for (size_t i = 0; i < materials.size() && !failed(); ++i)
-            uv_mappings_.push_back(uv_mapping_of_material(materials[i]));
+            uv_mappings_.push_back(uv_mapping_of_material(document_, materials[i]));
         tree_ = read_nodes(document_, to_mm_);
         check_size();
         for (const uint64_t node : tree_.drawn) add_node(node);

@@ -20,7 +20,7 @@ class MaterialReader {
 
     Material read(const JsonView& source, size_t index, double node_scale) {
         Material material;
-        mapping_ = uv_mapping_of_material(source);
+        mapping_ = uv_mapping_of_material(document_, source);
         material.name = source["name"].text("");
         if (material.name.empty()) material.name = "material " + std::to_string(index);
         read_core(source, material);
@@ -45,17 +45,21 @@ class MaterialReader {
 
     void read_core(const JsonView& source, Material& material) {
         const JsonView pbr = source["pbrMetallicRoughness"];
-        const auto base = pbr["baseColorFactor"].numbers<4>({1, 1, 1, 1});
-        material.base_color_linear = {float(base[0]), float(base[1]), float(base[2])};
-        material.metallic = number(pbr["metallicFactor"], 1, 0, 1);
-        material.roughness = number(pbr["roughnessFactor"], 1, 0, 1);
-        material.base_color_map = texture(pbr["baseColorTexture"]);
-        material.metallic_roughness_map = texture(pbr["metallicRoughnessTexture"]);
-        material.normal_map = texture(source["normalTexture"]);
-        material.normal_scale = float(source["normalTexture"]["scale"].number(1));
-        material.occlusion_map = texture(source["occlusionTexture"]);
-        material.emission_linear = color(source["emissiveFactor"], {0, 0, 0});
-        material.emission_map = texture(source["emissiveTexture"]);
+        auto base = pbr["baseColorFactor"].numbers<4>({1, 1, 1, 1});
+        if (read_map(pbr["baseColorTexture"], "baseColorFactor", material.base_color_map))
+            material.base_color_linear = {float(base[0]), float(base[1]), float(base[2])};
+        else
+            base[3] = 1;
+        if (read_map(pbr["metallicRoughnessTexture"], "metallicFactor and roughnessFactor",
+                     material.metallic_roughness_map)) {
+            material.metallic = number(pbr["metallicFactor"], 1, 0, 1);
+            material.roughness = number(pbr["roughnessFactor"], 1, 0, 1);
+        }
+        if (read_map(source["normalTexture"], "", material.normal_map))
+            material.normal_scale = float(source["normalTexture"]["scale"].number(1));
+        read_map(source["occlusionTexture"], "", material.occlusion_map);
+        if (read_map(source["emissiveTexture"], "emissiveFactor", material.emission_map))
+            material.emission_linear = color(source["emissiveFactor"], {0, 0, 0});
         material.double_sided = source["doubleSided"].boolean(false);
         read_alpha(source, base[3], material);
     }
@@ -73,8 +77,9 @@ class MaterialReader {
 
     void read_surface(const JsonView& extensions, Material& material) {
         const JsonView specular = extensions["KHR_materials_specular"];
-        material.specular = number(specular["specularFactor"], 1, 0, 1);
-        material.specular_map = texture(specular["specularTexture"]);
+        if (read_map(specular["specularTexture"], "specularFactor", material.specular_map))
+            material.specular = number(specular["specularFactor"], 1, 0, 1);
+        read_color_without_map(specular, "specularColor", {1, 1, 1});
         // 0 means "no Fresnel at all", which no material here has.
         const double ior = extensions["KHR_materials_ior"]["ior"].number(1.5);
         material.ior = ior >= 1 ? float(ior) : 1.5f;
@@ -89,14 +94,16 @@ class MaterialReader {
         const JsonView scatter = extensions["KHR_materials_scatter"];
         if (!volume.exists() && !transmission.exists() && !old_scatter.exists() && !scatter.exists()) return;
         Material::Scattering body;
-        body.thickness_mm = float(volume["thicknessFactor"].number(0) * node_scale * mm_per_unit_);
+        if (read_map(volume["thicknessTexture"], "thicknessFactor", material.thickness_map))
+            body.thickness_mm = float(volume["thicknessFactor"].number(0) * node_scale * mm_per_unit_);
         material.thickness_scale_mm = body.thickness_mm;
         body.attenuation_color = color(volume["attenuationColor"], {1, 1, 1});
         body.attenuation_distance_mm = float(volume["attenuationDistance"].number(0) * mm_per_unit_);
-        material.thickness_map = texture(volume["thicknessTexture"]);
-        body.diffuse_transmission = number(transmission["diffuseTransmissionFactor"], 0, 0, 1);
-        body.diffuse_transmission_color = color(transmission["diffuseTransmissionColorFactor"], {1, 1, 1});
-        material.transmission_map = texture(transmission["diffuseTransmissionTexture"]);
+        if (read_map(transmission["diffuseTransmissionTexture"], "diffuseTransmissionFactor",
+                     material.transmission_map))
+            body.diffuse_transmission = number(transmission["diffuseTransmissionFactor"], 0, 0, 1);
+        body.diffuse_transmission_color =
+            read_color_without_map(transmission, "diffuseTransmissionColor", {1, 1, 1});
         if (old_scatter.exists()) read_scatter(old_scatter, {0, 0, 0}, body);
         if (scatter.exists()) {
             read_scatter(scatter, {1, 1, 1}, body);
@@ -108,31 +115,52 @@ class MaterialReader {
     static void read_scatter(const JsonView& scatter, Vec3 absent, Material::Scattering& body) {
         // The factor was called multiscatterColor in the first draft, and files keep that key.
         const JsonView old_key = scatter["multiscatterColor"];
-        body.multiscatter_color = color(scatter["multiscatterColorFactor"], color(old_key, absent));
+        body.multiscatter_color =
+            read_color_without_map(scatter, "multiscatterColor", color(old_key, absent));
         body.anisotropy = number(scatter["scatterAnisotropy"], 0, -1, 1);
-        if (scatter["multiscatterColorTexture"].exists())
-            scatter["multiscatterColorTexture"].warn("is not used, only the factor");
     }
 
-    // A textureInfo object to the image behind it.
-    ImageSource texture(const JsonView& info) {
-        if (!info.exists()) return {};
+    // A colour NAMEFactor whose map NAMETexture is not read here.
+    static Vec3 read_color_without_map(const JsonView& owner, const std::string& name, Vec3 absent) {
+        const std::string factor = name + "Factor", map = name + "Texture";
+        if (!owner[map.c_str()].exists()) return color(owner[factor.c_str()], absent);
+        leave_out(owner[map.c_str()], "is not read", factor);
+        return absent;
+    }
+
+    // The image behind a textureInfo object. A map that is left out takes `factors` with it, which is then
+    // false: what they multiply is not known. One warning names both.
+    bool read_map(const JsonView& info, std::string_view factors, ImageSource& map) {
+        if (!info.exists()) return true;
+        std::string reason = reason_to_leave_out(info);
+        if (info.failed()) return false;
+        if (reason.empty()) {
+            map = texture(info);
+            if (map.present() || info.failed()) return true;
+            reason = "is empty";
+        }
+        leave_out(info, reason, factors);
+        return false;
+    }
+
+    static void leave_out(const JsonView& info, const std::string& reason, std::string_view factors) {
+        const bool several = factors.find(' ') != std::string_view::npos;
+        info.warn(reason + "; not used" +
+                  (factors.empty() ? "" : (several ? ", nor are " : ", nor is ") + std::string(factors)));
+    }
+
+    std::string reason_to_leave_out(const JsonView& info) {
         const UvMapping mapping = uv_mapping(info);
-        const uint64_t index = info["index"].integer(UINT64_MAX);
-        if (info.failed()) return {};
-        if (index == UINT64_MAX) return info.fail("has no index"), ImageSource{};
-        if (mapping != mapping_)
-            return info.warn(
-                       mapping.set != mapping_.set
-                           ? "is for UV set " + std::to_string(mapping.set) +
-                                 ", the material's first map for set " + std::to_string(mapping_.set) +
-                                 "; not used"
-                           : "has another KHR_texture_transform than the material's first map; not used"),
-                   ImageSource{};
-        const JsonView chosen = document_.view()["textures"][size_t(index)];
-        if (chosen.failed()) return {};
-        if (!chosen["source"].exists())
-            return chosen.warn("has no PNG or JPEG source; not used"), ImageSource{};
+        if (!has_picture(document_, info)) return "has no PNG or JPEG source";
+        if (mapping.set != mapping_.set)
+            return "is for UV set " + std::to_string(mapping.set) + ", the material's first map for set " +
+                   std::to_string(mapping_.set);
+        if (mapping != mapping_) return "has another KHR_texture_transform than the material's first map";
+        return {};
+    }
+
+    ImageSource texture(const JsonView& info) {
+        const JsonView chosen = document_.view()["textures"][size_t(info["index"].integer(0))];
         ImageSource found = image(document_.view()["images"][size_t(chosen["source"].integer(0))]);
         if (chosen["sampler"].exists()) {
             const JsonView sampler = document_.view()["samplers"][size_t(chosen["sampler"].integer(0))];
@@ -174,7 +202,7 @@ class MaterialReader {
 
     ImageSource embedded(const JsonView& source, const std::string& name, std::vector<std::byte> bytes) {
         if (source.failed()) return {};
-        if (bytes.empty()) return source.warn("is empty; not used"), ImageSource{};
+        if (bytes.empty()) return {};
         embedded_bytes_ += bytes.size();
         if (embedded_bytes_ > kMaxEmbeddedBytes)
             return source.fail("more than 1 GiB of embedded images"), ImageSource{};

@@ -25,7 +25,15 @@ UvMapping uv_mapping(const JsonView& info) {
     return mapping;
 }
 
-UvMapping uv_mapping_of_material(const JsonView& material) {
+bool has_picture(Document& document, const JsonView& info) {
+    const uint64_t index = info["index"].integer(UINT64_MAX);
+    if (index == UINT64_MAX && !info.failed()) info.fail("has no index");
+    if (info.failed()) return false;
+    const JsonView chosen = document.view()["textures"][size_t(index)];
+    return !chosen.failed() && chosen["source"].exists();
+}
+
+UvMapping uv_mapping_of_material(Document& document, const JsonView& material) {
     const JsonView pbr = material["pbrMetallicRoughness"], extensions = material["extensions"];
     std::vector<JsonView> infos = {pbr["baseColorTexture"], material["normalTexture"],
                                    pbr["metallicRoughnessTexture"], material["emissiveTexture"],
@@ -36,7 +44,7 @@ UvMapping uv_mapping_of_material(const JsonView& material) {
         infos.push_back(extensions["KHR_materials_diffuse_transmission"]["diffuseTransmissionTexture"]);
     }
     for (const JsonView& info : infos)
-        if (info.exists()) return uv_mapping(info);
+        if (info.exists() && has_picture(document, info)) return uv_mapping(info);
     return {};
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dermis/base/vec.h"
-#include "dermis/mesh/gltf/json_view.h"
+#include "dermis/mesh/gltf/document.h"
 
 namespace dermis::gltf {
 
@@ -26,9 +26,13 @@ struct UvMapping {
 /// Of one textureInfo object.
 [[nodiscard]] UvMapping uv_mapping(const JsonView& texture_info);
 
-/// A mesh has one set of UVs, so a material has one mapping: that of its first texture in the order base
-/// colour, normal, roughness, emission, occlusion, extensions. Textures with another are left out by the
-/// reader of materials.
-[[nodiscard]] UvMapping uv_mapping_of_material(const JsonView& material);
+/// Whether the texture of a textureInfo object names an image; one in a format of an extension alone does
+/// not.
+[[nodiscard]] bool has_picture(Document& document, const JsonView& texture_info);
+
+/// A mesh has one set of UVs, so a material has one mapping: that of its first texture with a picture in the
+/// order base colour, normal, roughness, emission, occlusion, extensions. Textures with another are left out
+/// by the reader of materials.
+[[nodiscard]] UvMapping uv_mapping_of_material(Document& document, const JsonView& material);
 
 }  // namespace dermis::gltf
