@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "dermis/mesh/curvature.h"
+#include "dermis/mesh/hole_caps.h"
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/obj.h"
 #include "dermis/mesh/read_mesh.h"
@@ -75,6 +76,26 @@ void uv_report(benchmark::State& state) {
     on_head(state, [](Mesh& mesh) { benchmark::DoNotOptimize(analyze_uvs(mesh)); });
 }
 BENCHMARK(uv_report)->Unit(benchmark::kMillisecond);
+
+// Triangles that share nothing, or one vertex: as hair cards have them.
+void borders(benchmark::State& state, uint32_t shared) {
+    std::vector<Vec3> positions_mm(shared);
+    std::vector<uint32_t> indices, triangles;
+    for (uint32_t i = 0; i < uint32_t(state.range(0)); ++i) {
+        triangles.push_back(i);
+        const auto first = uint32_t(positions_mm.size());
+        for (uint32_t k = 0; k < 3; ++k) {
+            indices.push_back(k < shared ? k : first + k - shared);
+            if (k >= shared) positions_mm.push_back({float(i), float(k), 1});
+        }
+    }
+    for (auto _ : state) {
+        std::vector<BorderLoop> loops = border_loops(positions_mm, indices, triangles);
+        benchmark::DoNotOptimize(put_last(loops, loops));
+    }
+}
+BENCHMARK_CAPTURE(borders, of_loose_triangles, 0)->Arg(200'000)->Arg(400'000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(borders, at_one_vertex, 1)->Arg(200'000)->Arg(400'000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

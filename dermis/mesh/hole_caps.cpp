@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "dermis/mesh/weld.h"
 
@@ -30,6 +31,51 @@ std::vector<Edge> border_edges(std::vector<Edge> edges) {
         if (number >= partners.second - partners.first) border.push_back(edges[i]);
     }
     return border;
+}
+
+// The edges that start at each vertex, lowest first. An edge is found in constant time, however many borders
+// meet at its vertex.
+class EdgesLeft {
+  public:
+    EdgesLeft(std::span<const Edge> border, size_t vertices)
+        : border_(border), next_(vertices, border.size()) {
+        for (size_t edge = border.size(); edge-- > 0;) next_[border[edge].from] = edge;
+    }
+    // border.size(): none is left.
+    size_t take(uint32_t from) {
+        const size_t edge = next_[from];
+        if (edge == border_.size()) return edge;
+        const size_t after = edge + 1;
+        next_[from] = after < border_.size() && border_[after].from == from ? after : border_.size();
+        return edge;
+    }
+    [[nodiscard]] bool is_left(size_t edge) const { return next_[border_[edge].from] <= edge; }
+
+  private:
+    std::span<const Edge> border_;
+    std::vector<size_t> next_;
+};
+
+std::vector<BorderLoop> loops_of(std::span<const Edge> border, std::span<const Vec3> positions_mm,
+                                 const Weld& weld) {
+    EdgesLeft left(border, weld.count());
+    std::vector<BorderLoop> loops;
+    for (const Edge& first : border) {
+        if (!left.is_left(size_t(&first - border.data()))) continue;
+        BorderLoop loop;
+        uint32_t vertex = first.from;
+        do {
+            const size_t edge = left.take(vertex);
+            if (edge == border.size()) {  // a chain that does not close
+                loop.clear();
+                break;
+            }
+            loop.push_back(positions_mm[weld.first[vertex]]);
+            vertex = border[edge].to;
+        } while (vertex != first.from);
+        if (loop.size() >= 3) loops.push_back(std::move(loop));
+    }
+    return loops;
 }
 
 // Smallest areas of the polygons from vertex i to vertex k, and the vertex between them that gives it.
@@ -82,24 +128,13 @@ std::vector<BorderLoop> border_loops(std::span<const Vec3> positions_mm, std::sp
                             weld.ids[indices[3 * triangle + (i + 1) % 3]]};
             if (edge.from != edge.to) edges.push_back(edge);
         }
-    const std::vector<Edge> border = border_edges(std::move(edges));
-    std::vector<uint8_t> taken(border.size());
-    std::vector<BorderLoop> loops;
-    for (size_t first = 0; first < border.size(); ++first) {
-        BorderLoop loop;
-        size_t edge = first;
-        while (edge < border.size() && !taken[edge]) {
-            taken[edge] = 1;
-            loop.push_back(positions_mm[weld.first[border[edge].from]]);
-            const uint32_t next = border[edge].to;
-            if (next == border[first].from) break;
-            edge = size_t(std::ranges::lower_bound(border, Edge{next, 0}) - border.begin());
-            while (edge < border.size() && border[edge].from == next && taken[edge]) ++edge;
-            if (edge == border.size() || border[edge].from != next) loop.clear(), edge = border.size();
-        }
-        if (loop.size() >= 3) loops.push_back(std::move(loop));
-    }
-    return loops;
+    return loops_of(border_edges(std::move(edges)), positions_mm, weld);
+}
+
+bool LoopOrder::operator()(const BorderLoop& a, const BorderLoop& b) const {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](Vec3 p, Vec3 q) {
+        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+    });
 }
 
 size_t affordable_exact(std::span<const BorderLoop> loops) {

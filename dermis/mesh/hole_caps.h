@@ -1,6 +1,7 @@
 #pragma once
 // The open borders of a set of triangles, and triangles that close them.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,25 @@ using BorderLoop = std::vector<Vec3>;
 [[nodiscard]] std::vector<BorderLoop> border_loops(std::span<const Vec3> positions_mm,
                                                    std::span<const uint32_t> indices,
                                                    std::span<const uint32_t> triangles);
+
+/// The order in which loops are looked up; any order would do.
+struct LoopOrder {
+    bool operator()(const BorderLoop& a, const BorderLoop& b) const;
+};
+
+/// Moves the loops that are among `known` behind the others; both parts keep their order. Returns how many
+/// loops are before them. n loops are compared n log n times: a head of hair cards has a border for each
+/// card.
+template <class Order = LoopOrder>
+[[nodiscard]] size_t put_last(std::vector<BorderLoop>& loops, std::vector<BorderLoop> known,
+                              const Order& order = {}) {
+    std::sort(known.begin(), known.end(), order);
+    // Ranges' own partition returns a subrange, which clang 14 does not compile.
+    const auto from = std::stable_partition(loops.begin(), loops.end(), [&](const BorderLoop& loop) {
+        return !std::binary_search(known.begin(), known.end(), loop, order);
+    });
+    return size_t(from - loops.begin());
+}
 
 /// The triangulation of the loop of smallest area, facing as its surface does: size() - 2 triangles.
 /// Barequet, Sharir 1995, Filling Gaps in the Boundary of a Polyhedron. Cubic time, so above `largest_exact`

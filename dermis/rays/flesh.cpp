@@ -6,6 +6,7 @@
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
+#include "dermis/base/progress.h"
 #include "dermis/mesh/hole_caps.h"
 #include "dermis/mesh/topology.h"
 #include "dermis/mesh/weld.h"
@@ -180,29 +181,29 @@ void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
         ++flesh.hidden_triangles;
         flesh.hidden_area_mm2 += triangles.area_mm2[t];
     }
-    const std::vector<BorderLoop> openings = border_loops(mesh.positions_mm, mesh.indices, skin);
+    std::vector<BorderLoop> openings = border_loops(mesh.positions_mm, mesh.indices, skin);
     flesh.mesh_openings = openings.size();
     std::vector<BorderLoop> loops = border_loops(mesh.positions_mm, mesh.indices, boundary);
     const size_t largest_exact = affordable_exact(loops);
-    // Ranges' own partition returns a subrange, which clang 14 does not compile.
-    const auto openings_from = std::stable_partition(loops.begin(), loops.end(), [&](const BorderLoop& loop) {
-        return std::ranges::find(openings, loop) == openings.end();
-    });
-    for (auto loop = loops.begin(); loop != loops.end(); ++loop) {
-        const std::vector<std::array<Vec3, 3>> cap = cap_of(*loop, largest_exact);
+    const size_t of_cavities = put_last(loops, std::move(openings));
+    Progress progress("closing openings", loops.size());
+    for (size_t i = 0; i < loops.size(); ++i, progress.advance()) {
+        const std::vector<std::array<Vec3, 3>> cap = cap_of(loops[i], largest_exact);
         flesh.caps.insert(flesh.caps.end(), cap.begin(), cap.end());
-        if (loop < openings_from) flesh.cavity_caps = flesh.caps.size();
+        if (i < of_cavities) flesh.cavity_caps = flesh.caps.size();
     }
 }
 
 // Hides what cannot be seen from outside: the steps of flesh.h, in their order.
 void hide(const Mesh& mesh, Triangles& triangles, const RayScene& rays) {
+    Progress progress("looking for cavities", triangles.count());
     parallel_for(triangles.count(), 64, [&](size_t begin, size_t end) {
         for (size_t t = begin; t < end; ++t)
             if (triangles.skin[t]) {
                 triangles.open[t] = open_rays(rays, uint32_t(t));
                 triangles.hidden[t] = triangles.open[t] == 0;
             }
+        progress.advance(end - begin);
     });
     const Neighbours neighbours(mesh);
     grow(triangles, neighbours);

@@ -54,6 +54,58 @@ TEST(HoleCaps, a_ring_has_an_inner_and_an_outer_border) {
     EXPECT_NEAR(length(loops[0][0]), 10, 1e-4);
 }
 
+// Triangles that share nothing: a border each, moved along x.
+std::vector<BorderLoop> loose_triangles(size_t count) {
+    std::vector<BorderLoop> loops;
+    for (size_t i = 0; i < count; ++i) {
+        const auto x = float(i * 7919 % count);
+        loops.push_back({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+    }
+    return loops;
+}
+
+struct CountedOrder {
+    size_t* comparisons;
+    bool operator()(const BorderLoop& a, const BorderLoop& b) const {
+        ++*comparisons;
+        return LoopOrder()(a, b);
+    }
+};
+
+TEST(HoleCaps, borders_that_are_known_go_last_in_their_order) {
+    std::vector<BorderLoop> loops = loose_triangles(7);
+    const std::vector<BorderLoop> before = loops;
+    EXPECT_EQ(put_last(loops, {before[4], before[1]}), 5u);
+    const std::vector<BorderLoop> expected = {before[0], before[2], before[3], before[5],
+                                              before[6], before[1], before[4]};
+    EXPECT_EQ(loops, expected);
+    EXPECT_EQ(put_last(loops, {}), 7u);
+}
+
+TEST(HoleCaps, work_grows_no_faster_than_n_log_n_with_the_number_of_borders) {
+    for (const size_t count : {1000u, 100'000u}) {
+        std::vector<BorderLoop> loops = loose_triangles(count);
+        size_t comparisons = 0;
+        EXPECT_EQ(put_last(loops, loose_triangles(count), CountedOrder{&comparisons}), 0u);
+        EXPECT_LT(double(comparisons), 4 * double(count) * std::log2(double(count))) << count;
+    }
+}
+
+TEST(HoleCaps, borders_that_meet_at_one_vertex_are_each_a_loop) {
+    std::vector<Vec3> positions_mm = {{0, 0, 0}};
+    std::vector<uint32_t> indices, triangles;
+    const uint32_t count = 1000;
+    for (uint32_t i = 0; i < count; ++i) {
+        positions_mm.push_back({1, float(i), 0});
+        positions_mm.push_back({1, float(i), 1});
+        for (const uint32_t index : {0u, 2 * i + 1, 2 * i + 2}) indices.push_back(index);
+        triangles.push_back(i);
+    }
+    const auto loops = border_loops(positions_mm, indices, triangles);
+    ASSERT_EQ(loops.size(), count);
+    for (const BorderLoop& loop : loops) EXPECT_EQ(loop.size(), 3u);
+}
+
 TEST(HoleCaps, thousands_of_long_borders_are_filled_in_bounded_time) {
     const Rim rim(200);
     const BorderLoop loop = border_loops(rim.positions_mm, rim.indices, rim.triangles)[0];
