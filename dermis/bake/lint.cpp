@@ -9,8 +9,6 @@ namespace dermis {
 namespace {
 
 constexpr double kExplained = 0.01;
-// The file's own convention is preferred to a fit that is as good but for rounding to 8 bits.
-constexpr double kAsGood = 1.5, kRounding = 0.001;
 
 bool same_model(const LintHypothesis& a, const LintHypothesis& b) {
     return a.profile == b.profile && a.how.construction == b.how.construction &&
@@ -37,6 +35,9 @@ Result<LintReport> lint::measured(const Sample& sample, const LintHypothesis& hy
     if (!own) return own.error();
     report.best.rms = own->rms;
     report.best.max = own->max;
+    const lint::Scattering light = lint::scattering_of(sample, hypothesis);
+    if (light.rms > 0) report.explained_share = 1 - own->rms * own->rms / (light.rms * light.rms);
+    report.refusal = lint::refusal_of_light(light, own->rms);
     report.explained = own->rms < kExplained;
     const Result<Difference> exact = difference(sample, hypothesis, Against::the_sphere);
     if (!exact) return exact.error();
@@ -54,6 +55,13 @@ Result<LintReport> lint_table(const Image& image, const LintHypothesis* own) {
     std::optional<Result<LintReport>> claimed;
     if (own) claimed = lint::measured(lint::sample_of(stored, false), *own, *own);
     const bool holds = claimed && *claimed && (*claimed)->explained;
+    // From night to day light rises from 0 to 1: numbers that follow it are a table, whatever its skin.
+    const bool is_certain = holds && own->n_dot_l_min == -1 && own->n_dot_l_max == 1;
+    if (std::string refusal = lint::refusal_of_picture(stored); !is_certain && !refusal.empty()) {
+        LintReport refused{.refusal = std::move(refusal)};
+        lint::explain_refusal(refused);
+        return refused;
+    }
     const lint::Search found = lint::search(stored, holds ? lint::Crops::ignored : lint::Crops::searched);
     const std::vector<LintHypothesis>& all = found.hypotheses;
     Result<LintReport> report = lint::measured(found.sample, all.front(), all.back());
@@ -61,7 +69,7 @@ Result<LintReport> lint_table(const Image& image, const LintHypothesis* own) {
     std::string differs;
     if (claimed && !*claimed)
         differs = "its own convention was not compared: " + claimed->error().message;
-    else if (holds && (*claimed)->best.rms < kAsGood * report->best.rms + kRounding)
+    else if (holds && lint::is_as_good((*claimed)->best.rms, report->best.rms))
         report = *claimed;
     else if (claimed)
         differs = "its own convention does not describe these numbers: they differ from it by rms " +
@@ -71,7 +79,11 @@ Result<LintReport> lint_table(const Image& image, const LintHypothesis* own) {
             report->runner_up = other;
             break;
         }
-    if (!lint::explain_rows(*report, found, image)) lint::explain(*report, image);
+    if (is_certain) report->refusal.clear();
+    if (!report->refusal.empty())
+        lint::explain_refusal(*report);
+    else if (!lint::explain_rows(*report, found, image))
+        lint::explain(*report, image);
     if (!differs.empty()) report->findings.push_back(differs);
     return report;
 }

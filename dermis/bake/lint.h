@@ -48,23 +48,32 @@ struct LintReport {
     LintHypothesis runner_up;
     /// The table, read as `best` says, against the exact sphere of the same profile and axis.
     double error_rms = 0, error_max = 0, error_max_n_dot_l = 0, error_max_radius_mm = 0;
-    /// `best` leaves an rms under 0.01.
+    /// Of how the light differs from row to row and colour to colour at the same N.L, which is what
+    /// scattering does, the share that `best` explains, in squares. 0 where nothing differs; below 0 it makes
+    /// it worse.
+    double explained_share = 0;
+    /// Why the picture is no table of skin, whatever its numbers agree with: flat, negative, grey, ... Empty:
+    /// it may be one.
+    std::string refusal;
+    /// `best` leaves an rms under 0.01, and nothing refuses the picture.
     bool explained = false;
     std::vector<std::string> findings;  ///< one line each, for the user
     std::vector<std::string> advice;
 };
 
 /// Takes about a second, some more where nothing explains the picture. Errors: a picture smaller than 8 x 2
-/// texels or without colour. `own`, if any, is the first explanation that is tried.
+/// texels or without colour. `own`, if any, is the first explanation that is tried; where it holds for N.L
+/// from -1 to 1 no picture is refused.
 [[nodiscard]] Result<LintReport> lint_table(const Image& image, const LintHypothesis* own = nullptr);
 
 /// Reads the file: a picture, or CSV with a line "n_dot_l,curvature_per_mm,r,g,b" (or radius_mm; numbers in
 /// light) for each texel. A convention inside or beside it is the first explanation that is tried; what it
-/// and a PNG's sRGB flag say is compared with the numbers. Errors as read_image and above.
+/// and a PNG's sRGB flag say is compared with the numbers. Errors as read_image and above; a table of another
+/// kind by its own convention.
 [[nodiscard]] Result<LintReport> lint_file(const std::filesystem::path& path);
 
-/// The best explanation as a convention. Errors: nothing explains the picture; a form that no reader here
-/// takes (turned by 90 degrees, decoded or encoded twice, blue first).
+/// The best explanation as a convention. Errors: nothing explains the picture, or it is refused; a form that
+/// no reader here takes (turned by 90 degrees, decoded or encoded twice, blue first).
 [[nodiscard]] Result<Convention> convention_of(const LintReport& report);
 
 /// Writes it as FILE.json, so that read_table takes the file; returns that name. Error: also a file that has

@@ -118,6 +118,9 @@ Result<LintReport> lint_file(const std::filesystem::path& path) {
     if (!picture) return picture.error();
     const Result<Table> table = read_table(path, {});
     std::optional<LintHypothesis> own;
+    if (table && table->convention.kind != TableKind::diffuse)
+        return Error{path.string() + ": its own convention says " + describe(*table) +
+                     "; only diffuse tables are compared"};
     if (table) own = hypothesis_of(table->convention, picture->holds_light);
     Result<LintReport> report = lint_table(picture->image, own ? &*own : nullptr);
     if (!report) return Error{path.string() + ": " + report.error().message};

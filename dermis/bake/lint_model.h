@@ -94,6 +94,24 @@ struct Difference {
 [[nodiscard]] Result<Difference> difference(const Sample& sample, const LintHypothesis& hypothesis,
                                             Against against);
 
+/// Why a picture is no table of skin, whatever explains its numbers: negative, flat, grey. Nothing: it may be
+/// one.
+[[nodiscard]] std::string refusal_of_picture(const Image& linear_float);
+
+/// How light differs from row to row and colour to colour at the same N.L.
+struct Scattering {
+    double rms = 0;
+    double rows = 0;  ///< the largest difference of two rows
+    double fall = 0;  ///< the most by which light falls towards the lit side
+};
+[[nodiscard]] Scattering scattering_of(const Sample& sample, const LintHypothesis& hypothesis);
+
+/// The same as refusal_of_picture, by the light that a hypothesis sees, which leaves `rms` of it.
+[[nodiscard]] std::string refusal_of_light(const Scattering& light, double rms);
+
+/// Whether a fit that leaves `rms` is as good as one that leaves `best` but for rounding to 8 bits.
+[[nodiscard]] bool is_as_good(double rms, double best);
+
 /// A report with `hypothesis` as the best explanation, without text. Errors as of difference().
 [[nodiscard]] Result<LintReport> measured(const Sample& sample, const LintHypothesis& hypothesis,
                                           const LintHypothesis& runner_up);
@@ -121,6 +139,9 @@ struct TablePicture {
 /// Names rows that have a curvature each but no spacing that is known here, and takes `explained` back; false
 /// where that is not so.
 [[nodiscard]] bool explain_rows(LintReport& report, const Search& found, const Image& image);
+
+/// Findings and advice for a picture that is refused.
+void explain_refusal(LintReport& report);
 
 /// Fills findings and advice from the numbers of the report.
 void explain(LintReport& report, const Image& image);

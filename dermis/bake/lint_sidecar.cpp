@@ -9,6 +9,7 @@
 namespace dermis {
 Result<Convention> convention_of(const LintReport& report) {
     const LintHypothesis& best = report.best;
+    if (!report.refusal.empty()) return Error{"no table of skin: " + report.refusal + "; nothing is written"};
     if (!report.explained) return Error{"no convention explains it; nothing is written"};
     if (best.transposed) return Error{"N.L runs down the picture: turn it by 90 degrees first"};
     if (best.stored_as == StoredAs::decoded_twice)

@@ -1,5 +1,6 @@
 // The linter's numbers as advice.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -10,6 +11,16 @@ namespace {
 
 // A fit ends within this share of the axis's length of the number that was meant.
 constexpr double kFitted = 0.004;
+
+constexpr const char* kBakeAdvice = "bake a table with a known convention: dermis bake lut -o skin.exr";
+
+// Digits until what is missing to all of it shows, down to a hundredth of a percent.
+std::string share_explained_text(double share) {
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%.4g", 100 * std::clamp(share, 0.0, 0.9999));
+    return std::string(share > 0.9999 ? "more than " : "") + percent +
+           " % of how its rows and colours differ is explained";
+}
 
 std::string construction_text(const LintHypothesis& h) {
     if (h.integration == Integration::unity_taps)
@@ -229,17 +240,25 @@ bool lint::explain_rows(LintReport& report, const Search& found, const Image& im
     return true;
 }
 
+void lint::explain_refusal(LintReport& report) {
+    report.explained = false;
+    report.findings.push_back("no table of skin: " + report.refusal);
+    report.advice.push_back(kBakeAdvice);
+}
+
 void lint::explain(LintReport& report, const Image& image) {
     report.findings.push_back("explained best by: " + describe(report.best));
     report.findings.push_back("it leaves an error of rms " + rounded(report.best.rms) + ", largest " +
-                              rounded(report.best.max));
-    report.findings.push_back("next best: " + describe(report.runner_up) + " (rms " +
-                              rounded(report.runner_up.rms) + ")");
+                              rounded(report.best.max) + "; " + share_explained_text(report.explained_share));
+    report.findings.push_back(
+        "next best: " + describe(report.runner_up) + " (rms " + rounded(report.runner_up.rms) +
+        (is_as_good(report.runner_up.rms, report.best.rms) ? "; these numbers do not tell it from the best)"
+                                                           : ")"));
     if (!report.explained) {
         report.findings.push_back(
             "no good match (rms above 0.01): not a pre-integrated table of a known profile, or one that was "
             "edited");
-        report.advice.push_back("bake a table with a known convention: dermis bake lut -o skin.exr");
+        report.advice.push_back(kBakeAdvice);
         return;
     }
     report.findings.push_back("against the exact sphere of that profile: rms " + rounded(report.error_rms) +
