@@ -72,10 +72,9 @@ MeshObject of_arrays(const py::object& positions_mm, const py::object& indices, 
     if (!normals.is_none()) {
         mesh.normals = vectors_from<Vec3>(normals, "normals", 3);
         check_count(mesh.normals.size(), vertices, "normals");
-        complete_normals(mesh);
-    } else {
-        compute_normals(mesh);
     }
+    // compute_normals() would split vertices; the arrays of the caller are by vertex.
+    complete_normals(mesh);
     return made;
 }
 

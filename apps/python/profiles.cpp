@@ -1,5 +1,6 @@
 // Diffusion profiles: presets, numbers of one's own, conversions, fits.
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "arrays.h"
@@ -16,10 +17,16 @@ using Channels = std::array<double, 3>;
 using Curve = double (*)(const Profile&, int, double);
 using Property = double (*)(const Profile&, int);
 
-constexpr std::pair<std::string_view, Curve> kCurves[] = {{"reflectance_per_mm2", reflectance_per_mm2},
-                                                          {"cdf", cdf},
-                                                          {"inverse_cdf_mm", inverse_cdf_mm},
-                                                          {"slab_transmittance", slab_transmittance}};
+// A function of a profile, and where its argument ends.
+struct NamedCurve {
+    std::string_view name;
+    Curve at;
+    double most = std::numeric_limits<double>::infinity();
+};
+constexpr NamedCurve kCurves[] = {{"reflectance_per_mm2", reflectance_per_mm2},
+                                  {"cdf", cdf},
+                                  {"inverse_cdf_mm", inverse_cdf_mm, 1},
+                                  {"slab_transmittance", slab_transmittance}};
 constexpr std::pair<std::string_view, Property> kProperties[] = {
     {"albedo", diffuse_albedo},
     {"mean_radius_mm", mean_radius_mm},
@@ -63,15 +70,17 @@ Profile of_table(const std::string& name, const py::object& r_mm, const py::obje
 // N x 3.
 py::array_t<double> curve(const Profile& profile, const std::string& what, const std::string& argument,
                           const py::object& at) {
-    const auto found =
-        std::ranges::find(kCurves, std::string_view(what), &std::pair<std::string_view, Curve>::first);
+    const NamedCurve* found = std::ranges::find(kCurves, std::string_view(what), &NamedCurve::name);
     const std::vector<double> positions = numbers_from(at, argument);
-    for (const double position : positions)
+    for (const double position : positions) {
         if (position < 0) throw Failure({argument + ": " + to_text(position) + " is below 0"});
+        if (position > found->most)
+            throw Failure({argument + ": " + to_text(position) + " is above " + to_text(found->most)});
+    }
     std::vector<double> values(positions.size() * 3);
     unlocked([&] {
         for (size_t i = 0; i < values.size(); ++i)
-            values[i] = found->second(profile, int(i % 3), positions[i / 3]);
+            values[i] = found->at(profile, int(i % 3), positions[i / 3]);
     });
     return array_of(std::move(values), {py::ssize_t(positions.size()), 3});
 }

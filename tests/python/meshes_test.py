@@ -66,6 +66,29 @@ class Meshes(TestCase):
         for other in (triangles.astype(numpy.uint8), numpy.asfortranarray(triangles), triangles.tolist()):
             numpy.testing.assert_array_equal(dermis.Mesh(positions, other).indices, triangles)
 
+    def test_vertices_stay_at_degenerate_and_non_manifold_faces(self):
+        corners = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -1, 0], [5, 5, 5]], float)
+        for name, triangles in (
+                ("a face without area", [[0, 1, 2], [0, 0, 1], [1, 1, 1]]),
+                ("three faces at one edge", [[0, 1, 2], [0, 1, 3], [0, 1, 4]]),
+                ("two sides of one face", [[0, 1, 2], [0, 2, 1]]),
+                ("faces that touch in a point", [[0, 1, 2], [0, 3, 4]])):
+            mesh = dermis.Mesh(corners, triangles)
+            numpy.testing.assert_array_equal(mesh.positions_mm, corners.astype(numpy.float32), name)
+            numpy.testing.assert_array_equal(mesh.indices, triangles, name)
+            self.assertEqual(len(mesh.normals), len(corners), name)
+            numpy.testing.assert_allclose(numpy.linalg.norm(mesh.normals, axis=1), 1, atol=1e-6, err_msg=name)
+            self.assertEqual(len(mesh.curvature()), len(corners), name)
+
+    def test_a_name_with_a_nul_writes_nothing(self):
+        mesh = dermis.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        for path in (f"{self.folder}/nul\0x.glb", f"{self.folder}/nul\0x.glb".encode()):
+            with self.assertRaisesRegex(dermis.Error, "a file's name has no NUL"):
+                mesh.save(path)
+        self.assertEqual(list(self.folder.iterdir()), [])
+        with self.assertRaisesRegex(dermis.Error, "a file's name has no NUL"):
+            dermis.load_mesh("none\0x.glb")
+
     def test_wrong_arrays_are_errors(self):
         good, triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
         for sentence, *arguments in (

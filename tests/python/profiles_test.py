@@ -34,6 +34,13 @@ class Profiles(TestCase):
         numpy.testing.assert_allclose(skin.cdf(r_mm), closed, atol=1e-12)
         numpy.testing.assert_allclose(skin.inverse_cdf_mm(skin.cdf(2.0)[0])[0], 2, atol=1e-9)
 
+    def test_a_part_of_the_light_is_0_to_1(self):
+        skin = dermis.profile("jensen_skin1")
+        self.assertTrue(numpy.isfinite(skin.inverse_cdf_mm((0, .999))).all())
+        self.assert_error("u: 1.1 is above 1", skin.inverse_cdf_mm, 1.1)
+        self.assert_error("u: -0.1 is below 0", skin.inverse_cdf_mm, (.5, -.1))
+        self.assertEqual(skin.cdf(1e9).shape, (3,))
+
     def test_gaussians_come_back_from_their_fit(self):
         variances, weights = [.1, 2.0], [[.3, .5, .9], [.7, .5, .1]]
         fit = dermis.gaussian_profile(variances, weights).fit()

@@ -394,7 +394,10 @@ class Profile:
         """The part of the reflected light, 0 to 1, that leaves within r_mm. Shape S to float64 of S x 3."""
 
     def inverse_cdf_mm(self, u: ArrayLike) -> NDArray[numpy.float64]:
-        """The radius in mm within which the part u of the light leaves. Shape S to float64 of S x 3."""
+        """The radius in mm within which the part u, 0 to 1, of the light leaves; inf at 1, but for tables.
+
+        Shape S to float64 of S x 3.
+        """
 
     def slab_transmittance(self, thickness_mm: ArrayLike) -> NDArray[numpy.float64]:
         """The part of the light, 0 to 1, that passes a slab of this thickness in mm. Shape S to S x 3."""

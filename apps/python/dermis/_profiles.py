@@ -80,7 +80,10 @@ class Profile:
         return self._curve("cdf", "r_mm", r_mm)
 
     def inverse_cdf_mm(self, u: ArrayLike) -> NDArray[numpy.float64]:
-        """The radius in mm within which the part u of the light leaves. Shape S to float64 of S x 3."""
+        """The radius in mm within which the part u, 0 to 1, of the light leaves; inf at 1, but for tables.
+
+        Shape S to float64 of S x 3.
+        """
         return self._curve("inverse_cdf_mm", "u", u)
 
     def slab_transmittance(self, thickness_mm: ArrayLike) -> NDArray[numpy.float64]:

@@ -64,8 +64,11 @@ def range_text(ends):
 
 
 def text_path(path):
-    """A path or a name as text."""
-    return os.fspath(path)
+    """A path or a name as text. C would end it at a NUL, and another file be written."""
+    text = os.fspath(path)
+    if (b"\0" if isinstance(text, bytes) else "\0") in text:
+        raise _dermis.Error(f"{text!r}: a file's name has no NUL")
+    return text
 
 
 def given(**options):
