@@ -1,6 +1,7 @@
 #include "dermis/optics/mtlx.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <pugixml.hpp>
@@ -77,6 +78,7 @@ class SurfaceReader {
         if (const auto read = read_color(); !read) return read.error();
         if (const auto read = read_lengths(); !read) return read.error();
         if (const auto read = apply_anisotropy(); !read) return read.error();
+        if (const auto read = surface(); !read) return read.error();
         note_what_is_left();
         const Result<BurleyProfile> burley = to_canonical(settings_);
         if (!burley) return Error{at_surface() + burley.error().message};
@@ -86,12 +88,7 @@ class SurfaceReader {
 
     Result<MtlxSurface> read_surface() {
         if (const auto opened = open(); !opened) return opened.error();
-        const auto value = [&](const char* name, double low, double high) -> std::optional<double> {
-            if (!input(name)) return std::nullopt;
-            const Result<double> number = scalar(name, low, low, high);
-            return number ? std::optional(*number) : std::nullopt;
-        };
-        return MtlxSurface{value("specular_roughness", 0, 1), value("specular_ior", 1, 3)};
+        return surface();
     }
 
   private:
@@ -129,14 +126,18 @@ class SurfaceReader {
         });
     }
 
+    static bool is_connected(const pugi::xml_node& input) {
+        static constexpr std::array kLinks = {"nodename", "nodegraph", "interfacename", "output"};
+        return std::ranges::any_of(kLinks, [&](const char* link) { return bool(input.attribute(link)); });
+    }
+
     // Nothing where the surface does not have the input, or has it without a value.
     Result<std::optional<std::vector<double>>> numbers(const char* name) const {
         const pugi::xml_node found = input(name);
         if (!found) return std::optional<std::vector<double>>();
-        for (const char* link : {"nodename", "nodegraph", "interfacename", "output"})
-            if (found.attribute(link))
-                return Error{at(found.offset_debug()) + name +
-                             " is connected to a node; a profile has one value: write it as value=\"...\""};
+        if (is_connected(found))
+            return Error{at(found.offset_debug()) + name +
+                         " is connected to a node; a profile has one value: write it as value=\"...\""};
         const std::string_view text = found.attribute("value").value();
         std::vector<double> read;
         for (const std::string_view part : split(text, ',')) {
@@ -160,6 +161,23 @@ class SurfaceReader {
         if (!(value >= low && value <= high))
             return out_of_range(at_surface() + name, value, to_text(low) + " to " + to_text(high));
         return value;
+    }
+
+    // Nothing where a map has the place of the number.
+    Result<std::optional<double>> number_or_map(const char* name, double low, double high) const {
+        const pugi::xml_node found = input(name);
+        if (!found || is_connected(found)) return std::optional<double>();
+        const Result<double> number = scalar(name, low, low, high);
+        if (!number) return number.error();
+        return std::optional(*number);
+    }
+
+    Result<MtlxSurface> surface() const {
+        const auto roughness = number_or_map("specular_roughness", 0, 1);
+        if (!roughness) return roughness.error();
+        const auto ior = number_or_map("specular_ior", 1, 3);
+        if (!ior) return ior.error();
+        return MtlxSurface{*roughness, *ior};
     }
 
     Result<void> set(const char* key, const std::vector<double>& values) {

@@ -21,17 +21,17 @@ namespace dermis {
 /// A Burley profile. `place` names the text in errors: "skin.mtlx:3: ...". What was assumed, converted or not
 /// read follows the file's name in `source`, separated by semicolons.
 /// Errors: not XML, no open_pbr_surface or several, subsurface_weight 0, an input that is connected to a
-/// node, a number out of its range, an unknown unit or colour space.
+/// node, a number out of its range (also of MtlxSurface), an unknown unit or colour space.
 [[nodiscard]] Result<Profile> parse_mtlx(std::string_view text, std::string_view place);
 [[nodiscard]] Result<Profile> read_mtlx(const std::filesystem::path& path);
 
 /// What of the same surface is no part of a profile but of a scene's skin; nothing where the file does not
-/// say it, or by a map, or out of its range. Both as skin.roughness and skin.ior of a scene: perceptual
+/// say it, or by a map. Both as skin.roughness and skin.ior of a scene: perceptual
 /// roughness, and the index of refraction.
 struct MtlxSurface {
     std::optional<double> roughness, ior;
 };
-/// Errors: as of read_mtlx, for what is no document with one surface.
+/// Errors: as of read_mtlx, for what is no document with one surface, and for a number out of its range.
 [[nodiscard]] Result<MtlxSurface> read_mtlx_surface(const std::filesystem::path& path);
 
 /// A document of version 1.39 with the surface and its material; radius in cm, colour in lin_rec709, as that

@@ -106,6 +106,19 @@ TEST(Mtlx, what_is_not_kept_is_told) {
                 HasSubstr("mean free path in cm"));
 }
 
+TEST(Mtlx, numbers_of_the_surface_are_checked_where_a_profile_is_read) {
+    const auto with = [](const std::string& name, const std::string& value, const std::string& more = "") {
+        return message(document(kOn + input(name, value, more)));
+    };
+    EXPECT_EQ(with("specular_ior", "1.4"), "valid");
+    EXPECT_EQ(with("specular_roughness", "0", " nodename=\"map\""), "valid") << "a map";
+    for (const char* wrong : {"nan", "inf", "0.9", "-1", "1e9"})
+        EXPECT_THAT(with("specular_ior", wrong), HasSubstr("specular_ior")) << wrong;
+    EXPECT_THAT(with("specular_ior", "nan"), HasSubstr("1 to 3"));
+    EXPECT_THAT(with("specular_ior", "glass"), HasSubstr("specular_ior: 'glass' is not a number"));
+    EXPECT_THAT(with("specular_roughness", "1.5"), HasSubstr("0 to 1"));
+}
+
 TEST(Mtlx, refusals_name_the_place_the_value_and_what_would_be_right) {
     EXPECT_EQ(message(document(kOn)), "valid");
     EXPECT_THAT(message("<materialx>\n<open_pbr"), HasSubstr("skin.mtlx:2: no complete XML"));
