@@ -29,6 +29,9 @@ struct ImageSource {
 /// The point of the image, 0 .. 1, that is read at uv.
 [[nodiscard]] Vec2 inside_image(const ImageSource& image, Vec2 uv);
 
+/// Of Material::emission_linear, each channel.
+inline constexpr float kMostEmission = 1000;
+
 enum class NormalSpace { tangent, object };
 enum class AlphaMode { opaque, mask, blend };
 

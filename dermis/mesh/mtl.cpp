@@ -20,10 +20,16 @@ std::optional<float> finite(std::optional<float> value) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+// Not a number at all is none; infinite ones are.
+std::optional<float> number_of(TextCursor& cursor) {
+    const std::optional<float> value = cursor.number();
+    return value && !std::isnan(*value) ? value : std::nullopt;
+}
+
 std::optional<Vec3> read_color(TextCursor& cursor) {
-    const auto r = finite(cursor.number());
+    const auto r = number_of(cursor);
     if (!r) return std::nullopt;  // "spectral" and "xyz" forms
-    const auto g = finite(cursor.number()), b = finite(cursor.number());
+    const auto g = number_of(cursor), b = number_of(cursor);
     return Vec3{*r, g.value_or(*r), b.value_or(*r)};
 }
 
@@ -36,7 +42,7 @@ struct MapOption {
 };
 constexpr std::array<MapOption, 14> kMapOptions = {{{"-blendu", 1, ""},
                                                     {"-blendv", 1, ""},
-                                                    {"-boost", 1, ""},
+                                                    {"-boost", 1, "0"},
                                                     {"-mm", 2, "0 1"},
                                                     {"-o", 3, "0 0 0"},
                                                     {"-s", 3, "1 1 1"},
@@ -50,7 +56,7 @@ constexpr std::array<MapOption, 14> kMapOptions = {{{"-blendu", 1, ""},
                                                     {"-colorspace", 1, ""}}};
 
 struct MapLine {
-    std::string file, color_space;
+    std::string file, color_space, channel;
     bool clamps = false;
     std::optional<float> bump_scale;
     std::vector<std::string_view> ignored;  // options with a value that would change the map
@@ -85,6 +91,7 @@ MapLine read_map(TextCursor cursor) {
                 map.bump_scale = finite(number ? std::optional(float(*number)) : std::nullopt);
             if (option->name == "-clamp") map.clamps = to_lower(value) == "on";
             if (option->name == "-colorspace") map.color_space = to_lower(value);
+            if (option->name == "-imfchan") map.channel = to_lower(value);
             values.push_back(value);
             cursor = value_ahead;
         }
@@ -127,28 +134,58 @@ class MtlParser {
   private:
     bool read_value(std::string_view keyword, TextCursor& cursor) {
         Material& material = materials_.back();
+        if (keyword == "tf") return warn_of_filter(cursor), true;
         if (keyword == "kd" || keyword == "ke") {
-            if (const auto color = read_color(cursor))
-                (keyword == "kd" ? material.base_color_linear : material.emission_linear) = *color;
+            const float most = keyword == "kd" ? 1 : kMostEmission;
+            if (const auto read = read_color(cursor))
+                (keyword == "kd" ? material.base_color_linear : material.emission_linear) = {
+                    clamped(keyword, read->x, most), clamped(keyword, read->y, most),
+                    clamped(keyword, read->z, most)};
+            else
+                warn_once(std::string(keyword) + " is no number; not used");
             return true;
         }
         static constexpr std::array kNumbers = {"ns", "ni", "d", "tr", "pr", "pm"};
         if (std::ranges::find(kNumbers, keyword) == kNumbers.end()) return false;
-        const auto value = finite(cursor.number());
-        if (!value) return true;
-        if (keyword == "ns") material.roughness = roughness_of_exponent(*value);
-        if (keyword == "ni" && *value >= 1) material.ior = *value;
-        if (keyword == "d") set_opacity(*value);
-        if (keyword == "tr") set_opacity(1 - *value);
-        if (keyword == "pr") material.roughness = std::clamp(*value, 0.0f, 1.0f);
-        if (keyword == "pm") material.metallic = std::clamp(*value, 0.0f, 1.0f);
+        const auto value = number_of(cursor);
+        if (!value)
+            warn_once(std::string(keyword) + " is no number; not used");
+        else if (keyword == "ns" || keyword == "ni")
+            set_reflection(keyword, *value);
+        else if (const float share = clamped(keyword, *value, 1); keyword == "d" || keyword == "tr")
+            set_opacity(keyword == "d" ? share : 1 - share);
+        else
+            (keyword == "pr" ? material.roughness : material.metallic) = share;
         return true;
+    }
+
+    float clamped(std::string_view keyword, float value, float most) {
+        if (!(value >= 0 && value <= most))
+            warn_once(std::string(keyword) + " is outside of its range, 0 to " + to_text(most) + "; clamped");
+        return std::clamp(value, 0.0f, most);
+    }
+
+    void set_reflection(std::string_view keyword, float value) {
+        Material& material = materials_.back();
+        if (keyword == "ns") {
+            if (value < 0) warn_once("ns is below 0; read as 0");
+            material.roughness = roughness_of_exponent(value);
+        } else if (value >= 1 && std::isfinite(value)) {
+            material.ior = value;
+        } else {
+            warn_once(value < 1 ? "ni is below 1; not used" : "ni is infinite; not used");
+        }
+    }
+
+    // The colour of what passes through a surface; nothing here reads it.
+    void warn_of_filter(TextCursor& cursor) {
+        if (read_color(cursor) != Vec3{1, 1, 1}) warn_once("tf is not used");
     }
 
     void set_opacity(float opacity) {
         Material& material = materials_.back();
         if (material.alpha_map.present()) return;
-        material.opacity = std::clamp(opacity, 0.0f, 1.0f);
+        material.opacity = opacity;
         material.alpha_mode = material.opacity < 1 ? AlphaMode::blend : AlphaMode::opaque;
     }
 
@@ -184,6 +221,11 @@ class MtlParser {
         }
     }
 
+    // Matte for opacity, else red; luminance is red in a picture of grey, and what all maps of numbers are.
+    static bool is_channel_read(std::string_view keyword, std::string_view channel) {
+        return channel.empty() || (keyword == "map_d" ? channel == "m" : channel == "r" || channel == "l");
+    }
+
     void read_map_line(std::string_view keyword, const TextCursor& cursor) {
         const bool is_map = keyword.starts_with("map_") || keyword == "norm" || keyword == "disp" ||
                             keyword == "bump" || keyword == "decal" || keyword == "refl";
@@ -197,6 +239,8 @@ class MtlParser {
             return warn_once("map '" + map.file + "' lies outside the mesh's directory; not used");
         for (const std::string_view option : map.ignored)
             warn_once("the option " + std::string(option) + " of " + std::string(keyword) + " is ignored");
+        if (!is_channel_read(keyword, map.channel))
+            warn_once("the option -imfchan of " + std::string(keyword) + " is ignored");
         const bool is_color =
             target == &materials_.back().base_color_map || target == &materials_.back().emission_map;
         const bool linear =

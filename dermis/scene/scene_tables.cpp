@@ -205,7 +205,7 @@ const KeyTable<MaterialDescription>& material_keys() {
             .number(&D::opacity,
                     {.name = "opacity", .doc = "coverage; below 1 the surfaces behind are visible"})
             .color(&D::emission_linear,
-                   {.name = "emission", .unit = "linear", .doc = "emitted radiance", .max = 1e3})
+                   {.name = "emission", .unit = "linear", .doc = "emitted radiance", .max = kMostEmission})
             .toggle(&D::visible, {.name = "visible", .doc = "false removes its triangles"});
     return table;
 }

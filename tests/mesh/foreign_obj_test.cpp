@@ -98,7 +98,9 @@ TEST(ForeignMtl, options_before_a_map_are_no_part_of_its_name) {
                           {"map_Kd -clamp on a b.png", ""},
                           {"map_Kd -s 1 1 1 -o 0.0 0 a b.png", ""},
                           {"map_Kd -s 4 4 a b.png", "the option -s of map_kd is ignored"},
-                          {"map_Kd -mm 0.2 0.5 a b.png", "the option -mm of map_kd is ignored"}};
+                          {"map_Kd -mm 0.2 0.5 a b.png", "the option -mm of map_kd is ignored"},
+                          {"map_Kd -boost 0 a b.png", ""},
+                          {"map_Kd -boost 5 a b.png", "the option -boost of map_kd is ignored"}};
     for (const Case& c : cases) {
         const LoadedMesh loaded = with_mtl(c.line + "\n" + c.line + "\n");
         EXPECT_EQ(loaded.mesh.materials[0].base_color_map.name, "dir/a b.png") << c.line;
@@ -145,4 +147,41 @@ TEST(ForeignMtl, maps_that_are_not_used_are_named_once) {
     EXPECT_EQ(std::ranges::count_if(loaded.warnings,
                                     [](const std::string& w) { return w.find("map_tf") != w.npos; }),
               1);
+}
+
+TEST(ForeignMtl, a_channel_that_is_not_the_one_read_is_named) {
+    for (const char* text :
+         {"map_Pr -imfchan r a.png\n", "map_Pr -imfchan l a.png\n", "map_d -imfchan m a.png\n"})
+        EXPECT_FALSE(any_contains(with_mtl(text).warnings, "-imfchan")) << text;
+    for (const char* text :
+         {"map_Pr -imfchan g a.png\n", "map_Pr -imfchan m a.png\n", "map_d -imfchan r a.png\n"})
+        EXPECT_TRUE(any_contains(with_mtl(text).warnings, "the option -imfchan of map_")) << text;
+}
+
+TEST(ForeignMtl, a_filter_of_what_passes_through_is_named_unless_it_is_clear) {
+    EXPECT_FALSE(any_contains(with_mtl("Tf 1 1 1\nTf 1.0\n").warnings, "tf"));
+    for (const char* text : {"Tf 0.5 1 1\n", "Tf 0\n", "Tf spectral a.rfl\n"})
+        EXPECT_TRUE(any_contains(with_mtl(text).warnings, "dir/m.mtl: tf is not used")) << text;
+}
+
+TEST(ForeignMtl, numbers_out_of_range_are_clamped_and_named_once) {
+    const LoadedMesh loaded = with_mtl(
+        "Kd 2 -1 1e99\nKe -5 0 1e99\nd 7\nPr nan\nPm -1\nNi 0.5\nnewmtl other\nKd 3\nKe 1 2 3\nNs -4\n");
+    const Material& m = loaded.mesh.materials[0];
+    EXPECT_EQ(m.base_color_linear, (Vec3{1, 0, 1}));
+    EXPECT_EQ(m.emission_linear, (Vec3{0, 0, kMostEmission}));
+    EXPECT_EQ(m.opacity, 1);
+    EXPECT_EQ(m.roughness, Material().roughness);
+    EXPECT_EQ(m.metallic, 0);
+    EXPECT_EQ(m.ior, Material().ior);
+    for (const char* text :
+         {"kd is outside of its range, 0 to 1; clamped", "ke is outside of its range, 0 to 1000; clamped",
+          "d is outside of its range, 0 to 1; clamped", "pr is no number; not used",
+          "pm is outside of its range, 0 to 1; clamped", "ni is below 1; not used",
+          "ns is below 0; read as 0"})
+        EXPECT_EQ(std::ranges::count(loaded.warnings, std::string("dir/m.mtl: ") + text), 1) << text;
+    EXPECT_TRUE(any_contains(with_mtl("Kd spectral a.rfl\n").warnings, "kd is no number; not used"));
+    EXPECT_TRUE(with_mtl("Kd 0.5\nKe 12 0 0\nNs 1000\nNi 1.45\nd 1\nTr 0\nPr 0.5\nPm 0\n").warnings ==
+                with_mtl("").warnings)
+        << "in range";
 }

@@ -236,6 +236,16 @@ TEST(GltfColors, of_three_and_four_numbers_of_every_type_are_read) {
     EXPECT_TRUE(load_gltf(triangle().file(R"({"attributes":{"POSITION":0}})")).mesh.colors_linear.empty());
 }
 
+TEST(GltfColors, out_of_range_are_0_and_named_once) {
+    const LoadedMesh loaded =
+        load_gltf(triangle()
+                      .accessor<float>(5126, "VEC3", 3, {1, -0.5f, 0, NAN, 0.2f, 0, 4, 0.2f, 0})
+                      .file(R"({"attributes":{"POSITION":0,"COLOR_0":1}})"));
+    EXPECT_EQ(loaded.mesh.colors_linear[0].y, 0);
+    EXPECT_EQ(loaded.mesh.colors_linear[1].x, 0);
+    EXPECT_TRUE(any_contains(loaded.warnings, "COLOR_0: 2 numbers are below 0 or not finite; they are 0"));
+}
+
 TEST(GltfIndices, the_largest_index_starts_a_new_primitive) {
     const GltfBuilder builder =
         GltfBuilder()

@@ -28,7 +28,7 @@ TEST(GltfMaterial, metallic_roughness_and_maps_are_read) {
     const Material m = material_of(
         R"({"name":"skin","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,0.125,0.5],"roughnessFactor":0.4,)"
         R"("metallicFactor":0.1,"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":1}},)"
-        R"("normalTexture":{"index":0,"scale":0.7},"alphaMode":"BLEND","doubleSided":true,"emissiveFactor":[0,0,2]})");
+        R"("normalTexture":{"index":0,"scale":0.7},"alphaMode":"BLEND","doubleSided":true,"emissiveFactor":[0,0,0.5]})");
     EXPECT_EQ(m.name, "skin");
     EXPECT_EQ(m.base_color_linear, (Vec3{0.5f, 0.25f, 0.125f}));
     EXPECT_FLOAT_EQ(m.opacity, 0.5f);
@@ -40,7 +40,7 @@ TEST(GltfMaterial, metallic_roughness_and_maps_are_read) {
     EXPECT_FLOAT_EQ(m.normal_scale, 0.7f);
     EXPECT_EQ(m.alpha_mode, AlphaMode::blend);
     EXPECT_TRUE(m.double_sided);
-    EXPECT_EQ(m.emission_linear, (Vec3{0, 0, 2}));
+    EXPECT_EQ(m.emission_linear, (Vec3{0, 0, 0.5f}));
     EXPECT_FALSE(m.scattering);
 }
 
@@ -222,6 +222,37 @@ TEST(GltfMaterial, an_empty_embedded_picture_is_named_once_with_its_factor) {
         1);
 }
 
+TEST(GltfMaterial, colours_out_of_range_are_clamped_and_named_once) {
+    const LoadedMesh loaded = load_with(
+        R"({"pbrMetallicRoughness":{"baseColorFactor":[-1,2,0.5,3]},"alphaMode":"BLEND","emissiveFactor":[-5,0,9],)"
+        R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":1e30},)"
+        R"("KHR_materials_volume":{"attenuationColor":[2,2,-1],"thicknessFactor":-1,"attenuationDistance":-2},)"
+        R"("KHR_materials_diffuse_transmission":{"diffuseTransmissionColorFactor":[7,0,0]},)"
+        R"("KHR_materials_volume_scatter":{"multiscatterColorFactor":[0,-7,0]},"KHR_materials_ior":{"ior":0.5}}})");
+    const Material& m = loaded.mesh.materials[0];
+    EXPECT_EQ(m.base_color_linear, (Vec3{0, 1, 0.5f}));
+    EXPECT_EQ(m.opacity, 1);
+    EXPECT_EQ(m.emission_linear, (Vec3{0, 0, kMostEmission}));
+    ASSERT_TRUE(m.scattering);
+    EXPECT_EQ(m.scattering->attenuation_color, (Vec3{1, 1, 0}));
+    EXPECT_EQ(m.scattering->thickness_mm, 0);
+    EXPECT_EQ(m.scattering->attenuation_distance_mm, 0);
+    EXPECT_EQ(m.scattering->diffuse_transmission_color, (Vec3{1, 0, 0}));
+    EXPECT_EQ(m.scattering->multiscatter_color, (Vec3{0, 0, 0}));
+    for (const char* key :
+         {"baseColorFactor", "emissiveFactor", "emissiveStrength", "attenuationColor", "thicknessFactor",
+          "attenuationDistance", "diffuseTransmissionColorFactor", "multiscatterColorFactor"})
+        EXPECT_EQ(std::ranges::count_if(loaded.warnings,
+                                        [&](const std::string& line) {
+                                            return line.find(std::string(key) +
+                                                             ": is outside of its range, ") != line.npos &&
+                                                   line.ends_with("; clamped");
+                                        }),
+                  1)
+            << key;
+    EXPECT_TRUE(any_contains(loaded.warnings, "KHR_materials_ior.ior: is below 1; not used"));
+}
+
 // The first map that can be read decides on the UV set.
 TEST(GltfMaterial, a_map_without_a_picture_does_not_choose_the_uv_set) {
     const Material m =
@@ -233,7 +264,7 @@ TEST(GltfMaterial, a_map_without_a_picture_does_not_choose_the_uv_set) {
 
 TEST(GltfMaterial, what_is_odd_is_warned_of_and_what_is_wrong_is_refused) {
     EXPECT_TRUE(any_contains(load_with(R"({"pbrMetallicRoughness":{"roughnessFactor":3}})").warnings,
-                             "materials[0].pbrMetallicRoughness.roughnessFactor: is outside of its range"));
+                             "materials[0].pbrMetallicRoughness.roughnessFactor: is outside of its range, 0 to 1; clamped"));
     EXPECT_TRUE(
         any_contains(load_with(R"({"normalTexture":{"index":2}})").warnings, "no PNG or JPEG source"));
     const std::string two_sets =

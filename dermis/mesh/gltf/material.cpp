@@ -3,8 +3,11 @@
 #include "dermis/mesh/gltf/material.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
 
+#include "dermis/base/text.h"
 #include "dermis/mesh/gltf/texture.h"
 
 namespace dermis::gltf {
@@ -13,6 +16,7 @@ namespace {
 // Embedded images are copied into every material that uses them; a small file must not fill the memory that
 // way.
 constexpr size_t kMaxEmbeddedBytes = size_t{1} << 30;
+constexpr double kAnyLength = std::numeric_limits<float>::max();
 
 class MaterialReader {
   public:
@@ -34,20 +38,37 @@ class MaterialReader {
     static float number(const JsonView& view, double fallback, double low, double high) {
         const double value = view.number(fallback);
         if (value >= low && value <= high) return float(value);
-        view.warn("is outside of its range; clamped");
+        warn_of_range(view, low, high);
         return float(std::clamp(value, low, high));
     }
 
+    static void warn_of_range(const JsonView& view, double low, double high) {
+        const std::string range =
+            high == kAnyLength ? to_text(low) + " or more" : to_text(low) + " to " + to_text(high);
+        view.warn("is outside of its range, " + range + "; clamped");
+    }
+
+    // Channels of 0 to 1.
+    template <size_t N>
+    static std::array<float, N> channels(const JsonView& view, std::array<double, N> fallback) {
+        std::array<float, N> read{};
+        const auto given = view.numbers<N>(fallback);
+        for (size_t c = 0; c < N; ++c) read[c] = float(std::clamp(given[c], 0.0, 1.0));
+        if (std::ranges::any_of(given, [](double value) { return value < 0 || value > 1; }))
+            warn_of_range(view, 0, 1);
+        return read;
+    }
+
     static Vec3 color(const JsonView& view, Vec3 fallback) {
-        const auto c = view.numbers<3>({fallback.x, fallback.y, fallback.z});
-        return {float(c[0]), float(c[1]), float(c[2])};
+        const auto c = channels<3>(view, {fallback.x, fallback.y, fallback.z});
+        return {c[0], c[1], c[2]};
     }
 
     void read_core(const JsonView& source, Material& material) {
         const JsonView pbr = source["pbrMetallicRoughness"];
-        auto base = pbr["baseColorFactor"].numbers<4>({1, 1, 1, 1});
+        auto base = channels<4>(pbr["baseColorFactor"], {1, 1, 1, 1});
         if (read_map(pbr["baseColorTexture"], "baseColorFactor", material.base_color_map))
-            material.base_color_linear = {float(base[0]), float(base[1]), float(base[2])};
+            material.base_color_linear = {base[0], base[1], base[2]};
         else
             base[3] = 1;
         if (read_map(pbr["metallicRoughnessTexture"], "metallicFactor and roughnessFactor",
@@ -64,7 +85,7 @@ class MaterialReader {
         read_alpha(source, base[3], material);
     }
 
-    static void read_alpha(const JsonView& source, double factor, Material& material) {
+    static void read_alpha(const JsonView& source, float factor, Material& material) {
         const std::string mode = source["alphaMode"].text("OPAQUE");
         if (mode == "MASK") material.alpha_mode = AlphaMode::mask;
         if (mode == "BLEND") material.alpha_mode = AlphaMode::blend;
@@ -72,7 +93,7 @@ class MaterialReader {
             source["alphaMode"].warn("'" + mode.substr(0, 20) + "' is not OPAQUE, MASK or BLEND; opaque");
         material.alpha_cutoff = float(source["alphaCutoff"].number(0.5));
         // Opaque surfaces ignore the factor's alpha as they do the map's.
-        if (material.alpha_mode != AlphaMode::opaque) material.opacity = float(std::clamp(factor, 0.0, 1.0));
+        if (material.alpha_mode != AlphaMode::opaque) material.opacity = factor;
     }
 
     void read_surface(const JsonView& extensions, Material& material) {
@@ -81,10 +102,14 @@ class MaterialReader {
             material.specular = number(specular["specularFactor"], 1, 0, 1);
         read_color_without_map(specular, "specularColor", {1, 1, 1});
         // 0 means "no Fresnel at all", which no material here has.
-        const double ior = extensions["KHR_materials_ior"]["ior"].number(1.5);
-        material.ior = ior >= 1 ? float(ior) : 1.5f;
-        const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1);
-        material.emission_linear *= float(strength);
+        const JsonView ior = extensions["KHR_materials_ior"]["ior"];
+        const double eta = ior.number(1.5);
+        if (eta >= 1)
+            material.ior = float(eta);
+        else
+            ior.warn("is below 1; not used");
+        material.emission_linear *= number(extensions["KHR_materials_emissive_strength"]["emissiveStrength"],
+                                           1, 0, double(kMostEmission));
     }
 
     void read_body(const JsonView& extensions, Material& material, double node_scale) {
@@ -95,10 +120,12 @@ class MaterialReader {
         if (!volume.exists() && !transmission.exists() && !old_scatter.exists() && !scatter.exists()) return;
         Material::Scattering body;
         if (read_map(volume["thicknessTexture"], "thicknessFactor", material.thickness_map))
-            body.thickness_mm = float(volume["thicknessFactor"].number(0) * node_scale * mm_per_unit_);
+            body.thickness_mm =
+                float(number(volume["thicknessFactor"], 0, 0, kAnyLength) * node_scale * mm_per_unit_);
         material.thickness_scale_mm = body.thickness_mm;
         body.attenuation_color = color(volume["attenuationColor"], {1, 1, 1});
-        body.attenuation_distance_mm = float(volume["attenuationDistance"].number(0) * mm_per_unit_);
+        body.attenuation_distance_mm =
+            float(number(volume["attenuationDistance"], 0, 0, kAnyLength) * mm_per_unit_);
         if (read_map(transmission["diffuseTransmissionTexture"], "diffuseTransmissionFactor",
                      material.transmission_map))
             body.diffuse_transmission = number(transmission["diffuseTransmissionFactor"], 0, 0, 1);

@@ -109,8 +109,10 @@ class PrimitiveReader {
             for (size_t c = 0; c < 3; ++c) primitive_.colors.push_back(values[i + c]);
             primitive_.colors.push_back(alpha ? values[i + 3] : 1.0f);
         }
+        size_t wrong = 0;
         for (float& value : primitive_.colors)
-            if (!(value >= 0 && std::isfinite(value))) value = 0;
+            if (!(value >= 0 && std::isfinite(value))) value = 0, ++wrong;
+        if (wrong > 0) view.warn(std::to_string(wrong) + " numbers are below 0 or not finite; they are 0");
     }
 
     void add_morph_targets() {
