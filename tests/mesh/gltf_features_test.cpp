@@ -121,6 +121,30 @@ TEST(GltfSkin, normals_and_mirrored_joints_are_right) {
     EXPECT_FALSE(any_contains(loaded.warnings, "face against their normals"));
 }
 
+TEST(GltfSkin, weights_that_do_not_sum_to_1_are_named) {
+    const auto warnings = [](std::initializer_list<float> weights) {
+        return load_gltf(skinned_triangle(weights).file(kSkinned,
+                                                        R"({"mesh":0,"skin":0},{"children":[2]},{})", kSkin))
+            .warnings;
+    };
+    EXPECT_FALSE(any_contains(warnings({1, 0, 0, 0, 0.5f, 0.502f, 0, 0, 0.25f, 0.75f, 0, 0}), "WEIGHTS"))
+        << "8 bits";
+    const auto wrong = warnings({2, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0, 0});
+    EXPECT_TRUE(
+        any_contains(wrong, "attributes.WEIGHTS_0: the weights of 2 vertices do not sum to 1; scaled to it"));
+    EXPECT_TRUE(any_contains(wrong, "attributes.WEIGHTS_0: 1 vertices have no weight; they follow no joint"));
+}
+
+TEST(GltfExtras, animations_and_cameras_are_named_once) {
+    const LoadedMesh loaded = load_gltf(square_gltf(
+        "",
+        R"(,"animations":[{},{}],"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}])"));
+    EXPECT_TRUE(any_contains(loaded.warnings, "animations: 2 are not played; the pose is that of the nodes"));
+    EXPECT_TRUE(any_contains(loaded.warnings, "cameras: 1 not used"));
+    const LoadedMesh none = load_gltf(square_gltf("", R"(,"animations":[],"cameras":[])"));
+    EXPECT_FALSE(any_contains(none.warnings, "animations") || any_contains(none.warnings, "cameras"));
+}
+
 TEST(GltfSkin, what_is_wrong_is_named) {
     const auto message = [](const std::string& skins, const std::string& attributes = kSkinned) {
         return features_error_of(

@@ -263,8 +263,9 @@ TEST(GltfMaterial, a_map_without_a_picture_does_not_choose_the_uv_set) {
 }
 
 TEST(GltfMaterial, what_is_odd_is_warned_of_and_what_is_wrong_is_refused) {
-    EXPECT_TRUE(any_contains(load_with(R"({"pbrMetallicRoughness":{"roughnessFactor":3}})").warnings,
-                             "materials[0].pbrMetallicRoughness.roughnessFactor: is outside of its range, 0 to 1; clamped"));
+    EXPECT_TRUE(any_contains(
+        load_with(R"({"pbrMetallicRoughness":{"roughnessFactor":3}})").warnings,
+        "materials[0].pbrMetallicRoughness.roughnessFactor: is outside of its range, 0 to 1; clamped"));
     EXPECT_TRUE(
         any_contains(load_with(R"({"normalTexture":{"index":2}})").warnings, "no PNG or JPEG source"));
     const std::string two_sets =

@@ -216,6 +216,14 @@ class SceneReader {
     size_t without_uvs_ = 0;
 };
 
+void name_what_is_left_out(Document& document) {
+    const JsonView animations = document.view()["animations"], cameras = document.view()["cameras"];
+    if (const size_t count = animations.size(); count > 0)
+        animations.warn(std::to_string(count) + " are not played; the pose is that of the nodes");
+    if (const size_t count = cameras.size(); count > 0)
+        cameras.warn(std::to_string(count) + " not used; the camera is the scene's");
+}
+
 }  // namespace
 
 Result<LoadedMesh> parse_gltf(std::span<const std::byte> bytes, const std::filesystem::path& name,
@@ -224,6 +232,7 @@ Result<LoadedMesh> parse_gltf(std::span<const std::byte> bytes, const std::files
     open_document(bytes, name, read_sibling, options, document);
     LoadedMesh loaded;
     if (!document.messages.error) loaded.mesh = SceneReader(document, options.unit_mm.value_or(1000)).run();
+    if (!document.messages.error) name_what_is_left_out(document);
     if (document.messages.error) return *document.messages.error;
     loaded.warnings = std::move(document.messages.warnings);
     return loaded;

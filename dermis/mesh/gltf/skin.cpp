@@ -35,7 +35,10 @@ std::vector<Affine> inverse_bind_matrices(Document& document, const JsonView& sk
     return matrices;
 }
 
-void normalize_weights(Influences& influences) {
+// Messages are of `view`.
+void normalize_weights(Influences& influences, const JsonView& view) {
+    constexpr double kOf8Bits = 0.01;  // four weights, each rounded
+    size_t scaled = 0, without = 0;
     for (size_t first = 0; first < influences.weights.size(); first += influences.per_vertex) {
         const std::span<float> weights = std::span(influences.weights).subspan(first, influences.per_vertex);
         double sum = 0;
@@ -43,9 +46,14 @@ void normalize_weights(Influences& influences) {
             if (!(weight > 0) || !std::isfinite(weight)) weight = 0;
             sum += weight;
         }
+        scaled += sum > 0 && std::abs(sum - 1) > kOf8Bits;
+        without += !(sum > 0);
         if (sum > 0)
             for (float& weight : weights) weight = float(weight / sum);
     }
+    if (scaled > 0)
+        view.warn("the weights of " + std::to_string(scaled) + " vertices do not sum to 1; scaled to it");
+    if (without > 0) view.warn(std::to_string(without) + " vertices have no weight; they follow no joint");
 }
 
 }  // namespace
@@ -93,7 +101,7 @@ Influences read_influences(Document& document, const JsonView& attributes, size_
             if (weights[i] != 0) influences.joints[at] = uint32_t(joints[i]);
         }
     }
-    normalize_weights(influences);
+    if (sets > 0) normalize_weights(influences, attributes["WEIGHTS_0"]);
     return influences;
 }
 
