@@ -42,7 +42,8 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
                                             .pNext = &v13,
                                             .scalarBlockLayout = VK_TRUE,
                                             .timelineSemaphore = VK_TRUE};
-    std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    std::vector<const char*> extensions;
+    if (context.max_push_descriptors) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
@@ -82,12 +83,15 @@ Result<void> make_submissions(Device::State& state) {
     return {};
 }
 
-void take_physical_device(Context& context, const PhysicalDevice& device) {
+void take_physical_device(Device::State& state, const PhysicalDevice& device, const DeviceOptions& options) {
+    state.info = device.info;
+    if (options.pooled_descriptors) state.info.push_descriptors = 0;
+    Context& context = state.context;
     context.physical = device.handle;
     context.properties = device.properties;
     context.queue_family = device.queue_family;
     context.timestamp_bits = device.timestamp_bits;
-    context.max_push_descriptors = device.max_push_descriptors;
+    context.max_push_descriptors = uint32_t(state.info.push_descriptors);
     context.sample_counts = device.sample_counts;
     context.features = wanted_features(device.features);
     context.is_cpu = device.info.is_cpu;
@@ -120,10 +124,9 @@ Result<Device> Device::create(const DeviceOptions& options) {
 
     auto state = std::make_unique<State>();
     state->instance = std::move(*instance);
-    state->info = device->info;
     state->context.instance = state->instance.get();
     load_debug_names(state->instance, state->context);
-    take_physical_device(state->context, *device);
+    take_physical_device(*state, *device, options);
     state->context.keep_statistics = options.keep_statistics;
     if (Result<void> ok = make_device(*state, options); !ok) return ok.error();
     if (Result<void> ok = make_submissions(*state); !ok) return ok.error();

@@ -25,6 +25,9 @@ struct DeviceOptions {
     /// Pipelines keep the compiler's statistics (statistics.h) and are compiled anew, never taken from the
     /// cache on disk. Such a device draws nothing.
     bool keep_statistics = false;
+    /// Descriptor sets come from a pool even where VK_KHR_push_descriptor exists: tests of the pool run on
+    /// any device.
+    bool pooled_descriptors = false;
 };
 
 struct DeviceInfo {
@@ -33,6 +36,7 @@ struct DeviceInfo {
     bool is_cpu = false;
     std::vector<int> sample_counts;  ///< 1, 2, 4, ...
     std::string missing;             ///< what it lacks to run dermis; empty: it can
+    int push_descriptors = 0;  ///< most bindings of a pushed set; larger sets come from a pool, at 0 all
 };
 
 /// Every Vulkan device, the one that Device::create would take first. Errors: no loader or driver.

@@ -66,11 +66,13 @@ Result<uint64_t> Executor::State::submit(const PassList& list, const FrameInputs
     if (Result<void> ok = check_frame(list, inputs, context); !ok) return ok.error();
     pipelines.begin_run();
     if (Result<void> ok = images.prepare(list, inputs.width, inputs.height); !ok) return ok.error();
-    const Result<Plan> plan = make_plan({device, list, inputs, images, shaders, pipelines});
+    Result<Plan> plan = make_plan({device, list, inputs, images, shaders, pipelines});
     if (!plan) return plan.error();
     FrameSlot& slot = slots[(frames + 1) % slots.size()];
     if (Result<void> ok = collect(slot); !ok) return ok.error();
     if (Result<void> ok = slot.store(context, plan->uploads); !ok) return ok.error();
+    if (Result<void> ok = slot.descriptors.prepare(context, *plan, slot.uploads.handle.get()); !ok)
+        return ok.error();
     if (Result<void> ok = slot.queries.prepare(context, *plan); !ok) return ok.error();
     const Result<void> done = slot.commands.run(device, "the frame", [&](VkCommandBuffer commands) {
         record_plan(context, commands, *plan, slot.uploads.handle.get(), slot.queries);

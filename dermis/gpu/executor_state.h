@@ -2,6 +2,7 @@
 // What is behind the handle Executor.
 
 #include "dermis/gpu/executor.h"
+#include "dermis/gpu/frame_descriptors.h"
 #include "dermis/gpu/queries.h"
 
 namespace dermis::gpu {
@@ -12,6 +13,7 @@ struct FrameSlot {
     ReusedCommands commands;
     FrameQueries queries;
     Buffer uploads;
+    FrameDescriptors descriptors;
     uint64_t frame = 0;  ///< whose result is to be collected; 0: none
 
     /// Grows and never shrinks.

@@ -52,7 +52,7 @@ struct PhysicalDevice {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
     VkPhysicalDeviceProperties properties = {};
     DeviceInfo info;
-    uint32_t queue_family = 0, timestamp_bits = 0, max_push_descriptors = 0;
+    uint32_t queue_family = 0, timestamp_bits = 0;
     VkSampleCountFlags sample_counts = 0;
     VkPhysicalDeviceFeatures features = {};  ///< those it has
 };

@@ -62,22 +62,21 @@ std::string missing_features(PhysicalDevice& device) {
     if (!v13.dynamicRendering) missing.push_back("dynamicRendering");
     if (!v13.synchronization2) missing.push_back("synchronization2");
     if (!v12.scalarBlockLayout) missing.push_back("scalarBlockLayout");
-    if (!has_device_extension(device.handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME))
-        missing.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     if (!find_queue(device)) missing.push_back("a queue for graphics and compute");
     return join(missing, ", ");
 }
 
 void describe(PhysicalDevice& device) {
+    const bool pushes = has_device_extension(device.handle, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     VkPhysicalDevicePushDescriptorPropertiesKHR push = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR};
     VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
-                                               .pNext = &push};
+                                               .pNext = pushes ? &push : nullptr};
     VkPhysicalDeviceProperties2 all = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                        .pNext = &driver};
     vkGetPhysicalDeviceProperties2(device.handle, &all);
     device.properties = all.properties;
-    device.max_push_descriptors = push.maxPushDescriptors;
+    device.info.push_descriptors = int(push.maxPushDescriptors);
     const VkPhysicalDeviceLimits& limits = all.properties.limits;
     device.sample_counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
     device.info.name = all.properties.deviceName;

@@ -13,7 +13,8 @@ struct Pipeline {
     OwnedPipelineLayout layout;
     OwnedPipeline handle;
     VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
-    std::vector<Binding> bindings;  ///< of all stages; the index is the binding number
+    std::vector<Binding> bindings;    ///< of all stages; the index is the binding number
+    bool pushes_descriptors = false;  ///< otherwise each draw has a set of a pool (frame_descriptors.h)
     BlockLayout push_constants;
     VkShaderStageFlags push_stages = 0;
     std::vector<StageVariable> inputs;  ///< the index is the vertex buffer binding
@@ -38,8 +39,8 @@ class PipelineStore {
   public:
     explicit PipelineStore(Device::State& device) : device_(&device) {}
 
-    /// `fragment` is null for depth-only passes. Errors: stages that disagree about a name, too many
-    /// bindings, an output that is missing.
+    /// `fragment` is null for depth-only passes. Errors: stages that disagree about a name, an output that is
+    /// missing.
     [[nodiscard]] Result<const Pipeline*> graphics(const ListedPass& pass, const Shader& vertex,
                                                    const Shader* fragment, const TargetFormats& formats);
     [[nodiscard]] Result<const Pipeline*> compute(const ListedPass& pass, const Shader& shader);
@@ -68,7 +69,7 @@ class PipelineStore {
 /// The shader's words with the merged binding numbers, set 0.
 [[nodiscard]] std::vector<uint32_t> renumbered(const Shader& shader, const Pipeline& pipeline);
 
-/// Descriptor set layout (push descriptors) and pipeline layout.
+/// Descriptor set layout and pipeline layout; decides whether the descriptors are pushed.
 [[nodiscard]] Result<void> make_layout(Device::State& device, Pipeline& pipeline);
 
 }  // namespace dermis::gpu

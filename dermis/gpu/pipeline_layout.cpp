@@ -81,9 +81,6 @@ std::vector<uint32_t> renumbered(const Shader& shader, const Pipeline& pipeline)
 
 Result<void> make_layout(Device::State& device, Pipeline& pipeline) {
     const Context& context = device.context;
-    if (pipeline.bindings.size() > context.max_push_descriptors)
-        return Error{"wants " + std::to_string(pipeline.bindings.size()) + " bindings; " + device.info.name +
-                     " has " + std::to_string(context.max_push_descriptors)};
     if (pipeline.push_constants.size > context.properties.limits.maxPushConstantsSize)
         return Error{"wants " + std::to_string(pipeline.push_constants.size) + " bytes of push constants; " +
                      device.info.name + " has " +
@@ -95,11 +92,12 @@ Result<void> make_layout(Device::State& device, Pipeline& pipeline) {
                             .descriptorCount = 1,
                             .stageFlags = VK_SHADER_STAGE_ALL});
     }
-    const VkDescriptorSetLayoutCreateInfo set_info = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-        .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
-        .bindingCount = uint32_t(bindings.size()),
-        .pBindings = bindings.data()};
+    pipeline.pushes_descriptors =
+        context.max_push_descriptors && bindings.size() <= context.max_push_descriptors;
+    VkDescriptorSetLayoutCreateInfo set_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                .bindingCount = uint32_t(bindings.size()),
+                                                .pBindings = bindings.data()};
+    if (pipeline.pushes_descriptors) set_info.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     VkDescriptorSetLayout set = VK_NULL_HANDLE;
     VkResult result = context.vk.vkCreateDescriptorSetLayout(context.device, &set_info, nullptr, &set);
     if (Result<void> ok = check(result, "make a descriptor layout"); !ok) return ok;

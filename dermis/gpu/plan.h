@@ -17,7 +17,7 @@ struct ImageAccess {
     bool discard = false;
 };
 
-/// One write into the push-descriptor set; buffers are ranges of the plan's uploads.
+/// One write into a descriptor set; buffers are ranges of the plan's uploads.
 struct Descriptor {
     uint32_t binding = 0;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
@@ -37,6 +37,7 @@ struct PlannedDraw {
     BufferPlace indices = {};
     uint32_t first_index = 0, index_count = 0;
     std::vector<Descriptor> descriptors;
+    VkDescriptorSet set = VK_NULL_HANDLE;  ///< holds them; null: the recorder pushes them
     std::optional<PixelRect> scissor = {};
 };
 

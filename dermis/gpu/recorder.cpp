@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dermis/gpu/frame_descriptors.h"
+
 namespace dermis::gpu {
 namespace {
 
@@ -110,13 +112,13 @@ class Recorder {
         const auto& local = planned.pipeline->local_size;
         vk_.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, planned.pipeline->handle.get());
         push_constants(planned);
-        push_descriptors(*planned.pipeline, planned.draws.front());
+        bind_descriptors(*planned.pipeline, planned.draws.front());
         vk_.vkCmdDispatch(commands_, (planned.extent.width + local[0] - 1) / local[0],
                           (planned.extent.height + local[1] - 1) / local[1], 1);
     }
 
     void draw(const Pipeline& pipeline, const PlannedDraw& draw) {
-        push_descriptors(pipeline, draw);
+        bind_descriptors(pipeline, draw);
         if (draw.index_count == 0) return vk_.vkCmdDraw(commands_, 3, 1, 0, 0);
         std::vector<VkBuffer> buffers;
         std::vector<VkDeviceSize> offsets;
@@ -138,23 +140,14 @@ class Recorder {
                                uint32_t(planned.push_constants.size()), planned.push_constants.data());
     }
 
-    void push_descriptors(const Pipeline& pipeline, const PlannedDraw& draw) {
-        const size_t count = draw.descriptors.size();
-        std::vector<VkDescriptorBufferInfo> buffers(count);
-        std::vector<VkWriteDescriptorSet> writes(count);
-        for (size_t i = 0; i < count; ++i) {
-            const Descriptor& descriptor = draw.descriptors[i];
-            buffers[i] = {uploads_, descriptor.offset, descriptor.size};
-            writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                         .dstBinding = descriptor.binding,
-                         .descriptorCount = 1,
-                         .descriptorType = descriptor.type,
-                         .pImageInfo = &descriptor.image,
-                         .pBufferInfo = &buffers[i]};
-        }
-        if (count)
-            vk_.vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point, pipeline.layout.get(), 0,
-                                          uint32_t(count), writes.data());
+    void bind_descriptors(const Pipeline& pipeline, const PlannedDraw& draw) {
+        if (draw.descriptors.empty()) return;
+        if (draw.set)
+            return vk_.vkCmdBindDescriptorSets(commands_, pipeline.bind_point, pipeline.layout.get(), 0, 1,
+                                               &draw.set, 0, nullptr);
+        const DescriptorWrites writes(draw, uploads_);
+        vk_.vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point, pipeline.layout.get(), 0,
+                                      uint32_t(writes.all().size()), writes.all().data());
     }
 
     const Context& context_;

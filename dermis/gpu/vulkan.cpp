@@ -9,6 +9,8 @@ std::string_view result_text(VkResult result) {
             return "out of memory";
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
             return "out of GPU memory; use a smaller size or fewer samples";
+        case VK_ERROR_OUT_OF_POOL_MEMORY:
+            return "the descriptor pool is full";
         case VK_ERROR_DEVICE_LOST:
             return "the GPU was lost (a crash or a time-out of its driver)";
         case VK_ERROR_INITIALIZATION_FAILED:

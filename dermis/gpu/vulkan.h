@@ -30,7 +30,7 @@ struct Context {
     VkPhysicalDeviceProperties properties = {};
     VkPhysicalDeviceMemoryProperties memory = {};
     VkPhysicalDeviceFeatures features = {};  ///< those enabled
-    uint32_t max_push_descriptors = 0;
+    uint32_t max_push_descriptors = 0;       ///< 0: VK_KHR_push_descriptor is not enabled
     uint32_t timestamp_bits = 0;
     VkSampleCountFlags sample_counts = 0;  ///< of colour and depth targets alike
     bool is_cpu = false;
@@ -96,6 +96,7 @@ using OwnedPipelineLayout = Owned<VkPipelineLayout, &VolkDeviceTable::vkDestroyP
 using OwnedPipeline = Owned<VkPipeline, &VolkDeviceTable::vkDestroyPipeline>;
 using OwnedPipelineCache = Owned<VkPipelineCache, &VolkDeviceTable::vkDestroyPipelineCache>;
 using OwnedCommandPool = Owned<VkCommandPool, &VolkDeviceTable::vkDestroyCommandPool>;
+using OwnedDescriptorPool = Owned<VkDescriptorPool, &VolkDeviceTable::vkDestroyDescriptorPool>;
 using OwnedQueryPool = Owned<VkQueryPool, &VolkDeviceTable::vkDestroyQueryPool>;
 using OwnedSemaphore = Owned<VkSemaphore, &VolkDeviceTable::vkDestroySemaphore>;
 

@@ -45,8 +45,9 @@ inline ShaderSource glsl_shaders(std::map<std::string, std::string, std::less<>>
 
 class GpuTest : public ::testing::Test {
   protected:
-    static void SetUpTestSuite() {
-        Result<Device> made = Device::create({.validation = true});
+    static void SetUpTestSuite() { open_device({.validation = true}); }
+    static void open_device(const DeviceOptions& options) {
+        Result<Device> made = Device::create(options);
         ASSERT_TRUE(made) << made.error().message;
         device_ = std::make_unique<Device>(std::move(*made));
         taken_ = 0;
