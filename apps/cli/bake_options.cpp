@@ -22,16 +22,22 @@ Command* bake_group(CommandLine& line) {
 
 void TableOutput::add_to(Command* command) {
     command
-        ->add_option("-o,--output", path,
+        ->add_output("-o,--output", path,
                      "file to write: .exr, .png, .ktx2, .dds, .h or .csv; FILE.json has its convention")
         ->required();
     command->add_option("--storage", storage,
                         "numbers in the file: auto, 8 or 16 (PNG), half or float (EXR)");
-    command->add_option("--plot", plot_path, "SVG file: the curves, and the error of the written table");
+    command->add_output("--plot", plot_path, "SVG file: the curves, and the error of the written table");
 }
 
 Result<TableStorage> TableOutput::chosen_storage(TableStorage preferred) const {
     return find_storage(path, storage, preferred);
+}
+
+FileUse TableOutput::files(const std::string& profile) const {
+    FileUse files = {.outputs = {path, sidecar_path(path)}, .inputs = {profile}};
+    if (!plot_path.empty()) files.outputs.emplace_back(plot_path);
+    return files;
 }
 
 Result<Range> parse_range(const std::string& option, const std::string& text) {

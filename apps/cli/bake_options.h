@@ -19,6 +19,8 @@ struct TableOutput {
     std::string path, plot_path, storage = "auto";
     void add_to(Command* command);
     [[nodiscard]] Result<TableStorage> chosen_storage(TableStorage preferred = TableStorage::automatic) const;
+    /// The table, its sidecar, the plot. `profile` is read if it is a file.
+    [[nodiscard]] FileUse files(const std::string& profile = "") const;
 };
 
 /// "0,0.5".

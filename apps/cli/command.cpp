@@ -49,11 +49,6 @@ Option* Option::required() {
     return this;
 }
 
-Option* Option::check_positive() {
-    option_->check(CLI::PositiveNumber);
-    return this;
-}
-
 Option* Option::capture_default_str() {
     option_->capture_default_str();
     return this;
@@ -74,16 +69,59 @@ std::string finite_number(const std::string& text) {
     return std::abs(*number) <= std::numeric_limits<float>::max() ? "" : text + " is no finite number";
 }
 
-template <class Value>
-constexpr bool kIsNumber = std::is_arithmetic_v<Value> || std::is_same_v<Value, std::optional<double>>;
+// 100000, where to_text() writes 1e+05.
+std::string range_number(double number) {
+    return number == std::floor(number) && std::abs(number) < 1e10 ? std::to_string(int64_t(number))
+                                                                   : to_text(number);
+}
+
+bool is_within(double number, NumberRange range) {
+    return number >= range.min && number <= range.max;
+}
+
+std::string not_within(NumberRange range) {
+    return " is not in its range, " + range_number(range.min) + " to " + range_number(range.max);
+}
+
+// The result of a function that returns or fails, once the files are found good.
+template <class Function>
+auto after_check(const FileLister& files, const Function& function) {
+    return [files, function](const auto&... arguments) -> decltype(function(arguments...)) {
+        const Result<FileUse> listed = files();
+        if (!listed) return listed.error();
+        if (Result<void> good = check_outputs(*listed); !good) return good.error();
+        return function(arguments...);
+    };
+}
 
 }  // namespace
 
+Result<void> check_number(const std::string& flag, double value, NumberRange range) {
+    if (is_within(value, range)) return {};
+    return Error{flag + ": " + to_text(value) + not_within(range)};
+}
+
 template <class Value>
 Option* Command::add_any(const std::string& names, Value& value, const std::string& help) {
-    CLI::Option* option = app_->add_option(names, value, help);
-    if constexpr (kIsNumber<Value>) option->check(CLI::Validator(finite_number, ""));
-    return &options_.emplace_back(option);
+    return &options_.emplace_back(app_->add_option(names, value, help));
+}
+
+template <class Value>
+Option* Command::add_number(const std::string& names, Value& value, NumberRange range,
+                            const std::string& help) {
+    Option* option = add_any(names, value, help);
+    const auto wrong = [range](const std::string& text) -> std::string {
+        if (std::string reason = finite_number(text); !reason.empty()) return reason;
+        return is_within(*parse_number(text), range) ? "" : text + not_within(range);
+    };
+    option->option_->check(CLI::Validator(wrong, range_number(range.min) + ".." + range_number(range.max)));
+    return option;
+}
+
+Option* Command::add_output(const std::string& names, std::string& path, const std::string& help) {
+    Option* option = add_any(names, path, help);
+    option->option_->type_name("OUTPUT");
+    return option;
 }
 
 Option* Command::add_option(const std::string& names, std::string& value, const std::string& help) {
@@ -100,28 +138,29 @@ Option* Command::add_option(const std::string& names, std::vector<std::string>& 
     return add_any(names, value, help);
 }
 
-Option* Command::add_option(const std::string& names, std::optional<double>& value, const std::string& help) {
-    return add_any(names, value, help);
+Option* Command::add_option(const std::string& names, std::optional<double>& value, NumberRange range,
+                            const std::string& help) {
+    return add_number(names, value, range, help);
 }
 
-Option* Command::add_option(const std::string& names, double& value, const std::string& help) {
-    return add_any(names, value, help);
+Option* Command::add_option(const std::string& names, double& value, NumberRange range,
+                            const std::string& help) {
+    return add_number(names, value, range, help);
 }
 
-Option* Command::add_option(const std::string& names, float& value, const std::string& help) {
-    return add_any(names, value, help);
+Option* Command::add_option(const std::string& names, float& value, NumberRange range,
+                            const std::string& help) {
+    return add_number(names, value, range, help);
 }
 
-Option* Command::add_option(const std::string& names, int& value, const std::string& help) {
-    return add_any(names, value, help);
+Option* Command::add_option(const std::string& names, int& value, NumberRange range,
+                            const std::string& help) {
+    return add_number(names, value, range, help);
 }
 
-Option* Command::add_option(const std::string& names, uint32_t& value, const std::string& help) {
-    return add_any(names, value, help);
-}
-
-Option* Command::add_option(const std::string& names, uint64_t& value, const std::string& help) {
-    return add_any(names, value, help);
+Option* Command::add_option(const std::string& names, uint32_t& value, NumberRange range,
+                            const std::string& help) {
+    return add_number(names, value, range, help);
 }
 
 Option* Command::add_flag(const std::string& names, bool& value, const std::string& help) {
@@ -158,8 +197,10 @@ Command* CommandLine::find(const std::string& name) {
     return nullptr;
 }
 
-void CommandLine::when_chosen(Command* command, Action run, Planner planner) {
-    command->app_->callback([this, run = std::move(run), planner = std::move(planner)] {
+void CommandLine::when_chosen(Command* command, FileLister files, Action run, Planner planner) {
+    command->app_->callback([this, files, run = Action(after_check(files, run)),
+                             planner = planner ? Planner(after_check(files, planner)) : Planner()] {
+        this->files = files;
         action = run;
         plan = planner;
     });

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dermis/base/output_check.h"
 #include "dermis/base/result.h"
 #include "dermis/jobs/job_list.h"
 
@@ -21,18 +22,27 @@ class Option;
 
 namespace dermis::cli {
 
+/// Both ends belong to it.
+struct NumberRange {
+    double min = 0, max = 0;
+};
+/// "--frames: 0 is not in its range, 1 to 100000".
+[[nodiscard]] Result<void> check_number(const std::string& flag, double value, NumberRange range);
+
+inline constexpr NumberRange kUnitRangeMm = {1e-6, 1e6};
+
 /// An option or an argument of a command.
 class Option {
   public:
     explicit Option(CLI::Option* option) : option_(option) {}
     Option* required();
-    Option* check_positive();
     /// --help shows the value that the variable has now.
     Option* capture_default_str();
     /// false: `--set a=1 b` takes one value, and b is an argument of its own.
     Option* allow_extra_args(bool allowed);
 
   private:
+    friend class Command;
     CLI::Option* option_;
 };
 
@@ -44,12 +54,15 @@ class Command {
     Option* add_option(const std::string& names, std::string& value, const std::string& help);
     Option* add_option(const std::string& names, std::optional<std::string>& value, const std::string& help);
     Option* add_option(const std::string& names, std::vector<std::string>& value, const std::string& help);
-    Option* add_option(const std::string& names, std::optional<double>& value, const std::string& help);
-    Option* add_option(const std::string& names, double& value, const std::string& help);
-    Option* add_option(const std::string& names, float& value, const std::string& help);
-    Option* add_option(const std::string& names, int& value, const std::string& help);
-    Option* add_option(const std::string& names, uint32_t& value, const std::string& help);
-    Option* add_option(const std::string& names, uint64_t& value, const std::string& help);
+    /// A number outside of `range` is refused; --help shows the range.
+    Option* add_option(const std::string& names, std::optional<double>& value, NumberRange range,
+                       const std::string& help);
+    Option* add_option(const std::string& names, double& value, NumberRange range, const std::string& help);
+    Option* add_option(const std::string& names, float& value, NumberRange range, const std::string& help);
+    Option* add_option(const std::string& names, int& value, NumberRange range, const std::string& help);
+    Option* add_option(const std::string& names, uint32_t& value, NumberRange range, const std::string& help);
+    /// A file or folder to write; --help calls its type OUTPUT. The command's FileLister has what it makes.
+    Option* add_output(const std::string& names, std::string& path, const std::string& help);
     Option* add_flag(const std::string& names, bool& value, const std::string& help);
     /// This command is nothing without one of its own.
     void require_subcommand();
@@ -60,6 +73,8 @@ class Command {
     friend class CommandLine;
     template <class Value>
     Option* add_any(const std::string& names, Value& value, const std::string& help);
+    template <class Value>
+    Option* add_number(const std::string& names, Value& value, NumberRange range, const std::string& help);
 
     CLI::App* app_;
     std::deque<Option> options_;  // a deque: pointers to its elements stay valid
@@ -70,6 +85,13 @@ using Planner = std::function<Result<JobPlan>(int parts, const std::string& fold
 
 /// Runs after parsing; the value is the exit code, an error is printed as one line and exits with 1.
 using Action = std::function<Result<int>()>;
+
+/// The files that a command writes, and those that its options name as inputs. Errors: an output of a kind
+/// that the command does not write.
+using FileLister = std::function<Result<FileUse>()>;
+[[nodiscard]] inline Result<FileUse> writes_nothing() {
+    return FileUse{};
+}
 
 class CommandLine {
   public:
@@ -84,14 +106,16 @@ class CommandLine {
                  Command* parent = nullptr);
     /// `dermis NAME` if it was added already, otherwise null.
     Command* find(const std::string& name);
-    /// `plan` is for the commands that dermis jobs takes.
-    void when_chosen(Command* command, Action run, Planner plan = {});
+    /// `files` are checked by check_outputs() before `run` or `plan` does anything. `plan` is for the
+    /// commands that dermis jobs takes.
+    void when_chosen(Command* command, FileLister files, Action run, Planner plan = {});
 
     /// The exit code, or nothing when a command was chosen: then call `action`. Prints help and what was
     /// wrong.
     [[nodiscard]] std::optional<int> parse(int argc, char** argv);
     /// A line of a file, without the program's name; prints nothing.
     [[nodiscard]] Result<void> parse_words(std::vector<std::string> line);
+    FileLister files;
     Action action;
     Planner plan;
     /// What was parsed, without the program's name.

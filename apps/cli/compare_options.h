@@ -9,6 +9,9 @@
 
 namespace dermis::cli {
 
+inline constexpr NumberRange kTruthNoiseRange = {1e-6, 1}, kTimedFramesRange = {1, 1000},
+                             kTruthSamplesRange = {4, 1 << 20};
+
 struct CompareChoice {
     SceneChoice scene;
     std::string techniques, size, device;  ///< empty: every technique; 512x512, or 96x96 of each of a set

@@ -1,6 +1,7 @@
 #include "map_options.h"
 
 #include "catalog/catalog.h"
+#include "command.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/load_scene.h"
 
@@ -25,7 +26,10 @@ Result<BakeMapSettings> MapChoice::settings_for(const std::string& scene_profile
 
 Result<MapRequest> MapChoice::request() const {
     SceneOptions options = {.subjects = built_in_catalog().subjects};
-    if (unit_mm > 0) options.mesh_unit_mm = unit_mm;
+    if (unit_mm != 0) {
+        if (Result<void> good = check_number("--unit-mm", unit_mm, kUnitRangeMm); !good) return good.error();
+        options.mesh_unit_mm = unit_mm;
+    }
     Result<Scene> scene = load_scene(mesh, options);
     if (!scene) return scene.error();
     Result<BakeMapSettings> chosen = settings_for(scene->skin.profile);

@@ -85,6 +85,10 @@ Result<ScatteringMedium> parse_medium(const std::string& text) {
 
 }  // namespace
 
+Result<FileUse> ReferenceOptions::files() const {
+    return picture_files(output, preview, {scene.name, profile});
+}
+
 Result<ReferenceSettings> ReferenceOptions::settings() const {
     const int passes = samples != 0 ? samples : noise != 0 ? kMostSamples : kSamples;
     ReferenceSettings chosen{.samples = passes, .seed = seed, .probes = probes, .width_scale = width_scale};
@@ -134,6 +138,8 @@ Result<Scene> ReferenceOptions::load_scene() const {
     if (ambient == "renderer")
         if (Result<void> completed = complete_scene(*loaded); !completed) return completed.error();
     if (!profile.empty()) loaded->skin.profile = profile;
+    if (!output.empty())
+        if (Result<void> kept = keep_scene_files(*loaded, files()); !kept) return kept.error();
     return loaded;
 }
 
@@ -162,26 +168,29 @@ Result<std::string> content_hash(const Scene& scene, ReferenceSettings settings)
 
 void ReferenceOptions::add_to(Command& command) {
     scene.add_to(command)->required();
-    command.add_option("-o,--output", output, "FILE.exr")->required();
-    command.add_option("--preview", preview, "FILE.png: the picture with the scene's tone map");
+    command.add_output("-o,--output", output, "FILE.exr")->required();
+    command.add_output("--preview", preview, "FILE.png: the picture with the scene's tone map");
     command.add_option("--size", size, "WIDTHxHEIGHT")->capture_default_str();
     command.add_option("--integrator", integrator, "integrator: surface, walk or lambert")
         ->capture_default_str();
-    command.add_option("--samples,--spp", samples,
+    command.add_option("--samples,--spp", samples, {2, kMostSamples},
                        "maximum samples a pixel (default: 64; with --noise as many as it needs)");
     command.add_option("--sample-range", sample_range,
                        "BEGIN:END: write the sums over these of the --samples as a part for dermis merge");
-    command.add_option("--noise", noise, "stop at this relative error, such as 0.01");
-    command.add_option("--seed", seed, "seed of the random numbers; the same seed gives the same picture")
+    command.add_option("--noise", noise, {1e-6, 0.999999}, "stop at this relative error, such as 0.01");
+    command
+        .add_option("--seed", seed, {0, 4294967295},
+                    "seed of the random numbers; the same seed gives the same picture")
         ->capture_default_str();
-    command.add_option("--probes", probes, "probes or walks for each sample, an even number")
+    command.add_option("--probes", probes, {2, 65536}, "probes or walks for each sample, an even number")
         ->capture_default_str();
     command.add_option("--profile", profile, "diffusion profile instead of the scene's");
     command.add_option(
         "--medium", medium,
         "walk: \"sigma_s=1,1,1 sigma_a=.1,.1,.1 g=0 eta=1.4\" in 1/mm instead of the profile's");
     command
-        .add_option("--width-scale", width_scale, "factor on the lengths of profile or medium; 0 is Lambert")
+        .add_option("--width-scale", width_scale, {0, 1000},
+                    "factor on the lengths of profile or medium; 0 is Lambert")
         ->capture_default_str();
     command
         .add_option("--normalisation", normalisation, "normalisation of the surface integral: area or none")
@@ -199,7 +208,7 @@ void ReferenceOptions::add_to(Command& command) {
         ->capture_default_str();
     command.add_option("--specular", specular, "specular model: ggx, blinn_phong or none")
         ->capture_default_str();
-    command.add_option("--penumbra-mm", penumbra_mm, "width of the key light's shadow edge")
+    command.add_option("--penumbra-mm", penumbra_mm, {0, 1000}, "width of the key light's shadow edge")
         ->capture_default_str();
     command.add_flag("--json", json, "print one JSON object");
 }

@@ -24,6 +24,8 @@ struct ReferenceOptions {
     bool json = false;
 
     void add_to(Command& command);
+    /// Picture and preview.
+    [[nodiscard]] Result<FileUse> files() const;
     [[nodiscard]] Result<ReferenceSettings> settings() const;
     /// Of --sample-range; nothing when it is absent.
     [[nodiscard]] Result<std::optional<SampleRange>> range(const ReferenceSettings& settings) const;

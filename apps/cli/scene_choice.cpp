@@ -4,6 +4,7 @@
 
 #include "catalog/catalog.h"
 #include "dermis/scene/load_scene.h"
+#include "dermis/scene/scene_files.h"
 
 namespace dermis::cli {
 
@@ -46,6 +47,11 @@ std::vector<SceneWord> words_for(const std::vector<SceneWord>& words, bool loadi
     std::ranges::copy_if(words, std::back_inserter(some),
                          [&](const SceneWord& word) { return is_loading_key(word.key) == loading; });
     return some;
+}
+
+Result<void> keep_scene_files(const Scene& scene, const Result<FileUse>& files) {
+    if (!files) return files.error();
+    return check_outputs({.outputs = files->outputs, .inputs = files_of(scene)});
 }
 
 Result<Scene> SceneChoice::load(Scene* as_filed) const {

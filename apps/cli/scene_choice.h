@@ -27,6 +27,9 @@ struct SceneChoice {
     [[nodiscard]] Result<std::vector<SceneWord>> all_words() const;
 };
 
+/// Whether the outputs of a command replace none of the files that the loaded scene is made of.
+[[nodiscard]] Result<void> keep_scene_files(const Scene& scene, const Result<FileUse>& files);
+
 /// Those of `words` that is_loading_key() says are, or are not, read while a scene is loaded.
 [[nodiscard]] std::vector<SceneWord> words_for(const std::vector<SceneWord>& words, bool loading);
 

@@ -3,11 +3,14 @@
 
 #include <string>
 
+#include "command.h"
 #include "dermis/bake/lut.h"
 #include "dermis/bake/shadow_table.h"
 #include "dermis/bake/zonal_table.h"
 
 namespace dermis::cli {
+
+inline constexpr NumberRange kVarianceScaleRange = {1e-6, 1e6};
 
 /// Empty text and a scale of 0: as the convention has it.
 struct LutChoice {

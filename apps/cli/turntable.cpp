@@ -10,16 +10,29 @@
 #include "dermis/base/process.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
+#include "dermis/scene/scene_files.h"
 
 namespace dermis::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
+bool is_film(const Turntable& turntable) {
+    return to_lower(fs::path(turntable.output).extension().string()) == ".mp4";
+}
+
+fs::path frames_folder(const Turntable& turntable) {
+    return turntable.output + ".frames";
+}
+
 // Returns what each picture states: its credit and its content.
 Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& pattern) {
     Result<Prepared> prepared = prepare(turntable.render);
     if (!prepared) return prepared.error();
+    if (Result<void> kept = check_outputs(
+            {.outputs = frame_files(pattern, {0, turntable.frames}), .inputs = files_of(prepared->scene)});
+        !kept)
+        return kept.error();
     Result<gpu::Device> device = gpu::Device::create({.validation = turntable.render.validation,
                                                       .on_message = print_message,
                                                       .name_contains = turntable.render.device});
@@ -82,11 +95,9 @@ std::vector<std::string> film_command(const std::string& pattern, const std::str
 
 // Draws the frames into a folder beside the film, which is removed when the film is made.
 Result<void> draw_film(const Turntable& turntable) {
-    const fs::path folder = turntable.output + ".frames";
+    const fs::path folder = frames_folder(turntable);
     const std::string pattern = (folder / "%04d.png").string();
     std::error_code ec;
-    if (fs::exists(folder, ec))
-        return Error{folder.string() + " exists already; the frames would be written there"};
     const Result<OutputSettings> drawn = draw_turn(turntable, pattern);
     Result<void> done = drawn ? Result<void>() : drawn.error();
     if (drawn)
@@ -118,6 +129,13 @@ std::string frame_path(const std::string& pattern, int frame) {
     return pattern.substr(0, percent) + number + pattern.substr(d + 1);
 }
 
+std::vector<std::filesystem::path> frame_files(const std::string& pattern, IndexRange range) {
+    if (frame_path(pattern, 0) == pattern) return {pattern};
+    std::vector<std::filesystem::path> files;
+    for (int frame = range.begin; frame < range.end; ++frame) files.emplace_back(frame_path(pattern, frame));
+    return files;
+}
+
 void turn_camera(Scene& scene, const Camera& start, double angle_rad) {
     const Vec3 offset = start.eye_mm - start.target_mm;
     const float c = float(std::cos(angle_rad)), s = float(std::sin(angle_rad));
@@ -127,16 +145,25 @@ void turn_camera(Scene& scene, const Camera& start, double angle_rad) {
     fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
 }
 
-Result<int> run_turntable(const Turntable& turntable) {
-    if (turntable.frames < 1 || turntable.frames > 100000)
-        return Error{"--turntable " + std::to_string(turntable.frames) + ": 1 to 100000 frames"};
-    const bool film = to_lower(fs::path(turntable.output).extension().string()) == ".mp4";
-    if (!film && frame_path(turntable.output, 0) == turntable.output)
+Result<FileUse> turntable_files(const Turntable& turntable) {
+    FileUse files = {.outputs = {turntable.output}, .inputs = {turntable.render.scene.name}};
+    std::error_code ec;
+    if (is_film(turntable)) {
+        const fs::path folder = frames_folder(turntable);
+        if (fs::exists(folder, ec))
+            return Error{folder.string() + " exists already; the frames would be written there"};
+        return files;
+    }
+    if (frame_path(turntable.output, 0) == turntable.output)
         return Error{"-o " + turntable.output +
                      ": a turntable writes numbered pictures (out/%04d.png) or a video (.mp4)"};
-    if (!film)
-        if (Result<void> good = check_output(turntable.output, {}); !good) return good.error();
-    if (film) {
+    if (Result<void> good = check_output(turntable.output, {}); !good) return good.error();
+    files.outputs = frame_files(turntable.output, {0, turntable.frames});
+    return files;
+}
+
+Result<int> run_turntable(const Turntable& turntable) {
+    if (is_film(turntable)) {
         if (Result<void> made = draw_film(turntable); !made) return made.error();
     } else if (const auto drawn = draw_turn(turntable, turntable.output); !drawn) {
         return drawn.error();

@@ -11,6 +11,9 @@ namespace dermis::cli {
 /// "out/%04d.png" with the number in its place; a name without %d comes back as it is.
 [[nodiscard]] std::string frame_path(const std::string& pattern, int frame);
 
+/// Those names of a range of frames; one where the name has no number.
+[[nodiscard]] std::vector<std::filesystem::path> frame_files(const std::string& pattern, IndexRange range);
+
 /// Turns the eye about the target's vertical and fits the depth range.
 void turn_camera(Scene& scene, const Camera& start, double angle_rad);
 
@@ -20,7 +23,10 @@ struct Turntable {
     int frames = 240;
 };
 
-/// A whole turn. Errors: an output that is neither, no ffmpeg, what ffmpeg says.
+/// The pictures, or the film and its first frame. Errors: an output that is neither.
+[[nodiscard]] Result<FileUse> turntable_files(const Turntable& turntable);
+
+/// A whole turn. Errors: no ffmpeg, what ffmpeg says.
 [[nodiscard]] Result<int> run_turntable(const Turntable& turntable);
 
 }  // namespace dermis::cli

@@ -10,6 +10,7 @@
 #include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/skin_tone.h"
+#include "dermis/scene/scene_files.h"
 #include "techniques/preintegrated/constants.h"
 
 namespace dermis::cli {
@@ -91,10 +92,12 @@ Result<std::vector<WebTone>> make_tones(const Scene& scene) {
 
 }  // namespace
 
-Result<WebPage> make_web_page(const SceneChoice& choice, const std::string& profile) {
+Result<WebPage> make_web_page(const SceneChoice& choice, const std::string& profile,
+                              std::vector<std::filesystem::path>& inputs) {
     Result<Scene> scene = choice.load();
     if (!scene) return scene.error();
     if (!profile.empty()) scene->skin.profile = profile;
+    inputs = files_of(*scene);
     if (const Result<void> completed = complete_scene(*scene); !completed) return completed.error();
     Result<std::vector<WebTone>> tones = make_tones(*scene);
     if (!tones) return tones.error();

@@ -8,8 +8,9 @@
 
 namespace dermis::cli {
 
-/// `profile` replaces the scene's; empty: the scene's own. Errors as SceneChoice::load(), find_profile() and
-/// dermis::make_web_page().
-[[nodiscard]] Result<WebPage> make_web_page(const SceneChoice& choice, const std::string& profile);
+/// `inputs` gets the files of the scene; `profile` replaces the scene's; empty: the scene's own. Errors as
+/// SceneChoice::load(), find_profile() and dermis::make_web_page().
+[[nodiscard]] Result<WebPage> make_web_page(const SceneChoice& choice, const std::string& profile,
+                                            std::vector<std::filesystem::path>& inputs);
 
 }  // namespace dermis::cli

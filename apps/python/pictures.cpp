@@ -118,7 +118,7 @@ TruePicture reference(const SceneArguments& scene, const py::dict& given, const 
 
 // The same files as `dermis reference -o PATH --preview PREVIEW` writes.
 void write_true(const TruePicture& made, const std::string& path, const std::string& preview) {
-    check(try_picture_files(path, preview));
+    check(check_outputs(value_of(picture_files(path, preview))));
     check(unlocked([&] {
         return write_picture_file(path, made.facts, made.picture, described(made.facts, made.picture, false));
     }));

@@ -22,16 +22,18 @@ std::string described(const PictureFacts& facts, const ReferencePicture& picture
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-Result<void> try_picture_files(const std::filesystem::path& picture, const std::filesystem::path& preview) {
+Result<FileUse> picture_files(const std::filesystem::path& picture, const std::filesystem::path& preview,
+                              std::vector<std::filesystem::path> inputs) {
     if (to_lower(picture.extension().string()) != ".exr")
         return Error{"-o " + picture.string() + ": the ground truth is linear and layered; name a .exr file"};
-    if (Result<void> tried = try_output(picture); !tried) return tried;
-    if (preview.empty()) return {};
+    FileUse files = {.outputs = {picture}, .inputs = std::move(inputs)};
+    if (preview.empty()) return files;
     if (const auto encoded =
             encode_image(preview.extension().string(), Image(1, 1, 3, PixelFormat::u8, Encoding::srgb), {});
         !encoded)
         return Error{"--preview " + preview.string() + ": " + encoded.error().message};
-    return try_output(preview);
+    files.outputs.push_back(preview);
+    return files;
 }
 
 Result<void> write_picture_file(const std::filesystem::path& path, const PictureFacts& facts,

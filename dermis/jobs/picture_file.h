@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dermis/base/output_check.h"
 #include "dermis/image/tone_map.h"
 #include "dermis/reference/picture.h"
 
@@ -24,10 +25,11 @@ struct PictureFacts {
 /// that the description has already stay where they are.
 [[nodiscard]] std::string described(const PictureFacts& facts, const ReferencePicture& picture, bool stopped);
 
-/// Whether both files can be written, before the work: the picture as .exr; the preview, if any, in a format
-/// that is known. The error names -o or --preview.
-[[nodiscard]] Result<void> try_picture_files(const std::filesystem::path& picture,
-                                             const std::filesystem::path& preview);
+/// The outputs for check_outputs(): the picture as .exr; the preview, if any, in a format that is known. The
+/// error names -o or --preview.
+[[nodiscard]] Result<FileUse> picture_files(const std::filesystem::path& picture,
+                                            const std::filesystem::path& preview,
+                                            std::vector<std::filesystem::path> inputs = {});
 
 /// Layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin. `text` is
 /// described() and is in the header as "dermis".

@@ -30,8 +30,20 @@ struct NamedImage {
                                      std::span<const NamedImage> images = {},
                                      std::span<const std::string> extras = {});
 
+/// What write_glb() writes.
+[[nodiscard]] Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh,
+                                                       std::span<const NamedImage> images = {},
+                                                       std::span<const std::string> extras = {});
+
 /// Positions in millimetres, normals, UVs (origin bottom-left, as OBJ has it), `usemtl` by name; an MTL of
 /// the same name beside it, with map paths as they stand in the materials.
 [[nodiscard]] Result<void> write_obj(const std::filesystem::path& path, const Mesh& mesh);
+
+/// What write_obj() writes to mtl_path(path) and to `path`.
+struct ObjTexts {
+    std::string mtl, obj;
+};
+[[nodiscard]] ObjTexts obj_texts(const std::filesystem::path& path, const Mesh& mesh);
+[[nodiscard]] std::filesystem::path mtl_path(const std::filesystem::path& obj_path);
 
 }  // namespace dermis

@@ -59,12 +59,17 @@ std::string obj_text(const Mesh& mesh, const std::string& library) {
 
 }  // namespace
 
+std::filesystem::path mtl_path(const std::filesystem::path& obj_path) {
+    return std::filesystem::path(obj_path).replace_extension(".mtl");
+}
+
+ObjTexts obj_texts(const std::filesystem::path& path, const Mesh& mesh) {
+    return {.mtl = mtl_text(mesh.materials), .obj = obj_text(mesh, mtl_path(path).filename().string())};
+}
+
 Result<void> write_obj(const std::filesystem::path& path, const Mesh& mesh) {
-    std::filesystem::path library = path;
-    library.replace_extension(".mtl");
-    const std::string materials = mtl_text(mesh.materials),
-                      polygons = obj_text(mesh, library.filename().string());
-    const FileContent files[] = {{library, as_bytes(materials)}, {path, as_bytes(polygons)}};
+    const ObjTexts texts = obj_texts(path, mesh);
+    const FileContent files[] = {{mtl_path(path), as_bytes(texts.mtl)}, {path, as_bytes(texts.obj)}};
     return write_files(files);
 }
 

@@ -117,13 +117,19 @@ Image map_preview(const BakedMap& map) {
     return convert(picture, PixelFormat::u8, Encoding::srgb);
 }
 
-Result<void> write_map(const std::filesystem::path& path, const BakedMap& map, const MapOrigin& origin) {
-    const bool is_png = is_engine_map(path, map.kind);
+Result<void> check_map_path(const std::filesystem::path& path, const BakeMapSettings& settings) {
+    const bool is_png = is_engine_map(path, settings.kind);
     if (!is_png && to_lower(path.extension().string()) != ".exr")
         return Error{path.string() + ": maps are written as .exr (a preview .png comes beside it)" +
-                     (map.kind == MapKind::thickness ? ", thickness as .png too" : "")};
-    if (is_png && origin.settings.max_mm <= 0)
+                     (settings.kind == MapKind::thickness ? ", thickness as .png too" : "")};
+    if (is_png && settings.max_mm <= 0)
         return Error{path.string() + ": max_mm is the thickness of a value of 1, and has to be above 0"};
+    return {};
+}
+
+Result<void> write_map(const std::filesystem::path& path, const BakedMap& map, const MapOrigin& origin) {
+    if (Result<void> good = check_map_path(path, origin.settings); !good) return good;
+    const bool is_png = is_engine_map(path, map.kind);
     const std::string text = sidecar_text(map, origin, is_png);
     const std::filesystem::path preview_path = map_preview_path(path);
     const Result<std::vector<std::byte>> picture =

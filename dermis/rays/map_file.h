@@ -27,6 +27,9 @@ struct MapOrigin {
 /// percentile is full. Background is dark grey.
 [[nodiscard]] Image map_preview(const BakedMap& map);
 
+/// Whether a map of these settings can be written with this extension, before it is baked.
+[[nodiscard]] Result<void> check_map_path(const std::filesystem::path& path, const BakeMapSettings& settings);
+
 [[nodiscard]] std::filesystem::path map_sidecar_path(const std::filesystem::path& path);
 [[nodiscard]] std::filesystem::path map_preview_path(const std::filesystem::path& path);
 

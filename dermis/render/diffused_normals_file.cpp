@@ -65,11 +65,16 @@ std::array<std::filesystem::path, 2> diffused_normals_paths(const std::filesyste
             path.parent_path() / (stem + "_green" + extension)};
 }
 
+Result<void> check_diffused_normals_path(const std::filesystem::path& path) {
+    const std::string extension = to_lower(path.extension().string());
+    if (extension == ".exr" || extension == ".png") return {};
+    return Error{path.string() + ": baked normals are written as .exr or .png"};
+}
+
 Result<void> write_diffused_normals(const std::filesystem::path& path, const DiffusedNormals& normals,
                                     const DiffusedNormalsOrigin& origin) {
+    if (Result<void> good = check_diffused_normals_path(path); !good) return good;
     const std::string extension = to_lower(path.extension().string());
-    if (extension != ".exr" && extension != ".png")
-        return Error{path.string() + ": baked normals are written as .exr or .png"};
     const bool png = extension == ".png";
     const auto paths = diffused_normals_paths(path);
     std::array<std::string, 2> texts;

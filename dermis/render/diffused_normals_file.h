@@ -20,6 +20,9 @@ struct DiffusedNormalsOrigin {
 /// "skin.exr" gives skin_red.exr and skin_green.exr.
 [[nodiscard]] std::array<std::filesystem::path, 2> diffused_normals_paths(const std::filesystem::path& path);
 
+/// Whether baked normals are written with this extension.
+[[nodiscard]] Result<void> check_diffused_normals_path(const std::filesystem::path& path);
+
 /// Two maps and FILE.json beside each (the same text inside the picture under "dermis"): channel, axes,
 /// encoding, profile, the weights that mix them with the shaded point's own normal. .exr holds the numbers
 /// themselves in 32 bits, .png x * 0.5 + 0.5 in 16. All four files or none. Errors: another extension, a file

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "dermis/base/file.h"
 #include "dermis/base/parallel.h"
 #include "dermis/base/text.h"
 #include "dermis/image/colour.h"
@@ -88,27 +89,61 @@ Result<Mesh> with_embedded_maps(const Bust& bust) {
     return mesh;
 }
 
-}  // namespace
+struct MadeFile {
+    std::filesystem::path path;
+    std::vector<std::byte> bytes;
+};
 
-Result<void> write_bust(const std::filesystem::path& path, const Bust& bust, const Profile& profile) {
-    const std::string extension = to_lower(path.extension().string());
-    if (extension == ".obj") return write_obj(path, bust.mesh);
-    if (extension != ".glb") return Error{path.string() + ": the bust is written as .glb or .obj"};
-    Result<Mesh> mesh = with_embedded_maps(bust);
-    if (mesh) mesh->materials[0].scattering = body_of(profile, bust);
-    const std::string extras[] = {gltf_extras(profile)};
-    return mesh ? write_glb(path, *mesh, {}, extras) : mesh.error();
+MadeFile text_file(const std::filesystem::path& path, std::string_view text) {
+    const auto bytes = as_bytes(text);
+    return {path, {bytes.begin(), bytes.end()}};
 }
 
-Result<void> write_bust_maps(const std::filesystem::path& folder, const Bust& bust) {
-    const std::pair<const char*, const Image*> maps[] = {{"albedo.png", &bust.albedo},
-                                                         {"normal.png", &bust.normal},
-                                                         {"roughness.png", &bust.roughness},
-                                                         {"specular.png", &bust.specular},
-                                                         {"kernel_size.png", &bust.kernel_size}};
-    for (const auto& [name, image] : maps)
-        if (Result<void> written = write_image(folder / name, *image); !written) return written;
+Result<std::vector<MadeFile>> mesh_files(const std::filesystem::path& path, const Bust& bust,
+                                         const Profile& profile) {
+    if (to_lower(path.extension().string()) == ".obj") {
+        const ObjTexts texts = obj_texts(path, bust.mesh);
+        return std::vector{text_file(mtl_path(path), texts.mtl), text_file(path, texts.obj)};
+    }
+    Result<Mesh> mesh = with_embedded_maps(bust);
+    if (!mesh) return mesh.error();
+    mesh->materials[0].scattering = body_of(profile, bust);
+    const std::string extras[] = {gltf_extras(profile)};
+    Result<std::vector<std::byte>> bytes = glb_bytes(*mesh, {}, extras);
+    if (!bytes) return bytes.error().within(path.string());
+    return std::vector{MadeFile{path, std::move(*bytes)}};
+}
+
+Result<void> add_maps(std::vector<MadeFile>& files, const std::filesystem::path& folder, const Bust& bust) {
+    const Image* const images[] = {&bust.albedo, &bust.normal, &bust.roughness, &bust.specular,
+                                   &bust.kernel_size};
+    static_assert(std::size(images) == std::size(kBustMaps));
+    for (size_t i = 0; i < std::size(kBustMaps); ++i) {
+        Result<std::vector<std::byte>> png = encode_image(".png", *images[i]);
+        if (!png) return png.error().within((folder / kBustMaps[i]).string());
+        files.push_back({folder / kBustMaps[i], std::move(*png)});
+    }
     return {};
+}
+
+}  // namespace
+
+Result<void> check_bust_path(const std::filesystem::path& path) {
+    const std::string extension = to_lower(path.extension().string());
+    if (extension == ".obj" || extension == ".glb") return {};
+    return Error{path.string() + ": the bust is written as .glb or .obj"};
+}
+
+Result<void> write_bust(const std::filesystem::path& path, const Bust& bust, const Profile& profile,
+                        const std::filesystem::path& maps_folder) {
+    if (Result<void> good = check_bust_path(path); !good) return good;
+    Result<std::vector<MadeFile>> files = mesh_files(path, bust, profile);
+    if (!files) return files.error();
+    if (!maps_folder.empty())
+        if (Result<void> added = add_maps(*files, maps_folder, bust); !added) return added;
+    std::vector<FileContent> contents;
+    for (const MadeFile& file : *files) contents.push_back({file.path, file.bytes});
+    return write_files(contents);
 }
 
 }  // namespace dermis

@@ -2,6 +2,7 @@
 // The bust as files for other programs.
 
 #include <filesystem>
+#include <string_view>
 
 #include "dermis/optics/profile.h"
 #include "subjects/bust/bust.h"
@@ -12,11 +13,14 @@ namespace dermis {
 /// kernel size) and the profile as a volume that scatters (optics/gltf_profile.h), or .obj with neither.
 /// Errors: another extension, an unwritable file. About 3 s of one core
 /// at 2048.
+/// kBustMaps are written into `maps_folder` unless it is empty. All files or none.
 [[nodiscard]] Result<void> write_bust(const std::filesystem::path& path, const Bust& bust,
-                                      const Profile& profile);
+                                      const Profile& profile, const std::filesystem::path& maps_folder = {});
 
-/// albedo.png, normal.png, roughness.png, specular.png and kernel_size.png into `folder`, which is made if
-/// missing.
-[[nodiscard]] Result<void> write_bust_maps(const std::filesystem::path& folder, const Bust& bust);
+/// Whether write_bust() knows the extension.
+[[nodiscard]] Result<void> check_bust_path(const std::filesystem::path& path);
+
+inline constexpr std::string_view kBustMaps[] = {"albedo.png", "normal.png", "roughness.png", "specular.png",
+                                                 "kernel_size.png"};
 
 }  // namespace dermis

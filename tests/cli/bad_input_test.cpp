@@ -74,11 +74,11 @@ TEST_F(BadInput, options_that_are_wrong_say_what_would_be_right) {
     expect_error("render builtin:spheres --view norml", "did you mean 'normal'?");
     expect_error("render builtin:spheres --camera 'yaw_deg=x'", "yaw_deg is a number");
     expect_error("render builtin:spheres --light 'pitch_deg=1000'", "pitch_deg is a number");
-    expect_error("render builtin:spheres --frames 0", "--frames 0: 1 to 100000");
+    expect_error("render builtin:spheres --frames 0", "--frames: 0 is not in its range, 1 to 100000");
     expect_error("figures lambart", "did you mean 'lambert'?");
     expect_error("figures lambert", "technique 'lambert' has no figures");
     expect_error("figures preintegrated --only nromals", "unknown figure 'nromals'; did you mean 'normals'?");
-    expect_error("figures preintegrated --size 5", "--size 5: the height of a cell in pixels, 16 to 2048");
+    expect_error("figures preintegrated --size 5", "--size: 5 is not in its range, 16 to 2048");
     expect_error("render builtin:spheres -o a.tga", "a.tga: a picture is a .png or an .exr file");
     expect_error("render builtin:spheres --device none", "none");
     expect_error("passes lambart", "did you mean 'lambert'?");
@@ -92,9 +92,10 @@ TEST_F(BadInput, comparisons_that_cannot_be_made_leave_nothing) {
     expect_error("compare builtin:spheres --techniques 'wrap[wrap=9]'" + to,
                  "'9' is not in its range, 0 to 1");
     expect_error("compare builtin:spheres --size 9x" + to, "--size '9x'");
-    expect_error("compare builtin:spheres --frames 0" + to, "--frames 0: 1 to 1000");
+    expect_error("compare builtin:spheres --frames 0" + to, "--frames: 0 is not in its range, 1 to 1000");
     expect_error("compare builtin:spheres --integrator walkk" + to, "did you mean 'walk'?");
-    expect_error("compare builtin:spheres --size 16x16 --samples 1" + to, "--samples 1: at least twice");
+    expect_error("compare builtin:spheres --size 16x16 --samples 1" + to,
+                 "--samples: 1 is not in its range, 4 to 1048576");
     expect_error("compare builtin:spheres --samples-per-pixel 15" + to, "a square number");
     expect_error("compare no/such.toml" + to, "no/such.toml");
     expect_error("compare unit --scene mesh.shape=cilinder" + to, "did you mean 'cylinder'?");
@@ -110,7 +111,7 @@ TEST_F(BadInput, ground_truths_that_cannot_be_made_leave_nothing) {
     expect_error("reference builtin:spheres --medium 'sigma=1'" + to, "--medium: 'sigma=1'");
     expect_error("reference builtin:spheres --medium 'g=0.5'" + to, "add --integrator walk");
     expect_error("reference builtin:spheres --probes 3" + to, "probes is 3");
-    expect_error("reference builtin:spheres --noise 2" + to, "noise is 2");
+    expect_error("reference builtin:spheres --noise 2" + to, "--noise: 2 is not in its range");
     expect_error("reference builtin:spheres --size 0x8" + to, "0");
     expect_error("reference builtin:spheres --profile jensen" + to, "jensen");
     // A picture that would take hours is not begun when it cannot be written.
@@ -168,8 +169,9 @@ TEST_F(BadInput, out_of_memory_is_one_line) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "AddressSanitizer reserves more memory than the limit";
 #endif
-    expect_error("bake lut --size 64x64 -o good.exr >/dev/null && ulimit -v 1500000 && " DERMIS_PROGRAM
-                 " bake lut --size 8192x8192 -o a.exr",
+    expect_error("bake lut --size 64x64 -o " + path("good.exr") +
+                     " >/dev/null && ulimit -v 1500000 && " DERMIS_PROGRAM
+                     " bake lut --size 8192x8192 -o a.exr",
                  "out of memory");
     EXPECT_FALSE(fs::exists(path("a.exr")));
 }
@@ -195,10 +197,20 @@ TEST_F(BadInput, numbers_are_finite) {
     expect_error("passes lambert --view zz", "unknown view 'zz'");
 }
 
+TEST_F(BadInput, numbers_that_meant_nothing_are_refused) {
+    const std::string to = " -o " + path("a.exr");
+    for (const char* unit : {"-1", "0", "1e-320"}) {
+        expect_error("bake curvature head.obj --unit-mm " + std::string(unit) + to, "--unit-mm: ");
+        expect_error("bake normals head.obj --unit-mm " + std::string(unit) + to, "--unit-mm: ");
+    }
+    expect_error("bake lut --variance-scale 0" + to, "--variance-scale: 0 is not in its range");
+    expect_error("reference spheres --samples 0" + to, "--samples: 0 is not in its range, 2 to 65536");
+}
+
 TEST_F(BadInput, samples_too_few_for_two_halves_are_refused_by_the_flags_name) {
     expect_error(
-        "compare spheres --size 16x16 -t lambert --samples-per-pixel 1 --samples 3 -o " + path("out"),
-        "--samples 3: at least twice --samples-per-pixel and 4 (4)");
+        "compare spheres --size 16x16 -t lambert --samples-per-pixel 4 --samples 7 -o " + path("out"),
+        "--samples 7: at least twice --samples-per-pixel, 8");
 }
 
 TEST_F(BadInput, help_of_every_command_has_an_example) {

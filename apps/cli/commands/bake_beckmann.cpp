@@ -43,7 +43,9 @@ void add_bake_beckmann_command(CommandLine& line) {
     command->add_option("--size", options->size, "WIDTHxHEIGHT or one side");
     command->add_option("--layout", options->layout, "encoding: linear, or gems (value^0.1 / 2, 8 bit)");
     options->output.add_to(command);
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return Result<FileUse>(options->output.files()); },
+        [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

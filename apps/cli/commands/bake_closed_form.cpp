@@ -76,12 +76,21 @@ void add_bake_closed_form_command(CommandLine& line) {
         "dermis bake closed_form --profile jensen_skin1 -o skin.csv --plot errors.svg", bake_group(line));
     command->add_option("--profile", options->profile, "preset, .csv, .mtlx or .glb file, or burley:R,G,B");
     command->add_option("--construction", options->construction, "sphere, ring or half_ring");
-    command->add_option("--max-curvature", options->max_curvature_per_mm,
+    command->add_option("--max-curvature", options->max_curvature_per_mm, {1e-6, 1000},
                         "curvature of the last row in 1/mm");
-    command->add_option("--rows", options->rows, "number of rows, in equal steps of curvature from 0");
-    command->add_option("-o,--output", options->output, "CSV file of the coefficients");
-    command->add_option("--plot", options->plot, "SVG file: errors over radius (sphere only)");
-    line.when_chosen(command, [options] { return run(*options); });
+    command->add_option("--rows", options->rows, {2, 65536},
+                        "number of rows, in equal steps of curvature from 0");
+    command->add_output("-o,--output", options->output, "CSV file of the coefficients");
+    command->add_output("--plot", options->plot, "SVG file: errors over radius (sphere only)");
+    line.when_chosen(
+        command,
+        [options] {
+            FileUse files = {.inputs = {options->profile}};
+            for (const std::string& path : {options->output, options->plot})
+                if (!path.empty()) files.outputs.emplace_back(path);
+            return Result<FileUse>(files);
+        },
+        [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

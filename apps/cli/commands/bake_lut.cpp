@@ -35,7 +35,8 @@ void add_bake_lut_command(CommandLine& line) {
                         "sphere, ring or half_ring (-90 to 90 degrees)");
     command->add_option("--ring-weights", options->lut.ring_weights,
                         "normalisation of the ring's Gaussians: line (as in published code) or area");
-    command->add_option("--variance-scale", options->lut.variance_scale, "factor on every variance");
+    command->add_option("--variance-scale", options->lut.variance_scale, kVarianceScaleRange,
+                        "factor on every variance");
     command->add_option("--profile", options->lut.profile,
                         "preset, .csv, .mtlx or .glb file, or burley:R,G,B (see dermis profile list)");
     command->add_option("--size", options->lut.size, "WIDTHxHEIGHT or one side");
@@ -44,7 +45,9 @@ void add_bake_lut_command(CommandLine& line) {
     command->add_option("--warp", options->lut.warp,
                         "spacing of the rows: linear, or squared (finer near MIN)");
     options->output.add_to(command);
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return Result<FileUse>(options->output.files(options->lut.profile)); },
+        [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

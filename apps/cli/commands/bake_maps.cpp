@@ -9,6 +9,7 @@
 #include "dermis/base/text.h"
 #include "dermis/rays/map_file.h"
 #include "map_options.h"
+#include "scene_choice.h"
 
 namespace dermis::cli {
 namespace {
@@ -18,9 +19,17 @@ struct BakeMapsOptions {
     std::string output;
 };
 
+Result<FileUse> files_of(const BakeMapsOptions& options) {
+    const std::filesystem::path path = options.output;
+    if (Result<void> good = check_map_path(path, options.map.settings); !good) return good.error();
+    return FileUse{.outputs = {path, map_sidecar_path(path), map_preview_path(path)},
+                   .inputs = {options.map.mesh, options.map.profile}};
+}
+
 Result<int> run(const BakeMapsOptions& options) {
     const Result<MapRequest> request = options.map.request();
     if (!request) return request.error();
+    if (Result<void> good = keep_scene_files(request->scene, files_of(options)); !good) return good.error();
     const BakeMapSettings& settings = request->settings;
     const Result<BakedMap> map = [&] {
         constexpr double kSteps = 1000;
@@ -48,26 +57,29 @@ void add_common(Command* command, BakeMapsOptions& options) {
     const bool thickness = s.kind == MapKind::thickness;
     command->add_option("MESH", options.map.mesh, "mesh, scene file, scene name or builtin:NAME")->required();
     command
-        ->add_option("-o,--output", options.output,
+        ->add_output("-o,--output", options.output,
                      thickness
                          ? "file to write, .exr in mm, or .png: 8 bit, linear, 1 is --max-mm; FILE.json and "
                            "FILE_preview.png are written too"
                          : "file to write, .exr; FILE.exr.json and FILE_preview.png are written too")
         ->required();
-    command->add_option("--size", s.size, "side of the map in texels")->capture_default_str();
-    command->add_option("--gutter", s.gutter_texels, "width of the gutter around UV islands in texels")
+    command->add_option("--size", s.size, {16, 8192}, "side of the map in texels")->capture_default_str();
+    command
+        ->add_option("--gutter", s.gutter_texels, {0, 256}, "width of the gutter around UV islands in texels")
         ->capture_default_str();
     command->add_option("--material", options.map.material, "bake this material only (default: all skin)");
-    command->add_option("--unit-mm", options.map.unit_mm, "length of one unit of the mesh file in mm");
+    command->add_option("--unit-mm", options.map.unit_mm, kUnitRangeMm,
+                        "length of one unit of the mesh file in mm");
 }
 
 void add_rays(Command* command, BakeMapSettings& s) {
-    command->add_option("--rays", s.rays, "rays for each texel")->capture_default_str();
+    command->add_option("--rays", s.rays, {1, 4096}, "rays for each texel")->capture_default_str();
     command
-        ->add_option("--ray-size", s.ray_size, "maximum side of the grid on which rays are traced, in texels")
+        ->add_option("--ray-size", s.ray_size, {16, 16384},
+                     "maximum side of the grid on which rays are traced, in texels")
         ->capture_default_str();
     command
-        ->add_option("--max-mm", s.max_mm,
+        ->add_option("--max-mm", s.max_mm, {0, 1e6},
                      "thickness where the mesh is open; for occlusion the maximum distance (0: no limit)")
         ->capture_default_str();
 }
@@ -82,15 +94,19 @@ void add_map(CommandLine& line, Command* group, MapKind kind, const std::string&
     add_common(command, *options);
     if (depth || kind == MapKind::occlusion) add_rays(command, s);
     if (depth)
-        command->add_option("--cone-rad", s.cone_rad, "half angle of the cone of inward rays in radians")
+        command
+            ->add_option("--cone-rad", s.cone_rad, {0, 1.5},
+                         "half angle of the cone of inward rays in radians")
             ->capture_default_str();
     if (kind == MapKind::curvature)
         command
-            ->add_option("--smoothing-mm", s.smoothing_mm, "averages features narrower than about twice this")
+            ->add_option("--smoothing-mm", s.smoothing_mm, {0, 100},
+                         "averages features narrower than about twice this")
             ->capture_default_str();
     if (kind == MapKind::kernel_size)
         command->add_option("--profile", options->map.profile, "diffusion profile instead of the scene's");
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return files_of(*options); }, [options] { return run(*options); });
 }
 
 }  // namespace

@@ -11,11 +11,10 @@
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/diffused_normals_file.h"
 #include "dermis/scene/load_scene.h"
+#include "scene_choice.h"
 
 namespace dermis::cli {
 namespace {
-
-constexpr int kLeastSize = 16, kLargestSize = 8192;
 
 struct BakeNormalsOptions {
     std::string mesh, output, profile;
@@ -23,14 +22,21 @@ struct BakeNormalsOptions {
     int size = DiffusedNormalsRequest{}.size;
 };
 
+Result<FileUse> files_of(const BakeNormalsOptions& options) {
+    FileUse files = {.inputs = {options.mesh, options.profile}};
+    for (const auto& path : diffused_normals_paths(options.output)) {
+        if (Result<void> good = check_diffused_normals_path(path); !good) return good.error();
+        files.outputs.insert(files.outputs.end(), {path, path.string() + ".json"});
+    }
+    return files;
+}
+
 Result<int> run(const BakeNormalsOptions& options) {
-    if (options.size < kLeastSize || options.size > kLargestSize)
-        return Error{"--size " + std::to_string(options.size) + ": " + std::to_string(kLeastSize) + " to " +
-                     std::to_string(kLargestSize)};
     SceneOptions how = {.subjects = built_in_catalog().subjects};
     if (options.unit_mm > 0) how.mesh_unit_mm = options.unit_mm;
     const Result<Scene> scene = load_scene(options.mesh, how);
     if (!scene) return scene.error();
+    if (Result<void> good = keep_scene_files(*scene, files_of(options)); !good) return good.error();
     const std::string profile_name = options.profile.empty() ? scene->skin.profile : options.profile;
     const Result<Profile> profile = find_profile(profile_name);
     if (!profile) return profile.error();
@@ -60,13 +66,16 @@ void add_bake_normals_command(CommandLine& line) {
                                 bake_group(line));
     command->add_option("MESH", options->mesh, "mesh, scene file, scene name or builtin:NAME")->required();
     command
-        ->add_option("-o,--output", options->output,
+        ->add_output("-o,--output", options->output,
                      "NAME.exr or NAME.png: writes NAME_red and NAME_green, and a .json beside each")
         ->required();
     command->add_option("--profile", options->profile, "diffusion profile instead of the scene's");
-    command->add_option("--size", options->size, "side of the maps in texels")->capture_default_str();
-    command->add_option("--unit-mm", options->unit_mm, "length of one unit of the mesh file in mm");
-    line.when_chosen(command, [options] { return run(*options); });
+    command->add_option("--size", options->size, {16, 8192}, "side of the maps in texels")
+        ->capture_default_str();
+    command->add_option("--unit-mm", options->unit_mm, kUnitRangeMm,
+                        "length of one unit of the mesh file in mm");
+    line.when_chosen(
+        command, [options] { return files_of(*options); }, [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

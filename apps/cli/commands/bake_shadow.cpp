@@ -33,10 +33,12 @@ void add_bake_shadow_command(CommandLine& line) {
     command->add_option("--range", options->shadow.range, "MIN,MAX of the penumbra's width in mm");
     command->add_option("--warp", options->shadow.warp,
                         "spacing of the rows: linear, or squared (finer near MIN)");
-    command->add_option("--sharpening", options->shadow.sharpening,
+    command->add_option("--sharpening", options->shadow.sharpening, {1, 1000},
                         "width of the filter divided by the width of the light's edge");
     options->output.add_to(command);
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return Result<FileUse>(options->output.files(options->shadow.profile)); },
+        [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

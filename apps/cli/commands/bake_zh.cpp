@@ -36,11 +36,13 @@ void add_bake_zh_command(CommandLine& line) {
     command->add_option("--axis", options->zh.axis,
                         "meaning of the columns: curvature (1/mm) or radius (mm)");
     command->add_option("--range", options->zh.range, "MIN,MAX of the axis");
-    command->add_option("--size", options->zh.width, "columns");
+    command->add_option("--size", options->zh.width, {2, 8192}, "columns");
     command->add_option("--layout", options->zh.layout,
                         "encoding: float (3 rows) or remapped (2 rows, 0.75..1.05, 8 bit)");
     options->output.add_to(command);
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return Result<FileUse>(options->output.files(options->zh.profile)); },
+        [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

@@ -28,16 +28,14 @@ struct CompareOptions {
     bool json = false;
 };
 
-// Tries before minutes of work whether the directory can be written. The trial file and the directories made
-// for it are removed again, so that a failed comparison leaves nothing.
-Result<void> try_directory(const fs::path& directory) {
+Result<FileUse> files_of(const CompareOptions& options) {
+    const fs::path directory = options.output;
     std::error_code ec;
     if (fs::exists(directory, ec) && !fs::is_directory(directory, ec))
         return Error{"-o " + directory.string() + ": is a file; name a directory for the report"};
-    for (const char* name : {"report.html", "scores.csv", "regions.csv"})
-        if (const Result<void> tried = try_output(directory / name); !tried)
-            return Error{"-o " + directory.string() + ": " + tried.error().message};
-    return {};
+    return FileUse{
+        .outputs = {directory / "report.html", directory / "scores.csv", directory / "regions.csv"},
+        .inputs = {options.choice.scene.name}};
 }
 
 // One line of progress for the truth and one for the techniques; for a set, with the scene's name.
@@ -63,6 +61,17 @@ fs::path report_path(const CompareOptions& options, const ComparedScenes& scenes
     const fs::path directory(options.output);
     return scenes.is_set ? directory / fs::path(one.name).filename() / "report.html"
                          : directory / "report.html";
+}
+
+Result<ComparedScenes> scenes_of(const CompareOptions& options) {
+    Result<ComparedScenes> scenes = compared_scenes(options.choice.scene);
+    if (!scenes) return scenes;
+    for (const SubjectCase& one : scenes->all) {
+        Result<FileUse> files = files_of(options);
+        if (files && scenes->is_set) files->outputs.push_back(report_path(options, *scenes, one));
+        if (Result<void> kept = keep_scene_files(one.scene, files); !kept) return kept.error();
+    }
+    return scenes;
 }
 
 Result<std::vector<Comparison>> compare_all(const CompareOptions& options, const ComparedScenes& scenes,
@@ -131,8 +140,7 @@ Result<int> run(const CompareOptions& options) {
     if (!settings) return settings.error();
     const Result<std::vector<Contestant>> contestants = options.choice.contestants();
     if (!contestants) return contestants.error();
-    if (Result<void> good = try_directory(options.output); !good) return good.error();
-    const Result<ComparedScenes> scenes = compared_scenes(options.choice.scene);
+    const Result<ComparedScenes> scenes = scenes_of(options);
     if (!scenes) return scenes.error();
     const Result<std::vector<Comparison>> comparisons =
         compare_all(options, *scenes, *contestants, *settings);
@@ -147,8 +155,7 @@ Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::strin
     if (const Result<ComparisonSettings> settings = options.choice.settings(); !settings)
         return settings.error();
     if (const auto contestants = options.choice.contestants(); !contestants) return contestants.error();
-    if (Result<void> good = try_directory(options.output); !good) return good.error();
-    const Result<ComparedScenes> scenes = compared_scenes(options.choice.scene);
+    const Result<ComparedScenes> scenes = scenes_of(options);
     if (!scenes) return scenes.error();
     std::vector<const Scene*> all;
     for (const SubjectCase& one : scenes->all) all.push_back(&one.scene);
@@ -176,7 +183,7 @@ void add_compare_command(CommandLine& line) {
     command->add_option("-t,--techniques", options->choice.techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
     command
-        ->add_option("-o,--output", options->output, "directory for report.html, scores.csv and regions.csv")
+        ->add_output("-o,--output", options->output, "directory for report.html, scores.csv and regions.csv")
         ->required();
     command->add_option("--size", options->choice.size,
                         "WIDTHxHEIGHT in pixels (512x512; of the unit scenes 96x96)");
@@ -189,26 +196,26 @@ void add_compare_command(CommandLine& line) {
                      "environment in the ground truth: renderer (the renderer's approximation) or traced")
         ->capture_default_str();
     command
-        ->add_option("--samples-per-pixel", options->choice.samples_per_pixel,
+        ->add_option("--samples-per-pixel", options->choice.samples_per_pixel, {1, 256},
                      "sample points in each pixel, the same in both pictures; a square number")
         ->capture_default_str();
     command
-        ->add_option("--noise", options->choice.noise,
+        ->add_option("--noise", options->choice.noise, kTruthNoiseRange,
                      "noise at which the ground truth stops, over the effect of scattering")
         ->capture_default_str();
     command
-        ->add_option("--samples,--spp", options->choice.samples,
+        ->add_option("--samples,--spp", options->choice.samples, kTruthSamplesRange,
                      "maximum samples a pixel of the ground truth")
         ->capture_default_str();
     command
-        ->add_option("--frames", options->choice.frames,
+        ->add_option("--frames", options->choice.frames, kTimedFramesRange,
                      "frames that are timed, after a first one that compiles the shaders")
         ->capture_default_str();
     command->add_option("--device", options->choice.device,
                         "use the Vulkan device with this text in its name");
     command->add_flag("--json", options->json, "print one JSON object");
     line.when_chosen(
-        command, [options] { return run(*options); },
+        command, [options] { return files_of(*options); }, [options] { return run(*options); },
         [options, &line](int, const std::string&) { return plan(*options, line.words); });
 }
 

@@ -105,7 +105,7 @@ void add_cost_command(CommandLine& line) {
     options->scene.add_options_to(*command);
     command->add_option("--device", options->device, "count on the Vulkan device with this text in its name");
     command->add_flag("--json", options->json, "print one JSON object instead");
-    line.when_chosen(command, [options] { return print_costs(*options); });
+    line.when_chosen(command, writes_nothing, [options] { return print_costs(*options); });
 }
 
 }  // namespace dermis::cli

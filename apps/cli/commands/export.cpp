@@ -39,60 +39,85 @@ Result<std::vector<shading::Language>> chosen_languages(const std::string& name)
     return Error{unknown_name("language", name, names)};
 }
 
-Result<int> deliver_files(std::span<const FileContent> files) {
+// A package's and a page's files are known when they are made; `inputs` stay as they are.
+Result<int> deliver_files(std::span<const FileContent> files, std::vector<std::filesystem::path> inputs) {
+    FileUse use = {.outputs = {}, .inputs = std::move(inputs)};
+    for (const FileContent& file : files) use.outputs.push_back(file.path);
+    if (Result<void> good = check_outputs(use); !good) return good.error();
     if (const Result<void> written = write_files(files); !written) return written.error();
     for (const FileContent& file : files) std::printf("%s\n", file.path.c_str());
     return 0;
 }
 
+std::filesystem::path text_path(const ExportOptions& options, shading::Language language) {
+    const std::filesystem::path output = options.output;
+    return options.language == kAllLanguages
+               ? output / ("skin" + std::string(shading::file_extension(language)))
+               : output;
+}
+
 Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
     const Result<std::vector<shading::Language>> languages = chosen_languages(options.language);
     if (!languages) return languages.error();
-    std::vector<std::string> paths, texts;
+    std::vector<std::string> texts;
     for (const shading::Language language : *languages) {
         Result<std::string> text = skin_text(profile, built_in_skin_sources(), language);
         if (!text) return text.error();
-        const bool folder = options.language == kAllLanguages;
-        const std::string file = "skin" + std::string(shading::file_extension(language));
-        paths.push_back(folder ? (std::filesystem::path(options.output) / file).string() : options.output);
         texts.push_back(std::move(*text));
     }
     std::vector<FileContent> files;
-    for (size_t i = 0; i < paths.size(); ++i) files.push_back({paths[i], as_bytes(texts[i])});
-    return deliver_files(files);
+    for (size_t i = 0; i < texts.size(); ++i)
+        files.push_back({text_path(options, (*languages)[i]), as_bytes(texts[i])});
+    return deliver_files(files, {options.profile});
 }
 
 Result<int> export_package(const ExportOptions& options, const Profile& profile) {
-    if (const Result<void> known = check_engine(options.engine); !known) return known.error();
     const std::filesystem::path folder = options.output;
-    if (const Result<void> writable = try_output(folder / "README.md"); !writable) return writable.error();
     const Result<std::vector<PackageFile>> package =
         make_package(options.engine, {profile, built_in_skin_sources(), built_in_package_templates()});
     if (!package) return package.error();
     std::vector<FileContent> files;
     for (const PackageFile& file : *package) files.push_back({folder / file.path, file.bytes});
-    return deliver_files(files);
+    return deliver_files(files, {options.profile});
 }
 
 Result<int> export_web(const ExportOptions& options) {
     const std::filesystem::path folder = options.output;
-    if (const Result<void> writable = try_output(folder / "index.html"); !writable) return writable.error();
-    const Result<WebPage> page = make_web_page(options.scene, options.profile);
+    std::vector<std::filesystem::path> inputs;
+    const Result<WebPage> page = make_web_page(options.scene, options.profile, inputs);
     if (!page) return page.error();
     for (const std::string& warning : page->warnings) print_warning(warning);
     std::vector<FileContent> files;
     for (const WebFile& file : page->files) files.push_back({folder / file.path, file.bytes});
-    return deliver_files(files);
+    return deliver_files(files, std::move(inputs));
 }
 
-Result<int> run(const ExportOptions& options) {
+Result<FileUse> files_of(const ExportOptions& options) {
     if (int(!options.language.empty()) + int(!options.engine.empty()) + int(options.web) != 1)
         return Error{
             "give one of --language for a file of functions, --engine for a folder, --web for a page"};
-    if (options.web) return export_web(options);
+    FileUse files = {.outputs = {}, .inputs = {options.profile, options.web ? options.scene.name : ""}};
+    const std::filesystem::path output = options.output;
+    if (options.web) {
+        files.outputs = {output / "index.html"};
+        return files;
+    }
     const SceneChoice& scene = options.scene;
     if (scene.name != kDefaultScene || !scene.words.empty() || !scene.camera.empty() || !scene.light.empty())
         return Error{"a scene and --scene, --camera, --light are for --web"};
+    if (!options.engine.empty()) {
+        if (const Result<void> known = check_engine(options.engine); !known) return known.error();
+        files.outputs = {output / "README.md"};
+        return files;
+    }
+    const Result<std::vector<shading::Language>> languages = chosen_languages(options.language);
+    if (!languages) return languages.error();
+    for (const shading::Language language : *languages) files.outputs.push_back(text_path(options, language));
+    return files;
+}
+
+Result<int> run(const ExportOptions& options) {
+    if (options.web) return export_web(options);
     const Result<Profile> profile = find_profile(options.profile.empty() ? kDefaultProfile : options.profile);
     if (!profile) return profile.error();
     return options.engine.empty() ? export_texts(options, *profile) : export_package(options, *profile);
@@ -120,10 +145,11 @@ void add_export_command(CommandLine& line) {
                             std::string(kDefaultProfile) + ", or with --web the scene's");
     options->scene.add_to(*command)->capture_default_str();
     command
-        ->add_option("-o,--output", options->output,
+        ->add_output("-o,--output", options->output,
                      "file to write; with --engine, --web or --language all a folder")
         ->required();
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return files_of(*options); }, [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

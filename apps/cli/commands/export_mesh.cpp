@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "dermis/base/text.h"
+#include "dermis/mesh/write_mesh.h"
 #include "dermis/optics/gltf_profile.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/subject.h"
@@ -19,6 +20,17 @@ struct ExportMeshOptions {
     std::map<std::string, std::optional<std::string>> parameters;
 };
 
+Result<FileUse> files_of(const ExportMeshOptions& options) {
+    const std::filesystem::path path = options.path;
+    if (Result<void> good = check_bust_path(path); !good) return good.error();
+    FileUse files = {.outputs = {path}, .inputs = {options.profile}};
+    if (to_lower(path.extension().string()) == ".obj") files.outputs.push_back(mtl_path(path));
+    if (!options.maps.empty())
+        for (const std::string_view name : kBustMaps)
+            files.outputs.push_back(std::filesystem::path(options.maps) / name);
+    return files;
+}
+
 Result<int> run(const ExportMeshOptions& options) {
     const std::string name(subject_name(options.mesh).value_or(options.mesh));
     if (name != "bust") return Error{unknown_name("built-in mesh", name, std::vector<std::string>{"bust"})};
@@ -30,9 +42,8 @@ Result<int> run(const ExportMeshOptions& options) {
     if (!profile) return Error{"--profile: " + profile.error().message};
     const Result<Bust> bust = make_bust(values.as<BustParams>());
     if (!bust) return bust.error();
-    if (const auto written = write_bust(options.path, *bust, *profile); !written) return written.error();
-    if (!options.maps.empty())
-        if (const auto written = write_bust_maps(options.maps, *bust); !written) return written.error();
+    if (const auto written = write_bust(options.path, *bust, *profile, options.maps); !written)
+        return written.error();
     std::printf("%s: %zu triangles\n", options.path.c_str(), bust->mesh.triangle_count());
     const bool is_obj = to_lower(options.path).ends_with(".obj");
     std::printf("  %s\n", is_obj ? "OBJ has no place for the profile and for maps of specular and kernel size"
@@ -57,14 +68,15 @@ void add_export_mesh_command(CommandLine& line) {
                  "dermis export-mesh builtin:bust -o bust.glb\n"
                  "  dermis export-mesh builtin:bust --tone 5 --profile openpbr_skin_5 -o dark.glb");
     command->add_option("MESH", options->mesh, "builtin:bust");
-    command->add_option("-o,--output", options->path, "file to write, .glb or .obj")->required();
+    command->add_output("-o,--output", options->path, "file to write, .glb or .obj")->required();
     command->add_option("--profile", options->profile,
                         "of the GLB's material: preset, .csv, .mtlx or .glb file, or burley:R,G,B");
-    command->add_option("--maps", options->maps, "folder for all maps as PNG, kernel size included");
+    command->add_output("--maps", options->maps, "folder for all maps as PNG, kernel size included");
     for (const Parameter& row : bust_parameters().parameters)
         command->add_option(flag_of(row.name), options->parameters[row.name],
                             row.doc + ", " + range_text(row));
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return files_of(*options); }, [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

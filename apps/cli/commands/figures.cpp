@@ -8,7 +8,7 @@
 #include "dermis/base/progress.h"
 #include "dermis/figures/figures.h"
 #include "dermis/image/io.h"
-#include "scene_choice.h"
+#include "render_options.h"
 
 namespace dermis::cli {
 namespace {
@@ -19,15 +19,6 @@ struct FiguresOptions {
     int size = 320, samples = 4;
 };
 
-Result<void> check(const FiguresOptions& options) {
-    if (options.size < 16 || options.size > 2048)
-        return Error{"--size " + std::to_string(options.size) +
-                     ": the height of a cell in pixels, 16 to 2048"};
-    if (options.samples != 1 && options.samples != 4)
-        return Error{"--samples " + std::to_string(options.samples) + ": 1 or 4"};
-    return {};
-}
-
 void print(const std::string& path, const FigureResult& result) {
     std::printf("%s\n", path.c_str());
     for (const CellReport& cell : result.cells)
@@ -37,13 +28,34 @@ void print(const std::string& path, const FigureResult& result) {
                         cell.compared_to.c_str());
 }
 
-Result<int> make_figures(const FiguresOptions& options) {
-    if (Result<void> good = check(options); !good) return good.error();
+Result<std::vector<Figure>> chosen_figures(const FiguresOptions& options) {
     const Result<const Technique*> technique =
         find_technique(built_in_catalog().techniques, options.technique);
     if (!technique) return technique.error();
-    const Result<std::vector<Figure>> figures = figures_of(**technique, options.only);
+    return figures_of(**technique, options.only);
+}
+
+std::string sheet_path(const FiguresOptions& options, const Figure& figure) {
+    return options.output + "/" + figure.id + ".png";
+}
+
+Result<FileUse> files_of(const FiguresOptions& options) {
+    const Result<std::vector<Figure>> figures = chosen_figures(options);
     if (!figures) return figures.error();
+    FileUse files = {.outputs = {}, .inputs = {options.scene.name}};
+    for (const Figure& figure : *figures) files.outputs.emplace_back(sheet_path(options, figure));
+    return files;
+}
+
+Result<int> make_figures(const FiguresOptions& options) {
+    if (Result<void> good = check_samples(options.samples); !good) return good.error();
+    const Result<std::vector<Figure>> figures = chosen_figures(options);
+    if (!figures) return figures.error();
+    if (!options.scene.name.empty()) {
+        const Result<Scene> scene = options.scene.load();
+        if (!scene) return scene.error();
+        if (Result<void> kept = keep_scene_files(*scene, files_of(options)); !kept) return kept.error();
+    }
     const Result<std::vector<SceneWord>> words = options.scene.all_words();
     if (!words) return words.error();
     const Result<Font> font = Font::load();
@@ -66,7 +78,7 @@ Result<int> make_figures(const FiguresOptions& options) {
         if (!result) return result.error();
         ImageText text = {{"Software", "dermis"}, {"Description", figure.title + " (" + figure.source + ")"}};
         for (const std::string& credit : result->credits) text["Copyright"] = credit;
-        const std::string path = options.output + "/" + figure.id + ".png";
+        const std::string path = sheet_path(options, figure);
         if (Result<void> written = write_image(path, result->sheet, text); !written) return written.error();
         print(path, *result);
     }
@@ -84,13 +96,16 @@ void add_figures_command(CommandLine& line) {
         ->required();
     command->add_option("SCENE", options->scene.name, "draw this scene instead of each figure's own");
     options->scene.add_options_to(*command);
-    command->add_option("-o,--output", options->output, "directory; each figure is one PNG")
+    command->add_output("-o,--output", options->output, "directory; each figure is one PNG")
         ->capture_default_str();
-    command->add_option("--size", options->size, "height of a cell in pixels")->capture_default_str();
+    command->add_option("--size", options->size, {16, 2048}, "height of a cell in pixels")
+        ->capture_default_str();
     command->add_option("--only", options->only, "draw only the figure with this id");
-    command->add_option("--samples", options->samples, "samples a pixel: 1 or 4")->capture_default_str();
+    command->add_option("--samples", options->samples, {1, 4}, "samples a pixel: 1 or 4")
+        ->capture_default_str();
     command->add_option("--device", options->device, "use the Vulkan device with this text in its name");
-    line.when_chosen(command, [options] { return make_figures(*options); });
+    line.when_chosen(
+        command, [options] { return files_of(*options); }, [options] { return make_figures(*options); });
 }
 
 }  // namespace dermis::cli

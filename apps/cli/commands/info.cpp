@@ -232,12 +232,10 @@ void add_info_command(CommandLine& line) {
         ->add_option("MESH", arguments->mesh,
                      ".obj, .gltf, .glb, a scene file, name of a scene, or builtin:NAME")
         ->required();
-    command
-        ->add_option("--unit-mm", arguments->unit_mm,
-                     "length of one unit of the file in mm (default: glTF 1000, OBJ 1)")
-        ->check_positive();
+    command->add_option("--unit-mm", arguments->unit_mm, kUnitRangeMm,
+                        "length of one unit of the file in mm (default: glTF 1000, OBJ 1)");
     command->add_flag("--json", arguments->json, "one JSON object on standard output");
-    line.when_chosen(command, [arguments] { return run_info(*arguments); });
+    line.when_chosen(command, writes_nothing, [arguments] { return run_info(*arguments); });
 }
 
 }  // namespace dermis::cli

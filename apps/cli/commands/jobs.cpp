@@ -24,14 +24,19 @@ struct JobsOptions {
     bool no_wait = false;
 };
 
-// The plan of one line: "dermis reference head_scan ... -o out/head.exr".
-Result<JobPlan> plan_of(const JobsOptions& options, std::vector<std::string> words) {
+// The plan of one line: "dermis reference head_scan ... -o out/head.exr". Its files are added to `all`.
+Result<JobPlan> plan_of(const JobsOptions& options, std::vector<std::string> words, FileUse& all) {
     if (words[0] == "dermis" || words[0] == "./run") words.erase(words.begin());
     CommandLine line("", "", "");
     add_all_commands(line);
     if (Result<void> parsed = line.parse_words(std::move(words)); !parsed) return parsed.error();
     if (!line.plan)
         return Error{"'" + line.words[0] + "' is not split into jobs: write reference, compare or render"};
+    const Result<FileUse> files = line.files();
+    if (!files) return files.error();
+    all.outputs.insert(all.outputs.end(), files->outputs.begin(), files->outputs.end());
+    all.inputs.insert(all.inputs.end(), files->inputs.begin(), files->inputs.end());
+    if (Result<void> good = check_outputs(all); !good) return good.error();
     return line.plan(options.parts, options.folder);
 }
 
@@ -39,13 +44,14 @@ Result<std::vector<JobPlan>> plans_of(const JobsOptions& options) {
     const Result<std::string> text = read_text_file(options.commands);
     if (!text) return text.error();
     std::vector<JobPlan> plans;
+    FileUse all = {.outputs = {}, .inputs = {options.commands}};
     int number = 0;
     for (const std::string_view line : split(*text, '\n')) {
         const std::string place = options.commands + ":" + std::to_string(++number) + ": ";
         Result<std::vector<std::string>> words = shell_words(line);
         if (!words) return Error{place + words.error().message};
         if (words->empty()) continue;
-        Result<JobPlan> plan = plan_of(options, std::move(*words));
+        Result<JobPlan> plan = plan_of(options, std::move(*words), all);
         if (!plan) return Error{place + plan.error().message};
         plans.push_back(std::move(*plan));
     }
@@ -113,16 +119,15 @@ Result<int> run_slurm(const JobsOptions& options, const JobLists& lists) {
     return 0;
 }
 
+Result<FileUse> files_of(const JobsOptions& options) {
+    const fs::path folder = options.folder;
+    return FileUse{.outputs = {folder / "work.txt", folder / "merge.txt"}, .inputs = {options.commands}};
+}
+
 Result<int> run(const JobsOptions& options) {
     const std::vector<std::string> runners = {"list", "local", "slurm"};
     if (std::ranges::find(runners, options.runner) == runners.end())
         return Error{unknown_name("runner", options.runner, runners)};
-    if (options.parts < 1 || options.parts > 16384)
-        return Error{"--parts " + std::to_string(options.parts) + ": 1 to 16384"};
-    if (options.workers < 1 || options.workers > 1024)
-        return Error{"--workers " + std::to_string(options.workers) + ": 1 to 1024"};
-    if (Result<void> tried = try_output(fs::path(options.folder) / "work.txt"); !tried)
-        return Error{"--folder " + options.folder + ": " + tried.error().message};
     const Result<std::vector<JobPlan>> plans = plans_of(options);
     if (!plans) return plans.error();
     const JobLists lists =
@@ -150,21 +155,22 @@ void add_jobs_command(CommandLine& line) {
                  "    compare head_scan -o out/compare\n"
                  "  Samples and frames are split, a comparison is one job. What is done is not done again.");
     command->add_option("COMMANDS", options->commands, "file with a command a line")->required();
-    command->add_option("--folder", options->folder, "folder for lists, parts and logs")
+    command->add_output("--folder", options->folder, "folder for lists, parts and logs")
         ->capture_default_str();
-    command->add_option("--parts", options->parts, "maximum parts of a picture or a turn")
+    command->add_option("--parts", options->parts, {1, 16384}, "maximum parts of a picture or a turn")
         ->capture_default_str();
     command
         ->add_option("--runner", options->runner,
                      "list (work.txt and merge.txt, for GNU parallel), local (this machine) or slurm")
         ->capture_default_str();
-    command->add_option("--workers", options->workers, "local: jobs at once; each uses all cores")
+    command->add_option("--workers", options->workers, {1, 1024}, "local: jobs at once; each uses all cores")
         ->capture_default_str();
     command->add_option("--program", options->program,
                         "dermis on the machines that run the lines (default: this one)");
     command->add_option("--sbatch", options->sbatch, "slurm: options for sbatch: --sbatch=\"-p long\"");
     command->add_flag("--no-wait", options->no_wait, "slurm: return when the jobs are submitted");
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return files_of(*options); }, [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

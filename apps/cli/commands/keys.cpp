@@ -11,7 +11,7 @@ namespace dermis::cli {
 void add_keys_command(CommandLine& line) {
     Command* command = line.add("keys", "Prints every key of the scene file with its unit, range and default",
                                 "dermis keys > docs/scene_file.md");
-    line.when_chosen(command, []() -> Result<int> {
+    line.when_chosen(command, writes_nothing, []() -> Result<int> {
         const std::string manual = scene_file_manual(built_in_catalog().subjects);
         std::fwrite(manual.data(), 1, manual.size(), stdout);
         return 0;

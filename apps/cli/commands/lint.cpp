@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "dermis/bake/lint.h"
+#include "dermis/bake/table_io.h"
 
 namespace dermis::cli {
 namespace {
@@ -38,7 +39,14 @@ void add_lint_command(CommandLine& line) {
         ->required();
     command->add_flag("--write-sidecar", options->write_sidecar,
                       "write what was found as FILE.json, so that diffuse_table takes the file");
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command,
+        [options] {
+            FileUse files = {.outputs = {}, .inputs = {options->path}};
+            if (options->write_sidecar) files.outputs.push_back(sidecar_path(options->path));
+            return Result<FileUse>(files);
+        },
+        [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

@@ -35,11 +35,15 @@ Result<int> check_parts(const MergeOptions& options) {
     return damaged == 0 ? 0 : 1;
 }
 
-Result<int> run(const MergeOptions& options) {
-    if (options.check && options.output.empty() && options.preview.empty()) return check_parts(options);
+Result<FileUse> files_of(const MergeOptions& options) {
+    if (options.check && options.output.empty() && options.preview.empty()) return FileUse{};
     if (options.check) return Error{"--check writes nothing: leave out -o and --preview"};
     if (options.output.empty()) return Error{"-o is missing: name the picture, a .exr file"};
-    if (Result<void> tried = try_picture_files(options.output, options.preview); !tried) return tried.error();
+    return picture_files(options.output, options.preview, {options.parts.begin(), options.parts.end()});
+}
+
+Result<int> run(const MergeOptions& options) {
+    if (options.check) return check_parts(options);
     const auto start = std::chrono::steady_clock::now();
     Result<MergedPicture> merged = [&] {
         Progress line("merge", 0);
@@ -70,11 +74,12 @@ void add_merge_command(CommandLine& line) {
                  "dermis merge part*.exr -o picture.exr --preview picture.png\n"
                  "  dermis merge --check part*.exr   (names parts that are cut off or damaged)");
     command->add_option("PARTS", options->parts, "the parts, in any order")->required();
-    command->add_option("-o,--output", options->output, "FILE.exr");
-    command->add_option("--preview", options->preview, "FILE.png: the picture with the scene's tone map");
+    command->add_output("-o,--output", options->output, "FILE.exr");
+    command->add_output("--preview", options->preview, "FILE.png: the picture with the scene's tone map");
     command->add_flag("--check", options->check, "only read the parts, and say of each whether it is whole");
     command->add_flag("--json", options->json, "print one JSON object");
-    line.when_chosen(command, [options] { return run(*options); });
+    line.when_chosen(
+        command, [options] { return files_of(*options); }, [options] { return run(*options); });
 }
 
 }  // namespace dermis::cli

@@ -43,9 +43,10 @@ void add_passes_command(CommandLine& line) {
         ->required();
     command->add_option("--set", options->settings, "a parameter, name=value; may be repeated")
         ->allow_extra_args(false);
-    command->add_option("--samples", options->samples, "samples a pixel: 1 or 4")->capture_default_str();
+    command->add_option("--samples", options->samples, {1, 4}, "samples a pixel: 1 or 4")
+        ->capture_default_str();
     command->add_option("--view", options->view, "debug view")->capture_default_str();
-    line.when_chosen(command, [options] { return print_passes(*options); });
+    line.when_chosen(command, writes_nothing, [options] { return print_passes(*options); });
 }
 
 }  // namespace dermis::cli

@@ -121,8 +121,8 @@ void print_settings(const ToolSettings& settings) {
     }
 }
 
-// A file of another tool, with what it means and what it does not keep, a line each.
-Result<int> write_converted(const ProfileOptions& options) {
+Result<FileUse> converted_file(const ProfileOptions& options) {
+    if (options.output.empty()) return FileUse{};
     const std::filesystem::path path = options.output;
     if (to_lower(path.extension().string()) != ".mtlx")
         return Error{options.output + ": profiles are written as .mtlx (MaterialX, OpenPBR)"};
@@ -130,13 +130,19 @@ Result<int> write_converted(const ProfileOptions& options) {
         return Error{"-o " + options.output + " holds OpenPBR; leave --to " + options.conversion.to +
                      " away"};
     if (options.json) return Error{"--json prints; give either it or -o"};
+    return FileUse{.outputs = {path}, .inputs = {options.conversion.name}};
+}
+
+// A file of another tool, with what it means and what it does not keep, a line each.
+Result<int> write_converted(const ProfileOptions& options) {
     const Result<Profile> profile = options.conversion.source_profile();
     if (!profile) return profile.error();
     ConversionChoice as_it_was = options.conversion;
     as_it_was.albedo.clear();
     const Result<Profile> original = as_it_was.source_profile();
     if (!original) return original.error();
-    if (const auto written = write_text_file(path, mtlx_text(*profile)); !written) return written.error();
+    if (const auto written = write_text_file(options.output, mtlx_text(*profile)); !written)
+        return written.error();
     print(options.output + ": " + profile->name + "\n");
     if (!profile->source.empty()) print("  from " + profile->source + "\n");
     for (const std::string& note : mtlx_notes(*original, *profile)) print("  " + note + "\n");
@@ -182,18 +188,25 @@ void add_profile_command(CommandLine& line) {
 
     Command* list_command =
         line.add("list", "Lists the built-in profiles", "dermis profile list --json", profile);
-    list_command->add_option("--plot", options->plot, "SVG file: all profiles in one plot");
+    list_command->add_output("--plot", options->plot, "SVG file: all profiles in one plot");
     list_command->add_flag("--json", options->json, "print JSON");
-    line.when_chosen(list_command, [options] { return list(*options); });
+    const auto plot_file = [options] {
+        FileUse files = {.outputs = {}, .inputs = {options->name}};
+        if (!options->plot.empty()) files.outputs.emplace_back(options->plot);
+        return Result<FileUse>(files);
+    };
+    line.when_chosen(list_command, plot_file, [options] { return list(*options); });
 
     Command* show_command = line.add("show", "Prints a profile's lengths, albedo and Gaussians",
                                      "dermis profile show jensen_skin1 --plot skin1.svg", profile);
     show_command->add_option("NAME", options->name, name_help)->required();
-    show_command->add_option("--plot", options->plot, "SVG file: the curves of the profile");
-    show_command->add_option("--terms", options->terms, "number of Gaussians of the fit, 1 to 12")
+    show_command->add_output("--plot", options->plot, "SVG file: the curves of the profile");
+    show_command
+        ->add_option("--terms", options->terms, {1, kMaxGaussianFitTerms},
+                     "number of Gaussians of the fit, 1 to 12")
         ->capture_default_str();
     show_command->add_flag("--json", options->json, "print JSON");
-    line.when_chosen(show_command, [options] { return show(*options); });
+    line.when_chosen(show_command, plot_file, [options] { return show(*options); });
 
     Command* convert_command = line.add(
         "convert", "Converts a profile to another tool's parameters, with quantity, unit and boundary",
@@ -205,16 +218,18 @@ void add_profile_command(CommandLine& line) {
         "--set", options->conversion.assignments,
         "KEY=NUMBER or KEY=R,G,B of --from; what is not set keeps the tool's default");
     convert_command->add_option("--to", options->conversion.to, tool_list() + "or all");
-    convert_command->add_option("-o,--output", options->output,
+    convert_command->add_output("-o,--output", options->output,
                                 "file to write instead: .mtlx, an OpenPBR surface of MaterialX");
     convert_command->add_option("--albedo", options->conversion.albedo,
                                 "R,G,B: replaces the albedo, keeps Burley's d");
     convert_command->add_flag("--json", options->json, "print JSON");
-    line.when_chosen(convert_command, [options] { return convert(*options); });
+    line.when_chosen(
+        convert_command, [options] { return converted_file(*options); },
+        [options] { return convert(*options); });
 
     Command* table_command = line.add("table", "Prints the tables of docs/profiles.md as Markdown",
                                       "dermis profile table > tables.md", profile);
-    line.when_chosen(table_command, [] {
+    line.when_chosen(table_command, writes_nothing, [] {
         print(profile_tables_markdown());
         return Result<int>(0);
     });

@@ -119,7 +119,6 @@ Result<int> run(const ReferenceOptions& options, const std::vector<std::string>&
     if (!settings) return settings.error();
     const Result<std::optional<SampleRange>> range = options.range(*settings);
     if (!range) return range.error();
-    if (Result<void> tried = try_picture_files(options.output, options.preview); !tried) return tried.error();
     const Result<Scene> scene = options.load_scene();
     if (!scene) return scene.error();
     const StopOnSignals stop;  // until the files are written
@@ -144,7 +143,6 @@ Result<JobPlan> plan(const ReferenceOptions& options, const std::vector<std::str
     if (!options.sample_range.empty())
         return Error{"--sample-range: dermis jobs chooses the ranges; leave it out"};
     if (Result<void> good = check_range(*settings, {0, settings->samples}); !good) return good.error();
-    if (Result<void> tried = try_picture_files(options.output, options.preview); !tried) return tried.error();
     const Result<Scene> scene = options.load_scene();
     if (!scene) return scene.error();
     const Result<std::string> content = content_hash(*scene, *settings);
@@ -196,7 +194,8 @@ void add_reference_command(CommandLine& line) {
         "  exit code 3: the picture is written, but --samples ended it before --noise was reached");
     options->add_to(*command);
     line.when_chosen(
-        command, [options, &line] { return run(*options, line.words); },
+        command, [options] { return options->files(); },
+        [options, &line] { return run(*options, line.words); },
         [options, &line](int parts, const std::string& folder) {
             return plan(*options, line.words, parts, folder);
         });

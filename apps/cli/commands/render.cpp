@@ -28,8 +28,6 @@ struct Options {
 
 // Of --frame-range; all frames without it.
 Result<IndexRange> frames_of(const Options& options) {
-    if (options.frames < 1 || options.frames > 100000)
-        return Error{"--frames " + std::to_string(options.frames) + ": 1 to 100000"};
     const bool numbered = frame_path(options.output, 0) != options.output;
     if (options.frames > 1 && !options.timings && !numbered)
         return Error{"--frames " + std::to_string(options.frames) + " would write " + options.output +
@@ -42,6 +40,13 @@ Result<IndexRange> frames_of(const Options& options) {
                      std::to_string(options.frames) +
                      " numbered frames (--frames, -o out/%04d.png), such as 0:1"};
     return range;
+}
+
+Result<FileUse> files_of(const Options& options) {
+    if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
+    const Result<IndexRange> range = frames_of(options);
+    if (!range) return range.error();
+    return FileUse{.outputs = frame_files(options.output, *range), .inputs = {options.render.scene.name}};
 }
 
 // Medians over the frames after the first, which compiles pipelines.
@@ -137,11 +142,11 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
 }
 
 Result<int> render(Options options) {
-    if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
     const Result<IndexRange> range = frames_of(options);
     if (!range) return range.error();
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
+    if (Result<void> kept = keep_scene_files(prepared->scene, files_of(options)); !kept) return kept.error();
     for (const std::string& warning : prepared->scene.warnings) print_warning(warning);
     Result<gpu::Device> device = gpu::Device::create({.validation = options.render.validation,
                                                       .on_message = print_message,
@@ -172,12 +177,11 @@ Result<int> render(Options options) {
 
 // Frames in as many jobs as there are parts.
 Result<JobPlan> plan(const Options& options, const std::vector<std::string>& words, int parts) {
-    if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
-    if (const Result<IndexRange> range = frames_of(options); !range) return range.error();
     if (!options.frame_range.empty())
         return Error{"--frame-range: dermis jobs chooses the ranges; leave it out"};
     const Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
+    if (Result<void> kept = keep_scene_files(prepared->scene, files_of(options)); !kept) return kept.error();
     const Result<std::string> hash = hash_of_job({&prepared->scene}, words);
     if (!hash) return hash.error();
     const bool numbered = frame_path(options.output, 0) != options.output;
@@ -210,22 +214,24 @@ void add_render_command(CommandLine& line) {
                  "dermis render head_scan --technique wrap --set wrap=0.4 -o out/head.png --timings");
     options->render.add_to(*command);
     command
-        ->add_option("-o,--output", options->output,
+        ->add_output("-o,--output", options->output,
                      "picture: .png (tone-mapped) or .exr (linear); %04d numbers frames")
         ->capture_default_str();
-    command->add_option("--bits", options->file.png_bits, "bits of a PNG channel: 8 or 16")
+    command->add_option("--bits", options->file.png_bits, {8, 16}, "bits of a PNG channel: 8 or 16")
         ->capture_default_str();
     command->add_flag("--layers", options->file.layers, "all debug views as layers of the EXR");
-    command->add_option("--frames", options->frames, "number of frames")->capture_default_str();
+    command->add_option("--frames", options->frames, {1, 100000}, "number of frames")->capture_default_str();
     command->add_option("--frame-range", options->frame_range,
                         "BEGIN:END: only these of the --frames, with the numbers that they have among all");
-    command->add_option("--turn", options->turn_deg, "angle in degrees that the camera turns over all frames")
+    command
+        ->add_option("--turn", options->turn_deg, {-1e6, 1e6},
+                     "angle in degrees that the camera turns over all frames")
         ->capture_default_str();
     command->add_flag("--timings", options->timings,
                       "print the time of each pass (median, first frame left out)");
     command->add_flag("--json", options->json, "print one JSON object instead");
     line.when_chosen(
-        command, [options] { return render(*options); },
+        command, [options] { return files_of(*options); }, [options] { return render(*options); },
         [options, &line](int parts, const std::string&) { return plan(*options, line.words, parts); });
 }
 

@@ -154,7 +154,7 @@ void add_report_command(CommandLine& line) {
     Command* command =
         line.add("report", "Prints version, devices, drivers and packages for a fault report; sends nothing",
                  "dermis report > report.txt");
-    line.when_chosen(command, print_report);
+    line.when_chosen(command, writes_nothing, print_report);
 }
 
 }  // namespace dermis::cli

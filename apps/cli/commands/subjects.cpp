@@ -32,7 +32,7 @@ void add_subjects_command(CommandLine& line) {
     Command* command =
         line.add("subjects", "Lists the built-in subjects with their parameters", "dermis subjects");
     command->add_flag("--json", *json, "as JSON");
-    line.when_chosen(command, [json] { return list_subjects(*json); });
+    line.when_chosen(command, writes_nothing, [json] { return list_subjects(*json); });
 }
 
 }  // namespace dermis::cli

@@ -50,7 +50,8 @@ void add_techniques_command(CommandLine& line) {
         line.add("techniques", "Lists the techniques with their parameters", "dermis techniques wrap");
     command->add_option("ID", options->only, "list this technique only");
     command->add_flag("--json", options->json, "as JSON");
-    line.when_chosen(command, [options] { return list_techniques(options->only, options->json); });
+    line.when_chosen(command, writes_nothing,
+                     [options] { return list_techniques(options->only, options->json); });
 }
 
 }  // namespace dermis::cli

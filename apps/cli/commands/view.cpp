@@ -23,13 +23,17 @@ struct ViewOptions {
     float interface_scale = 0;
 };
 
-// Without a window: the frames of one turn.
-Result<int> turn_scene(const ViewOptions& options) {
+Turntable turntable_of(const ViewOptions& options) {
     Turntable turntable = options.turntable;
     turntable.render = options.render;
     turntable.frames = options.turn_frames;
     if (turntable.render.size.empty()) turntable.render.size = "1024x1024";
-    return run_turntable(turntable);
+    return turntable;
+}
+
+Result<FileUse> files_of(const ViewOptions& options) {
+    if (options.turn_frames == 0) return FileUse{};
+    return turntable_files(turntable_of(options));
 }
 
 // Keeps the scene of the files apart from the changes by --scene, --camera and --light, which stay when the
@@ -54,7 +58,7 @@ std::string first_picture_text(const view::ViewerReport& report) {
 }
 
 Result<int> view_scene(ViewOptions options) {
-    if (options.turn_frames != 0) return turn_scene(options);
+    if (options.turn_frames != 0) return run_turntable(turntable_of(options));
     if (options.render.size.empty()) {
         const view::WindowState state = view::load_state();
         options.render.size = std::to_string(state.width) + "x" + std::to_string(state.height);
@@ -99,22 +103,23 @@ void add_view_command(CommandLine& line) {
     Command* command = line.add("view", "Shows a scene in a window, in real time; F1 lists the keys",
                                 "dermis view head_scan --technique preintegrated");
     options->render.add_to(*command);
-    command->add_option("--interface-scale", options->interface_scale,
+    command->add_option("--interface-scale", options->interface_scale, {0.25, 8},
                         "factor on the size of text and controls (default: from the display)");
     command->add_option("--truth", options->truth,
                         "picture to compare with, for example one of dermis reference");
-    command->add_option("--turntable", options->turn_frames,
+    command->add_option("--turntable", options->turn_frames, {1, 100000},
                         "no window: write one full turn of the camera in this number of frames");
     command
-        ->add_option("-o,--output", options->turntable.output,
+        ->add_output("-o,--output", options->turntable.output,
                      "output of --turntable: numbered pictures (out/%04d.png) or a video (.mp4)")
         ->capture_default_str();
     command->add_option("--shaders", options->shader_root,
                         "folder with shaders/ and techniques/ to watch (default: the source tree)");
-    command->add_option("--frames", options->frames, "close after this number of frames");
+    command->add_option("--frames", options->frames, {1, 1e9}, "close after this number of frames");
     command->add_option("--script", options->script,
                         "UI script: simulated mouse and keyboard (docs/view.md)");
-    line.when_chosen(command, [options] { return view_scene(*options); });
+    line.when_chosen(
+        command, [options] { return files_of(*options); }, [options] { return view_scene(*options); });
 }
 
 }  // namespace dermis::cli

@@ -103,27 +103,30 @@ size_t gltf::GlbContent::add_view(std::span<const std::byte> bytes, std::optiona
     return root["bufferViews"].size() - 1;
 }
 
-Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
-                       std::span<const NamedImage> images, std::span<const std::string> extras) {
-    if (mesh.indices.empty()) return Error{path.string() + ": a mesh without triangles is not written"};
+Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh, std::span<const NamedImage> images,
+                                         std::span<const std::string> extras) {
+    if (mesh.indices.empty()) return Error{"a mesh without triangles is not written"};
     GlbContent glb;
     glb.root = {{"asset", {{"version", "2.0"}, {"generator", "dermis"}}},
                 {"scene", 0},
                 {"scenes", Json::array({{{"nodes", {0}}}})},
                 {"nodes", Json::array({{{"mesh", 0}}})}};
-    if (Result<void> added = gltf::add_materials(glb, mesh.materials, images); !added)
-        return Error{path.string() + ": " + added.error().message};
+    if (Result<void> added = gltf::add_materials(glb, mesh.materials, images); !added) return added.error();
     for (size_t i = 0; i < std::min(extras.size(), mesh.materials.size()); ++i) {
         if (extras[i].empty()) continue;
         glb.root["materials"][i]["extras"] = Json::parse(extras[i], nullptr, false);
         if (glb.root["materials"][i]["extras"].is_discarded())
-            return Error{path.string() + ": the extras of material " + std::to_string(i) + " are no JSON"};
+            return Error{"the extras of material " + std::to_string(i) + " are no JSON"};
     }
     add_geometry(glb, mesh);
     glb.root["buffers"] = Json::array({{{"byteLength", glb.binary.size()}}});
-    const Result<std::vector<std::byte>> bytes = assemble(glb);
-    if (!bytes) return Error{path.string() + ": " + bytes.error().message};
-    return write_file(path, *bytes);
+    return assemble(glb);
+}
+
+Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
+                       std::span<const NamedImage> images, std::span<const std::string> extras) {
+    const Result<std::vector<std::byte>> bytes = glb_bytes(mesh, images, extras);
+    return bytes ? write_file(path, *bytes) : bytes.error().within(path.string());
 }
 
 }  // namespace dermis
