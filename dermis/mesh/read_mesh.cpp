@@ -11,6 +11,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/base/warnings.h"
 #include "dermis/mesh/gltf/gltf.h"
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/obj.h"
@@ -24,17 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kHeadMin_mm = 150, kHeadMax_mm = 500;
-
-// Names in a file may hold anything, a message is one line for a terminal.
-void tidy(std::vector<std::string>& warnings) {
-    constexpr size_t kMost = 50;
-    if (warnings.size() > kMost) {
-        const std::string rest = std::to_string(warnings.size() - kMost);
-        warnings.resize(kMost);
-        warnings.push_back("and " + rest + " more warnings");
-    }
-    for (std::string& warning : warnings) warning = printable_line(warning);
-}
 
 Result<MeshFormat> format_of(const fs::path& path) {
     const std::string extension = to_lower(path.extension().string());
@@ -164,7 +154,7 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     warn_of_tiles(mesh, name, warnings);
     finish_normals(mesh, name, warnings);
     complete_tangents(mesh);
-    tidy(warnings);
+    tidy_warnings(warnings);
     return loaded;
 }
 

@@ -9,6 +9,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
+#include "dermis/base/warnings.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/displacement.h"
@@ -239,6 +240,7 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     }
     if (std::string differs = surface_difference(scene.skin); !differs.empty())
         scene.warnings.push_back(std::move(differs));
+    tidy_warnings(scene.warnings);  // of one file that many [[mesh]] name, for one
     scene.credit = head.credit;
     scene.technique = head.technique;
     scene.settings = description.settings;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "dermis/mesh/topology.h"
+#include "dermis/mesh/weld.h"
 #include "dermis/scene/toml_values.h"
 
 namespace dermis {
@@ -18,6 +20,46 @@ void warn_of_materials(const SceneObject& object, std::vector<std::string>& warn
                                "class = \"other\" under [material." +
                                toml_string(material.name) + "] of a scene file takes it into account");
     }
+}
+
+// How much of the skin that is double-sided lies in open sheets, 0 to 1: the area of each connected part as
+// seen from where it is largest, 0 for a closed body and 1 for a flat sheet.
+double open_share(const SceneObject& object) {
+    const Mesh& mesh = object.mesh;
+    const Weld weld = weld_positions(mesh.positions_mm);
+    DisjointSets parts(weld.count());
+    std::vector<Vec3> facing(weld.count());
+    double area = 0;
+    const auto each = [&](const auto& visit) {
+        for (const Submesh& submesh : mesh.submeshes)
+            if (mesh.materials[submesh.material].double_sided &&
+                object.classes[submesh.material] == MaterialClass::skin)
+                for (uint32_t i = 0; i + 2 < submesh.index_count; i += 3)
+                    visit(&mesh.indices[submesh.first_index + i]);
+    };
+    each([&](const uint32_t* corner) {
+        parts.join(weld.ids[corner[0]], weld.ids[corner[1]]);
+        parts.join(weld.ids[corner[0]], weld.ids[corner[2]]);
+    });
+    each([&](const uint32_t* corner) {
+        const Vec3 a = mesh.positions_mm[corner[0]];
+        const Vec3 twice = cross(mesh.positions_mm[corner[1]] - a, mesh.positions_mm[corner[2]] - a);
+        facing[parts.find(weld.ids[corner[0]])] += twice;
+        area += double(length(twice));
+    });
+    double open = 0;
+    for (const Vec3& sum : facing) open += double(length(sum));
+    return area > 0 ? open / area : 0;
+}
+
+// Skin has an inside; light on its back is not drawn.
+void warn_of_back(const SceneObject& object, std::vector<std::string>& warnings) {
+    constexpr double kSheet = 0.6;  // of half a sphere: 0.5
+    if (open_share(object) > kSheet)
+        warnings.push_back(
+            "'" + object.name +
+            "' has double-sided sheets that are skin, which is black from behind; class = \"other\" "
+            "under [material.NAME] of a scene file lights both sides");
 }
 
 struct Side {
@@ -69,6 +111,7 @@ std::vector<std::string> object_warnings(const SceneObject& object) {
     std::vector<std::string> warnings;
     warn_of_materials(object, warnings);
     warn_of_direction(object, warnings);
+    warn_of_back(object, warnings);
     return warnings;
 }
 

@@ -13,7 +13,7 @@ namespace dermis {
 [[nodiscard]] bool is_card(const Mesh& mesh, const Material& material);
 
 /// One line each, with the mend: alpha that does less than the mesh file says (skin is never cut
-/// out, nothing is blended); a head that does not face +Z.
+/// out, nothing is blended); a head that does not face +Z; double-sided sheets as skin.
 [[nodiscard]] std::vector<std::string> object_warnings(const SceneObject& object);
 
 }  // namespace dermis

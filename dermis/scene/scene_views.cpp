@@ -97,11 +97,16 @@ Result<void> place_views(const SceneDescription& description, Scene& scene) {
     scene.exposure_ev = head.exposure_ev;
     scene.shadow_map_budget = head.shadow_maps;
     const std::vector<int> maps = scene.shadow_maps();
+    std::vector<size_t> without;
     for (size_t i = 0; i < scene.lights.size(); ++i)
-        if (scene.lights[i].casts_shadow && maps[i] < 0)
-            scene.warnings.push_back("light " + std::to_string(i + 1) + " casts no shadow: shadow_maps = " +
-                                     std::to_string(scene.shadow_map_budget) + "; raise it (at most " +
-                                     std::to_string(kMaxShadowMaps) + ") or give the light shadow = false");
+        if (scene.lights[i].casts_shadow && maps[i] < 0) without.push_back(i + 1);
+    if (without.empty()) return {};
+    const size_t more = without.size() - 1;
+    scene.warnings.push_back("light " + std::to_string(without.front()) +
+                             (more == 0 ? " casts" : " and " + std::to_string(more) + " more cast") +
+                             " no shadow: shadow_maps = " + std::to_string(scene.shadow_map_budget) +
+                             "; raise it (at most " + std::to_string(kMaxShadowMaps) +
+                             ") or give such a light shadow = false");
     return {};
 }
 

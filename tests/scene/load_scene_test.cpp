@@ -122,6 +122,27 @@ TEST(LoadScene, keys_without_effect_are_named) {
     EXPECT_EQ(warnings(metal + "class = \"other\"\n").find("no effect"), std::string::npos);
 }
 
+TEST(LoadScene, warnings_of_many_meshes_and_lights_come_once_with_their_number) {
+    const SceneDirectory dir;
+    std::string toml;
+    for (int i = 0; i < 500; ++i) toml += "[[mesh]]\nfile = \"two.obj\"\n";
+    for (int i = 0; i < 40; ++i)
+        toml += "[[light]]\nkind = \"point\"\nposition_mm = [0, 0, 9]\ninner_angle_deg = 1\nkey = " +
+                std::string(i == 0 ? "true\n" : "false\n");
+    const Result<Scene> scene = dir.load(toml);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_LT(scene->warnings.size(), 10u) << all_warnings(*scene);
+    EXPECT_NE(
+        all_warnings(*scene).find("1 mm tall; a head is 150 to 500 mm; OBJ has no unit: state unit_mm under "
+                                  "[[mesh]] of a scene file (500 times)"),
+        std::string::npos)
+        << all_warnings(*scene);
+    EXPECT_NE(all_warnings(*scene).find("they are for kind = \"spot\" (40 times)"), std::string::npos);
+    EXPECT_NE(all_warnings(*scene).find("light 4 and 36 more cast no shadow: shadow_maps = 3"),
+              std::string::npos)
+        << all_warnings(*scene);
+}
+
 TEST(LoadScene, materials_that_alpha_cuts_out_are_not_skin) {
     const SceneDirectory directory;
     directory.put("two.obj", std::string("mtllib two.mtl\n") + kTwoMaterials);

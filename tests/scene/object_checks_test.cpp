@@ -45,6 +45,19 @@ TEST(ObjectChecks, a_head_that_faces_away_is_told_how_to_turn) {
     EXPECT_TRUE(object_warnings(plane).empty()) << "two triangles are no head";
 }
 
+TEST(ObjectChecks, double_sided_sheets_of_skin_are_told_their_class) {
+    const auto told = [](Mesh mesh, bool double_sided, MaterialClass material_class) {
+        mesh.materials[0].double_sided = double_sided;
+        return warns({.name = "sheet", .mesh = std::move(mesh), .classes = {material_class}},
+                     "'sheet' has double-sided sheets that are skin");
+    };
+    EXPECT_TRUE(told(make_plane(100, 100, 4), true, MaterialClass::skin));
+    EXPECT_FALSE(told(make_plane(100, 100, 4), false, MaterialClass::skin));
+    EXPECT_FALSE(told(make_plane(100, 100, 4), true, MaterialClass::other));
+    EXPECT_FALSE(told(make_sphere(100), true, MaterialClass::skin)) << "exporters mark whole heads";
+    EXPECT_FALSE(told(make_box({10, 20, 30}), true, MaterialClass::skin));
+}
+
 TEST(ObjectChecks, a_missing_map_names_the_file_that_names_it) {
     const ImageSource source{.name = "no/such.png", .encoded = {}, .named_by = "no/head.mtl"};
     const auto image = load_image_source(source, ImageUse::color);
