@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bake/lint_tables.h"
 #include "dermis/bake/lint_model.h"
 #include "dermis/bake/lut.h"
 #include "dermis/bake/lut_taps.h"
@@ -20,27 +21,9 @@
 #include "support/temporary_directory.h"
 
 using namespace dermis;
+using namespace dermis::test;
 
 namespace {
-
-Table baked(std::string_view convention, int width = 64, int height = 32) {
-    LutOptions lut = *lut_options(convention);
-    lut.width = width;
-    lut.height = height;
-    return *bake_lut(lut);
-}
-
-// Saved as by a tool without conventions, with `change` applied to the decoded values.
-template <class Change>
-Image picture_of(const Table& table, PixelFormat format, Change change) {
-    Image image(table.width, table.height, 3);
-    for (size_t i = 0; i < table.data.size(); ++i) image.floats()[i] = change(table.data[i]);
-    return convert(image, format, Encoding::linear);
-}
-
-float as_it_is(float value) {
-    return value;
-}
 
 Image transposed(const Image& image) {
     Image turned(image.height, image.width, 3, image.format);
@@ -48,11 +31,6 @@ Image transposed(const Image& image) {
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < 3; ++c) turned.set(y, x, c, image.at(x, y, c));
     return turned;
-}
-
-bool mentions(const std::vector<std::string>& lines, std::string_view text) {
-    return std::ranges::any_of(lines,
-                               [&](const std::string& line) { return line.find(text) != std::string::npos; });
 }
 
 }  // namespace
@@ -356,132 +334,6 @@ TEST(Lint, csv_that_is_no_grid_is_refused_with_its_line) {
               std::string::npos);
     EXPECT_NE(refusal("0,0,1,1,1\n1,0,1,1,inf\n").find("a.csv:2"), std::string::npos);
     EXPECT_EQ(lint::parse_csv_picture("0,0,1,2,3\n0,1,4,5,6\n", "a.csv")->image.at(1, 0, 2), 6);
-}
-
-namespace {
-
-// Texel x, y of a 64 x 32 picture: three numbers from functions of 0 to 1.
-template <class Colour>
-Image painted(Colour colour, PixelFormat format = PixelFormat::u8) {
-    Image image(64, 32, 3);
-    for (int y = 0; y < 32; ++y)
-        for (int x = 0; x < 64; ++x) {
-            const Vec3 texel = colour((float(x) + 0.5f) / 64, (float(y) + 0.5f) / 32);
-            for (int c = 0; c < 3; ++c) image.set(x, y, c, c == 0 ? texel.x : c == 1 ? texel.y : texel.z);
-        }
-    return convert(image, format, Encoding::linear);
-}
-
-Vec3 grey(float value) {
-    return {value, value, value};
-}
-
-// Between -1 and 1, without a pattern.
-float noise(float x, float y) {
-    const float wild = std::sin(x * 977.3f + y * 5711.9f) * 43758.5f;
-    return 2 * (wild - std::floor(wild)) - 1;
-}
-
-}  // namespace
-
-TEST(Lint, what_is_no_table_of_skin_is_said_to_be_none_and_gets_no_sidecar) {
-    const TemporaryDirectory dir;
-    // A ramp of one row, redder where it is darker: as on skin, but alike in all rows.
-    const auto one_row = [](float u, float) {
-        const float n_dot_l = 2 * u - 1;
-        return Vec3{std::max(0.0f, 0.2f + 0.8f * n_dot_l), std::max(0.0f, 0.1f + 0.9f * n_dot_l),
-                    std::max(0.0f, n_dot_l)};
-    };
-    const auto one_row_down = [&](float u, float v) { return one_row(v, u); };
-    struct Case {
-        Image image;
-        std::string reason;
-    };
-    const Case cases[] = {
-        {painted([](float, float) { return grey(0); }), "it is flat: all its numbers lie from 0 to 0"},
-        {painted([](float, float) { return grey(1); }), "it is flat: all its numbers lie from 1 to 1"},
-        {painted([](float, float) {
-             return Vec3{0.5f, 0.49f, 0.48f};
-         }),
-         "it is flat"},
-        {painted([](float u, float) { return grey(u); }), "it is grey"},
-        {painted([](float, float v) { return grey(1 - v); }), "it is grey"},
-        {painted([](float u, float) { return grey(std::max(0.0f, 2 * u - 1)); }), "it is grey"},
-        {painted([](float u, float v) { return grey(u * v); }), "it is grey"},
-        {painted([](float u, float v) { return grey(-0.01f + 0.01f * noise(u, v)); }, PixelFormat::f32),
-         "it has negative numbers, down to -0.0"},
-        {painted(one_row), "its rows are alike"},
-        {painted(one_row_down, PixelFormat::f16), "its rows are alike"},
-        {painted([](float u, float v) {
-             return Vec3{std::abs(std::sin(9 * u)), std::abs(std::sin(7 * v)), std::abs(std::cos(8 * u))};
-         }),
-         "its light does not rise with N.L: it falls by "}};
-    int number = 0;
-    for (const Case& c : cases) {
-        const auto path =
-            dir.path / (std::to_string(number++) + (c.image.format == PixelFormat::u8 ? ".png" : ".exr"));
-        ASSERT_TRUE(write_image(path, c.image));
-        const Result<LintReport> report = lint_file(path);
-        ASSERT_TRUE(report) << report.error().message;
-        EXPECT_FALSE(report->explained) << number;
-        EXPECT_TRUE(report->refusal.starts_with(c.reason)) << number << ": " << report->refusal;
-        EXPECT_TRUE(mentions(report->findings, "no table of skin: " + c.reason)) << number;
-        EXPECT_FALSE(mentions(report->advice, "exact table"));
-        const auto sidecar = write_sidecar(path, *report);
-        ASSERT_FALSE(sidecar);
-        EXPECT_NE(sidecar.error().message.find("no table of skin: "), std::string::npos);
-        EXPECT_FALSE(std::filesystem::exists(sidecar_path(path)));
-        for (const std::string& line : report->advice)
-            EXPECT_TRUE(line.find("/ 0)") == line.npos && line.find("/ 0,") == line.npos) << line;
-    }
-}
-
-TEST(Lint, a_convention_beside_it_makes_a_black_picture_no_table) {
-    const TemporaryDirectory dir;
-    Table table = baked("dermis");
-    table.convention.axes[0].max = -0.05;
-    std::ranges::fill(table.data, 0.0f);
-    ASSERT_TRUE(write_table(dir.path / "black.exr", table));
-    const Result<LintReport> report = lint_file(dir.path / "black.exr");
-    ASSERT_TRUE(report) << report.error().message;
-    EXPECT_TRUE(report->refusal.starts_with("it is flat")) << report->refusal;
-}
-
-TEST(Lint, its_own_convention_lets_a_table_be_grey_and_its_rows_be_alike) {
-    const TemporaryDirectory dir;
-    LutOptions lut = *lut_options("dermis");
-    lut.width = 64, lut.height = 16;
-    lut.profile = *find_profile("burley:1,1,1");
-    lut.convention.axes[1] = curvature_axis(0, 0.002);
-    const Table table = *bake_lut(lut);
-    ASSERT_TRUE(write_table(dir.path / "a.exr", table));
-    const Result<LintReport> report = lint_file(dir.path / "a.exr");
-    ASSERT_TRUE(report) << report.error().message;
-    EXPECT_TRUE(report->explained) << report->refusal;
-    EXPECT_TRUE(lint_table(picture_of(table, PixelFormat::f32, as_it_is))->refusal.starts_with("it is grey"));
-}
-
-TEST(Lint, how_much_is_explained_is_stated) {
-    const LintReport exact = *lint_table(picture_of(baked("dermis"), PixelFormat::f16, as_it_is));
-    EXPECT_GT(exact.explained_share, 0.9999);
-    EXPECT_TRUE(
-        mentions(exact.findings, "more than 99.99 % of how its rows and colours differ is explained"));
-    EXPECT_FALSE(mentions(exact.findings, "do not tell it from the best"));
-    const LintReport unity = *lint_table(picture_of(baked("unity_2011"), PixelFormat::u8, as_it_is));
-    EXPECT_GT(unity.explained_share, 0.99);
-}
-
-TEST(Lint, tables_of_another_kind_are_named_by_their_convention) {
-    const TemporaryDirectory dir;
-    Table table = baked("dermis", 64, 3);
-    table.convention.kind = TableKind::shadow;
-    table.convention.axes = {TableAxis{.name = "penumbra_position", .unit = "1"},
-                             TableAxis{.name = "penumbra_width_mm", .unit = "mm", .min = 1, .max = 40}};
-    ASSERT_TRUE(write_table(dir.path / "shadow.exr", table));
-    EXPECT_NE(lint_file(dir.path / "shadow.exr")
-                  .error()
-                  .message.find("shadow.exr: its own convention says 64 x 3 shadow"),
-              std::string::npos);
 }
 
 TEST(Lint, a_picture_that_is_not_a_table_is_reported) {
