@@ -34,8 +34,8 @@ struct DeviceInfo {
     std::string name, driver;
     std::string vulkan;  ///< the version it supports: "1.3.230"
     bool is_cpu = false;
-    std::vector<int> sample_counts;  ///< 1, 2, 4, ...
-    std::string missing;             ///< what it lacks to run dermis; empty: it can
+    std::vector<int> sample_counts;    ///< 1, 2, 4, ...
+    std::vector<std::string> missing;  ///< what it lacks to run dermis; empty: it can
     int push_descriptors = 0;  ///< most bindings of a pushed set; larger sets come from a pool, at 0 all
 };
 

@@ -60,6 +60,10 @@ struct PhysicalDevice {
 /// All devices, the preferred first: discrete, integrated, virtual, CPU; those that cannot run dermis last.
 [[nodiscard]] Result<std::vector<PhysicalDevice>> physical_devices(const Instance& instance);
 
+/// What a device whose formats have these features lacks, one text each.
+[[nodiscard]] std::vector<std::string> missing_formats(
+    const std::function<VkFormatFeatureFlags(VkFormat)>& features_of);
+
 /// The first that runs dermis and whose name contains `name_contains` (any case).
 [[nodiscard]] Result<PhysicalDevice> pick(std::span<const PhysicalDevice> devices,
                                           std::string_view name_contains);

@@ -49,8 +49,14 @@ bool find_queue(PhysicalDevice& device) {
     return false;
 }
 
-std::string missing_features(PhysicalDevice& device) {
-    if (device.properties.apiVersion < VK_API_VERSION_1_3) return "Vulkan 1.3";
+std::string version_text(uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+std::vector<std::string> missing_features(PhysicalDevice& device) {
+    if (device.properties.apiVersion < VK_API_VERSION_1_3) return {"Vulkan 1.3"};
     VkPhysicalDeviceVulkan13Features v13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     VkPhysicalDeviceVulkan12Features v12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                             .pNext = &v13};
@@ -62,8 +68,15 @@ std::string missing_features(PhysicalDevice& device) {
     if (!v13.dynamicRendering) missing.push_back("dynamicRendering");
     if (!v13.synchronization2) missing.push_back("synchronization2");
     if (!v12.scalarBlockLayout) missing.push_back("scalarBlockLayout");
+    if (!features.features.independentBlend) missing.push_back("independentBlend");
     if (!find_queue(device)) missing.push_back("a queue for graphics and compute");
-    return join(missing, ", ");
+    std::ranges::move(missing_formats([&](VkFormat format) {
+                          VkFormatProperties has;
+                          vkGetPhysicalDeviceFormatProperties(device.handle, format, &has);
+                          return has.optimalTilingFeatures;
+                      }),
+                      std::back_inserter(missing));
+    return missing;
 }
 
 void describe(PhysicalDevice& device) {
@@ -80,11 +93,10 @@ void describe(PhysicalDevice& device) {
     const VkPhysicalDeviceLimits& limits = all.properties.limits;
     device.sample_counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
     device.info.name = all.properties.deviceName;
-    device.info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-    const uint32_t version = all.properties.apiVersion;
-    device.info.vulkan = std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
-                         std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-                         std::to_string(VK_API_VERSION_PATCH(version));
+    const std::string detail = driver.driverInfo;
+    device.info.driver = std::string(driver.driverName) + " " +
+                         (detail.empty() ? version_text(all.properties.driverVersion) : detail);
+    device.info.vulkan = version_text(all.properties.apiVersion);
     device.info.is_cpu = all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     for (int count = 1; count <= 64; count *= 2)
         if (device.sample_counts & uint32_t(count)) device.info.sample_counts.push_back(count);
@@ -92,6 +104,29 @@ void describe(PhysicalDevice& device) {
 }
 
 }  // namespace
+
+// Only formats and uses that Vulkan leaves to the driver. A comparing sampler needs no filter of the format.
+std::vector<std::string> missing_formats(const std::function<VkFormatFeatureFlags(VkFormat)>& features_of) {
+    constexpr VkFormatFeatureFlags kFiltered =
+        VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    struct Need {
+        VkFormat format;
+        VkFormatFeatureFlags features;
+        std::string_view text;
+    };
+    constexpr Need kNeeds[] = {
+        {VK_FORMAT_R16G16B16A16_UNORM,
+         kFiltered | VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT,
+         "R16G16B16A16_UNORM that is filtered and blitted (normal maps)"},
+        {VK_FORMAT_R32_SFLOAT, kFiltered, "R32_SFLOAT that is filtered (tables)"},
+        {VK_FORMAT_D32_SFLOAT,
+         VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+         "D32_SFLOAT that is drawn to and sampled (shadow maps)"}};
+    std::vector<std::string> missing;
+    for (const Need& need : kNeeds)
+        if ((features_of(need.format) & need.features) != need.features) missing.emplace_back(need.text);
+    return missing;
+}
 
 Result<std::vector<PhysicalDevice>> physical_devices(const Instance& instance) {
     uint32_t count = 0;
@@ -120,7 +155,7 @@ Result<PhysicalDevice> pick(std::span<const PhysicalDevice> devices, std::string
         const bool named = to_lower(device.info.name).find(wanted) != std::string::npos;
         if (named && device.info.missing.empty()) return device;
         seen += (seen.empty() ? "" : "; ") + device.info.name;
-        if (!device.info.missing.empty()) seen += " (lacks " + device.info.missing + ")";
+        if (!device.info.missing.empty()) seen += " (lacks " + join(device.info.missing, ", ") + ")";
     }
     if (wanted.empty())
         return Error{"no Vulkan device can run dermis: " + seen +

@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "cli/run_program.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 
 namespace {
 
@@ -33,8 +36,19 @@ TEST(Report, names_version_compiler_system_device_and_driver) {
     EXPECT_THAT(line_of(result.out, "version"), MatchesRegex(".*(GCC|clang) [0-9]+\\.[0-9].*"));
     EXPECT_THAT(line_of(result.out, "system"), HasSubstr("Linux"));
     EXPECT_THAT(line_of(result.out, "device"),
-                MatchesRegex("device: .+; .+; Vulkan 1\\.[0-9]+\\.[0-9]+; MSAA 1 .*"));
+                MatchesRegex("device: .+; .+; Vulkan 1\\.[0-9]+\\.[0-9]+; MSAA 1 .*; (pushed "
+                             "descriptors|descriptor sets from a pool)"));
     EXPECT_THAT(line_of(result.out, "scenes"), HasSubstr(" spheres"));
+}
+
+// Chromium's driver, without VK_KHR_push_descriptor.
+TEST(Report, lists_swiftshader_as_usable_with_descriptor_sets_from_a_pool) {
+    const std::string manifest = "/usr/lib/chromium/vk_swiftshader_icd.json";
+    if (!std::filesystem::exists(manifest)) GTEST_SKIP() << "no " << manifest << " (Debian: chromium)";
+    const ProgramResult result = report("VK_DRIVER_FILES=" + manifest + " VK_ICD_FILENAMES=" + manifest);
+    EXPECT_THAT(line_of(result.out, "device"), HasSubstr("SwiftShader driver 5."));
+    EXPECT_THAT(line_of(result.out, "device"), HasSubstr("; descriptor sets from a pool"));
+    EXPECT_THAT(result.out, Not(HasSubstr("  lacks:")));
 }
 
 TEST(Report, names_the_packages_that_dpkg_has) {

@@ -1,11 +1,15 @@
+#include "dermis/gpu/instance.h"
 #include "support/gpu_fixture.h"
 
 namespace dermis::gpu {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 TEST(Devices, are_listed_with_what_they_can) {
     const Result<std::vector<DeviceInfo>> devices = list_devices();
@@ -41,6 +45,19 @@ TEST(Devices, a_name_nobody_has_is_an_error_that_lists_them) {
     ASSERT_FALSE(device);
     EXPECT_THAT(device.error().message, HasSubstr("'voodoo'"));
     EXPECT_THAT(device.error().message, HasSubstr(list_devices()->front().name));
+}
+
+TEST(Devices, that_lack_a_use_of_a_format_say_so_for_each) {
+    const auto all_but = [](VkFormat lacking, VkFormatFeatureFlags feature) {
+        return missing_formats(
+            [=](VkFormat format) { return format == lacking ? ~feature : ~VkFormatFeatureFlags{0}; });
+    };
+    EXPECT_THAT(all_but(VK_FORMAT_R8_UNORM, ~VkFormatFeatureFlags{0}), IsEmpty());
+    EXPECT_THAT(all_but(VK_FORMAT_R32_SFLOAT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT),
+                ElementsAre(HasSubstr("R32_SFLOAT that is filtered")));
+    EXPECT_THAT(all_but(VK_FORMAT_R16G16B16A16_UNORM, VK_FORMAT_FEATURE_BLIT_SRC_BIT),
+                ElementsAre(HasSubstr("normal maps")));
+    EXPECT_THAT(missing_formats([](VkFormat) { return VkFormatFeatureFlags{0}; }), SizeIs(3));
 }
 
 TEST(Devices, without_drivers_the_error_names_what_to_install) {

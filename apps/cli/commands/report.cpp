@@ -105,7 +105,9 @@ std::string device_text() {
         std::vector<std::string> samples;
         for (int count : device.sample_counts) samples.push_back(std::to_string(count));
         text += "device:    " + device.name + "; " + device.driver + "; Vulkan " + device.vulkan + "; MSAA " +
-                join(samples, " ") + (device.missing.empty() ? "" : "; lacks " + device.missing) + "\n";
+                join(samples, " ") + "; " +
+                (device.push_descriptors ? "pushed descriptors" : "descriptor sets from a pool") + "\n";
+        for (const std::string& missing : device.missing) text += "  lacks:   " + missing + "\n";
     }
     return text;
 }
