@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -97,4 +98,20 @@ TEST_F(SwiftShaderGoldens, of_the_spheres_with_every_technique) {
 // At most 0.40 codes and 0.09 % (texture_space_gaussians): lavapipe decodes the albedo map 0.5 % too dark.
 TEST_F(SwiftShaderGoldens, of_the_bust_with_every_technique) {
     expect_goldens_of("bust", kBustSettings, {.mean_codes = 0.6, .outlier_share = 0.002});
+}
+
+// Above 65504 a half float is infinite, on SwiftShader NaN, and lavapipe stores 65504.
+TEST_F(SwiftShaderGoldens, light_beyond_half_floats_stays_finite_where_it_is_blurred) {
+    Scene scene = load("spheres");
+    scene.lights[0].intensity = 1.5e5f;  // its radiance on white skin fits into a half float
+    Renderer renderer = make_renderer(scene);
+    for (const char* id :
+         {"texture_space", "texture_space_gaussians", "screen_space_separable", "screen_space_burley"}) {
+        const Image light =
+            radiance(renderer, built_in_technique(id), {.width = 96, .height = 64, .shadow_map_size = 256});
+        size_t broken = 0;
+        for (int y = 0; y < light.height; ++y)
+            for (int x = 0; x < light.width; ++x) broken += !std::isfinite(light.at(x, y, 0));
+        EXPECT_EQ(broken, 0u) << id;
+    }
 }
