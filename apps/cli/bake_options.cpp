@@ -92,7 +92,7 @@ Result<int> deliver(MadeTable made, const TableOutput& output, TableStorage stor
     }
     if (Result<void> written = write_table(output.path, table, storage); !written) return written.error();
     const Convention& convention = table.convention;
-    std::printf("%s: %s\n", output.path.c_str(), describe(table).c_str());
+    std::printf("%s: %s\n", printable_line(output.path).c_str(), describe(table).c_str());
     std::printf("largest error of a lookup %.2g (%s %.3g, %s %.3g), rms %.2g\n", error->max,
                 convention.axes[0].name.c_str(), error->u, convention.axes[1].name.c_str(), error->v,
                 error->rms);

@@ -20,6 +20,14 @@ void print_warning(std::string_view text) {
     print_message("warning: " + std::string(text));
 }
 
+void print_warnings(std::span<const std::string> texts, const std::string& prefix) {
+    for (const std::string& text : each_once(texts)) print_warning(prefix + text);
+}
+
+void print_path(const std::filesystem::path& path) {
+    std::printf("%s\n", printable_line(path.string()).c_str());
+}
+
 Result<IndexRange> parse_index_range(std::string_view flag, std::string_view text) {
     constexpr double kMost = 1e6;
     const std::vector<std::string_view> ends = split(text, ':');

@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -138,6 +140,10 @@ struct Size {
 /// One line on the error stream, whatever file names and values it quotes (printable_line).
 void print_message(std::string_view text);
 void print_warning(std::string_view text);
+/// Each once, with the number of times that it came.
+void print_warnings(std::span<const std::string> texts, const std::string& prefix = "");
+/// On standard output, a line: names of files can have anything in them.
+void print_path(const std::filesystem::path& path);
 
 /// begin <= i < end.
 struct IndexRange {

@@ -2,6 +2,7 @@
 
 #include "catalog/catalog.h"
 #include "command.h"
+#include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/load_scene.h"
 
@@ -28,6 +29,8 @@ Result<MapRequest> MapChoice::request() const {
     SceneOptions options = {.subjects = built_in_catalog().subjects};
     if (unit_mm != 0) {
         if (Result<void> good = check_number("--unit-mm", unit_mm, kUnitRangeMm); !good) return good.error();
+        if (!is_mesh_file(mesh))
+            return Error{"--unit-mm is for mesh files; " + mesh + " states the unit of each of its meshes"};
         options.mesh_unit_mm = unit_mm;
     }
     Result<Scene> scene = load_scene(mesh, options);

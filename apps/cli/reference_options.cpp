@@ -107,6 +107,10 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
           set(chosen.lighting.ambient, "ambient model", ambient, kAmbient),
           set(chosen.lighting.specular, "specular model", specular, kSpecular)})
         if (!step) return step.error();
+    if (chosen.integrator == Integrator::lambert && !profile.empty())
+        return Error{"--profile has no effect on --integrator lambert, which scatters nothing"};
+    if (chosen.cavities != Cavities::flesh && chosen.integrator != Integrator::walk)
+        return Error{"--cavities has no effect on --integrator " + integrator + "; add --integrator walk"};
     if (!medium.empty()) {
         Result<ScatteringMedium> parsed = parse_medium(medium);
         if (!parsed) return parsed.error();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "catalog/catalog.h"
+#include "dermis/base/text.h"
 #include "dermis/scene/load_scene.h"
 #include "dermis/scene/scene_files.h"
 
@@ -62,6 +63,10 @@ Result<Scene> SceneChoice::load(Scene* as_filed) const {
     if (!scene) return scene;
     if (as_filed) *as_filed = without_objects(*scene);
     if (Result<void> changed = set_words(*scene, words_for(*all, false)); !changed) return changed.error();
+    if (length(scene->camera.eye_mm - scene->camera.target_mm) == 0)
+        return Error{"camera.eye_mm and camera.target_mm are the same point, " +
+                     to_text(scene->camera.eye_mm.x) + " " + to_text(scene->camera.eye_mm.y) + " " +
+                     to_text(scene->camera.eye_mm.z) + ": the camera looks nowhere; move one of them"};
     return scene;
 }
 

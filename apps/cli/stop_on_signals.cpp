@@ -9,10 +9,16 @@ namespace {
 
 using SignalHandler = void (*)(int);
 
+struct Watched {
+    int signal;
+    SignalHandler before;
+};
+// Ctrl-C, a request to end, a terminal or a connection that went away.
+Watched g_watched[] = {{SIGINT, SIG_DFL}, {SIGTERM, SIG_DFL}, {SIGHUP, SIG_DFL}};
+
 std::atomic<int> g_signal = 0;
 std::atomic<bool> g_stop = false;
 std::atomic<int64_t> g_stopped_ms = 0;
-SignalHandler g_interrupt_before = SIG_DFL, g_terminate_before = SIG_DFL;
 
 // Ctrl-C or a request to end. The first signal ends the passes, the picture so far is written, then the
 // program ends; one that comes later ends the program at once. `timeout`, make and shells send the same
@@ -26,7 +32,8 @@ extern "C" void stop_on_signal(int signal) {
         g_stopped_ms = now_ms;
         g_stop = true;
     } else if (now_ms > g_stopped_ms + 1000) {
-        std::signal(signal, signal == SIGINT ? g_interrupt_before : g_terminate_before);
+        for (const Watched& watched : g_watched)
+            if (watched.signal == signal) std::signal(signal, watched.before);
         std::raise(signal);
     }
 }
@@ -34,13 +41,14 @@ extern "C" void stop_on_signal(int signal) {
 }  // namespace
 
 StopOnSignals::StopOnSignals() {
-    g_interrupt_before = std::signal(SIGINT, stop_on_signal);
-    g_terminate_before = std::signal(SIGTERM, stop_on_signal);
+    for (Watched& watched : g_watched) {
+        watched.before = std::signal(watched.signal, stop_on_signal);
+        if (watched.before == SIG_IGN) std::signal(watched.signal, SIG_IGN);  // nohup
+    }
 }
 
 StopOnSignals::~StopOnSignals() {
-    std::signal(SIGINT, g_interrupt_before);
-    std::signal(SIGTERM, g_terminate_before);
+    for (const Watched& watched : g_watched) std::signal(watched.signal, watched.before);
 }
 
 const std::atomic<bool>& stop_requested() {

@@ -5,8 +5,8 @@
 
 namespace dermis::cli {
 
-/// While an object exists, the first SIGINT or SIGTERM only sets stop_requested(); a later one ends the
-/// program at once.
+/// While an object exists, the first SIGINT, SIGTERM or SIGHUP only sets stop_requested(); a later one ends
+/// the program at once.
 class StopOnSignals {
   public:
     StopOnSignals();

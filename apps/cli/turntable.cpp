@@ -168,7 +168,7 @@ Result<int> run_turntable(const Turntable& turntable) {
     } else if (const auto drawn = draw_turn(turntable, turntable.output); !drawn) {
         return drawn.error();
     }
-    std::printf("%s\n", turntable.output.c_str());
+    print_path(turntable.output);
     return 0;
 }
 

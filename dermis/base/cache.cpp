@@ -48,10 +48,14 @@ std::optional<std::vector<std::byte>> cache_load(std::string_view kind, std::str
 }
 
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes) {
+    // Something else in the entry's place (a pipe waits for its reader) stays.
+    std::error_code ec;
+    const fs::path path = entry_path(kind, hash);
+    if (fs::exists(path, ec) && !fs::is_regular_file(path, ec)) return false;
     std::vector<std::byte> file = bytes;
     const std::string sum = checksum(kind, hash, bytes);
     file.insert(file.end(), as_bytes(sum).begin(), as_bytes(sum).end());
-    return write_file(entry_path(kind, hash), file).ok();
+    return write_file(path, file).ok();
 }
 
 Result<std::vector<std::byte>> cached(std::string_view kind, std::string_view hash, size_t expected_bytes,

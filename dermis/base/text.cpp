@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdint>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace dermis {
@@ -29,11 +30,14 @@ size_t character_length(std::string_view text) {
     return length;
 }
 
-// C0, DEL, and C1 (U+0080 to U+009F), whose U+009B starts an escape sequence too.
+// C0, DEL, C1 (U+0080 to U+009F), whose U+009B starts an escape sequence too, and what overrides the
+// direction of writing (U+202A to U+202E, U+2066 to U+2069), so that a name reads as another.
 bool is_control(std::string_view character) {
     const auto first = uint8_t(character[0]);
     if (character.size() == 1) return first < 0x20 || first == 0x7f;
-    return first == 0xc2 && uint8_t(character[1]) < 0xa0;
+    if (first == 0xc2) return uint8_t(character[1]) < 0xa0;
+    return (character >= "\u202a" && character <= "\u202e") ||
+           (character >= "\u2066" && character <= "\u2069");
 }
 
 // Levenshtein distance, one row at a time.
@@ -99,6 +103,20 @@ std::string to_lower(std::string_view text) {
     std::string lower(text);
     std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     return lower;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
+}
+
+std::vector<std::string> each_once(std::span<const std::string> texts) {
+    std::vector<std::string> once;
+    std::unordered_map<std::string, size_t> count;
+    for (const std::string& text : texts)
+        if (++count[text] == 1) once.push_back(text);
+    for (std::string& text : once)
+        if (const size_t times = count[text]; times > 1) text += " (" + std::to_string(times) + " times)";
+    return once;
 }
 
 std::string printable_line(std::string_view text, size_t max_bytes) {

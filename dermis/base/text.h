@@ -23,8 +23,15 @@ namespace dermis {
 [[nodiscard]] std::string join(std::span<const std::string> parts, std::string_view separator);
 [[nodiscard]] std::string to_lower(std::string_view text);
 
-/// The text as one line for a terminal, whatever is in it: control characters (line breaks, escape sequences)
-/// and bytes that are not UTF-8 become '?', and what is beyond `max_bytes` "...".
+/// Editors of some systems begin a text file with a byte order mark.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
+/// Each text once, in the order in which it came first, with " (N times)" where it came more often.
+[[nodiscard]] std::vector<std::string> each_once(std::span<const std::string> texts);
+
+/// The text as one line for a terminal, whatever is in it: control characters (line breaks, escape sequences,
+/// changes of the direction of writing) and bytes that are not UTF-8 become '?', and what is beyond
+/// `max_bytes` "...".
 [[nodiscard]] std::string printable_line(std::string_view text, size_t max_bytes = 1000);
 
 /// The candidate that was most likely meant (edit distance at most a third of the word, or the word and a

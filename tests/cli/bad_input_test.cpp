@@ -207,6 +207,55 @@ TEST_F(BadInput, numbers_that_meant_nothing_are_refused) {
     expect_error("reference spheres --samples 0" + to, "--samples: 0 is not in its range, 2 to 65536");
 }
 
+TEST_F(BadInput, flags_without_effect_are_refused) {
+    const std::string to = " -o " + path("a.exr");
+    expect_error("bake curvature spheres --unit-mm 2" + to, "--unit-mm is for mesh files");
+    expect_error("bake normals bust --unit-mm 2" + to, "--unit-mm is for mesh files");
+    expect_error("render spheres --turn 90" + to, "--turn has no effect on one picture");
+    expect_error("reference spheres --integrator lambert --profile jensen_skin1" + to,
+                 "--profile has no effect on --integrator lambert");
+    expect_error("reference spheres --cavities open" + to,
+                 "--cavities has no effect on --integrator surface");
+    expect_error("view spheres --turntable 2 --script a.txt", "--script has no effect on --turntable");
+}
+
+TEST_F(BadInput, a_camera_that_looks_nowhere_is_refused) {
+    const std::string words =
+        " --scene camera.eye_mm=1,2,3 --scene camera.target_mm=1,2,3 --size 16 -o " + path("a.exr");
+    expect_error("render spheres" + words, "camera.eye_mm and camera.target_mm are the same point, 1 2 3");
+    expect_error("reference spheres" + words, "the same point");
+}
+
+TEST_F(BadInput, viewers_that_would_wait_for_ever_or_show_something_else_are_refused) {
+    expect_error("view spheres --truth " + path("missing.exr"), "--truth: ");
+    expect_error("view spheres --frames 0", "--frames: 0 is not in its range, 1 to 1000000000");
+}
+
+TEST_F(BadInput, a_warning_of_many_meshes_comes_once_with_its_count) {
+    file("mesh.obj", "mtllib none.mtl\nv 0 0 0\nv 90 0 0\nv 0 90 0\nf 1 2 3\n");
+    std::string scene;
+    for (int i = 0; i < 40; ++i) scene += "[[mesh]]\nfile = \"mesh.obj\"\nunit_mm = 1\n";
+    const ProgramResult drawn =
+        dermis("render " + file("many.toml", scene) + " --size 16 -o " + path("a.png"));
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_THAT(drawn.err, HasSubstr("(40 times)"));
+    EXPECT_LT(std::count(drawn.err.begin(), drawn.err.end(), '\n'), 10) << drawn.err;
+}
+
+TEST_F(BadInput, output_paths_reach_the_terminal_as_printable_text) {
+    const std::string name = path("a\x1b[31m\u202eb");
+    for (const std::string line :
+         {"bake lut --size 8 -o '" + name + ".exr'", "bake closed_form --rows 9 -o '" + name + ".csv'",
+          "render spheres --size 8 -o '" + name + ".png'", "export --language hlsl -o '" + name + ".hlsl'",
+          "reference spheres --size 8 --samples 2 --probes 2 -o '" + name + ".exr'",
+          "profile convert gpu_gems_3 -o '" + name + ".mtlx'"}) {
+        const ProgramResult written = dermis(line);
+        EXPECT_EQ(written.exit_code, 0) << written.err;
+        EXPECT_THAT(written.out, HasSubstr("a?[31m?b")) << line;
+        EXPECT_EQ(written.out.find('\x1b'), std::string::npos) << line;
+    }
+}
+
 TEST_F(BadInput, samples_too_few_for_two_halves_are_refused_by_the_flags_name) {
     expect_error(
         "compare spheres --size 16x16 -t lambert --samples-per-pixel 4 --samples 7 -o " + path("out"),

@@ -100,7 +100,7 @@ TEST_F(Commands, compare_of_the_unit_scenes_has_the_exact_answer_beside_the_tech
 }
 
 TEST_F(Commands, a_signal_leaves_the_picture_so_far_and_says_how_noisy_it_is) {
-    for (const auto& [signal, exit_code] : {std::pair{"INT", 130}, {"TERM", 143}}) {
+    for (const auto& [signal, exit_code] : {std::pair{"INT", 130}, {"TERM", 143}, {"HUP", 129}}) {
         const std::string file = path(std::string(signal) + ".exr");
         // The signal arrives when the command is at work: its whole time limit would be minutes. `timeout`
         // sends it twice, to the process and to its group; that must not end the program at once.

@@ -52,7 +52,7 @@ Result<int> run(const BakeClosedFormOptions& options) {
     if (!options.output.empty()) {
         if (Result<void> written = write_text_file(options.output, coefficients_csv(*form)); !written)
             return written.error();
-        std::printf("%s\n", options.output.c_str());
+        print_path(options.output);
     }
     std::printf("%s, %s: largest error of the fit at its own %zu curvatures %.5f (%.2f of an 8-bit code)\n\n",
                 profile->name.c_str(), options.construction.c_str(), form->rows.size(), form->max_error,

@@ -44,11 +44,11 @@ Result<int> run(const BakeMapsOptions& options) {
     if (!map) return map.error();
     if (Result<void> written = write_map(options.output, *map, {options.map.mesh, settings}); !written)
         return written.error();
-    for (const std::string& warning : map->warnings) print_warning(warning);
-    std::printf("%s: %s, %dx%d, %s to %s %s\n%s\n", options.output.c_str(),
+    print_warnings(map->warnings);
+    std::printf("%s: %s, %dx%d, %s to %s %s\n", printable_line(options.output).c_str(),
                 std::string(map_kind_name(settings.kind)).c_str(), map->values.width, map->values.height,
-                to_text(map->min).c_str(), to_text(map->max).c_str(), map->unit.c_str(),
-                map_preview_path(options.output).string().c_str());
+                to_text(map->min).c_str(), to_text(map->max).c_str(), map->unit.c_str());
+    print_path(map_preview_path(options.output));
     return 0;
 }
 

@@ -6,6 +6,7 @@
 #include "bake_options.h"
 #include "catalog/catalog.h"
 #include "dermis/base/text.h"
+#include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/atlas_check.h"
@@ -33,6 +34,9 @@ Result<FileUse> files_of(const BakeNormalsOptions& options) {
 
 Result<int> run(const BakeNormalsOptions& options) {
     SceneOptions how = {.subjects = built_in_catalog().subjects};
+    if (options.unit_mm > 0 && !is_mesh_file(options.mesh))
+        return Error{"--unit-mm is for mesh files; " + options.mesh +
+                     " states the unit of each of its meshes"};
     if (options.unit_mm > 0) how.mesh_unit_mm = options.unit_mm;
     const Result<Scene> scene = load_scene(options.mesh, how);
     if (!scene) return scene.error();
@@ -50,9 +54,8 @@ Result<int> run(const BakeNormalsOptions& options) {
     if (!normals) return normals.error();
     if (Result<void> written = write_diffused_normals(options.output, *normals, origin); !written)
         return written.error();
-    for (const std::string& warning : *warnings) print_warning(warning);
-    for (const auto& path : diffused_normals_paths(options.output))
-        std::printf("%s\n", path.string().c_str());
+    print_warnings(*warnings);
+    for (const auto& path : diffused_normals_paths(options.output)) print_path(path);
     return 0;
 }
 

@@ -82,11 +82,11 @@ Result<std::vector<Comparison>> compare_all(const CompareOptions& options, const
     std::vector<Comparison> comparisons;
     for (const SubjectCase& one : scenes.all) {
         const std::string prefix = scenes.is_set ? one.name + ": " : "";
-        for (const std::string& warning : one.scene.warnings) print_warning(prefix + warning);
+        print_warnings(one.scene.warnings, prefix);
         settings.exact = one.exact;
         Result<Comparison> comparison = compare(*device, one, prefix, contestants, settings);
         if (!comparison) return Error{prefix + comparison.error().message};
-        for (const std::string& warning : warnings_of(*comparison, settings)) print_warning(prefix + warning);
+        print_warnings(warnings_of(*comparison, settings), prefix);
         const Result<std::string> page = report_html(one.scene, *comparison, settings);
         if (!page) return page.error();
         if (Result<void> written = write_text_file(report_path(options, scenes, one), *page); !written)

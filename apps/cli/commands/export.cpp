@@ -45,7 +45,7 @@ Result<int> deliver_files(std::span<const FileContent> files, std::vector<std::f
     for (const FileContent& file : files) use.outputs.push_back(file.path);
     if (Result<void> good = check_outputs(use); !good) return good.error();
     if (const Result<void> written = write_files(files); !written) return written.error();
-    for (const FileContent& file : files) std::printf("%s\n", file.path.c_str());
+    for (const FileContent& file : files) print_path(file.path);
     return 0;
 }
 
@@ -86,7 +86,7 @@ Result<int> export_web(const ExportOptions& options) {
     std::vector<std::filesystem::path> inputs;
     const Result<WebPage> page = make_web_page(options.scene, options.profile, inputs);
     if (!page) return page.error();
-    for (const std::string& warning : page->warnings) print_warning(warning);
+    print_warnings(page->warnings);
     std::vector<FileContent> files;
     for (const WebFile& file : page->files) files.push_back({folder / file.path, file.bytes});
     return deliver_files(files, std::move(inputs));

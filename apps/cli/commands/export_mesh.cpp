@@ -44,7 +44,7 @@ Result<int> run(const ExportMeshOptions& options) {
     if (!bust) return bust.error();
     if (const auto written = write_bust(options.path, *bust, *profile, options.maps); !written)
         return written.error();
-    std::printf("%s: %zu triangles\n", options.path.c_str(), bust->mesh.triangle_count());
+    std::printf("%s: %zu triangles\n", printable_line(options.path).c_str(), bust->mesh.triangle_count());
     const bool is_obj = to_lower(options.path).ends_with(".obj");
     std::printf("  %s\n", is_obj ? "OBJ has no place for the profile and for maps of specular and kernel size"
                                  : gltf_note(*profile).c_str());

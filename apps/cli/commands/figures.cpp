@@ -20,7 +20,7 @@ struct FiguresOptions {
 };
 
 void print(const std::string& path, const FigureResult& result) {
-    std::printf("%s\n", path.c_str());
+    print_path(path);
     for (const CellReport& cell : result.cells)
         if (!cell.compared_to.empty())
             std::printf("  %-44s mean %.5f  max %.4f  FLIP %.4f  against %s\n", cell.label.c_str(),

@@ -46,7 +46,7 @@ Result<std::vector<JobPlan>> plans_of(const JobsOptions& options) {
     std::vector<JobPlan> plans;
     FileUse all = {.outputs = {}, .inputs = {options.commands}};
     int number = 0;
-    for (const std::string_view line : split(*text, '\n')) {
+    for (const std::string_view line : split(without_byte_order_mark(*text), '\n')) {
         const std::string place = options.commands + ":" + std::to_string(++number) + ": ";
         Result<std::vector<std::string>> words = shell_words(line);
         if (!words) return Error{place + words.error().message};

@@ -17,13 +17,13 @@ Result<int> run(const LintOptions& options) {
     const std::string& path = options.path;
     const Result<LintReport> report = lint_file(path);
     if (!report) return report.error();
-    std::printf("%s\n", path.c_str());
+    print_path(path);
     for (const std::string& line : report->findings) std::printf("  %s\n", line.c_str());
     for (const std::string& line : report->advice) std::printf("  -> %s\n", line.c_str());
     if (options.write_sidecar) {
         const auto sidecar = write_sidecar(path, *report);
         if (!sidecar) return sidecar.error();
-        std::printf("%s\n", sidecar->string().c_str());
+        print_path(*sidecar);
     }
     return report->explained ? 0 : 1;
 }

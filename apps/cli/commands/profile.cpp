@@ -143,7 +143,7 @@ Result<int> write_converted(const ProfileOptions& options) {
     if (!original) return original.error();
     if (const auto written = write_text_file(options.output, mtlx_text(*profile)); !written)
         return written.error();
-    print(options.output + ": " + profile->name + "\n");
+    print(printable_line(options.output) + ": " + profile->name + "\n");
     if (!profile->source.empty()) print("  from " + profile->source + "\n");
     for (const std::string& note : mtlx_notes(*original, *profile)) print("  " + note + "\n");
     return 0;

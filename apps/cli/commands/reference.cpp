@@ -9,6 +9,7 @@
 #include "command.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
+#include "dermis/base/text.h"
 #include "dermis/jobs/part.h"
 #include "dermis/judge/truth_version.h"
 #include "picture_text.h"
@@ -81,8 +82,8 @@ Result<int> run_part(const ReferenceOptions& options, const ReferenceSettings& s
                                 .dump(2)
                                 .c_str());
     else
-        std::printf("%s: samples %d:%d of 0:%d, %.1f s\n", options.output.c_str(), range.begin, range.end,
-                    settings.samples, seconds);
+        std::printf("%s: samples %d:%d of 0:%d, %.1f s\n", printable_line(options.output).c_str(),
+                    range.begin, range.end, settings.samples, seconds);
     return 0;
 }
 
@@ -190,7 +191,7 @@ void add_reference_command(CommandLine& line) {
         "  dermis reference head_scan --integrator walk --profile jensen_skin1 --samples 256 -o walk.exr\n"
         "  dermis reference head_scan --samples 64 --sample-range 0:16 -o part.exr   (see dermis merge)\n"
         "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin\n"
-        "  Ctrl-C (or SIGTERM) writes the picture so far and prints its error\n"
+        "  Ctrl-C (or SIGTERM, SIGHUP) writes the picture so far and prints its error\n"
         "  exit code 3: the picture is written, but --samples ended it before --noise was reached");
     options->add_to(*command);
     line.when_chosen(

@@ -32,6 +32,8 @@ Result<IndexRange> frames_of(const Options& options) {
     if (options.frames > 1 && !options.timings && !numbered)
         return Error{"--frames " + std::to_string(options.frames) + " would write " + options.output +
                      " again and again; number them: -o out/%04d.png"};
+    if (options.turn_deg != 0 && options.frames == 1)
+        return Error{"--turn has no effect on one picture; add --frames and number them: -o out/%04d.png"};
     if (options.frame_range.empty()) return IndexRange{0, options.frames};
     const Result<IndexRange> range = parse_index_range("--frame-range", options.frame_range);
     if (!range) return range;
@@ -147,7 +149,7 @@ Result<int> render(Options options) {
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
     if (Result<void> kept = keep_scene_files(prepared->scene, files_of(options)); !kept) return kept.error();
-    for (const std::string& warning : prepared->scene.warnings) print_warning(warning);
+    print_warnings(prepared->scene.warnings);
     Result<gpu::Device> device = gpu::Device::create({.validation = options.render.validation,
                                                       .on_message = print_message,
                                                       .name_contains = options.render.device});
@@ -162,12 +164,12 @@ Result<int> render(Options options) {
     const Result<std::vector<gpu::FrameResult>> frames = draw_frames(*renderer, *prepared, options, *range);
     if (!frames) return frames.error();
 
-    for (const std::string& warning : renderer->warnings()) print_warning(warning);
+    print_warnings(renderer->warnings());
     const gpu::FrameResult timings = median_timings(*frames);
     if (options.json) {
         std::printf("%s\n", to_json(*prepared, options, *device, timings).dump(2).c_str());
     } else {
-        std::printf("%s\n", options.output.c_str());
+        print_path(options.output);
         if (!prepared->scene.credit.empty()) std::printf("%s\n", prepared->scene.credit.c_str());
         if (options.timings) print_timings(timings, *device);
     }

@@ -7,6 +7,7 @@
 #include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/file.h"
+#include "dermis/image/io.h"
 #include "dermis/view/state_file.h"
 #include "dermis/view/viewer.h"
 #include "render_options.h"
@@ -33,6 +34,10 @@ Turntable turntable_of(const ViewOptions& options) {
 
 Result<FileUse> files_of(const ViewOptions& options) {
     if (options.turn_frames == 0) return FileUse{};
+    for (const auto& [flag, given] :
+         {std::pair("--script", !options.script.empty()), std::pair("--truth", !options.truth.empty()),
+          std::pair("--frames", options.frames != 0)})
+        if (given) return Error{std::string(flag) + " has no effect on --turntable, which opens no window"};
     return turntable_files(turntable_of(options));
 }
 
@@ -79,6 +84,9 @@ Result<int> view_scene(ViewOptions options) {
                                   .truth = options.truth,
                                   .script_name = options.script,
                                   .print = [](const std::string& text) { std::printf("%s", text.c_str()); }};
+    if (!options.truth.empty())
+        if (const Result<LoadedImage> picture = read_image(options.truth, ImageUse::color); !picture)
+            return picture.error().within("--truth");
     if (!options.script.empty()) {
         const Result<std::string> text = read_text_file(options.script);
         if (!text) return text.error();
