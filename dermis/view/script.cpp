@@ -120,7 +120,7 @@ Result<std::vector<ScriptCommand>> parse_script(std::string_view text, const std
     if (text.size() > kMaxScriptBytes) return Error{file + ": a script of more than 1 MiB"};
     std::vector<ScriptCommand> commands;
     int line_number = 0;
-    for (const std::string_view line : split(text, '\n')) {
+    for (const std::string_view line : split(without_byte_order_mark(text), '\n')) {
         ++line_number;
         const std::string place = file + ":" + std::to_string(line_number) + ": ";
         const auto words = quoted_words(line, "\"", '#');

@@ -22,7 +22,7 @@
 //     capture window.png              # the window with its panels
 //     lose_device                     # simulates the loss of the GPU: everything on it is made again
 //     print                           # the state, on standard output
-//     quit
+//     quit                            # also the end of the script, without --frames
 
 #include <deque>
 #include <string>

@@ -17,6 +17,10 @@ class ScriptPlayer {
     [[nodiscard]] bool has_script() const { return !commands_.empty(); }
     /// The command that is due, or null; `settled`: the picture has its full quality.
     [[nodiscard]] const ScriptCommand* next(bool settled);
+    /// All commands are done; false without a script.
+    [[nodiscard]] bool is_over(bool settled) const {
+        return has_script() && begun_ == commands_.size() && (!settling_ || settled);
+    }
     /// The next command waits until it is.
     void settle() { settling_ = true; }
     /// How many were begun.

@@ -57,6 +57,8 @@ Result<ViewerReport> run_viewer(const ViewerOptions& options) {
         const bool lost = !report && report.error().code == ErrorCode::device_lost;
         if (!lost || losses == kMostLosses || !session->has_scene()) return report;
         session->hand_over(current);
+        // The loss was the last command: nothing else would end the window.
+        if (!options.script.empty() && current.script.empty() && current.frames == 0) current.frames = 1;
     }
 }
 

@@ -154,7 +154,11 @@ Result<void> Session::step_script() {
     Parts& p = *parts_;
     if (p.input.is_playing() || p.opener.is_loading() || !p.pictures.scene().is_there()) return {};
     const ScriptCommand* command = p.player.next(p.is_settled());
-    if (!command) return {};
+    if (!command) {
+        // A script that nobody watches would wait for a hand for ever.
+        p.quit = p.quit || (p.options.frames == 0 && p.player.is_over(p.is_settled()));
+        return {};
+    }
     const Result<void> done = run_command(p, *command);
     return done ? done : p.player.error_at(*command, done.error());
 }

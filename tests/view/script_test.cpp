@@ -14,6 +14,20 @@ std::string error_of(std::string_view text) {
     return parsed ? "" : parsed.error().message;
 }
 
+TEST(ScriptPlayer, is_over_after_its_last_command) {
+    const std::vector<view::ScriptCommand> commands(2);
+    view::ScriptPlayer player(commands, "a"), none({}, "");
+    EXPECT_FALSE(player.is_over(true));
+    (void)player.next(true);
+    EXPECT_FALSE(player.is_over(true));
+    (void)player.next(true);
+    EXPECT_TRUE(player.is_over(false));
+    player.settle();
+    EXPECT_FALSE(player.is_over(false)) << "the last command was settle";
+    EXPECT_TRUE(player.is_over(true));
+    EXPECT_FALSE(none.is_over(true)) << "without a script the user ends it";
+}
+
 TEST(Script, commands_come_out_with_their_words_and_lines) {
     const auto script =
         parse_script("# a comment\nopen \"my head.obj\" # why\n\n set wrap=0.4\nquit", "s.txt");
