@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dermis/base/file.h"
+#include "dermis/base/process.h"
 
 namespace dermis {
 namespace {
@@ -19,30 +20,38 @@ std::string done_file(const Job& job, const std::string& folder) {
     return (fs::path(folder) / "done" / job.hash).string();
 }
 
-std::vector<std::string> proof_of(const Job& job, const std::string& folder) {
-    std::vector<std::string> files = job.results;
-    if (!job.is_part) files.push_back(done_file(job, folder));
-    return files;
+// True in the shell when the results are those that the job wrote: cksum (POSIX) prints a sum, the size and
+// the name of each. An empty mark is none: cksum of no file prints nothing too.
+std::string results_check(const Job& job, const std::string& folder) {
+    const std::string mark = shell_word(done_file(job, folder));
+    return "{ [ -s " + mark + " ] && cksum " + joined(job.results) + " 2>/dev/null | cmp -s - " + mark +
+           "; }";
 }
 
-// True in the shell when all files are there.
-std::string all_there(std::span<const std::string> files) {
-    return "ls " + joined(files) + " >/dev/null 2>&1";
+// The file first: a program that succeeds and does nothing is not believed.
+std::string part_check(const Job& job, const std::string& program) {
+    return "{ [ -s " + joined(job.results) + " ] && " + shell_word(program) + " merge --check " +
+           joined(job.results) + " >/dev/null 2>&1; }";
 }
 
 // `merge` is the job that a part is for: its result makes the part superfluous.
 JobLine line_of(const Job& job, const Job* merge, const std::string& program, const std::string& folder) {
     const std::string run = shell_word(program) + " " + joined(job.words);
-    JobLine line{.name = job.name, .proof = proof_of(job, folder), .is_part = job.is_part};
-    if (!job.is_part)
-        line.text =
-            all_there(line.proof) + " || { " + run + " && : > " + shell_word(done_file(job, folder)) + "; }";
-    else
-        line.text =
-            shell_word(program) + " merge --check " + joined(job.results) + " >/dev/null 2>&1 || " + run;
+    JobLine line{.name = job.name, .proof = job.results};
+    if (job.is_part) {
+        line.check = part_check(job, program);
+        line.text = line.check + " || { " + run + " && { " + line.check +
+                    " || { echo no whole result: " + joined(job.results) + " >&2; false; }; }; }";
+    } else {
+        line.check = results_check(job, folder);
+        line.text = line.check + " || { " + run + " && cksum " + joined(job.results) + " > " +
+                    shell_word(done_file(job, folder)) + "; }";
+    }
     if (merge) {
-        line.merged = proof_of(*merge, folder);
-        line.text = all_there(line.merged) + " || " + line.text;
+        const std::string merged = results_check(*merge, folder) + " || ";
+        line.check = merged + line.check;
+        line.text = merged + line.text;
+        line.merged = merge->results;
     }
     return line;
 }
@@ -121,6 +130,10 @@ std::vector<std::string> words_without(std::span<const std::string> words,
 }
 
 bool JobLine::is_done() const {
+    return run_program({"/bin/sh", "-c", check}, "/dev/null") == 0;
+}
+
+bool JobLine::seems_done() const {
     const auto are_there = [](const std::vector<std::string>& files) {
         std::error_code ec;
         return std::ranges::all_of(files, [&](const std::string& file) { return fs::exists(file, ec); });

@@ -1,6 +1,6 @@
 #pragma once
 // What there is to do, as shell lines: each runs alone, in any order, and does nothing when its result is
-// there.
+// there and whole.
 
 #include <filesystem>
 #include <optional>
@@ -17,9 +17,9 @@ struct Job {
     std::string name;                  ///< for people
     std::string hash;                  ///< of all that the results depend on
     std::vector<std::string> words;    ///< of the command line, without the program
-    std::vector<std::string> results;  ///< files; the job is done when all are there
+    std::vector<std::string> results;  ///< files; the job is done when all are whole
     /// The results are a part, which says itself whether it is whole. Otherwise a file in done/, named by the
-    /// hash, says that the results are of this content.
+    /// hash, has their checksums: the results are of this content and as they were written.
     bool is_part = false;
 };
 
@@ -42,10 +42,13 @@ struct JobPlan {
 
 struct JobLine {
     std::string name, text;
-    std::vector<std::string> proof;   ///< files that are all there when it is done
+    std::string check;                ///< shell text: true when it is done
+    std::vector<std::string> proof;   ///< the results
     std::vector<std::string> merged;  ///< of a part: those of the picture, which makes it superfluous
-    bool is_part = false;
+    /// Runs the check, which reads all results.
     [[nodiscard]] bool is_done() const;
+    /// Whether files are there, whatever they hold: cheap, for a display of progress.
+    [[nodiscard]] bool seems_done() const;
 };
 
 /// All plans as lines: work, then merges.

@@ -7,7 +7,6 @@
 #include "dermis/base/file.h"
 #include "dermis/base/process.h"
 #include "dermis/base/text.h"
-#include "dermis/jobs/part.h"
 
 namespace dermis {
 namespace {
@@ -93,14 +92,6 @@ std::vector<size_t> open_lines(const std::vector<JobLine>& lines) {
     return open;
 }
 
-// After an attempt that failed: a part that is there and damaged is made again.
-void remove_damaged_parts(const std::vector<JobLine>& lines) {
-    std::error_code ec;
-    for (const JobLine& line : lines)
-        for (const std::string& file : line.proof)
-            if (line.is_part && fs::exists(file, ec) && !read_part(file)) fs::remove(file, ec);
-}
-
 // One round: submits what is open and waits. The jobs' numbers are added to the outcome.
 Result<void> run_round(const JobLists& lists, const SlurmRun& run, SlurmOutcome& outcome) {
     Cluster cluster(run);
@@ -117,8 +108,10 @@ Result<void> run_round(const JobLists& lists, const SlurmRun& run, SlurmOutcome&
     while (run.wait && cluster.is_busy(jobs)) {
         outcome.stopped = run.stop && run.stop->load();
         if (outcome.stopped) return {};
-        const size_t open = open_lines(lists.work).size() + open_lines(lists.merges).size();
-        if (run.progress) run.progress(double(all - open) / double(all));
+        const auto seem_done = [](const std::vector<JobLine>& lines) {
+            return std::ranges::count_if(lines, &JobLine::seems_done);
+        };
+        if (run.progress) run.progress(double(seem_done(lists.work) + seem_done(lists.merges)) / double(all));
         std::this_thread::sleep_for(kQueuePoll);
     }
     return {};
@@ -146,7 +139,6 @@ Result<SlurmOutcome> run_on_slurm(const JobLists& lists, const SlurmRun& run) {
             return written.error();
     SlurmOutcome outcome;
     for (int attempt = 0; attempt < run.attempts; ++attempt) {
-        if (attempt > 0) remove_damaged_parts(lists.work);
         const size_t open = open_lines(lists.work).size();
         if (open + open_lines(lists.merges).size() == 0) return outcome;
         if (attempt > 0) outcome.repeated += open;

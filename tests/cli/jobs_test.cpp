@@ -45,7 +45,7 @@ class Jobs : public testing::Test {
     std::string content(const std::string& name) { return slurp((directory_.path / name).string()); }
     // commands.txt, and the picture by one run as one.exr.
     void write_commands() {
-        file("commands.txt", "# one picture\n\ndermis " + std::string(kJobsPicture) +
+        file("commands.txt", "\xef\xbb\xbf# one picture\n\ndermis " + std::string(kJobsPicture) +
                                  "-o 'out/a b.exr' --preview out/a.png\n");
         expect_success(DERMIS_PROGRAM " " + std::string(kJobsPicture) + "-o one.exr --preview one.png");
     }
@@ -97,6 +97,21 @@ TEST_F(Jobs, a_damaged_part_is_made_again_and_no_other) {
     expect_success("rm out/jobs/parts/* && " + run + " && [ -z \"$(ls out/jobs/parts)\" ]");
 }
 
+TEST_F(Jobs, a_picture_that_was_emptied_is_made_again_and_nothing_written_is_nothing_done) {
+    write_commands();
+    const std::string run = DERMIS_PROGRAM " jobs commands.txt --folder out/jobs --parts 2 --runner local";
+    const ProgramResult nothing = shell(run + " --program /bin/true");
+    EXPECT_EQ(nothing.exit_code, 1);
+    EXPECT_THAT(nothing.err, HasSubstr("no whole result: out/jobs/parts/"));
+    EXPECT_EQ(nothing.out, "");
+    expect_success(run);
+    for (const char* damage : {": > 'out/a b.exr'", "truncate -s 900 out/a.png"}) {
+        expect_success(damage);
+        expect_success(run);
+        expect_the_picture();
+    }
+}
+
 TEST_F(Jobs, a_line_that_fails_says_why_and_the_others_are_done) {
     file("commands.txt",
          "reference spheres --size 8x8 --samples 8 -o out/a.exr\nreference spheres --size 8x8 --samples 8 "
@@ -123,9 +138,10 @@ TEST_F(Jobs, frames_and_comparisons_are_lines_too) {
     const std::string work = content("out/jobs/work.txt");
     EXPECT_EQ(std::count(work.begin(), work.end(), '\n'), 4);
     EXPECT_THAT(work, HasSubstr("-o out/turn/%04d.png --frame-range 0:2 && "));
-    EXPECT_THAT(work, HasSubstr("ls out/turn/0002.png out/turn/0003.png out/turn/0004.png out/jobs/done/"));
-    EXPECT_THAT(work, HasSubstr("ls out/compare/scores.csv out/compare/regions.csv out/jobs/done/"));
-    EXPECT_THAT(work, HasSubstr("{ dermis render spheres -o out/still.png && : > out/jobs/done/"));
+    EXPECT_THAT(work, HasSubstr("cksum out/turn/0002.png out/turn/0003.png out/turn/0004.png 2>/dev/null"));
+    EXPECT_THAT(work, HasSubstr("cksum out/compare/scores.csv out/compare/regions.csv 2>/dev/null"));
+    EXPECT_THAT(
+        work, HasSubstr("{ dermis render spheres -o out/still.png && cksum out/still.png > out/jobs/done/"));
     // The hash is of the content.
     shell("sed -i 's/lambert -o/wrap -o/' commands.txt && " DERMIS_PROGRAM
           " jobs commands.txt --parts 2 --program dermis");

@@ -35,7 +35,7 @@ struct Workshop {
                 program = (directory.path / "append it").string();
 
     Workshop() {
-        std::ofstream(program) << "#!/bin/sh\n[ \"$1\" = merge ] && exit 1\necho \"$2\" >> \"$1\"\n";
+        std::ofstream(program) << "#!/bin/sh\n[ \"$1\" = merge ] && exit\necho \"$2\" >> \"$1\"\n";
         fs::permissions(program, fs::perms::owner_all);
     }
     [[nodiscard]] Job job(const std::string& name) const {
@@ -101,6 +101,34 @@ TEST(JobLines, do_nothing_when_their_result_is_there) {
     EXPECT_EQ(shell("sh " + shop.folder + "/work.txt"), 0);
     EXPECT_EQ(shop.content("one"), "a 'word'\na 'word'\n");
     EXPECT_EQ(shop.content("two"), "a 'word'\n");
+}
+
+TEST(JobLines, what_was_emptied_cut_or_changed_is_not_done) {
+    Workshop shop;
+    const JobPlan plan{.work = {shop.job("one")}};
+    const JobLists lists = job_lists({&plan, 1}, shop.program, shop.folder);
+    ASSERT_TRUE(write_job_lists(lists, shop.folder));
+    const std::string run = "sh " + shop.folder + "/work.txt";
+    for (const char* damage : {": > ", "printf x > ", "printf x >> ", "rm "}) {
+        EXPECT_EQ(shell(run), 0);
+        EXPECT_TRUE(lists.work[0].is_done());
+        EXPECT_EQ(shell(damage + (shop.directory.path / "one").string()), 0);
+        EXPECT_FALSE(lists.work[0].is_done()) << damage;
+    }
+    // An empty mark beside a result that is missing.
+    EXPECT_EQ(shell(": > '" + shop.folder + "/done/hash of one'"), 0);
+    EXPECT_FALSE(lists.work[0].is_done());
+}
+
+TEST(JobLines, a_program_that_writes_nothing_has_done_nothing) {
+    Workshop shop;
+    JobPlan plan{.work = {shop.job("part")}, .merge = shop.job("picture")};
+    plan.work[0].is_part = true;
+    const JobLists lists = job_lists({&plan, 1}, "/bin/true", shop.folder);
+    ASSERT_TRUE(write_job_lists(lists, shop.folder));
+    for (const char* name : {"/work.txt", "/merge.txt"}) EXPECT_NE(shell("sh " + shop.folder + name), 0);
+    EXPECT_FALSE(lists.work[0].is_done());
+    EXPECT_FALSE(lists.merges[0].is_done());
 }
 
 TEST(JobLines, parts_of_a_picture_that_is_there_are_done) {
