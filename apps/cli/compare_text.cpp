@@ -33,8 +33,11 @@ void print_table(const Comparison& comparison) {
                 "rmse", "flip", "dE2000", "ms");
     for (const Compared& row : comparison.rows) {
         const Captured& c = row.captured;
-        std::printf("%-48s %8s %6.3f %7s %7s %7s %9.5f %7.4f %7.3f %9.2f\n", row.contestant.name().c_str(),
-                    share_text(c.all).c_str(), c.all.error, share_text(c.channels[0]).c_str(),
+        // Without an effect there is nothing to be uncertain of.
+        char error[16] = "-";
+        if (std::isfinite(c.all.error)) std::snprintf(error, sizeof error, "%.3f", c.all.error);
+        std::printf("%-48s %8s %6s %7s %7s %7s %9.5f %7.4f %7.3f %9.2f\n", row.contestant.name().c_str(),
+                    share_text(c.all).c_str(), error, share_text(c.channels[0]).c_str(),
                     share_text(c.channels[1]).c_str(), share_text(c.channels[2]).c_str(), row.scores.rmse,
                     row.scores.flip, row.scores.delta_e_2000, row.cost.time_ms);
     }

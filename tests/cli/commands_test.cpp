@@ -88,6 +88,18 @@ TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_truth_once) {
                 HasSubstr("\nbuiltin:spheres,preintegrated,diffuse=closed_form,"));
 }
 
+TEST_F(Commands, compare_of_a_scene_without_light_prints_no_nan) {
+    const ProgramResult result = dermis(
+        "compare spheres --scene light.key.intensity=0 --scene environment.kind=none -t lambert,wrap --size "
+        "16 "
+        "--samples-per-pixel 4 --samples 8 --frames 1 -o " +
+        path("dark"));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+    for (const char* name : {"dark/scores.csv", "dark/regions.csv"})
+        EXPECT_EQ(slurp(path(name)).find("nan"), std::string::npos) << slurp(path(name));
+}
+
 TEST_F(Commands, compare_of_the_unit_scenes_has_the_exact_answer_beside_the_techniques) {
     const ProgramResult result = dermis(
         "compare unit --scene mesh.shape=relief_5mm -t lambert --size 16x16 --samples-per-pixel 4 "
