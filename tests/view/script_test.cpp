@@ -1,4 +1,5 @@
 #include "dermis/view/script.h"
+#include "dermis/view/script_player.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
