@@ -139,7 +139,9 @@ Result<void> check_flag(std::span<const std::byte> file, const Convention& conve
 }  // namespace
 
 fs::path sidecar_path(const fs::path& path) {
-    return path.string() + ".json";
+    fs::path beside = path;
+    beside += ".json";
+    return beside;
 }
 
 Result<TableStorage> storage_for(const fs::path& path, TableStorage storage) {

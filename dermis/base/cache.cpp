@@ -1,10 +1,8 @@
 #include "dermis/base/cache.h"
 
-#include <cstdlib>
-#include <cstring>
-
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
+#include "dermis/base/system/system.h"
 
 namespace dermis {
 namespace fs = std::filesystem;
@@ -24,13 +22,8 @@ fs::path entry_path(std::string_view kind, std::string_view hash) {
 }  // namespace
 
 fs::path cache_directory() {
-    const auto from_environment = [](const char* name) -> fs::path {
-        const char* value = std::getenv(name);
-        return value ? value : "";
-    };
-    if (const fs::path own = from_environment("DERMIS_CACHE"); !own.empty()) return own;
-    if (const fs::path xdg = from_environment("XDG_CACHE_HOME"); !xdg.empty()) return xdg / "dermis";
-    if (const fs::path home = from_environment("HOME"); !home.empty()) return home / ".cache" / "dermis";
+    if (const fs::path own = system::environment_path("DERMIS_CACHE"); !own.empty()) return own;
+    if (const fs::path user = system::user_cache_directory(); !user.empty()) return user;
     return fs::temp_directory_path() / "dermis-cache";
 }
 

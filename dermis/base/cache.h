@@ -1,7 +1,7 @@
 #pragma once
 // The disk cache of everything expensive, by content hash: $DERMIS_CACHE, else $XDG_CACHE_HOME/dermis, else
-// ~/.cache/dermis. Deleting it is always safe. A file that cannot be written is no error: the work is done
-// again.
+// ~/.cache/dermis (Windows: %LOCALAPPDATA%/dermis/cache). Deleting it is always safe. A file that cannot be
+// written is no error: the work is done again.
 
 #include <filesystem>
 #include <functional>

@@ -1,39 +1,22 @@
 #include "dermis/base/file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cerrno>
-#include <csignal>
-#include <cstring>
 #include <deque>
-#include <utility>
+
+#include "dermis/base/system/system.h"
 
 namespace dermis {
 namespace fs = std::filesystem;
 namespace {
-
-std::string errno_text() {
-    return std::strerror(errno);
-}
-
-struct Descriptor {
-    int fd = -1;
-    ~Descriptor() {
-        if (fd >= 0) ::close(fd);
-    }
-};
 
 // The temporary files that exist now, where a signal handler can read them: it may neither lock nor allocate.
 // A file beyond the slots, or with a longer path, is not removed by a signal.
 struct Slot {
     enum State { unused, filling, filled };
     std::atomic<State> state = unused;
-    char path[1024] = {};
+    fs::path::value_type path[1024] = {};
 };
 std::array<Slot, 32> g_slots;
 
@@ -42,14 +25,18 @@ class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& target) : path_(target) {
         static std::atomic<unsigned> counter = 0;
-        path_.replace_filename("." + target.stem().string() + ".part" + std::to_string(::getpid()) + "-" +
-                               std::to_string(counter++) + target.extension().string());
-        const std::string text = path_.string();
+        path_.replace_filename(".");
+        path_ += target.stem();
+        path_ += ".part" + std::to_string(system::process_id()) + "-" + std::to_string(counter++);
+        path_ += target.extension();
+        const fs::path::string_type& text = path_.native();
         for (Slot& slot : g_slots) {
             Slot::State free = Slot::unused;
-            if (text.size() >= sizeof slot.path || !slot.state.compare_exchange_strong(free, Slot::filling))
+            if (text.size() >= std::size(slot.path) ||
+                !slot.state.compare_exchange_strong(free, Slot::filling))
                 continue;
-            std::memcpy(slot.path, text.c_str(), text.size() + 1);
+            std::ranges::copy(text, slot.path);
+            slot.path[text.size()] = 0;
             slot.state = Slot::filled;
             slot_ = &slot;
             break;
@@ -69,27 +56,6 @@ class TemporaryFile {
     Slot* slot_ = nullptr;
 };
 
-extern "C" void remove_temporary_files_and_end(int signal) {
-    remove_temporary_files();
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-}
-
-Result<void> write_all(const fs::path& path, std::span<const std::byte> bytes) {
-    Descriptor file{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
-    if (file.fd < 0) return Error{errno_text()};
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(file.fd, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return Error{errno_text()};
-        bytes = bytes.subspan(size_t(written));
-    }
-    if (::fsync(file.fd) != 0 && errno != EINVAL) return Error{errno_text()};
-    const int closing = std::exchange(file.fd, -1);
-    if (::close(closing) != 0) return Error{errno_text()};
-    return {};
-}
-
 Result<void> make_parent(const fs::path& path) {
     if (!path.has_parent_path()) return {};
     std::error_code ec;
@@ -101,26 +67,27 @@ Result<void> make_parent(const fs::path& path) {
 // Reads to the end: the system says 0 for the size of some files (/proc).
 template <class Container>
 Result<Container> read_into(const fs::path& path) {
-    // Opening a pipe would wait for its writer.
-    Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-    if (file.fd < 0) return Error{path.string() + ": cannot open: " + errno_text()};
-    struct stat status {};
-    if (::fstat(file.fd, &status) != 0) return Error{path.string() + ": cannot read: " + errno_text()};
-    if (S_ISDIR(status.st_mode)) return Error{path.string() + ": is a directory, not a file"};
-    if (!S_ISREG(status.st_mode))
+    system::InputFile file;
+    if (Result<void> opened = file.open(path); !opened)
+        return Error{path.string() + ": cannot open: " + opened.error().message};
+    uint64_t size = 0;
+    const Result<system::InputFile::Kind> kind = file.kind(size);
+    if (!kind) return Error{path.string() + ": cannot read: " + kind.error().message};
+    if (*kind == system::InputFile::Kind::directory)
+        return Error{path.string() + ": is a directory, not a file"};
+    if (*kind == system::InputFile::Kind::other)
         return Error{path.string() + ": is a pipe, device or socket, not a file; copy it to a file first"};
     Container content;
     size_t filled = 0;
     for (;;) {
-        if (filled > kMaxFileBytes || uint64_t(status.st_size) > kMaxFileBytes)
+        if (filled > kMaxFileBytes || size > kMaxFileBytes)
             return Error{path.string() + ": larger than 2 GiB, which no input of dermis is"};
-        if (filled == content.size())
-            content.resize(std::max<size_t>(size_t(status.st_size) + 1, filled * 2 + 4096));
-        const ssize_t got = ::read(file.fd, content.data() + filled, content.size() - filled);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return Error{path.string() + ": cannot read: " + errno_text()};
-        if (got == 0) break;
-        filled += size_t(got);
+        if (filled == content.size()) content.resize(std::max<size_t>(size_t(size) + 1, filled * 2 + 4096));
+        const Result<size_t> got =
+            file.read(std::as_writable_bytes(std::span(content.data() + filled, content.size() - filled)));
+        if (!got) return Error{path.string() + ": cannot read: " + got.error().message};
+        if (*got == 0) break;
+        filled += *got;
     }
     content.resize(filled);
     return content;
@@ -148,13 +115,14 @@ Result<void> write_beside(const fs::path& path, const std::function<Result<void>
     const TemporaryFile temporary(path);
     const Result<void> written = write(temporary.path());
     if (!written) return Error{path.string() + ": cannot write: " + written.error().message};
-    fs::rename(temporary.path(), path, ec);
+    ec = system::replace_file(temporary.path(), path);
     if (ec) return Error{path.string() + ": cannot write: " + ec.message()};
     return {};
 }
 
 Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
-    return write_beside(path, [&](const fs::path& temporary) { return write_all(temporary, bytes); });
+    return write_beside(path,
+                        [&](const fs::path& temporary) { return system::write_through(temporary, bytes); });
 }
 
 Result<void> write_files(std::span<const FileContent> files) {
@@ -172,7 +140,8 @@ Result<void> write_files(std::span<const FileContent> files) {
         }
         if (Result<void> made = make_parent(file.path); !made) return made;
         renamed.push_back(&file);
-        const Result<void> written = write_all(temporaries.emplace_back(file.path).path(), file.bytes);
+        const Result<void> written =
+            system::write_through(temporaries.emplace_back(file.path).path(), file.bytes);
         if (!written) return Error{file.path.string() + ": cannot write: " + written.error().message};
     }
     std::vector<const fs::path*> made;  // did not exist before
@@ -180,9 +149,7 @@ Result<void> write_files(std::span<const FileContent> files) {
     for (size_t i = 0; i < renamed.size(); ++i) {
         const fs::path& path = renamed[i]->path;
         const bool is_new = !fs::exists(path, ec);
-        fs::rename(temporaries[i].path(), path, ec);
-        if (ec) {
-            const std::error_code reason = ec;
+        if (const std::error_code reason = system::replace_file(temporaries[i].path(), path)) {
             for (const fs::path* file : made) fs::remove(*file, ec);
             return Error{path.string() + ": cannot write: " + reason.message()};
         }
@@ -203,7 +170,7 @@ Result<void> try_output(const fs::path& path) {
     Result<void> tried = make_parent(path);
     if (tried) {
         const TemporaryFile trial(path);
-        tried = write_all(trial.path(), {});
+        tried = system::write_through(trial.path(), {});
         if (!tried) tried = Error{path.string() + ": cannot write: " + tried.error().message};
     }
     for (const fs::path& made : missing) fs::remove(made, ec);
@@ -212,13 +179,11 @@ Result<void> try_output(const fs::path& path) {
 
 void remove_temporary_files() noexcept {
     for (const Slot& slot : g_slots)
-        if (slot.state == Slot::filled) ::unlink(slot.path);
+        if (slot.state == Slot::filled) system::remove_file(slot.path);
 }
 
 void remove_temporary_files_on_signals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        if (std::signal(signal, remove_temporary_files_and_end) == SIG_IGN)
-            std::signal(signal, SIG_IGN);  // nohup
+    system::before_the_end(remove_temporary_files);
 }
 
 Result<void> write_text_file(const fs::path& path, std::string_view text) {

@@ -14,6 +14,11 @@
 
 namespace dermis {
 
+/// The path of a name in UTF-8, which names inside of files and in arguments are. std::filesystem::path takes
+/// plain text for the system's encoding, and on Windows that is another one. Where bytes are no UTF-8,
+/// Windows gets U+FFFD.
+[[nodiscard]] std::filesystem::path utf8_path(std::string_view name);
+
 /// Largest file any loader reads, so that a wrong path (a device, a disk image) cannot exhaust memory.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 

@@ -1,8 +1,8 @@
 #include "dermis/base/progress.h"
 
-#include <unistd.h>
-
 #include <cstdio>
+
+#include "dermis/base/system/system.h"
 
 namespace dermis {
 
@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 Progress::Progress(std::string what, size_t total)
     : what_(std::move(what)),
       total_(total),
-      terminal_(::isatty(STDERR_FILENO) == 1),
+      terminal_(system::stderr_is_terminal()),
       start_(Clock::now()),
       last_(start_) {}
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 
+#include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/obj.h"
 #include "dermis/mesh/text_cursor.h"
@@ -251,7 +252,7 @@ class MtlParser {
         if (target == &materials_.back().normal_map && map.bump_scale)
             materials_.back().normal_scale = *map.bump_scale;
         set_constant_beside(keyword);
-        target->name = (directory_ / map.file).string();
+        target->name = (directory_ / utf8_path(map.file)).generic_string();
         target->named_by = name_;
         target->wrap_u = target->wrap_v = map.clamps ? TextureWrap::clamp : TextureWrap::repeat;
     }

@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/text_cursor.h"
 
@@ -165,8 +166,8 @@ class ObjParser {
             return;
         }
         const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-        const std::filesystem::path path = name_.parent_path() / library;
-        for (Material& material : parse_mtl(text, path.string(), path.parent_path(), file_.warnings))
+        const std::filesystem::path path = name_.parent_path() / utf8_path(library);
+        for (Material& material : parse_mtl(text, path.generic_string(), path.parent_path(), file_.warnings))
             library_.insert_or_assign(material.name, std::move(material));
     }
 

@@ -165,7 +165,7 @@ Result<LoadedMesh> read_mesh(const fs::path& path, const MeshOptions& options) {
     if (!bytes) return bytes.error();
     std::vector<fs::path> files = {path};
     const ReadSibling read_sibling = [&](const std::string& relative_path) {
-        return read_file(files.emplace_back(path.parent_path() / relative_path));
+        return read_file(files.emplace_back(path.parent_path() / utf8_path(relative_path)));
     };
     Result<LoadedMesh> loaded = parse_mesh(*bytes, *format, path, read_sibling, options);
     if (loaded) loaded->files = std::move(files);

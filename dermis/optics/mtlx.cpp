@@ -82,8 +82,8 @@ class SurfaceReader {
         note_what_is_left();
         const Result<BurleyProfile> burley = to_canonical(settings_);
         if (!burley) return Error{at_surface() + burley.error().message};
-        return Profile{std::filesystem::path(place_).stem().string(),
-                       printable_line(place_ + ": " + join(notes_, "; ")), *burley};
+        return Profile{utf8_path(place_).stem().string(), printable_line(place_ + ": " + join(notes_, "; ")),
+                       *burley};
     }
 
     Result<MtlxSurface> read_surface() {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/burley_scaling.h"
 #include "dermis/optics/gltf_profile.h"
@@ -157,7 +158,7 @@ std::vector<std::string> profile_names() {
 }
 
 bool is_profile_file(std::string_view name) {
-    const std::string extension = to_lower(std::filesystem::path(name).extension().string());
+    const std::string extension = to_lower(utf8_path(name).extension().string());
     return extension == ".csv" || extension == ".mtlx" || extension == ".glb" || extension == ".gltf";
 }
 
@@ -167,9 +168,10 @@ Result<Profile> find_profile(std::string_view name) {
     if (name.starts_with("burley:")) return burley_from_lengths(name);
     if (is_profile_file(name)) {
         const std::string lower = to_lower(name);
-        return lower.ends_with(".csv")    ? read_profile_csv(name)
-               : lower.ends_with(".mtlx") ? read_mtlx(name)
-                                          : read_gltf_profile(name);
+        const std::filesystem::path path = utf8_path(name);
+        return lower.ends_with(".csv")    ? read_profile_csv(path)
+               : lower.ends_with(".mtlx") ? read_mtlx(path)
+                                          : read_gltf_profile(path);
     }
     return Error{unknown_name("profile", name, profile_names()) +
                  ", or a .csv, .mtlx, .glb or .gltf file, or burley:d_mm"};

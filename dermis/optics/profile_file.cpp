@@ -79,7 +79,7 @@ std::string row_text(double first, const std::array<double, 3>& rgb) {
 Result<Profile> parse_profile_csv(std::string_view text, std::string_view place) {
     const Result<Rows> rows = parse_rows(text, place);
     if (!rows) return rows.error();
-    const std::string name = std::filesystem::path(place).stem().string(), source(place);
+    const std::string name = utf8_path(place).stem().string(), source(place);
     if (!rows->is_sum) {
         Result<TabulatedProfile> table = TabulatedProfile::make(rows->first, rows->rgb, place);
         if (!table) return table.error();

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
 
+#include "support/environment.h"
 #include "support/temporary_directory.h"
 
 namespace {
@@ -13,12 +13,16 @@ class OwnCache : public testing::Environment {
   public:
     void SetUp() override {
         directory_ = std::make_unique<dermis::TemporaryDirectory>();
-        ::setenv("DERMIS_CACHE", directory_->path.c_str(), 1);
+        cache_ = std::make_unique<dermis::EnvironmentVariable>("DERMIS_CACHE", directory_->path.string());
     }
-    void TearDown() override { directory_.reset(); }
+    void TearDown() override {
+        cache_.reset();
+        directory_.reset();
+    }
 
   private:
     std::unique_ptr<dermis::TemporaryDirectory> directory_;
+    std::unique_ptr<dermis::EnvironmentVariable> cache_;
 };
 
 testing::Environment* const kOwnCache = testing::AddGlobalTestEnvironment(new OwnCache);

@@ -75,7 +75,7 @@ constexpr Evidence kPackageEvidence[] = {
 const std::set<std::string> kOwnCmakeNames = {"Threads", "ccache", "dermis"};
 // Folders and files of the C library; a header without '.' or '/' is C++'s own.
 const std::regex kSystemHeader(
-    R"((sys/.*|fnmatch\.h|unistd\.h|spawn\.h|signal\.h|fcntl\.h|std(lib|io)\.h|poll\.h|dlfcn\.h|pthread\.h|errno\.h))");
+    R"((sys/.*|fnmatch\.h|unistd\.h|spawn\.h|signal\.h|fcntl\.h|std(lib|io)\.h|poll\.h|dlfcn\.h|pthread\.h|errno\.h|windows\.h|shellapi\.h))");
 
 std::set<std::string> words(const std::string& text) {
     std::istringstream stream(text);

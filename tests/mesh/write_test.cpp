@@ -146,6 +146,17 @@ TEST(WriteObj, reads_back_as_it_was) {
         EXPECT_NEAR(back.uvs[b].y, mesh.uvs[a].y, 1e-6);
     }
     EXPECT_EQ(back.materials[0].roughness, 0.35f);
-    EXPECT_EQ(back.materials[0].base_color_map.name, (dir.path / "maps/colour.png").string());
+    EXPECT_EQ(back.materials[0].base_color_map.name, (dir.path / "maps/colour.png").generic_string());
     EXPECT_EQ(back.materials[1].name, "left_eye");
+}
+
+TEST(WriteObj, its_name_and_its_librarys_are_utf_8) {
+    const TemporaryDirectory dir;
+    const std::filesystem::path path = dir.path / utf8_path("h\xc3\xa4ut.obj");
+    ASSERT_TRUE(write_obj(path, skin_sphere()));
+    const auto loaded = read_mesh(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_TRUE(loaded->warnings.empty() || loaded->warnings[0].find("library") == std::string::npos)
+        << loaded->warnings[0];
+    EXPECT_EQ(loaded->mesh.materials[0].roughness, 0.35f) << "the library was read";
 }

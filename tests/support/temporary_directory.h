@@ -1,9 +1,9 @@
 #pragma once
 // A directory that lives as long as a test.
 
-#include <stdlib.h>
-
 #include <filesystem>
+#include <iterator>
+#include <random>
 #include <string>
 
 namespace dermis {
@@ -11,8 +11,9 @@ namespace dermis {
 struct TemporaryDirectory {
     std::filesystem::path path;
     TemporaryDirectory() {
-        std::string name = (std::filesystem::temp_directory_path() / "dermis-test-XXXXXX").string();
-        path = ::mkdtemp(name.data());
+        std::random_device random;
+        do path = std::filesystem::temp_directory_path() / ("dermis-test-" + std::to_string(random()));
+        while (!std::filesystem::create_directory(path));
     }
     ~TemporaryDirectory() {
         std::error_code ec;
@@ -20,6 +21,10 @@ struct TemporaryDirectory {
     }
     TemporaryDirectory(const TemporaryDirectory&) = delete;
     TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+    [[nodiscard]] size_t file_count() const {
+        return size_t(std::distance(std::filesystem::directory_iterator(path), {}));
+    }
 };
 
 }  // namespace dermis

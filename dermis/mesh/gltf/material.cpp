@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/gltf/texture.h"
 
@@ -222,7 +223,7 @@ class MaterialReader {
         if (!stays_inside(path))
             return source.fail("uri '" + path.substr(0, 200) + "' leaves the file's directory"),
                    ImageSource{};
-        return {.name = (document_.directory / path).string(),
+        return {.name = (document_.directory / utf8_path(path)).generic_string(),
                 .encoded = {},
                 .named_by = document_.messages.file};
     }

@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include "dermis/base/file.h"
+
 namespace dermis::gltf {
 namespace {
 
@@ -118,7 +120,7 @@ class MaterialWriter {
             error_ = Error{"the map '" + source.name + "' is neither PNG nor JPEG"};
         if (error_) return;
         Json image;
-        image["name"] = std::filesystem::path(source.name).filename().string();
+        image["name"] = utf8_path(source.name).filename().string();
         image["mimeType"] = mime;
         image["bufferView"] = glb_.add_view(bytes, std::nullopt);
         glb_.root["images"].push_back(image);

@@ -1,0 +1,68 @@
+// What only POSIX has: pipes and devices in the file system, signals, fork.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "dermis/base/file.h"
+#include "dermis/base/process.h"
+#include "support/temporary_directory.h"
+
+namespace fs = std::filesystem;
+using namespace dermis;
+
+TEST(File, pipes_and_devices_are_refused_at_once) {
+    const TemporaryDirectory dir;
+    ASSERT_EQ(::mkfifo((dir.path / "pipe").c_str(), 0600), 0);
+    const auto message = [](const fs::path& path) {
+        const auto read = read_text_file(path);
+        return read ? "read it" : read.error().message;
+    };
+    EXPECT_NE(message(dir.path / "pipe").find("is a pipe, device or socket"), std::string::npos);
+    EXPECT_NE(message("/dev/zero").find("is a pipe, device or socket"), std::string::npos);
+    EXPECT_NE(message("/dev/null").find("is a pipe, device or socket"), std::string::npos);
+    if (fs::exists("/proc/self/status")) {
+        EXPECT_GT(read_text_file("/proc/self/status")->size(), 100u);
+    }
+}
+
+TEST(File, an_interrupt_while_writing_leaves_the_old_file_and_no_temporary_one) {
+    const TemporaryDirectory dir;
+    const fs::path path = dir.path / "a.txt";
+    ASSERT_TRUE(write_text_file(path, "old"));
+    const pid_t child = ::fork();
+    ASSERT_NE(child, -1);
+    if (child == 0) {
+        remove_temporary_files_on_signals();
+        (void)write_beside(path, [](const fs::path& temporary) -> Result<void> {
+            std::ofstream(temporary) << "half";
+            std::raise(SIGTERM);
+            return {};
+        });
+        ::_exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+    EXPECT_EQ(*read_text_file(path), "old");
+    EXPECT_EQ(dir.file_count(), 1u);
+}
+
+TEST(File, a_full_disk_is_an_error) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    EXPECT_FALSE(write_text_file("/dev/full", "x"));
+}
+
+TEST(Process, its_status_and_both_outputs_come_back) {
+    const TemporaryDirectory dir;
+    const fs::path log = dir.path / "log";
+    EXPECT_EQ(run_program({"sh", "-c", "echo \"$0\"; echo err >&2; exit 3", "a b\\\""}, log), 3);
+    EXPECT_EQ(*read_text_file(log), "a b\\\"\nerr\n");
+    const int none = run_program({"no-such-program-of-dermis"}, log);
+    EXPECT_TRUE(none == 127 || none == -1) << none;
+}
