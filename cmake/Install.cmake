@@ -9,18 +9,19 @@ include(CMakePackageConfigHelpers)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 
 set(data_dir ${CMAKE_INSTALL_DATADIR}/dermis)
-install(TARGETS dermis RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${data_dir} COMPONENT runtime FILES_MATCHING PATTERN *.toml)
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/get_head DESTINATION ${data_dir} COMPONENT runtime)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/dermis RENAME copyright
-    COMPONENT runtime)
+if(NOT DERMIS_LIBRARIES_ONLY)
+    install(TARGETS dermis RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${data_dir} COMPONENT runtime FILES_MATCHING PATTERN *.toml)
+    install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/get_head DESTINATION ${data_dir} COMPONENT runtime)
+    install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/dermis RENAME copyright
+        COMPONENT runtime)
+endif()
 
 get_property(installed GLOBAL PROPERTY DERMIS_INSTALLED)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dermis)
 foreach(folder ${installed})
     install(TARGETS dermis_${folder} EXPORT dermis ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-    # Headers in subfolders are a library's own.
-    file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/dermis/${folder}/*.h)
+    get_property(headers GLOBAL PROPERTY DERMIS_HEADERS_OF_${folder})
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dermis/${folder} COMPONENT development)
 endforeach()
 install(EXPORT dermis NAMESPACE dermis:: FILE dermis-targets.cmake DESTINATION ${package_dir} COMPONENT development)
@@ -32,4 +33,6 @@ install(FILES ${PROJECT_BINARY_DIR}/dermis-config.cmake ${PROJECT_BINARY_DIR}/de
     DESTINATION ${package_dir} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libdermis-dev RENAME copyright
     COMPONENT development)
-include(${CMAKE_CURRENT_LIST_DIR}/Package.cmake)
+if(NOT DERMIS_LIBRARIES_ONLY)
+    include(${CMAKE_CURRENT_LIST_DIR}/Package.cmake)
+endif()

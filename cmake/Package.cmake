@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries, headers and CMake package of Dermis, to bake its tables")
 # What dermis-config.cmake looks for, and what the libraries are linked with: static libraries name none of it.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libopenexr-dev, libpng-dev, libturbojpeg0-dev, libjpeg62-turbo-dev, \
-libfreetype-dev, libxxhash-dev, nlohmann-json3-dev, libfmt-dev, libosd-dev, libeigen3-dev, libpugixml-dev, pkg-config")
+libfreetype-dev, libosd-dev, libpugixml-dev")
 include(CPack)
 
 # The installed libraries are all linked into the program.

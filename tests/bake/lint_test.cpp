@@ -19,6 +19,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "support/temporary_directory.h"
+#include "test_parts.h"
 
 using namespace dermis;
 using namespace dermis::test;
@@ -51,6 +52,7 @@ TEST(Lint, an_exact_table_needs_nothing) {
 }
 
 TEST(Lint, the_unity_table_is_recognised_by_its_taps_and_its_direction) {
+    DERMIS_NEEDS(PNG);
     const TemporaryDirectory dir;
     ASSERT_TRUE(write_table(dir.path / "a.png", baked("unity_2011"), TableStorage::u8));
     const LintReport report = *lint_file(dir.path / "a.png");
@@ -67,6 +69,7 @@ TEST(Lint, the_unity_table_is_recognised_by_its_taps_and_its_direction) {
 }
 
 TEST(Lint, the_difference_encoding_of_faceworks_is_recognised) {
+    DERMIS_NEEDS(PNG);
     const TemporaryDirectory dir;
     ASSERT_TRUE(write_table(dir.path / "a.png", baked("faceworks"), TableStorage::u8));
     const LintReport report = *lint_file(dir.path / "a.png");
@@ -116,6 +119,7 @@ TEST(Lint, another_profile_over_radius_is_recognised) {
 }
 
 TEST(Lint, its_sidecar_lets_a_table_without_a_convention_be_read) {
+    DERMIS_NEEDS(PNG);
     const TemporaryDirectory dir;
     const auto path = dir.path / "ring.png";
     const Table table = baked("penner");
@@ -147,6 +151,7 @@ TEST(Lint, its_sidecar_lets_a_table_without_a_convention_be_read) {
 }
 
 TEST(Lint, says_the_range_of_the_file_it_reads_with_or_without_its_convention) {
+    DERMIS_NEEDS(PNG);
     const TemporaryDirectory dir;
     for (const char* name : {"dermis", "penner", "unity_2011", "faceworks"})
         for (const char* profile : {"gpu_gems_3", "openpbr_skin_5"}) {
@@ -182,6 +187,7 @@ TEST(Lint, says_the_range_of_the_file_it_reads_with_or_without_its_convention) {
 }
 
 TEST(Lint, rows_spaced_by_a_square_are_taken_from_the_files_convention) {
+    DERMIS_NEEDS(EXR);
     const TemporaryDirectory dir;
     LutOptions lut = *lut_options("dermis");
     lut.width = 64, lut.height = 32;
@@ -212,6 +218,7 @@ Image table_of_rows(Curvature curvature, PixelFormat format, const char* profile
 }  // namespace
 
 TEST(Lint, rows_spaced_by_a_square_are_recognised_from_either_end) {
+    DERMIS_NEEDS(EXR);
     for (const bool upwards : {false, true}) {
         const auto square = [&](double s) { return 0.5 * (upwards ? (1 - s) * (1 - s) : s * s); };
         const LintReport report = *lint_table(table_of_rows(square, PixelFormat::u8));
@@ -253,6 +260,7 @@ TEST(Lint, rows_of_another_spacing_are_said_to_be) {
 }
 
 TEST(Lint, numbers_that_contradict_their_convention_are_named) {
+    DERMIS_NEEDS(EXR);
     const TemporaryDirectory dir;
     Table table = baked("dermis");
     for (float& value : table.data) value = srgb_encode(value);

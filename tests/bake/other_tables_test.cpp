@@ -15,6 +15,7 @@
 #include "dermis/image/io.h"
 #include "dermis/optics/presets.h"
 #include "support/temporary_directory.h"
+#include "test_parts.h"
 
 using namespace dermis;
 
@@ -64,6 +65,7 @@ TEST(ZonalTable, the_remapped_layout_keeps_8_bit_values_within_half_a_step) {
 
 // The file itself, byte by byte, and what a reader gets from it.
 TEST(ZonalTable, the_remapped_png_reads_back_as_what_it_should_hold) {
+    DERMIS_NEEDS(PNG);
     const Profile profile = skin();
     const Preintegration how = {.construction = Construction::half_ring};
     const Table table = *bake_zonal_harmonics(

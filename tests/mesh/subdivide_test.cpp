@@ -9,6 +9,7 @@
 #include "dermis/mesh/uv_report.h"
 #include "dermis/mesh/weld.h"
 #include "mesh/mesh_files.h"
+#include "test_parts.h"
 
 using namespace dermis;
 using namespace dermis::test;
@@ -22,6 +23,7 @@ PolygonMesh cage_of(const std::string& text) {
 }  // namespace
 
 TEST(Subdivide, each_level_makes_four_quads_of_one) {
+    DERMIS_NEEDS(SUBDIVISION);
     const PolygonMesh cube = cage_of(kCubeObj);
     for (int level = 0; level <= 3; ++level) {
         const auto refined = subdivide(cube, level);
@@ -34,6 +36,7 @@ TEST(Subdivide, each_level_makes_four_quads_of_one) {
 }
 
 TEST(Subdivide, a_cubes_corner_goes_to_its_known_limit) {
+    DERMIS_NEEDS(SUBDIVISION);
     // For valence 3 the limit weighs the corner 9, each edge neighbour 4, each face's opposite corner 1, over
     // 24 (Halstead et al. 1993: n^2, 4 and 1 over n (n + 5)). By symmetry it lies on the diagonal.
     const auto refined = subdivide(cage_of(kCubeObj), 1);
@@ -47,6 +50,7 @@ TEST(Subdivide, a_cubes_corner_goes_to_its_known_limit) {
 }
 
 TEST(Subdivide, limit_positions_do_not_depend_on_the_level) {
+    DERMIS_NEEDS(SUBDIVISION);
     const PolygonMesh cube = cage_of(kCubeObj);
     const auto coarse = subdivide(cube, 1), fine = subdivide(cube, 3);
     ASSERT_TRUE(coarse && fine);
@@ -59,6 +63,7 @@ TEST(Subdivide, limit_positions_do_not_depend_on_the_level) {
 }
 
 TEST(Subdivide, limit_normals_agree_with_the_triangles) {
+    DERMIS_NEEDS(SUBDIVISION);
     const auto refined = subdivide(cage_of(kCubeObj), 4);
     ASSERT_TRUE(refined);
     Mesh mesh = triangulate(*refined), computed = mesh;
@@ -68,6 +73,7 @@ TEST(Subdivide, limit_normals_agree_with_the_triangles) {
 }
 
 TEST(Subdivide, uv_borders_stay_where_they_were) {
+    DERMIS_NEEDS(SUBDIVISION);
     // Two quads whose chart bends at (1, 0) and (1, 1) of the file: a smooth border would cut the bend.
     const auto refined =
         subdivide(cage_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
@@ -82,6 +88,7 @@ TEST(Subdivide, uv_borders_stay_where_they_were) {
 }
 
 TEST(Subdivide, materials_follow_their_faces_and_open_borders_stay) {
+    DERMIS_NEEDS(SUBDIVISION);
     const auto refined =
         subdivide(cage_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nusemtl a\nf 1 2 3 4\n"
                           "usemtl b\nf 2 5 6 3\n"),
@@ -95,12 +102,14 @@ TEST(Subdivide, materials_follow_their_faces_and_open_borders_stay) {
 }
 
 TEST(Subdivide, a_cage_of_triangles_tends_to_its_shape) {
+    DERMIS_NEEDS(SUBDIVISION);
     const auto refined = subdivide(polygons_of(make_sphere(10, 24)), 2);
     ASSERT_TRUE(refined) << refined.error().message;
     for (const Vec3& p : refined->positions_mm) EXPECT_NEAR(length(p), 10, 0.35);
 }
 
 TEST(Subdivide, what_cannot_be_refined_is_an_error) {
+    DERMIS_NEEDS(SUBDIVISION);
     EXPECT_FALSE(subdivide(cage_of(kCubeObj), -1));
     EXPECT_FALSE(subdivide(cage_of(kCubeObj), 6));
     const auto huge = subdivide(polygons_of(make_plane(1, 1, 200)), 5);
@@ -115,6 +124,7 @@ TEST(Subdivide, what_cannot_be_refined_is_an_error) {
 }
 
 TEST(Subdivide, copies_of_a_face_have_limits_but_no_normals) {
+    DERMIS_NEEDS(SUBDIVISION);
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int copy = 0; copy < 40; ++copy) text += "f 1 2 3\n";
     for (const int level : {1, 2}) {
@@ -129,6 +139,7 @@ TEST(Subdivide, copies_of_a_face_have_limits_but_no_normals) {
 }
 
 TEST(Subdivide, the_scanned_head_refines_with_its_uvs) {
+    DERMIS_NEEDS(SUBDIVISION);
     if (!std::filesystem::exists(asset("lee_perry_smith/head_quads.obj")))
         GTEST_SKIP() << "no test head here";
     const auto loaded =
@@ -140,6 +151,13 @@ TEST(Subdivide, the_scanned_head_refines_with_its_uvs) {
     EXPECT_NEAR(report.coverage, 0.917, 0.01);
     EXPECT_LT(report.overlap, 0.002);
     EXPECT_LT(report.charts, 20u) << "its UV corners are joined by value";
+}
+
+TEST(Subdivide, is_refused_where_it_is_not_built_in) {
+    if (DERMIS_WITH_SUBDIVISION) GTEST_SKIP() << "SUBDIVISION is built in";
+    EXPECT_TRUE(subdivide(cage_of(kCubeObj), 0));
+    EXPECT_EQ(subdivide(cage_of(kCubeObj), 1).error().message,
+              "subdivision is not built in; configure dermis with -DDERMIS_WITH_SUBDIVISION=ON");
 }
 
 TEST(Displace, lifts_along_the_normal_in_millimetres) {

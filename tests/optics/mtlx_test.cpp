@@ -8,8 +8,11 @@
 
 #include "dermis/optics/burley_scaling.h"
 #include "dermis/optics/presets.h"
+#include "test_parts.h"
 
 using namespace dermis;
+
+#if DERMIS_WITH_MATERIALX
 using testing::HasSubstr;
 
 namespace {
@@ -157,3 +160,12 @@ TEST(Mtlx, every_prefix_is_read_or_refused_in_one_line) {
         }
     }
 }
+
+#else
+
+TEST(Mtlx, a_profile_in_a_document_is_refused_where_it_is_not_built_in) {
+    EXPECT_EQ(find_profile("skin.mtlx").error().message,
+              "skin.mtlx: MaterialX is not built in; configure dermis with -DDERMIS_WITH_MATERIALX=ON");
+}
+
+#endif

@@ -215,11 +215,6 @@ bool ExrInput::read(char to[], int count) {
     return at_ < file_.size();
 }
 
-bool is_exr(Bytes file) {
-    constexpr uint32_t kExrMagic = 20000630;
-    return ByteReader(file).u32() == kExrMagic;
-}
-
 Result<LoadedImage> decode_exr(Bytes file, ImageUse use) {
     Result<LayeredImage> read = read_guarded(file, [use](const Layers& layers) -> Result<Layers> {
         Result<std::vector<Channel>> plain = plain_channels(layers, use);

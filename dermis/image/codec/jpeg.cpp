@@ -40,11 +40,6 @@ struct Decompressor {
 
 }  // namespace
 
-bool is_jpeg(Bytes file) {
-    return file.size() >= 3 && file[0] == std::byte{0xff} && file[1] == std::byte{0xd8} &&
-           file[2] == std::byte{0xff};
-}
-
 Result<LoadedImage> decode_jpeg(Bytes file, ImageUse use) {
     const Decompressor decompressor;
     if (!decompressor.handle) return Error{"libjpeg-turbo has no memory"};

@@ -116,10 +116,6 @@ Error corrupt(const Reader& r) {
 
 }  // namespace
 
-bool is_png(Bytes file) {
-    return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
-}
-
 Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
     if (Result<void> whole = check_chunks(file); !whole) return whole.error();
     Reader r;

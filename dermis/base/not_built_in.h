@@ -1,0 +1,15 @@
+#pragma once
+// The one wording for what was left out when the libraries were built (cmake/Parts.cmake).
+
+#include <string>
+
+#include "dermis/base/result.h"
+
+namespace dermis {
+
+/// "PNG is not built in; configure dermis with -DDERMIS_WITH_PNG=ON"
+[[nodiscard]] inline Error not_built_in(const std::string& part, const std::string& option) {
+    return {part + " is not built in; configure dermis with -D" + option + "=ON"};
+}
+
+}  // namespace dermis

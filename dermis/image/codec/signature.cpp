@@ -1,0 +1,25 @@
+// The first bytes of the formats that a library reads: they are told apart without it.
+
+#include "dermis/image/codec/codec.h"
+
+namespace dermis::codec {
+namespace {
+
+bool starts_with_bytes(Bytes file, std::string_view signature) {
+    return file.size() >= signature.size() &&
+           std::memcmp(file.data(), signature.data(), signature.size()) == 0;
+}
+
+}  // namespace
+
+bool is_png(Bytes file) {
+    return starts_with_bytes(file, "\x89PNG\r\n\x1a\n");
+}
+bool is_jpeg(Bytes file) {
+    return starts_with_bytes(file, "\xff\xd8\xff");
+}
+bool is_exr(Bytes file) {
+    return starts_with_bytes(file, "\x76\x2f\x31\x01");
+}
+
+}  // namespace dermis::codec
