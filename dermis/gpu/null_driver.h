@@ -7,8 +7,8 @@ namespace dermis::gpu {
 
 [[nodiscard]] bool null_driver_installed();
 
-/// `chip` is one of cost/card.h: RADV ends the process at a chip that it does not know. Error: no RADV on this machine, and what to
-/// install.
+/// `chip` is one of cost/card.h: RADV ends the process at a chip that it does not know. Error: no RADV on
+/// this machine, and what to install.
 [[nodiscard]] Result<Device> open_null_driver(std::string_view chip);
 
 }  // namespace dermis::gpu
