@@ -138,10 +138,10 @@ class MtlParser {
         if (keyword == "tf") return warn_of_filter(cursor), true;
         if (keyword == "kd" || keyword == "ke") {
             const float most = keyword == "kd" ? 1 : kMostEmission;
+            Vec3& color = keyword == "kd" ? material.base_color_linear : material.emission_linear;
             if (const auto read = read_color(cursor))
-                (keyword == "kd" ? material.base_color_linear : material.emission_linear) = {
-                    clamped(keyword, read->x, most), clamped(keyword, read->y, most),
-                    clamped(keyword, read->z, most)};
+                color = {clamped(keyword, read->x, most), clamped(keyword, read->y, most),
+                         clamped(keyword, read->z, most)};
             else
                 warn_once(std::string(keyword) + " is no number; not used");
             return true;
