@@ -205,10 +205,10 @@ Command* CommandLine::find(const std::string& name) {
     return nullptr;
 }
 
-void CommandLine::when_chosen(Command* command, FileLister files, Action run, Planner planner) {
-    command->app_->callback([this, files, run = Action(after_check(files, run)),
-                             planner = planner ? Planner(after_check(files, planner)) : Planner()] {
-        this->files = files;
+void CommandLine::when_chosen(Command* command, FileLister lister, Action run, Planner planner) {
+    command->app_->callback([this, lister, run = Action(after_check(lister, run)),
+                             planner = planner ? Planner(after_check(lister, planner)) : Planner()] {
+        files = lister;
         action = run;
         plan = planner;
     });

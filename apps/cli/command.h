@@ -108,9 +108,9 @@ class CommandLine {
                  Command* parent = nullptr);
     /// `dermis NAME` if it was added already, otherwise null.
     Command* find(const std::string& name);
-    /// `files` are checked by check_outputs() before `run` or `plan` does anything. `plan` is for the
-    /// commands that dermis jobs takes.
-    void when_chosen(Command* command, FileLister files, Action run, Planner plan = {});
+    /// The files of `lister` are checked by check_outputs() before `run` or `plan` does anything. `plan` is
+    /// for the commands that dermis jobs takes.
+    void when_chosen(Command* command, FileLister lister, Action run, Planner plan = {});
 
     /// The exit code, or nothing when a command was chosen: then call `action`. Prints help and what was
     /// wrong.

@@ -244,7 +244,7 @@ TEST_F(BadInput, a_warning_of_many_meshes_comes_once_with_its_count) {
 
 TEST_F(BadInput, output_paths_reach_the_terminal_as_printable_text) {
     const std::string name = path("a\x1b[31m\u202eb");
-    for (const std::string line :
+    for (const std::string& line :
          {"bake lut --size 8 -o '" + name + ".exr'", "bake closed_form --rows 9 -o '" + name + ".csv'",
           "render spheres --size 8 -o '" + name + ".png'", "export --language hlsl -o '" + name + ".hlsl'",
           "reference spheres --size 8 --samples 2 --probes 2 -o '" + name + ".exr'",

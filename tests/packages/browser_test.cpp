@@ -165,7 +165,7 @@ TEST_P(BrowserPackage, draws_the_sphere_of_its_example_as_the_renderer_and_says_
                                  "package" + example + "?missing=table",
                                  "package" + example + "?missing=curvature", "incomplete" + example});
     if (drawn.empty()) GTEST_SKIP() << "this browser has no " << GetParam().device;
-    const Image& ours = renderer_picture(DERMIS_SOURCE_DIR "/tests/packages/sphere_8mm.toml", "");
+    const Image ours = renderer_picture(DERMIS_SOURCE_DIR "/tests/packages/sphere_8mm.toml", "");
     for (const size_t i : {0u, 1u}) {
         EXPECT_EQ(drawn[i].said, "");
         ASSERT_EQ(drawn[i].picture.width, kSide) << drawn[i].said;
@@ -225,7 +225,7 @@ TEST_P(BrowserPackage, draws_other_lights_bumps_and_shadows_as_the_renderer) {
             ADD_FAILURE() << "no picture";
             continue;
         }
-        const Image& plain =
+        const Image plain =
             renderer_picture((page / (std::string(scenes[i].name) + ".toml")).string(), scenes[i].settings);
         const Image& ours = scenes[i].transmission ? with_transmission(plain, kProfile) : plain;
         const HostDifference difference = difference_in(scenes[i], plain, ours, drawn[i].picture);
