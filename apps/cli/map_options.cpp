@@ -16,6 +16,9 @@ BakeMapSettings usual_map_settings(MapKind kind) {
 
 Result<BakeMapSettings> MapChoice::settings_for(const std::string& scene_profile) const {
     BakeMapSettings chosen = settings;
+    for (const Result<void>& in_range : {check_number("--size", chosen.size, kMapSizeRange),
+                                         check_number("--gutter", chosen.gutter_texels, kMapGutterRange)})
+        if (!in_range) return in_range.error();
     if (!material.empty()) chosen.material = material;
     if (chosen.kind == MapKind::kernel_size) {
         Result<Profile> found = find_profile(profile.empty() ? scene_profile : profile);

@@ -3,9 +3,12 @@
 
 #include <string>
 
+#include "command.h"
 #include "dermis/rays/bake_map.h"
 
 namespace dermis::cli {
+
+inline constexpr NumberRange kMapSizeRange = {16, 8192}, kMapGutterRange = {0, 256};
 
 struct MapRequest {
     Scene scene;

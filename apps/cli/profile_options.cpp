@@ -89,9 +89,8 @@ ChannelValues radii_at(const Profile& profile, double fraction) {
 }
 
 Result<GaussianFit> fit_gaussians(const Profile& profile, int terms) {
-    if (terms < 1 || terms > kMaxGaussianFitTerms)
-        return Error{"--terms is " + std::to_string(terms) + "; it must be 1 to " +
-                     std::to_string(kMaxGaussianFitTerms)};
+    if (Result<void> in_range = check_number("--terms", terms, kTermsRange); !in_range)
+        return in_range.error();
     return to_gaussian_sum(profile, terms);
 }
 

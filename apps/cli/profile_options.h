@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "command.h"
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/gaussian_fit.h"
 
 namespace dermis::cli {
 
+inline constexpr NumberRange kTermsRange = {1, kMaxGaussianFitTerms};
 /// Errors: --terms out of its range.
 [[nodiscard]] Result<GaussianFit> fit_gaussians(const Profile& profile, int terms);
 [[nodiscard]] nlohmann::ordered_json profile_json(const Profile& profile, const GaussianFit& fit);

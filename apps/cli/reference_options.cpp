@@ -10,6 +10,8 @@
 namespace dermis::cli {
 namespace {
 
+constexpr NumberRange kSamplesRange = {2, kMostSamples}, kProbesRange = {2, 65536};
+
 constexpr int kSamples = 64;
 
 template <class Enum>
@@ -94,6 +96,9 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
     ReferenceSettings chosen{.samples = passes, .seed = seed, .probes = probes, .width_scale = width_scale};
     chosen.lighting.penumbra_mm = penumbra_mm;
     if (noise != 0) chosen.noise = noise;
+    for (const Result<void>& in_range :
+         {check_number("--samples", passes, kSamplesRange), check_number("--probes", probes, kProbesRange)})
+        if (!in_range) return in_range.error();
     const Result<Size> pixels = parse_size(size);
     if (!pixels) return pixels.error();
     chosen.width = pixels->width;
@@ -177,7 +182,7 @@ void ReferenceOptions::add_to(Command& command) {
     command.add_option("--size", size, "WIDTHxHEIGHT")->capture_default_str();
     command.add_option("--integrator", integrator, "integrator: surface, walk or lambert")
         ->capture_default_str();
-    command.add_option("--samples,--spp", samples, {2, kMostSamples},
+    command.add_option("--samples,--spp", samples, kSamplesRange,
                        "maximum samples a pixel (default: 64; with --noise as many as it needs)");
     command.add_option("--sample-range", sample_range,
                        "BEGIN:END: write the sums over these of the --samples as a part for dermis merge");
@@ -186,7 +191,7 @@ void ReferenceOptions::add_to(Command& command) {
         .add_option("--seed", seed, {0, 4294967295},
                     "seed of the random numbers; the same seed gives the same picture")
         ->capture_default_str();
-    command.add_option("--probes", probes, {2, 65536}, "probes or walks for each sample, an even number")
+    command.add_option("--probes", probes, kProbesRange, "probes or walks for each sample, an even number")
         ->capture_default_str();
     command.add_option("--profile", profile, "diffusion profile instead of the scene's");
     command.add_option(

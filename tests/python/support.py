@@ -43,10 +43,10 @@ class TestCase(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def program_error(self, *words):
-        """What the command line prints of a call that it refuses, without its name."""
+        """What the command line prints of a call that it refuses, without its name and where its help is."""
         result = run_program(*words)
         self.assertNotEqual(result.returncode, 0, words)
-        return result.stderr.removeprefix("dermis: ").rstrip("\n")
+        return result.stderr.removeprefix("dermis: ").rstrip("\n").removesuffix(" (see dermis --help)")
 
     def assert_error(self, sentence, call, *arguments, **options):
         with self.assertRaises(dermis.Error) as raised:

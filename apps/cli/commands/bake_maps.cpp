@@ -63,9 +63,10 @@ void add_common(Command* command, BakeMapsOptions& options) {
                            "FILE_preview.png are written too"
                          : "file to write, .exr; FILE.exr.json and FILE_preview.png are written too")
         ->required();
-    command->add_option("--size", s.size, {16, 8192}, "side of the map in texels")->capture_default_str();
+    command->add_option("--size", s.size, kMapSizeRange, "side of the map in texels")->capture_default_str();
     command
-        ->add_option("--gutter", s.gutter_texels, {0, 256}, "width of the gutter around UV islands in texels")
+        ->add_option("--gutter", s.gutter_texels, kMapGutterRange,
+                     "width of the gutter around UV islands in texels")
         ->capture_default_str();
     command->add_option("--material", options.map.material, "bake this material only (default: all skin)");
     command->add_option("--unit-mm", options.map.unit_mm, kUnitRangeMm,

@@ -202,8 +202,7 @@ void add_profile_command(CommandLine& line) {
     show_command->add_option("NAME", options->name, name_help)->required();
     show_command->add_output("--plot", options->plot, "SVG file: the curves of the profile");
     show_command
-        ->add_option("--terms", options->terms, {1, kMaxGaussianFitTerms},
-                     "number of Gaussians of the fit, 1 to 12")
+        ->add_option("--terms", options->terms, kTermsRange, "number of Gaussians of the fit, 1 to 12")
         ->capture_default_str();
     show_command->add_flag("--json", options->json, "print JSON");
     line.when_chosen(show_command, plot_file, [options] { return show(*options); });
