@@ -6,15 +6,28 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "dermis/base/cache.h"
 #include "dermis/base/file.h"
 #include "dermis/base/process.h"
 #include "support/temporary_directory.h"
 
 namespace fs = std::filesystem;
 using namespace dermis;
+
+TEST(Cache, a_pipe_in_place_of_an_entry_is_neither_read_nor_written) {
+    const TemporaryDirectory directory;
+    ASSERT_EQ(::setenv("DERMIS_CACHE", directory.path.c_str(), 1), 0);
+    fs::create_directory(directory.path / "kind");
+    ASSERT_EQ(::mkfifo((directory.path / "kind/hash").c_str(), 0600), 0);
+    EXPECT_FALSE(cache_load("kind", "hash"));
+    EXPECT_FALSE(cache_store("kind", "hash", {std::byte{1}}));  // opening it would wait for its reader
+    EXPECT_TRUE(cache_store("kind", "other", {std::byte{1}}));
+    ::unsetenv("DERMIS_CACHE");
+}
 
 TEST(File, pipes_and_devices_are_refused_at_once) {
     const TemporaryDirectory dir;
