@@ -104,6 +104,9 @@ function(dermis_test_folder folder)
     endif()
     set_target_properties(test_${folder} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     set(properties TIMEOUT 300)
+    if(CMAKE_CROSSCOMPILING)
+        set(properties TIMEOUT 1200)  # a whole folder by an emulator
+    endif()
     # What Vulkan drivers and layers keep until the end is reported without a module, as they are unloaded by then:
     # nothing to suppress it by. The folders without Vulkan look for leaks. A long quarantine of freed memory would look
     # like growth to the test that watches for it.
