@@ -52,8 +52,7 @@ struct LintReport {
     /// scattering does, the share that `best` explains, in squares. 0 where nothing differs; below 0 it makes
     /// it worse.
     double explained_share = 0;
-    /// Why the picture is no table of skin, whatever its numbers agree with: flat, negative, grey, ... Empty:
-    /// it may be one.
+    /// The reason why the picture cannot be a table of skin: flat, negative, grey, ... Empty: it may be one.
     std::string refusal;
     /// `best` leaves an rms under 0.01, and nothing refuses the picture.
     bool explained = false;

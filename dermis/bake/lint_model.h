@@ -94,8 +94,7 @@ struct Difference {
 [[nodiscard]] Result<Difference> difference(const Sample& sample, const LintHypothesis& hypothesis,
                                             Against against);
 
-/// Why a picture is no table of skin, whatever explains its numbers: negative, flat, grey. Nothing: it may be
-/// one.
+/// The reason why a picture cannot be a table of skin: negative, flat, grey. Empty: it may be one.
 [[nodiscard]] std::string refusal_of_picture(const Image& linear_float);
 
 /// How light differs from row to row and colour to colour at the same N.L.

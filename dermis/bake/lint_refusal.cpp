@@ -1,5 +1,5 @@
-// What no table of skin can be. A flat or grey picture agrees with some model over some small range of its
-// axes; that says nothing of it.
+// Reasons to refuse a picture. A flat or grey picture agrees with some model over a small range of the
+// model's axes, so agreement alone proves nothing.
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // The disk cache of everything expensive, by content hash: $DERMIS_CACHE, else $XDG_CACHE_HOME/dermis, else
-// ~/.cache/dermis (Windows: %LOCALAPPDATA%/dermis/cache). Deleting it is always safe. A file that cannot be
-// written is no error: the work is done again.
+// ~/.cache/dermis (Windows: %LOCALAPPDATA%/dermis/cache). Deleting it is always safe. If a
+// file cannot be written, the caller goes on and computes the result again next time.
 
 #include <filesystem>
 #include <functional>

@@ -9,21 +9,21 @@ namespace dermis {
 namespace fs = std::filesystem;
 namespace {
 
-// Of a file that does not exist: its folder's, and its name.
+// A file that does not exist has the real path of its folder and its own name.
 fs::path real_path(const fs::path& path) {
     std::error_code ec;
     const fs::path real = fs::weakly_canonical(fs::absolute(path, ec), ec);
     return ec ? path.lexically_normal() : real;
 }
 
-// The same content may be lost only with a file of the disk: /dev/null takes any number of outputs.
+// Only a regular file loses its content when it is written again; /dev/null takes any number of outputs.
 bool can_be_lost(const fs::path& path) {
     std::error_code ec;
     return !fs::exists(path, ec) || fs::is_regular_file(path, ec);
 }
 
-// A file with several names: weakly_canonical() does not tell that they are one.
-bool has_names(const fs::path& path) {
+// weakly_canonical() does not see that two hard links are one file.
+bool has_hard_links(const fs::path& path) {
     std::error_code ec;
     return fs::is_regular_file(path, ec) && fs::hard_link_count(path, ec) > 1;
 }
@@ -33,12 +33,12 @@ class KnownFiles {
   public:
     void add(const fs::path& path) {
         real_.insert(real_path(path));
-        if (has_names(path)) linked_.push_back(path);
+        if (has_hard_links(path)) linked_.push_back(path);
     }
     [[nodiscard]] bool has(const fs::path& path) const {
         std::error_code ec;
         return real_.contains(real_path(path)) ||
-               (has_names(path) && std::ranges::any_of(linked_, [&](const fs::path& other) {
+               (has_hard_links(path) && std::ranges::any_of(linked_, [&](const fs::path& other) {
                     return fs::equivalent(path, other, ec);
                 }));
     }

@@ -21,7 +21,7 @@ std::optional<float> finite(std::optional<float> value) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// Not a number at all is none; infinite ones are.
+// NaN is no value; an infinite number is one, so that it can be clamped.
 std::optional<float> number_of(TextCursor& cursor) {
     const std::optional<float> value = cursor.number();
     return value && !std::isnan(*value) ? value : std::nullopt;
@@ -143,14 +143,14 @@ class MtlParser {
                 color = {clamped(keyword, read->x, most), clamped(keyword, read->y, most),
                          clamped(keyword, read->z, most)};
             else
-                warn_once(std::string(keyword) + " is no number; not used");
+                warn_once(std::string(keyword) + " is not a number; not used");
             return true;
         }
         static constexpr std::array kNumbers = {"ns", "ni", "d", "tr", "pr", "pm"};
         if (std::ranges::find(kNumbers, keyword) == kNumbers.end()) return false;
         const auto value = number_of(cursor);
         if (!value)
-            warn_once(std::string(keyword) + " is no number; not used");
+            warn_once(std::string(keyword) + " is not a number; not used");
         else if (keyword == "ns" || keyword == "ni")
             set_reflection(keyword, *value);
         else if (const float share = clamped(keyword, *value, 1); keyword == "d" || keyword == "tr")

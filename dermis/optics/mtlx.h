@@ -31,7 +31,7 @@ namespace dermis {
 struct MtlxSurface {
     std::optional<double> roughness, ior;
 };
-/// Errors: as of read_mtlx, for what is no document with one surface, and for a number out of its range.
+/// Errors: those of read_mtlx for a document that does not have one surface, and a number out of its range.
 [[nodiscard]] Result<MtlxSurface> read_mtlx_surface(const std::filesystem::path& path);
 
 /// A document of version 1.39 with the surface and its material; radius in cm, colour in lin_rec709, as that

@@ -176,11 +176,11 @@ TEST(ForeignMtl, numbers_out_of_range_are_clamped_and_named_once) {
     EXPECT_EQ(m.ior, Material().ior);
     for (const char* text :
          {"kd is outside of its range, 0 to 1; clamped", "ke is outside of its range, 0 to 1000; clamped",
-          "d is outside of its range, 0 to 1; clamped", "pr is no number; not used",
+          "d is outside of its range, 0 to 1; clamped", "pr is not a number; not used",
           "pm is outside of its range, 0 to 1; clamped", "ni is below 1; not used",
           "ns is below 0; read as 0"})
         EXPECT_EQ(std::ranges::count(loaded.warnings, std::string("dir/m.mtl: ") + text), 1) << text;
-    EXPECT_TRUE(any_contains(with_mtl("Kd spectral a.rfl\n").warnings, "kd is no number; not used"));
+    EXPECT_TRUE(any_contains(with_mtl("Kd spectral a.rfl\n").warnings, "kd is not a number; not used"));
     EXPECT_TRUE(with_mtl("Kd 0.5\nKe 12 0 0\nNs 1000\nNi 1.45\nd 1\nTr 0\nPr 0.5\nPm 0\n").warnings ==
                 with_mtl("").warnings)
         << "in range";

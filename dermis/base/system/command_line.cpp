@@ -2,8 +2,8 @@
 
 namespace dermis {
 
-// Backslashes stand for themselves unless a quote follows them: there each is doubled, and one more makes the
-// quote itself a character.
+// Windows reads backslashes literally unless a quote follows them. Before a quote each backslash is doubled,
+// and one more escapes the quote.
 std::string command_line(const std::vector<std::string>& arguments) {
     std::string line;
     for (const std::string& argument : arguments) {
