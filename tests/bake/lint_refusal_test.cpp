@@ -12,6 +12,7 @@
 #include "dermis/image/io.h"
 #include "dermis/optics/presets.h"
 #include "support/temporary_directory.h"
+#include "test_parts.h"
 
 using namespace dermis;
 using namespace dermis::test;
@@ -43,6 +44,8 @@ float noise(float x, float y) {
 }  // namespace
 
 TEST(Lint, what_is_no_table_of_skin_is_said_to_be_none_and_gets_no_sidecar) {
+    DERMIS_NEEDS(EXR);
+    DERMIS_NEEDS(PNG);
     const TemporaryDirectory dir;
     // A ramp of one row, redder where it is darker: as on skin, but alike in all rows.
     const auto one_row = [](float u, float) {
@@ -95,6 +98,7 @@ TEST(Lint, what_is_no_table_of_skin_is_said_to_be_none_and_gets_no_sidecar) {
 }
 
 TEST(Lint, a_convention_beside_it_makes_a_black_picture_no_table) {
+    DERMIS_NEEDS(EXR);
     const TemporaryDirectory dir;
     Table table = baked("dermis");
     table.convention.axes[0].max = -0.05;
@@ -106,6 +110,7 @@ TEST(Lint, a_convention_beside_it_makes_a_black_picture_no_table) {
 }
 
 TEST(Lint, its_own_convention_lets_a_table_be_grey_and_its_rows_be_alike) {
+    DERMIS_NEEDS(EXR);
     const TemporaryDirectory dir;
     LutOptions lut = *lut_options("dermis");
     lut.width = 64, lut.height = 16;
@@ -130,6 +135,7 @@ TEST(Lint, how_much_is_explained_is_stated) {
 }
 
 TEST(Lint, tables_of_another_kind_are_named_by_their_convention) {
+    DERMIS_NEEDS(EXR);
     const TemporaryDirectory dir;
     Table table = baked("dermis", 64, 3);
     table.convention.kind = TableKind::shadow;
