@@ -10,7 +10,7 @@
 #include <string>
 
 #include "catalog/catalog.h"
-#include "dermis/cost/ratios.h"
+#include "dermis/report/ratios.h"
 #include "dermis/judge/technique_cost.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/scene/load_scene.h"

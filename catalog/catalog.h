@@ -2,7 +2,7 @@
 // All techniques, subjects and shaders of this repository, for programs, tests and benchmarks. The libraries
 // of dermis/ get it as an argument.
 
-#include "dermis/packages/package.h"
+#include "dermis/engines/package.h"
 #include "dermis/render/catalog.h"
 #include "dermis/shading/shading.h"
 
@@ -14,10 +14,10 @@ namespace dermis {
 /// shaders/include/skin/*.glsl as text, by path.
 [[nodiscard]] std::span<const shading::Source> built_in_skin_sources();
 
-/// The files of packages/ but for packages/web, and LICENSE.
+/// The files of engines/ but for engines/web, and LICENSE.
 [[nodiscard]] std::span<const PackageTemplate> built_in_package_templates();
 
-/// The files of packages/web, LICENSE, and the shaders that the page shares with the renderer.
+/// The files of engines/web, LICENSE, and the shaders that the page shares with the renderer.
 [[nodiscard]] std::span<const shading::Source> built_in_web_texts();
 
 }  // namespace dermis

@@ -110,7 +110,7 @@ function(dermis_test_folder folder)
     # What Vulkan drivers and layers keep until the end is reported without a module, as they are unloaded by then:
     # nothing to suppress it by. The folders without Vulkan look for leaks. A long quarantine of freed memory would look
     # like growth to the test that watches for it.
-    if(DERMIS_SANITIZE AND "${folder};${arg_LINK}" MATCHES "gpu|render|technique|cli|view|judge|figures|web|packages")
+    if(DERMIS_SANITIZE AND "${folder};${arg_LINK}" MATCHES "gpu|render|technique|cli|view|judge|report|engines")
         list(APPEND properties ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=1")
     endif()
     # An emulator takes a second to start: as one test.

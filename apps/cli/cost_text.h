@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "command.h"
-#include "dermis/cost/ratios.h"
+#include "dermis/report/ratios.h"
 
 namespace dermis::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "dermis/web/web.h"
+#include "dermis/engines/web.h"
 #include "scene_choice.h"
 
 namespace dermis::cli {

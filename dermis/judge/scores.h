@@ -59,7 +59,7 @@ struct ScoreRow {
     size_t bytes = 0;
     double time_ratio = 0;      ///< frame time over lambert's in the same rounds; 0: not known
     double reference_rmse = 0;  ///< noise of the ground truth that the raw errors are measured with
-    /// A frame over lambert's by the model of dermis/cost; missing where it was not computed.
+    /// A frame over lambert's by the model of dermis/report; missing where it was not computed.
     std::optional<double> model_ratio;
 };
 

@@ -7,7 +7,7 @@
 //                                {.label = "blended", .settings = {{"normals", "blended"}}, .compare_to =
 //                                "sharp"}}}}}
 //
-// A technique lists them in Technique::figures; dermis/figures renders the cells, compares, and composes.
+// A technique lists them in Technique::figures; dermis/report renders the cells, compares, and composes.
 
 #include <functional>
 #include <string>

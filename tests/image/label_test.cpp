@@ -1,4 +1,4 @@
-// Text in pictures. The font is a package of tools/packages.txt, so its absence is a failure here.
+// Text in pictures. The font is a package of tools/apt.txt, so its absence is a failure here.
 
 #include "dermis/image/label.h"
 

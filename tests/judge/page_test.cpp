@@ -1,4 +1,4 @@
-// The report as people use it: in a browser. Needs chromium and node (tools/packages_checks.txt); passed over
+// The report as people use it: in a browser. Needs chromium and node (tools/apt_checks.txt); passed over
 // without.
 
 #include <algorithm>

@@ -27,7 +27,7 @@ class Setup : public testing::Test {
         fs::create_directories(path("root/tools"));
         for (const char* file : {"run", "tools/setup", "tools/new_technique"})
             fs::copy_file(fs::path(DERMIS_SOURCE_DIR) / file, path("root") / file);
-        write("root/tools/packages.txt", "libone-dev  # for one\nlibtwo-dev\n");
+        write("root/tools/apt.txt", "libone-dev  # for one\nlibtwo-dev\n");
         program("id", "echo 0");
         program("dpkg-query", "exit 1");  // nothing is installed
         program("apt-cache", "exit 0");   // the archive has everything
@@ -82,7 +82,7 @@ TEST_F(Setup, says_which_packages_and_how_many_megabytes_before_it_installs_and_
 }
 
 TEST_F(Setup, of_alternatives_installs_the_first_that_the_release_has_and_none_if_that_is_one) {
-    write("root/tools/packages.txt", "libold-dev | libnew-dev  # for one\nlibsnap-dev | -\nlibtwo-dev\n");
+    write("root/tools/apt.txt", "libold-dev | libnew-dev  # for one\nlibsnap-dev | -\nlibtwo-dev\n");
     program("apt-cache", "case $2 in libnew-dev | libtwo-dev) exit 0;; *) exit 100;; esac");
     const ProgramResult result = shell("bash -c 'source tools/setup'");
     ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -90,7 +90,7 @@ TEST_F(Setup, of_alternatives_installs_the_first_that_the_release_has_and_none_i
 }
 
 TEST_F(Setup, an_alternative_that_is_installed_is_enough) {
-    write("root/tools/packages.txt", "libold-dev | libnew-dev\n");
+    write("root/tools/apt.txt", "libold-dev | libnew-dev\n");
     program("dpkg-query", "[ \"${!#}\" = libnew-dev ] && echo 'install ok installed'");
     const ProgramResult result = shell("bash -c 'source tools/setup'");
     EXPECT_EQ(result.exit_code, 0);
@@ -98,14 +98,14 @@ TEST_F(Setup, an_alternative_that_is_installed_is_enough) {
 }
 
 TEST_F(Setup, a_package_that_the_release_does_not_have_is_named_with_its_list) {
-    write("root/tools/packages_checks.txt", "# tests\nlibold-14-dev  # what tests link\n");
-    write("root/tools/packages_python.txt", "");
+    write("root/tools/apt_checks.txt", "# tests\nlibold-14-dev  # what tests link\n");
+    write("root/tools/apt_python.txt", "");
     program("apt-cache", "[ \"$2\" != libold-14-dev ]");
     const ProgramResult result = shell("checks=1 bash -c 'source tools/setup; echo went on'");
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_THAT(result.err,
                 HasSubstr("dermis: this release has no package libold-14-dev; name the one that it "
-                          "has in tools/packages_checks.txt\n"));
+                          "has in tools/apt_checks.txt\n"));
     EXPECT_THAT(result.err, Not(HasSubstr("CALLED apt-get install")));
     EXPECT_THAT(result.out, IsEmpty());
 }
@@ -158,7 +158,7 @@ TEST_F(Setup, run_builds_again_when_any_source_changed_and_not_otherwise) {
 }
 
 TEST_F(Setup, run_installs_and_builds_the_python_module_only_when_it_is_asked_for) {
-    write("root/tools/packages_python.txt", "libsnake-dev  # for the module\n");
+    write("root/tools/apt_python.txt", "libsnake-dev  # for the module\n");
     program("cmake", "echo \"CALLED cmake $*\" >&2");
     write("root/build/build.ninja", "");
     write("root/build/dermis", "#!/bin/bash\necho drawn\n");
@@ -224,8 +224,8 @@ TEST_F(Setup, fresh_machine_makes_the_release_that_it_is_told_from_this_machines
 
 // The tests that it runs to record exist in the repository, of all kinds (goldens, scores and costs).
 TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
-    write("root/tools/packages_checks.txt", "");
-    write("root/tools/packages_python.txt", "");
+    write("root/tools/apt_checks.txt", "");
+    write("root/tools/apt_python.txt", "");
     program("cmake", "exit 0");
     const auto test_program = [&](const std::string& name, const std::string& text) {
         write("root/build/tests/" + name, "#!/bin/bash\necho \"CALLED " + name + " $*\"\n" + text + "\n");
@@ -238,7 +238,7 @@ TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
     test_program("test_judge",
                  "[ \"$DERMIS_UPDATE_SCORES\" = missing ] || exit 0\n"
                  "echo spheres,my_skin,,0 >> ../tests/judge/recorded_scores.csv");
-    test_program("test_cost", "[ \"$DERMIS_UPDATE_COSTS\" = missing ]");
+    test_program("test_report", "[ \"$DERMIS_UPDATE_COSTS\" = missing ]");
     fs::create_directories(path("root/tests/golden"));
     write("root/tests/judge/recorded_scores.csv", "scene,technique,settings,captured\n");
 
@@ -254,8 +254,8 @@ TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
     EXPECT_TRUE(has_test("render/golden_test.cpp", R"(TEST_F\(Goldens, of_the_bust_with_every_technique\))"));
     EXPECT_THAT(made.out, HasSubstr("test_judge --gtest_brief=1 --gtest_filter=Scoreboards.*\n"));
     EXPECT_TRUE(has_test("judge/scoreboard_test.cpp", R"(TEST_F\(Scoreboards, \w+\))"));
-    EXPECT_THAT(made.out, HasSubstr("test_cost --gtest_brief=1 --gtest_filter=RecordedCosts.*\n"));
-    EXPECT_TRUE(has_test("cost/recorded_test.cpp", R"(TEST_F\(RecordedCosts, \w+\))"));
+    EXPECT_THAT(made.out, HasSubstr("test_report --gtest_brief=1 --gtest_filter=RecordedCosts.*\n"));
+    EXPECT_TRUE(has_test("report/recorded_test.cpp", R"(TEST_F\(RecordedCosts, \w+\))"));
 
     test_program("test_judge", "");
     const ProgramResult no_scores = shell("tools/new_technique second_skin x");

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "catalog/catalog.h"
-#include "dermis/export/profile_source.h"
+#include "dermis/engines/profile_source.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"

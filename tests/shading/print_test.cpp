@@ -7,7 +7,7 @@
 
 #include "catalog/catalog.h"
 #include "dermis/base/text.h"
-#include "dermis/export/profile_source.h"
+#include "dermis/engines/profile_source.h"
 #include "dermis/optics/presets.h"
 
 using namespace dermis;

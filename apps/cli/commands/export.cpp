@@ -8,9 +8,9 @@
 #include "command.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
-#include "dermis/export/profile_source.h"
+#include "dermis/engines/profile_source.h"
 #include "dermis/optics/presets.h"
-#include "dermis/packages/package.h"
+#include "dermis/engines/package.h"
 #include "scene_choice.h"
 #include "web_export.h"
 

@@ -6,7 +6,7 @@
 #include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/progress.h"
-#include "dermis/figures/figures.h"
+#include "dermis/report/figures.h"
 #include "dermis/image/io.h"
 #include "render_options.h"
 

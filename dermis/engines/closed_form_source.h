@@ -1,0 +1,21 @@
+#pragma once
+// Internal to dermis/engines: the functions of a skin whose coefficients are fitted.
+
+#include <string>
+
+#include "dermis/base/result.h"
+#include "dermis/optics/gaussian_channels.h"
+#include "dermis/optics/profile.h"
+
+namespace dermis::export_text {
+
+/// skin_diffuse(n_dot_l, curvature_per_mm), with the error of its fit.
+[[nodiscard]] Result<std::string> diffuse_function(const GaussianSum& sum);
+
+/// Of the penumbra whose width suits the renderer's default: skin_shadow_edge(visibility).
+[[nodiscard]] Result<std::string> shadow_function(const Profile& profile);
+
+/// skin_transmittance(thickness_mm), of the constants kSkinWeight0...
+[[nodiscard]] std::string transmission_function(const std::vector<ChannelGaussians>& terms);
+
+}  // namespace dermis::export_text

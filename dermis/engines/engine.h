@@ -1,0 +1,52 @@
+#pragma once
+// What differs between the engines' packages, as data.
+
+#include <map>
+
+#include "dermis/bake/convention.h"
+#include "dermis/engines/package.h"
+
+namespace dermis::packages {
+
+/// Word between @ in a template, and what is written for it.
+using Words = std::map<std::string, std::string>;
+
+struct Engine {
+    std::string_view name;  ///< also of the templates' folder
+
+    /// The shading functions with the skin's coefficients, in one language each: a file, or with `constant` a
+    /// JavaScript module's constant of that name. Several constants may have the same path.
+    struct SkinText {
+        std::string_view path;
+        shading::Language language;
+        std::string_view constant = {};
+    };
+    std::vector<SkinText> texts;
+
+    /// The end of the path of functions that are not printed; empty: all are.
+    std::string_view left_out = {};
+
+    std::string_view license_path = "LICENSE";
+    std::string_view picture_path = "picture.png";
+    std::string_view table_path = {};     ///< the diffuse table, .exr or .dds; empty: none
+    VOrigin v_origin = VOrigin::top;      ///< where the engine has v = 0 in a picture
+    void (*add_words)(Words&) = nullptr;  ///< beyond the common ones
+    /// What is made from the other files, as Unity's .meta.
+    Result<void> (*add_files)(const PackageInput&, std::vector<PackageFile>&) = nullptr;
+};
+
+/// "@word@" replaced wherever it is; an @ without a word behind it stays. Error: a word that `words` has not.
+[[nodiscard]] Result<std::string> filled(const PackageTemplate& file, const Words& words);
+[[nodiscard]] std::vector<std::byte> to_bytes(std::string_view text);
+
+/// Texels of the diffuse table and its last row's curvature. A lookup is within 0.002 of the integral.
+inline constexpr int kTableWidth = 256, kTableHeight = 128;
+inline constexpr double kTableMaxCurvaturePerMm = 1;
+
+[[nodiscard]] Engine babylon();
+[[nodiscard]] Engine godot();
+[[nodiscard]] Engine three();
+[[nodiscard]] Engine unity();
+[[nodiscard]] Engine unreal();
+
+}  // namespace dermis::packages

@@ -1,0 +1,182 @@
+#include "dermis/engines/package.h"
+
+#include <algorithm>
+
+#include "dermis/bake/lut.h"
+#include "dermis/bake/table_io.h"
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/engines/profile_source.h"
+#include "dermis/optics/gaussian_fit.h"
+#include "dermis/engines/engine.h"
+#include "dermis/engines/picture.h"
+
+namespace dermis {
+
+namespace packages {
+
+std::vector<std::byte> to_bytes(std::string_view text) {
+    const auto bytes = as_bytes(text);
+    return {bytes.begin(), bytes.end()};
+}
+
+Result<std::string> filled(const PackageTemplate& file, const Words& words) {
+    constexpr std::string_view kWord = "abcdefghijklmnopqrstuvwxyz_";
+    std::string text;
+    size_t at = 0;
+    for (size_t start; (start = file.text.find('@', at)) != std::string::npos;) {
+        text.append(file.text, at, start - at);
+        const size_t end = file.text.find_first_not_of(kWord, start + 1);
+        at = start + 1;
+        if (end == std::string::npos || file.text[end] != '@' || end == at) {
+            text += '@';
+            continue;
+        }
+        const auto word = words.find(file.text.substr(at, end - at));
+        if (word == words.end())
+            return Error{file.path + ": unknown word '" + file.text.substr(at, end - at) + "'"};
+        text += word->second;
+        at = end + 1;
+    }
+    return text.append(file.text, at);
+}
+
+}  // namespace packages
+
+namespace {
+
+using packages::Engine;
+using packages::to_bytes;
+using packages::Words;
+
+const std::vector<Engine>& engines() {
+    static const std::vector<Engine> all = {packages::unity(), packages::unreal(), packages::godot(),
+                                            packages::three(), packages::babylon()};
+    return all;
+}
+
+Result<const Engine*> find_engine(std::string_view name) {
+    const auto found = std::ranges::find(engines(), name, &Engine::name);
+    if (found != engines().end()) return &*found;
+    return Error{unknown_name("engine", name, engine_names())};
+}
+
+// Of the Gaussians that the coefficients are for, so that table and functions agree.
+Result<Table> diffuse_table(const Engine& engine, const Profile& profile) {
+    Result<LutOptions> options = lut_options("dermis");
+    if (!options) return options.error();
+    options->profile = {
+        .name = profile.name, .source = profile.source, .model = to_gaussian_sum(profile).sum};
+    options->width = packages::kTableWidth;
+    options->height = packages::kTableHeight;
+    options->convention.axes[1] = curvature_axis(0, packages::kTableMaxCurvaturePerMm);
+    options->convention.v_origin = engine.v_origin;
+    return bake_lut(*options);
+}
+
+Result<void> add_table_and_picture(const Engine& engine, const Profile& profile,
+                                   std::vector<PackageFile>& files) {
+    const Result<Table> table = diffuse_table(engine, profile);
+    if (!table) return table.error();
+    Result<std::vector<std::byte>> picture = packages::picture_of(*table);
+    if (!picture) return picture.error();
+    files.push_back({std::string(engine.picture_path), std::move(*picture)});
+    if (engine.table_path.empty()) return {};
+    Result<std::vector<std::byte>> bytes = table_bytes(engine.table_path, *table);
+    if (!bytes) return bytes.error();
+    files.push_back({std::string(engine.table_path), std::move(*bytes)});
+    return {};
+}
+
+Words common_words(const Profile& profile) {
+    const std::string tool = tool_version();
+    return {{"profile", printable_line(profile.name)},
+            {"source", printable_line(profile.source)},
+            {"version", tool.substr(tool.find(' ') + 1)},
+            {"table_width", std::to_string(packages::kTableWidth)},
+            {"table_height", std::to_string(packages::kTableHeight)},
+            {"max_curvature_per_mm", to_text(packages::kTableMaxCurvaturePerMm) + ".0"}};
+}
+
+// engines/common: functions for the packages alone, which are printed with the skin's.
+std::vector<shading::Source> functions_for(const Engine& engine, const PackageInput& input) {
+    std::vector<shading::Source> sources;
+    for (const shading::Source& source : input.functions)
+        if (engine.left_out.empty() || !source.path.ends_with(engine.left_out)) sources.push_back(source);
+    for (const PackageTemplate& file : input.templates)
+        if (file.path.starts_with("engines/common/") && file.path.ends_with(".glsl"))
+            sources.push_back({file.path, file.text});
+    return sources;
+}
+
+Result<void> add_templates(const Engine& engine, const PackageInput& input, std::vector<PackageFile>& files) {
+    Words words = common_words(input.profile);
+    if (engine.add_words) engine.add_words(words);
+    const std::string folder = "engines/" + std::string(engine.name) + "/";
+    for (const PackageTemplate& file : input.templates) {
+        if (file.path == "LICENSE") files.push_back({std::string(engine.license_path), to_bytes(file.text)});
+        if (!file.path.starts_with(folder)) continue;
+        const Result<std::string> text = packages::filled(file, words);
+        if (!text) return text.error();
+        files.push_back({file.path.substr(folder.size()), to_bytes(*text)});
+    }
+    return {};
+}
+
+// A text between backticks: what JavaScript reads as something else there gets a backslash.
+std::string javascript_constant(std::string_view name, std::string_view text) {
+    std::string constant = "export const " + std::string(name) + " = `\n";
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '`' || text[i] == '\\' || text.substr(i, 2) == "${") constant += '\\';
+        constant += text[i];
+    }
+    return constant + "`;\n";
+}
+
+Result<void> add_skin_texts(const Engine& engine, const PackageInput& input,
+                            std::vector<PackageFile>& files) {
+    const std::vector<shading::Source> functions = functions_for(engine, input);
+    for (const Engine::SkinText& skin : engine.texts) {
+        const Result<std::string> text = skin_text(input.profile, functions, skin.language);
+        if (!text) return text.error();
+        const std::vector<std::byte> bytes =
+            to_bytes(skin.constant.empty() ? *text : javascript_constant(skin.constant, *text));
+        const auto same = std::ranges::find(files, skin.path, &PackageFile::path);
+        if (same == files.end())
+            files.push_back({std::string(skin.path), bytes});
+        else
+            same->bytes.insert(same->bytes.end(), bytes.begin(), bytes.end());
+    }
+    return {};
+}
+
+}  // namespace
+
+std::vector<std::string> engine_names() {
+    std::vector<std::string> names;
+    for (const Engine& engine : engines()) names.emplace_back(engine.name);
+    return names;
+}
+
+Result<void> check_engine(std::string_view name) {
+    const Result<const Engine*> engine = find_engine(name);
+    if (!engine) return engine.error();
+    return {};
+}
+
+Result<std::vector<PackageFile>> make_package(std::string_view name, const PackageInput& input) {
+    const Result<const Engine*> found = find_engine(name);
+    if (!found) return found.error();
+    const Engine& engine = **found;
+    std::vector<PackageFile> files;
+    if (const Result<void> added = add_skin_texts(engine, input, files); !added) return added.error();
+    if (const Result<void> added = add_table_and_picture(engine, input.profile, files); !added)
+        return added.error();
+    if (const Result<void> added = add_templates(engine, input, files); !added) return added.error();
+    if (engine.add_files)
+        if (const Result<void> added = engine.add_files(input, files); !added) return added.error();
+    std::ranges::sort(files, {}, &PackageFile::path);
+    return files;
+}
+
+}  // namespace dermis

@@ -1,0 +1,49 @@
+#pragma once
+// A skin as a folder that an engine opens: shader, table, import settings, example, README, licence.
+//
+//     Result<std::vector<PackageFile>> files = make_package("godot", {.profile = skin, ...});
+//
+// What an engine needs is a folder of text files (engines/<engine>), in which words between @ are replaced,
+// and one Engine (engine.h) that names what is generated beside them. The same input gives the same bytes.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/optics/profile.h"
+#include "dermis/shading/shading.h"
+
+namespace dermis {
+
+/// `path` is relative to the package's folder, with '/'.
+struct PackageFile {
+    std::string path;
+    std::vector<std::byte> bytes;
+};
+
+/// A file of this repository by its path: "engines/godot/README.md", "LICENSE". Those of engines/common and
+/// the licence are for every engine.
+struct PackageTemplate {
+    std::string path, text;
+};
+
+struct PackageInput {
+    Profile profile;
+    std::span<const shading::Source> functions;  ///< shaders/include/skin
+    std::span<const PackageTemplate> templates;
+};
+
+/// "godot", ...
+[[nodiscard]] std::vector<std::string> engine_names();
+
+/// Success when there is such an engine. Error: an unknown name proposes the closest.
+[[nodiscard]] Result<void> check_engine(std::string_view name);
+
+/// All files in the order of their paths. Errors: an unknown engine, a profile that cannot be pre-integrated.
+[[nodiscard]] Result<std::vector<PackageFile>> make_package(std::string_view engine,
+                                                            const PackageInput& input);
+
+}  // namespace dermis

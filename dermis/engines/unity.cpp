@@ -1,0 +1,70 @@
+// Unity: a package with a .meta file beside each file and folder, from the texts of engines/unity_meta. A
+// GUID is a hash of the path, so that a later version of the package replaces an earlier one in place.
+
+#include <algorithm>
+#include <set>
+
+#include "dermis/base/file.h"
+#include "dermis/base/hash.h"
+#include "dermis/engines/engine.h"
+
+namespace dermis::packages {
+namespace {
+
+constexpr std::string_view kTable = "Runtime/SkinTable.exr";
+
+std::string guid_of(std::string_view path) {
+    return Hasher().add("com.dermis.skin/").add(path).hex();
+}
+
+void add_guids(Words& words) {
+    words["guid_of_shader"] = guid_of("Runtime/Skin.shader");
+    words["guid_of_table"] = guid_of(kTable);
+}
+
+// Unity does not import what is in a folder whose name ends in '~'; what is in Samples~ is copied with its
+// .meta files.
+bool has_meta(const std::string& path) {
+    return !path.starts_with("Documentation~") && path != "Samples~";
+}
+
+std::set<std::string> folders_of(const std::vector<PackageFile>& files) {
+    std::set<std::string> folders;
+    for (const PackageFile& file : files)
+        for (size_t at = 0; (at = file.path.find('/', at)) != std::string::npos; ++at)
+            folders.insert(file.path.substr(0, at));
+    return folders;
+}
+
+Result<void> add_meta_files(const PackageInput& input, std::vector<PackageFile>& files) {
+    std::vector<std::pair<std::string, std::string>> targets;  // path, kind
+    for (const PackageFile& file : files)
+        targets.emplace_back(file.path, file.path.substr(file.path.rfind('.') + 1));
+    for (const std::string& folder : folders_of(files)) targets.emplace_back(folder, "folder");
+    for (const auto& [path, kind] : targets) {
+        if (!has_meta(path)) continue;
+        const auto found = std::ranges::find(input.templates, "engines/unity_meta/" + kind + ".meta",
+                                             &PackageTemplate::path);
+        if (found == input.templates.end())
+            return Error{"engines/unity_meta has no " + kind + ".meta, which " + path + " needs"};
+        const Result<std::string> text = filled(*found, {{"guid", guid_of(path)}});
+        if (!text) return text.error();
+        files.push_back({path + ".meta", to_bytes(*text)});
+    }
+    return {};
+}
+
+}  // namespace
+
+Engine unity() {
+    return {.name = "unity",
+            .texts = {{"Runtime/Skin.hlsl", shading::Language::hlsl}},
+            .license_path = "LICENSE.md",
+            .picture_path = "Documentation~/picture.png",
+            .table_path = kTable,
+            .v_origin = VOrigin::bottom,
+            .add_words = add_guids,
+            .add_files = add_meta_files};
+}
+
+}  // namespace dermis::packages
