@@ -10,9 +10,9 @@
 #include <string>
 
 #include "catalog/catalog.h"
-#include "dermis/report/ratios.h"
 #include "dermis/judge/technique_cost.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/report/ratios.h"
 #include "dermis/scene/load_scene.h"
 
 namespace {

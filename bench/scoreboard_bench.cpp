@@ -21,11 +21,11 @@
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
-#include "dermis/report/ratios.h"
 #include "dermis/gpu/null_driver.h"
 #include "dermis/judge/reference_cache.h"
 #include "dermis/judge/scoreboard.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/report/ratios.h"
 #include "dermis/scene/load_scene.h"
 
 namespace {

@@ -9,15 +9,13 @@ namespace dermis::cli {
 Result<std::string> hash_of_job(const std::vector<const Scene*>& scenes,
                                 const std::vector<std::string>& words) {
     // Techniques, shaders and the drawing code have no version but the program itself.
-    const Result<std::vector<std::byte>> program = read_file("/proc/self/exe");
-    if (!program) return program.error();
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> program, read_file("/proc/self/exe"));
     Hasher hasher;
-    hasher.add(std::span(*program));
+    hasher.add(std::span(program));
     for (const Scene* scene : scenes) {
-        const Result<std::string> content = hash_of(*scene);
-        if (!content) return content.error();
+        DERMIS_TRY_ASSIGN(const std::string content, hash_of(*scene));
         // What hash_of() leaves out and a picture shows.
-        hasher.add(*content).add(scene->exposure_ev).add(scene->tone_map).add(scene->credit);
+        hasher.add(content).add(scene->exposure_ev).add(scene->tone_map).add(scene->credit);
         hasher.add(scene->technique);
         for (const auto& [name, value] : scene->settings) hasher.add(name).add(value);
     }

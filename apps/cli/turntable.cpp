@@ -27,30 +27,28 @@ fs::path frames_folder(const Turntable& turntable) {
 
 // Returns what each picture states: its credit and its content.
 Result<OutputSettings> draw_turn(const Turntable& turntable, const std::string& pattern) {
-    Result<Prepared> prepared = prepare(turntable.render);
-    if (!prepared) return prepared.error();
+    DERMIS_TRY_ASSIGN(Prepared prepared, prepare(turntable.render));
     if (Result<void> kept = check_outputs(
-            {.outputs = frame_files(pattern, {0, turntable.frames}), .inputs = files_of(prepared->scene)});
+            {.outputs = frame_files(pattern, {0, turntable.frames}), .inputs = files_of(prepared.scene)});
         !kept)
         return kept.error();
     Result<gpu::Device> device = gpu::Device::create({.validation = turntable.render.validation,
                                                       .on_message = print_message,
                                                       .name_contains = turntable.render.device});
     if (!device) return device.error();
-    Result<Renderer> renderer =
-        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
-    if (!renderer) return renderer.error();
-    const OutputSettings output = {.credit = prepared->scene.credit,
-                                   .description = prepared->scene.name + ", " + prepared->technique->id};
-    const Camera start = prepared->scene.camera;
+    DERMIS_TRY_ASSIGN(
+        Renderer renderer,
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared.scene));
+    const OutputSettings output = {.credit = prepared.scene.credit,
+                                   .description = prepared.scene.name + ", " + prepared.technique->id};
+    const Camera start = prepared.scene.camera;
     Progress progress("turntable", size_t(turntable.frames));
     for (int frame = 0; frame < turntable.frames; ++frame) {
-        turn_camera(prepared->scene, start, 2 * 3.14159265358979 * frame / turntable.frames);
-        if (const auto drawn = renderer->draw(*prepared->technique, *prepared->values, prepared->draw);
-            !drawn)
+        turn_camera(prepared.scene, start, 2 * 3.14159265358979 * frame / turntable.frames);
+        if (const auto drawn = renderer.draw(*prepared.technique, *prepared.values, prepared.draw); !drawn)
             return drawn.error();
-        if (Result<void> written = write_output(*renderer, *prepared->technique, *prepared->values,
-                                                prepared->draw, frame_path(pattern, frame), output);
+        if (Result<void> written = write_output(renderer, *prepared.technique, *prepared.values,
+                                                prepared.draw, frame_path(pattern, frame), output);
             !written)
             return written.error();
         progress.advance(1);
@@ -157,14 +155,14 @@ Result<FileUse> turntable_files(const Turntable& turntable) {
     if (frame_path(turntable.output, 0) == turntable.output)
         return Error{"-o " + turntable.output +
                      ": a turntable writes numbered pictures (out/%04d.png) or a video (.mp4)"};
-    if (Result<void> good = check_output(turntable.output, {}); !good) return good.error();
+    DERMIS_TRY(check_output(turntable.output, {}));
     files.outputs = frame_files(turntable.output, {0, turntable.frames});
     return files;
 }
 
 Result<int> run_turntable(const Turntable& turntable) {
     if (is_film(turntable)) {
-        if (Result<void> made = draw_film(turntable); !made) return made.error();
+        DERMIS_TRY(draw_film(turntable));
     } else if (const auto drawn = draw_turn(turntable, turntable.output); !drawn) {
         return drawn.error();
     }

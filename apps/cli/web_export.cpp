@@ -31,12 +31,10 @@ Result<TableImage> table_of(std::span<const TableImage> tables, std::string_view
 class ToneMaker {
   public:
     static Result<ToneMaker> create() {
-        const Result<const Technique*> technique =
-            find_technique(built_in_catalog().techniques, "preintegrated");
-        if (!technique) return technique.error();
-        ToneMaker maker(**technique);
-        if (const Result<void> set = maker.values_.set("shadow_width_mm", to_text(kShadowWidthMm)); !set)
-            return set.error();
+        DERMIS_TRY_ASSIGN(const Technique* technique,
+                          find_technique(built_in_catalog().techniques, "preintegrated"));
+        ToneMaker maker(*technique);
+        DERMIS_TRY(maker.values_.set("shadow_width_mm", to_text(kShadowWidthMm)));
         return maker;
     }
 
@@ -45,17 +43,15 @@ class ToneMaker {
         Result<Profile> profile = find_profile(profile_name);
         if (!profile) return profile.error();
         SkinContext skin = {.profile = *profile, .gaussians = to_gaussian_sum(*profile).sum};
-        const Result<std::vector<TableImage>> tables = technique_.tables(values_, skin);
-        if (!tables) return tables.error();
-        const Result<TableImage> diffuse = table_of(*tables, "skin_lut"),
-                                 rows = table_of(*tables, "skin_rows");
-        if (!diffuse) return diffuse.error();
+        DERMIS_TRY_ASSIGN(const std::vector<TableImage> tables, technique_.tables(values_, skin));
+        DERMIS_TRY_ASSIGN(const TableImage diffuse, table_of(tables, "skin_lut"),
+                          rows = table_of(tables, "skin_rows"));
         if (!rows) return rows.error();
         WebTone tone = {.name = name,
                         .description = profile->name,
                         .albedo_tint_linear = tint_linear,
                         .mean_albedo_linear = mean_linear * tint_linear,
-                        .diffuse_table = *diffuse,
+                        .diffuse_table = diffuse,
                         .rows_table = *rows};
         const PassList list = technique_.build(values_, {.skin_gaussians = skin.gaussians});
         for (const auto& [value_name, value] : list.passes.front().values)
@@ -73,19 +69,17 @@ class ToneMaker {
 
 // The scene's own skin, then the six tones of OpenPBR.
 Result<std::vector<WebTone>> make_tones(const Scene& scene) {
-    const Result<ToneMaker> maker = ToneMaker::create();
-    if (!maker) return maker.error();
-    const Result<Vec3> mean = mean_skin_albedo(scene);
-    if (!mean) return mean.error();
+    DERMIS_TRY_ASSIGN(const ToneMaker maker, ToneMaker::create());
+    DERMIS_TRY_ASSIGN(const Vec3 mean, mean_skin_albedo(scene));
     std::vector<WebTone> tones;
-    Result<WebTone> own = maker->make("Own", scene.skin.profile, scene.skin.albedo_tint_linear, *mean);
-    if (!own) return own.error();
-    tones.push_back(std::move(*own));
+    DERMIS_TRY_ASSIGN(WebTone own,
+                      maker.make("Own", scene.skin.profile, scene.skin.albedo_tint_linear, mean));
+    tones.push_back(std::move(own));
     for (int tone = 1; tone <= 6; ++tone) {
-        Result<WebTone> made = maker->make(kNumerals[tone - 1], "openpbr_skin_" + std::to_string(tone),
-                                           tint_towards(skin_tone_albedo_linear(tone), *mean), *mean);
-        if (!made) return made.error();
-        tones.push_back(std::move(*made));
+        DERMIS_TRY_ASSIGN(WebTone made,
+                          maker.make(kNumerals[tone - 1], "openpbr_skin_" + std::to_string(tone),
+                                     tint_towards(skin_tone_albedo_linear(tone), mean), mean));
+        tones.push_back(std::move(made));
     }
     return tones;
 }
@@ -98,7 +92,7 @@ Result<WebPage> make_web_page(const SceneChoice& choice, const std::string& prof
     if (!scene) return scene.error();
     if (!profile.empty()) scene->skin.profile = profile;
     inputs = files_of(*scene);
-    if (const Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    DERMIS_TRY(complete_scene(*scene));
     Result<std::vector<WebTone>> tones = make_tones(*scene);
     if (!tones) return tones.error();
     return dermis::make_web_page({.scene = *scene,

@@ -86,11 +86,10 @@ Result<int> deliver(MadeTable made, const TableOutput& output, TableStorage stor
     const Result<LookupError> error = lookup_error(quantised(table, storage), exact_function(table, profile));
     if (!error) return error.error();
     if (!output.plot_path.empty()) {
-        const Result<Plot> plot = table_plot(table, profile, storage);
-        if (!plot) return plot.error();
-        if (Result<void> drawn = write_plot(output.plot_path, *plot); !drawn) return drawn.error();
+        DERMIS_TRY_ASSIGN(const Plot plot, table_plot(table, profile, storage));
+        DERMIS_TRY(write_plot(output.plot_path, plot));
     }
-    if (Result<void> written = write_table(output.path, table, storage); !written) return written.error();
+    DERMIS_TRY(write_table(output.path, table, storage));
     const Convention& convention = table.convention;
     std::printf("%s: %s\n", printable_line(output.path).c_str(), describe(table).c_str());
     std::printf("largest error of a lookup %.2g (%s %.3g, %s %.3g), rms %.2g\n", error->max,

@@ -95,9 +95,8 @@ std::string not_within(NumberRange range) {
 template <class Function>
 auto after_check(const FileLister& files, const Function& function) {
     return [files, function](const auto&... arguments) -> decltype(function(arguments...)) {
-        const Result<FileUse> listed = files();
-        if (!listed) return listed.error();
-        if (Result<void> good = check_outputs(*listed); !good) return good.error();
+        DERMIS_TRY_ASSIGN(const FileUse listed, files());
+        DERMIS_TRY(check_outputs(listed));
         return function(arguments...);
     };
 }

@@ -17,9 +17,8 @@ constexpr const char *kSize = "512x512", *kCaseSize = "96x96";
 
 Result<ComparisonSettings> CompareChoice::settings() const {
     const char* usual_size = set_of_scenes(scene.name) != nullptr ? kCaseSize : kSize;
-    const Result<Size> pixels = parse_size(size.empty() ? usual_size : size);
-    if (!pixels) return pixels.error();
-    ComparisonSettings settings = comparison_settings(pixels->width, pixels->height);
+    DERMIS_TRY_ASSIGN(const Size pixels, parse_size(size.empty() ? usual_size : size));
+    ComparisonSettings settings = comparison_settings(pixels.width, pixels.height);
     settings.frames = frames;
     settings.noise = noise;
     settings.samples = samples;

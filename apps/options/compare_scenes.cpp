@@ -11,11 +11,10 @@ namespace {
 
 // All scenes of the set, or the one that a word chooses; the other words change each scene.
 Result<ComparedScenes> scenes_of_set(const Subject& subject, const SceneChoice& choice) {
-    const Result<std::vector<SceneWord>> words = choice.all_words();
-    if (!words) return words.error();
+    DERMIS_TRY_ASSIGN(const std::vector<SceneWord> words, choice.all_words());
     Result<std::vector<SubjectCase>> cases = make_cases(subject);
     if (!cases) return cases.error();
-    for (const SceneWord& word : words_for(*words, true)) {
+    for (const SceneWord& word : words_for(words, true)) {
         if (word.key != "mesh." + subject.cases)
             return Error{"--scene " + word.key + ": of the set of test scenes '" + subject.name +
                          "' only mesh." + subject.cases +
@@ -27,14 +26,14 @@ Result<ComparedScenes> scenes_of_set(const Subject& subject, const SceneChoice& 
                       [&](const SubjectCase& one) { return one.name != subject.name + "/" + word.value; });
     }
     for (SubjectCase& one : *cases) {
-        const std::vector<SceneWord> changes = words_for(*words, false);
+        const std::vector<SceneWord> changes = words_for(words, false);
         // The exact answer is valid under the scene's own light only.
         if (std::ranges::any_of(changes, [](const SceneWord& w) {
                 return w.key.starts_with("light") || w.key.starts_with("environment");
             }))
             one.exact = {};
-        if (Result<void> changed = set_words(one.scene, changes); !changed) return changed.error();
-        if (Result<void> completed = complete_scene(one.scene); !completed) return completed.error();
+        DERMIS_TRY(set_words(one.scene, changes));
+        DERMIS_TRY(complete_scene(one.scene));
     }
     return ComparedScenes{std::move(*cases), true};
 }
@@ -51,7 +50,7 @@ Result<ComparedScenes> compared_scenes(const SceneChoice& choice) {
     if (const Subject* set = set_of_scenes(choice.name)) return scenes_of_set(*set, choice);
     Result<Scene> scene = choice.load();
     if (!scene) return scene.error();
-    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    DERMIS_TRY(complete_scene(*scene));
     ComparedScenes scenes;
     scenes.all.push_back({.name = choice.name, .scene = std::move(*scene)});
     return scenes;

@@ -21,9 +21,8 @@ Result<BakeMapSettings> MapChoice::settings_for(const std::string& scene_profile
         if (!in_range) return in_range.error();
     if (!material.empty()) chosen.material = material;
     if (chosen.kind == MapKind::kernel_size) {
-        Result<Profile> found = find_profile(profile.empty() ? scene_profile : profile);
-        if (!found) return found.error();
-        chosen.profile = std::move(*found);
+        DERMIS_TRY_ASSIGN(Profile found, find_profile(profile.empty() ? scene_profile : profile));
+        chosen.profile = std::move(found);
     }
     return chosen;
 }
@@ -31,16 +30,14 @@ Result<BakeMapSettings> MapChoice::settings_for(const std::string& scene_profile
 Result<MapRequest> MapChoice::request() const {
     SceneOptions options = {.subjects = built_in_catalog().subjects};
     if (unit_mm != 0) {
-        if (Result<void> good = check_number("--unit-mm", unit_mm, kUnitRangeMm); !good) return good.error();
+        DERMIS_TRY(check_number("--unit-mm", unit_mm, kUnitRangeMm));
         if (!is_mesh_file(mesh))
             return Error{"--unit-mm is for mesh files; " + mesh + " states the unit of each of its meshes"};
         options.mesh_unit_mm = unit_mm;
     }
-    Result<Scene> scene = load_scene(mesh, options);
-    if (!scene) return scene.error();
-    Result<BakeMapSettings> chosen = settings_for(scene->skin.profile);
-    if (!chosen) return chosen.error();
-    return MapRequest{std::move(*scene), std::move(*chosen)};
+    DERMIS_TRY_ASSIGN(Scene scene, load_scene(mesh, options));
+    DERMIS_TRY_ASSIGN(BakeMapSettings chosen, settings_for(scene.skin.profile));
+    return MapRequest{std::move(scene), std::move(chosen)};
 }
 
 }  // namespace dermis::cli

@@ -25,10 +25,9 @@ Result<void> assign(ToolSettings& settings, const std::string& assignment) {
     const size_t equals = assignment.find('=');
     if (equals == std::string::npos)
         return Error{"--set '" + assignment + "': write KEY=NUMBER or KEY=RED,GREEN,BLUE"};
-    const auto numbers =
-        parse_numbers(std::string_view(assignment).substr(equals + 1), "--set '" + assignment + "'");
-    if (!numbers) return numbers.error();
-    return set_value(settings, trim(std::string_view(assignment).substr(0, equals)), *numbers);
+    DERMIS_TRY_ASSIGN(const auto numbers, parse_numbers(std::string_view(assignment).substr(equals + 1),
+                                                        "--set '" + assignment + "'"));
+    return set_value(settings, trim(std::string_view(assignment).substr(0, equals)), numbers);
 }
 
 Result<Profile> source_of(const ConversionChoice& options) {
@@ -40,27 +39,22 @@ Result<Profile> source_of(const ConversionChoice& options) {
         const Result<Profile> profile = options.profile ? *options.profile : find_profile(options.name);
         if (!profile) return profile.error();
         // A channel without reflectance has no length to convert.
-        if (const auto checked = check(Profile{profile->name, "", burley_equivalent(*profile)}); !checked)
-            return checked.error();
+        DERMIS_TRY(check(Profile{profile->name, "", burley_equivalent(*profile)}));
         return profile;
     }
-    const Result<ToolId> tool = find_tool(options.from);
-    if (!tool) return tool.error();
-    ToolSettings settings = default_settings(*tool);
-    for (const std::string& assignment : options.assignments)
-        if (const auto set = assign(settings, assignment); !set) return set.error();
-    const Result<BurleyProfile> burley = to_canonical(settings);
-    if (!burley) return burley.error();
-    return Profile{options.from, "", *burley};
+    DERMIS_TRY_ASSIGN(const ToolId tool, find_tool(options.from));
+    ToolSettings settings = default_settings(tool);
+    for (const std::string& assignment : options.assignments) DERMIS_TRY(assign(settings, assignment));
+    DERMIS_TRY_ASSIGN(const BurleyProfile burley, to_canonical(settings));
+    return Profile{options.from, "", burley};
 }
 
 // A profile with the albedo 1 is a blur only; --albedo gives the surface's own.
 Result<BurleyProfile> with_albedo(BurleyProfile burley, const std::string& text) {
-    const auto numbers = parse_numbers(text, "--albedo");
-    if (!numbers) return numbers.error();
-    if (numbers->size() != 1 && numbers->size() != 3) return Error{"--albedo takes one number or three"};
-    for (size_t c = 0; c < 3; ++c) burley.albedo[c] = (*numbers)[numbers->size() == 1 ? 0 : c];
-    if (const auto checked = check(Profile{"--albedo", "", burley}); !checked) return checked.error();
+    DERMIS_TRY_ASSIGN(const auto numbers, parse_numbers(text, "--albedo"));
+    if (numbers.size() != 1 && numbers.size() != 3) return Error{"--albedo takes one number or three"};
+    for (size_t c = 0; c < 3; ++c) burley.albedo[c] = numbers[numbers.size() == 1 ? 0 : c];
+    DERMIS_TRY(check(Profile{"--albedo", "", burley}));
     return burley;
 }
 
@@ -89,8 +83,7 @@ ChannelValues radii_at(const Profile& profile, double fraction) {
 }
 
 Result<GaussianFit> fit_gaussians(const Profile& profile, int terms) {
-    if (Result<void> in_range = check_number("--terms", terms, kTermsRange); !in_range)
-        return in_range.error();
+    DERMIS_TRY(check_number("--terms", terms, kTermsRange));
     return to_gaussian_sum(profile, terms);
 }
 
@@ -114,24 +107,21 @@ nlohmann::ordered_json profile_json(const Profile& profile, const GaussianFit& f
 Result<Profile> ConversionChoice::source_profile() const {
     Result<Profile> stated = source_of(*this);
     if (!stated || albedo.empty()) return stated;
-    const Result<BurleyProfile> changed = with_albedo(burley_equivalent(*stated), albedo);
-    if (!changed) return changed.error();
-    stated->model = *changed;
+    DERMIS_TRY_ASSIGN(const BurleyProfile changed, with_albedo(burley_equivalent(*stated), albedo));
+    stated->model = changed;
     return stated;
 }
 
 Result<Conversion> ConversionChoice::convert() const {
-    const Result<Profile> profile_to_convert = source_profile();
-    if (!profile_to_convert) return profile_to_convert.error();
-    Conversion conversion{.source = burley_equivalent(*profile_to_convert),
-                          .origin = profile_to_convert->source};
+    DERMIS_TRY_ASSIGN(const Profile profile_to_convert, source_profile());
+    Conversion conversion{.source = burley_equivalent(profile_to_convert),
+                          .origin = profile_to_convert.source};
     if (to == "all") {
         for (const ToolConvention& tool : tool_conventions())
             conversion.settings.push_back(to_tool(tool.id, conversion.source));
     } else {
-        const Result<ToolId> tool = find_tool(to);
-        if (!tool) return tool.error();
-        conversion.settings.push_back(to_tool(*tool, conversion.source));
+        DERMIS_TRY_ASSIGN(const ToolId tool, find_tool(to));
+        conversion.settings.push_back(to_tool(tool, conversion.source));
     }
     return conversion;
 }

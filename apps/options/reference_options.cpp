@@ -45,9 +45,8 @@ constexpr Named<Cavities> kCavities[] = {{"flesh", Cavities::flesh}, {"open", Ca
 
 template <class Enum, size_t N>
 Result<void> set(Enum& target, std::string_view what, const std::string& text, const Named<Enum> (&all)[N]) {
-    const Result<Enum> value = choose(what, text, all);
-    if (!value) return value.error();
-    target = *value;
+    DERMIS_TRY_ASSIGN(const Enum value, choose(what, text, all));
+    target = value;
     return {};
 }
 
@@ -99,10 +98,9 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
     for (const Result<void>& in_range :
          {check_number("--samples", passes, kSamplesRange), check_number("--probes", probes, kProbesRange)})
         if (!in_range) return in_range.error();
-    const Result<Size> pixels = parse_size(size);
-    if (!pixels) return pixels.error();
-    chosen.width = pixels->width;
-    chosen.height = pixels->height;
+    DERMIS_TRY_ASSIGN(const Size pixels, parse_size(size));
+    chosen.width = pixels.width;
+    chosen.height = pixels.height;
     for (const Result<void>& step :
          {set(chosen.integrator, "integrator", integrator, kIntegrators),
           set(chosen.filter, "pixel filter", filter, kFilters),
@@ -117,9 +115,8 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
     if (chosen.cavities != Cavities::flesh && chosen.integrator != Integrator::walk)
         return Error{"--cavities has no effect on --integrator " + integrator + "; add --integrator walk"};
     if (!medium.empty()) {
-        Result<ScatteringMedium> parsed = parse_medium(medium);
-        if (!parsed) return parsed.error();
-        chosen.medium = *parsed;
+        DERMIS_TRY_ASSIGN(ScatteringMedium parsed, parse_medium(medium));
+        chosen.medium = parsed;
         if (chosen.integrator != Integrator::walk)
             return Error{"--medium has no effect on --integrator " + integrator +
                          ", which reads the scene's profile; add --integrator walk"};
@@ -129,9 +126,8 @@ Result<ReferenceSettings> ReferenceOptions::settings() const {
 
 Result<std::optional<SampleRange>> ReferenceOptions::range(const ReferenceSettings& settings) const {
     if (sample_range.empty()) return std::optional<SampleRange>();
-    const Result<IndexRange> parsed = parse_index_range("--sample-range", sample_range);
-    if (!parsed) return parsed.error();
-    const SampleRange chosen = {parsed->begin, parsed->end};
+    DERMIS_TRY_ASSIGN(const IndexRange parsed, parse_index_range("--sample-range", sample_range));
+    const SampleRange chosen = {parsed.begin, parsed.end};
     if (Result<void> good = check_range(settings, chosen); !good)
         return Error{"--sample-range " + sample_range + ": " + good.error().message};
     if (!preview.empty())
@@ -144,11 +140,9 @@ Result<Scene> ReferenceOptions::load_scene() const {
     Result<Scene> loaded = scene.load();
     if (!loaded) return loaded;
     // The renderer's approximation needs the vertices' occlusion.
-    if (ambient == "renderer")
-        if (Result<void> completed = complete_scene(*loaded); !completed) return completed.error();
+    if (ambient == "renderer") DERMIS_TRY(complete_scene(*loaded));
     if (!profile.empty()) loaded->skin.profile = profile;
-    if (!output.empty())
-        if (Result<void> kept = keep_scene_files(*loaded, files()); !kept) return kept.error();
+    if (!output.empty()) DERMIS_TRY(keep_scene_files(*loaded, files()));
     return loaded;
 }
 

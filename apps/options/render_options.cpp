@@ -42,17 +42,15 @@ Result<void> apply_setting(ParameterValues& values, const std::string& setting) 
 }
 
 Result<Prepared> prepare(const RenderOptions& options) {
-    const Result<Size> size = parse_size(options.size);
-    if (!size) return size.error();
-    if (Result<void> good = check_samples(options.samples); !good) return good.error();
+    DERMIS_TRY_ASSIGN(const Size size, parse_size(options.size));
+    DERMIS_TRY(check_samples(options.samples));
     if (!options.technique.empty())
-        if (const auto known = find_technique(built_in_catalog().techniques, options.technique); !known)
-            return known.error();
+        DERMIS_TRY(find_technique(built_in_catalog().techniques, options.technique));
 
     Scene as_filed;
     Result<Scene> scene = options.scene.load(&as_filed);
     if (!scene) return scene.error();
-    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    DERMIS_TRY(complete_scene(*scene));
 
     const bool scenes_own = options.technique.empty() || options.technique == scene->technique;
     const std::string id = !options.technique.empty()  ? options.technique
@@ -65,17 +63,16 @@ Result<Prepared> prepare(const RenderOptions& options) {
         for (const auto& [name, text] : scene->settings)
             if (Result<void> set = values.set(name, text); !set)
                 return Error{options.scene.name + ": [settings] " + set.error().message};
-    for (const std::string& setting : options.settings)
-        if (Result<void> set = apply_setting(values, setting); !set) return set.error();
+    for (const std::string& setting : options.settings) DERMIS_TRY(apply_setting(values, setting));
 
-    if (Result<void> good = check_view(**technique, options.view); !good) return good.error();
+    DERMIS_TRY(check_view(**technique, options.view));
     return Prepared{
         .scene = std::move(*scene),
         .as_filed = std::move(as_filed),
         .technique = *technique,
         .values = values,
         .draw = {
-            .width = size->width, .height = size->height, .samples = options.samples, .view = options.view}};
+            .width = size.width, .height = size.height, .samples = options.samples, .view = options.view}};
 }
 
 }  // namespace dermis::cli

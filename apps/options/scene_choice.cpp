@@ -36,9 +36,8 @@ Result<std::vector<SceneWord>> SceneChoice::all_words() const {
         all.push_back(std::move(*word));
     }
     for (const auto& [section, text] : {std::pair("camera", &camera), std::pair("light.key", &light)}) {
-        Result<std::vector<SceneWord>> some = parse_section_words(section, *text);
-        if (!some) return some.error();
-        all.insert(all.end(), some->begin(), some->end());
+        DERMIS_TRY_ASSIGN(std::vector<SceneWord> some, parse_section_words(section, *text));
+        all.insert(all.end(), some.begin(), some.end());
     }
     return all;
 }
@@ -56,13 +55,12 @@ Result<void> keep_scene_files(const Scene& scene, const Result<FileUse>& files) 
 }
 
 Result<Scene> SceneChoice::load(Scene* as_filed) const {
-    const Result<std::vector<SceneWord>> all = all_words();
-    if (!all) return all.error();
+    DERMIS_TRY_ASSIGN(const std::vector<SceneWord> all, all_words());
     Result<Scene> scene =
-        load_scene(name, {.subjects = built_in_catalog().subjects, .words = words_for(*all, true)});
+        load_scene(name, {.subjects = built_in_catalog().subjects, .words = words_for(all, true)});
     if (!scene) return scene;
     if (as_filed) *as_filed = without_objects(*scene);
-    if (Result<void> changed = set_words(*scene, words_for(*all, false)); !changed) return changed.error();
+    DERMIS_TRY(set_words(*scene, words_for(all, false)));
     if (length(scene->camera.eye_mm - scene->camera.target_mm) == 0)
         return Error{"camera.eye_mm and camera.target_mm are the same point, " +
                      to_text(scene->camera.eye_mm.x) + " " + to_text(scene->camera.eye_mm.y) + " " +

@@ -13,10 +13,9 @@ namespace {
 
 Result<void> set_range(TableAxis& axis, const std::string& text) {
     if (text.empty()) return {};
-    const Result<Range> range = parse_range("--range", text);
-    if (!range) return range.error();
-    axis.min = range->min;
-    axis.max = range->max;
+    DERMIS_TRY_ASSIGN(const Range range, parse_range("--range", text));
+    axis.min = range.min;
+    axis.max = range.max;
     return {};
 }
 
@@ -31,7 +30,7 @@ Result<void> choose_axis(const LutChoice& choice, TableAxis& axis) {
         else
             return Error{unknown_name("axis", choice.axis, kAxes)};
     }
-    if (Result<void> set = set_range(axis, choice.range); !set) return set.error();
+    DERMIS_TRY(set_range(axis, choice.range));
     if (!choice.warp.empty()) {
         const Result<AxisWarp> warp = find_warp(choice.warp);
         if (!warp) return warp.error();
@@ -62,32 +61,28 @@ Result<LutOptions> LutChoice::options() const {
     Result<LutOptions> lut = lut_options(convention);
     if (!lut) return lut;
     if (!profile.empty()) {
-        Result<Profile> found = find_profile(profile);
-        if (!found) return found.error();
-        lut->profile = std::move(*found);
+        DERMIS_TRY_ASSIGN(Profile found, find_profile(profile));
+        lut->profile = std::move(found);
     }
     if (!size.empty()) {
-        const Result<Size> sides = parse_size(size);
-        if (!sides) return sides.error();
-        lut->width = sides->width;
-        lut->height = sides->height;
+        DERMIS_TRY_ASSIGN(const Size sides, parse_size(size));
+        lut->width = sides.width;
+        lut->height = sides.height;
     }
-    if (Result<void> chosen = choose_axis(*this, lut->convention.axes[1]); !chosen) return chosen.error();
-    if (Result<void> chosen = choose_construction(*this, lut->convention); !chosen) return chosen.error();
+    DERMIS_TRY(choose_axis(*this, lut->convention.axes[1]));
+    DERMIS_TRY(choose_construction(*this, lut->convention));
     return lut;
 }
 
 Result<ZonalOptions> ZhChoice::options() const {
-    Result<Profile> found = find_profile(profile);
-    if (!found) return found.error();
-    const Result<Construction> chosen = find_construction(construction);
-    if (!chosen) return chosen.error();
-    ZonalOptions zonal{.profile = std::move(*found), .width = width, .how = {.construction = *chosen}};
+    DERMIS_TRY_ASSIGN(Profile found, find_profile(profile));
+    DERMIS_TRY_ASSIGN(const Construction chosen, find_construction(construction));
+    ZonalOptions zonal{.profile = std::move(found), .width = width, .how = {.construction = chosen}};
     if (axis == "radius")
         zonal.curvature = radius_axis(1, 32);
     else if (axis != "curvature")
         return Error{unknown_name("axis", axis, kAxes)};
-    if (Result<void> set = set_range(zonal.curvature, range); !set) return set.error();
+    DERMIS_TRY(set_range(zonal.curvature, range));
     if (layout == "remapped")
         zonal.layout = ZonalLayout::two_rows_remapped_8;
     else if (layout != "float")
@@ -96,20 +91,16 @@ Result<ZonalOptions> ZhChoice::options() const {
 }
 
 Result<ShadowOptions> ShadowChoice::options() const {
-    Result<Profile> found = find_profile(profile);
-    if (!found) return found.error();
-    const Result<Size> sides = parse_size(size);
-    if (!sides) return sides.error();
-    const Result<Range> widths = parse_range("--range", range);
-    if (!widths) return widths.error();
-    const Result<AxisWarp> spacing = find_warp(warp);
-    if (!spacing) return spacing.error();
-    return ShadowOptions{.profile = std::move(*found),
-                         .width = sides->width,
-                         .height = sides->height,
-                         .min_width_mm = widths->min,
-                         .max_width_mm = widths->max,
-                         .width_warp = *spacing,
+    DERMIS_TRY_ASSIGN(Profile found, find_profile(profile));
+    DERMIS_TRY_ASSIGN(const Size sides, parse_size(size));
+    DERMIS_TRY_ASSIGN(const Range widths, parse_range("--range", range));
+    DERMIS_TRY_ASSIGN(const AxisWarp spacing, find_warp(warp));
+    return ShadowOptions{.profile = std::move(found),
+                         .width = sides.width,
+                         .height = sides.height,
+                         .min_width_mm = widths.min,
+                         .max_width_mm = widths.max,
+                         .width_warp = spacing,
                          .sharpening = sharpening};
 }
 
@@ -127,23 +118,20 @@ Result<TableStorage> find_storage(const std::string& path, const std::string& na
 Result<MadeTable> make_table(LutOptions options) {
     std::string note =
         fit_where_needed(options.profile, options.convention.how, options.convention.integration);
-    Result<Table> table = bake_lut(options);
-    if (!table) return table.error();
-    return MadeTable{std::move(*table), std::move(options.profile), options.storage, std::move(note)};
+    DERMIS_TRY_ASSIGN(Table table, bake_lut(options));
+    return MadeTable{std::move(table), std::move(options.profile), options.storage, std::move(note)};
 }
 
 Result<MadeTable> make_table(ZonalOptions options) {
     std::string note = fit_where_needed(options.profile, options.how, Integration::exact);
-    Result<Table> table = bake_zonal_harmonics(options);
-    if (!table) return table.error();
-    return MadeTable{std::move(*table), std::move(options.profile), preferred_storage(options.layout),
+    DERMIS_TRY_ASSIGN(Table table, bake_zonal_harmonics(options));
+    return MadeTable{std::move(table), std::move(options.profile), preferred_storage(options.layout),
                      std::move(note)};
 }
 
 Result<MadeTable> make_table(const ShadowOptions& options) {
-    Result<Table> table = bake_shadow(options);
-    if (!table) return table.error();
-    return MadeTable{std::move(*table), options.profile, TableStorage::automatic, ""};
+    DERMIS_TRY_ASSIGN(Table table, bake_shadow(options));
+    return MadeTable{std::move(table), options.profile, TableStorage::automatic, ""};
 }
 
 TableStorage preferred_storage(ZonalLayout layout) {

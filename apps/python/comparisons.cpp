@@ -27,17 +27,18 @@ Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
     // The ground truth takes most of the time.
     constexpr double kTruth = 0.8;
     settings.exact = one.exact;
-    Result<Comparison> compared = compare_techniques(
-        device, built_in_catalog(), one.scene, contestants, settings,
-        {.reference = [&](double done, bool) { watch.report(from + share * kTruth * done); },
-         .techniques =
-             [&](double done, const std::string&) {
-                 watch.report(from + share * (kTruth + (1 - kTruth) * done));
-             },
-         .stop = &watch.stopped()});
-    if (!compared) return compared.error();
+    DERMIS_TRY_ASSIGN(
+        Comparison compared,
+        compare_techniques(
+            device, built_in_catalog(), one.scene, contestants, settings,
+            {.reference = [&](double done, bool) { watch.report(from + share * kTruth * done); },
+             .techniques =
+                 [&](double done, const std::string&) {
+                     watch.report(from + share * (kTruth + (1 - kTruth) * done));
+                 },
+             .stop = &watch.stopped()}));
     OneComparison made{
-        .comparison = std::move(*compared), .truth_effect = {}, .json = {}, .warnings = one.scene.warnings};
+        .comparison = std::move(compared), .truth_effect = {}, .json = {}, .warnings = one.scene.warnings};
     made.truth_effect = mean_effect(made.comparison.truth.effect);
     made.json =
         cli::to_json("", one, made.comparison).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -48,18 +49,16 @@ Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
 
 Result<std::vector<OneComparison>> compare_all(const cli::CompareChoice& choice,
                                                const ComparisonSettings& settings, Watch& watch) {
-    const Result<std::vector<Contestant>> contestants = choice.contestants();
-    if (!contestants) return contestants.error();
-    const Result<cli::ComparedScenes> scenes = cli::compared_scenes(choice.scene);
-    if (!scenes) return scenes.error();
+    DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, choice.contestants());
+    DERMIS_TRY_ASSIGN(const cli::ComparedScenes scenes, cli::compared_scenes(choice.scene));
     const Result<LentDevice> device = lend_device(choice.device);
     if (!device) return device.error();
     std::vector<OneComparison> made;
-    const double share = 1 / double(scenes->all.size());
-    for (const SubjectCase& one : scenes->all) {
-        Result<OneComparison> compared = compare_one(device->device(), one, *contestants, settings, watch,
+    const double share = 1 / double(scenes.all.size());
+    for (const SubjectCase& one : scenes.all) {
+        Result<OneComparison> compared = compare_one(device->device(), one, contestants, settings, watch,
                                                      share * double(made.size()), share);
-        if (!compared) return scenes->is_set ? compared.error().within(one.name) : compared.error();
+        if (!compared) return scenes.is_set ? compared.error().within(one.name) : compared.error();
         made.push_back(std::move(*compared));
     }
     return made;

@@ -32,9 +32,8 @@ Result<LentDevice> lend_device(const std::string& name_contains) {
     leave_inherited(kept);
     if (!kept.device || kept.name_contains != name_contains) {
         kept.device.reset();
-        Result<gpu::Device> opened = gpu::Device::create({.name_contains = name_contains});
-        if (!opened) return opened.error();
-        kept.device = std::make_unique<gpu::Device>(std::move(*opened));
+        DERMIS_TRY_ASSIGN(gpu::Device opened, gpu::Device::create({.name_contains = name_contains}));
+        kept.device = std::make_unique<gpu::Device>(std::move(opened));
         kept.name_contains = name_contains;
         kept.process = getpid();
     }

@@ -38,9 +38,8 @@ py::array flip_picture(const py::object& image, const py::object& reference, dou
 // Linear light; integers of a file are decoded.
 py::array read_picture_file(const std::string& path) {
     return array_of(value_of(unlocked([&]() -> Result<Image> {
-        const Result<LoadedImage> loaded = read_image(path, ImageUse::color);
-        if (!loaded) return loaded.error();
-        return to_linear_float(loaded->image);
+        DERMIS_TRY_ASSIGN(const LoadedImage loaded, read_image(path, ImageUse::color));
+        return to_linear_float(loaded.image);
     })));
 }
 

@@ -24,28 +24,26 @@ struct RenderedPicture {
 };
 
 Result<RenderedPicture> draw(const cli::RenderOptions& options, int bits) {
-    Result<cli::Prepared> prepared = cli::prepare(options);
-    if (!prepared) return prepared.error();
+    DERMIS_TRY_ASSIGN(cli::Prepared prepared, cli::prepare(options));
     const Result<LentDevice> device = lend_device(options.device);
     if (!device) return device.error();
-    Result<Renderer> renderer = Renderer::create(
-        device->device(), gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
-    if (!renderer) return renderer.error();
-    prepared->draw.deep = bits == 16;
-    if (const auto drawn = renderer->draw(*prepared->technique, *prepared->values, prepared->draw); !drawn)
-        return drawn.error();
-    Result<Image> linear = linear_picture(*renderer, prepared->draw.view);
+    DERMIS_TRY_ASSIGN(Renderer renderer,
+                      Renderer::create(device->device(), gpu::embedded_shaders(built_in_catalog().shaders),
+                                       prepared.scene));
+    prepared.draw.deep = bits == 16;
+    DERMIS_TRY(renderer.draw(*prepared.technique, *prepared.values, prepared.draw));
+    Result<Image> linear = linear_picture(renderer, prepared.draw.view);
     if (!linear) return linear.error();
-    Result<Image> display = display_picture(*renderer, bits);
+    Result<Image> display = display_picture(renderer, bits);
     if (!display) return display.error();
     RenderedPicture picture{.linear = std::move(*linear),
                             .display = std::move(*display),
                             .file = {.png_bits = bits,
-                                     .credit = prepared->scene.credit,
-                                     .description = prepared->scene.name + ", " + prepared->technique->id},
-                            .warnings = prepared->scene.warnings,
-                            .technique = prepared->technique->id};
-    picture.warnings.insert(picture.warnings.end(), renderer->warnings().begin(), renderer->warnings().end());
+                                     .credit = prepared.scene.credit,
+                                     .description = prepared.scene.name + ", " + prepared.technique->id},
+                            .warnings = prepared.scene.warnings,
+                            .technique = prepared.technique->id};
+    picture.warnings.insert(picture.warnings.end(), renderer.warnings().begin(), renderer.warnings().end());
     return picture;
 }
 
@@ -107,12 +105,11 @@ TruePicture reference(const SceneArguments& scene, const py::dict& given, const 
     const cli::ReferenceOptions options = options_of(scene, given);
     const ReferenceSettings settings = value_of(options.settings());
     return watched(progress, [&](Watch& watch) -> Result<TruePicture> {
-        const Result<Scene> loaded = options.load_scene();
-        if (!loaded) return loaded.error();
-        Result<ReferencePicture> picture = render_reference(
-            *loaded, settings, [&](double done) { watch.report(done); }, &watch.stopped());
-        if (!picture) return picture.error();
-        return TruePicture{std::move(*picture), options.facts(settings, *loaded)};
+        DERMIS_TRY_ASSIGN(const Scene loaded, options.load_scene());
+        DERMIS_TRY_ASSIGN(ReferencePicture picture,
+                          render_reference(
+                              loaded, settings, [&](double done) { watch.report(done); }, &watch.stopped()));
+        return TruePicture{std::move(picture), options.facts(settings, loaded)};
     });
 }
 

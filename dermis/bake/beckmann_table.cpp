@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline bake {
 
 double beckmann(double n_dot_h, double roughness) {
     if (n_dot_h <= 0 || (roughness <= 0 && n_dot_h < 1)) return 0;
@@ -12,7 +12,7 @@ double beckmann(double n_dot_h, double roughness) {
 }
 
 Result<Table> bake_beckmann(const BeckmannOptions& options) {
-    if (Result<void> size = check_table_size(options.width, options.height); !size) return size.error();
+    DERMIS_TRY(check_table_size(options.width, options.height));
     const bool gems = options.layout == BeckmannLayout::gems_8_bit;
     const TexelSampling sampling = gems ? TexelSampling::low_edge : TexelSampling::centre;
     Table table{.width = options.width, .height = options.height, .channels = 1};
@@ -28,4 +28,4 @@ Result<Table> bake_beckmann(const BeckmannOptions& options) {
     return table;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

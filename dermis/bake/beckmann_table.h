@@ -4,7 +4,7 @@
 
 #include "dermis/bake/table.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// exp(-tan^2(a) / m^2) / (m^2 cos^4(a)), cos(a) = n_dot_h: Beckmann, Spizzichino 1963 without the 1/pi,
 /// which is how that model takes it. 0 at n_dot_h = 0 and, but for n_dot_h = 1, at m = 0 (the limits).
@@ -23,4 +23,4 @@ struct BeckmannOptions {
 /// u = n_dot_h 0..1, v = roughness m 0..1; one channel. Error: the size.
 [[nodiscard]] Result<Table> bake_beckmann(const BeckmannOptions& options);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

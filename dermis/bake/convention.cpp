@@ -5,7 +5,7 @@
 
 #include "dermis/image/colour.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 double TableAxis::value(double texel, int count) const {
     const double offset = sampling == TexelSampling::centre     ? 0.5
@@ -84,4 +84,4 @@ std::string tool_version() {
     return "dermis " DERMIS_VERSION;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -12,7 +12,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 enum class TableKind {
     diffuse,          ///< u = N.L, v = curvature or radius: pre-integrated diffuse light, about 0..1
@@ -113,4 +113,4 @@ struct TableUse {
 /// "dermis 0.1.0".
 [[nodiscard]] std::string tool_version();
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -9,7 +9,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -154,10 +154,9 @@ Result<ParsedConvention> parse_convention(std::string_view text, std::string_vie
     if (axes && !(axes->is_array() && axes->size() == 2)) reader.fail("axes", "must be a list of two");
     if (reader.error()) return *reader.error();
     for (size_t i = 0; i < 2; ++i) {
-        Result<TableAxis> axis =
-            parse_axis((*axes)[i], std::string(place) + ": axes[" + std::to_string(i) + "]");
-        if (!axis) return axis.error();
-        convention.axes[i] = std::move(*axis);
+        DERMIS_TRY_ASSIGN(TableAxis axis,
+                          parse_axis((*axes)[i], std::string(place) + ": axes[" + std::to_string(i) + "]"));
+        convention.axes[i] = std::move(axis);
     }
     return parsed;
 }
@@ -194,4 +193,4 @@ Result<AxisWarp> find_warp(std::string_view name) {
     return find_name<AxisWarp>("warp", kWarps, name);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

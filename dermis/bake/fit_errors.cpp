@@ -7,7 +7,7 @@
 #include "dermis/base/text.h"
 #include "dermis/optics/curve_2015.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 constexpr int kCosines = 257;
@@ -89,4 +89,4 @@ Plot fit_error_plot(std::span<const FitErrors> errors, const std::string& profil
     return plot;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -8,7 +8,7 @@
 #include "dermis/optics/closed_form.h"
 #include "dermis/plot/plot.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// Largest difference over all N.L, red, green, blue.
 struct FitErrors {
@@ -28,4 +28,4 @@ struct FitErrors {
 /// Both fits over radius, logarithmic, with half an 8-bit code as a line.
 [[nodiscard]] Plot fit_error_plot(std::span<const FitErrors> errors, const std::string& profile_name);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

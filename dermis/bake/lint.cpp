@@ -5,7 +5,7 @@
 
 #include "dermis/bake/lint_model.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 constexpr double kExplained = 0.01;
@@ -31,26 +31,24 @@ Result<void> check(const Image& image) {
 Result<LintReport> lint::measured(const Sample& sample, const LintHypothesis& hypothesis,
                                   const LintHypothesis& runner_up) {
     LintReport report{.best = hypothesis, .runner_up = runner_up};
-    const Result<Difference> own = difference(sample, hypothesis, Against::its_model);
-    if (!own) return own.error();
-    report.best.rms = own->rms;
-    report.best.max = own->max;
+    DERMIS_TRY_ASSIGN(const Difference own, difference(sample, hypothesis, Against::its_model));
+    report.best.rms = own.rms;
+    report.best.max = own.max;
     const lint::Scattering light = lint::scattering_of(sample, hypothesis);
-    if (light.rms > 0) report.explained_share = 1 - own->rms * own->rms / (light.rms * light.rms);
-    report.refusal = lint::refusal_of_light(light, own->rms);
-    report.explained = own->rms < kExplained;
-    const Result<Difference> exact = difference(sample, hypothesis, Against::the_sphere);
-    if (!exact) return exact.error();
-    report.error_rms = exact->rms;
-    report.error_max = exact->max;
-    report.error_max_n_dot_l = exact->n_dot_l;
-    report.error_max_radius_mm = exact->radius_mm;
+    if (light.rms > 0) report.explained_share = 1 - own.rms * own.rms / (light.rms * light.rms);
+    report.refusal = lint::refusal_of_light(light, own.rms);
+    report.explained = own.rms < kExplained;
+    DERMIS_TRY_ASSIGN(const Difference exact, difference(sample, hypothesis, Against::the_sphere));
+    report.error_rms = exact.rms;
+    report.error_max = exact.max;
+    report.error_max_n_dot_l = exact.n_dot_l;
+    report.error_max_radius_mm = exact.radius_mm;
     return report;
 }
 
 Result<LintReport> lint_table(const Image& image, const LintHypothesis* own) {
     const Image stored = to_linear_float(Image{image});
-    if (Result<void> valid = check(stored); !valid) return valid.error();
+    DERMIS_TRY(check(stored));
     // The file's own convention is tried first. A profile that is not here, or a path, cannot be compared.
     std::optional<Result<LintReport>> claimed;
     if (own) claimed = lint::measured(lint::sample_of(stored, false), *own, *own);
@@ -88,4 +86,4 @@ Result<LintReport> lint_table(const Image& image, const LintHypothesis* own) {
     return report;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

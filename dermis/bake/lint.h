@@ -14,7 +14,7 @@
 #include "dermis/bake/table.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// How stored numbers become light.
 enum class StoredAs {
@@ -83,4 +83,4 @@ struct LintReport {
 /// "ring from -90 to 90 degrees, GPU Gems 3 ..., sRGB, ..." on one line.
 [[nodiscard]] std::string describe(const LintHypothesis& hypothesis);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -12,7 +12,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 using Cells = std::array<double, 5>;  // u, v, red, green, blue
@@ -101,16 +101,13 @@ Result<lint::TablePicture> lint::parse_csv_picture(std::string_view text, std::s
 
 Result<lint::TablePicture> lint::read_picture(const std::filesystem::path& path) {
     if (to_lower(path.extension().string()) == ".csv") {
-        const Result<std::string> text = read_text_file(path);
-        if (!text) return text.error();
-        return parse_csv_picture(*text, path.string());
+        DERMIS_TRY_ASSIGN(const std::string text, read_text_file(path));
+        return parse_csv_picture(text, path.string());
     }
-    const Result<std::vector<std::byte>> file = read_file(path);
-    if (!file) return file.error();
-    Result<LoadedImage> loaded = decode_image(*file, path.string(), ImageUse::data);
-    if (!loaded) return loaded.error();
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(path));
+    DERMIS_TRY_ASSIGN(LoadedImage loaded, decode_image(file, path.string(), ImageUse::data));
     return TablePicture{
-        .image = std::move(loaded->image), .coordinates = {}, .flagged_srgb = png_is_flagged_srgb(*file)};
+        .image = std::move(loaded.image), .coordinates = {}, .flagged_srgb = png_is_flagged_srgb(file)};
 }
 
 Result<LintReport> lint_file(const std::filesystem::path& path) {
@@ -134,4 +131,4 @@ Result<LintReport> lint_file(const std::filesystem::path& path) {
     return report;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -13,7 +13,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 
-namespace dermis::lint {
+namespace dermis::inline bake::lint {
 namespace {
 
 constexpr size_t kMostColumns = 40, kMostRows = 20;
@@ -318,4 +318,4 @@ std::span<const Model> all_models() {
     return models;
 }
 
-}  // namespace dermis::lint
+}  // namespace dermis::inline bake::lint

@@ -9,7 +9,7 @@
 #include "dermis/bake/lint.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis::lint {
+namespace dermis::inline bake::lint {
 
 /// A sample of the picture, turned so that columns are N.L (in the picture's direction) and rows the other
 /// axis.
@@ -145,4 +145,4 @@ void explain_refusal(LintReport& report);
 /// Fills findings and advice from the numbers of the report.
 void explain(LintReport& report, const Image& image);
 
-}  // namespace dermis::lint
+}  // namespace dermis::inline bake::lint

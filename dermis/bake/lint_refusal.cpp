@@ -7,7 +7,7 @@
 
 #include "dermis/bake/lint_model.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 std::string lint::refusal_of_picture(const Image& image) {
     constexpr float kNegative = -0.01f;  // filters that ring leave less
@@ -82,4 +82,4 @@ bool lint::is_as_good(double rms, double best) {
     return rms < kAsGood * best + kRounding;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -14,7 +14,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 
-namespace dermis::lint {
+namespace dermis::inline bake::lint {
 namespace {
 
 constexpr size_t kFinalists = 16;
@@ -263,20 +263,19 @@ Search search(const Image& image, Crops crops) {
 Result<Difference> difference(const Sample& sample, const LintHypothesis& hypothesis, Against against) {
     const bool itself = against == Against::its_model;
     const Preintegration how = itself ? hypothesis.how : Preintegration{};
-    Result<Profile> profile = find_profile(hypothesis.profile);
-    if (!profile) return profile.error();
-    if (how.construction != Construction::sphere) profile->model = to_gaussian_sum(*profile, 8).sum;
+    DERMIS_TRY_ASSIGN(Profile profile, find_profile(hypothesis.profile));
+    if (how.construction != Construction::sphere) profile.model = to_gaussian_sum(profile, 8).sum;
     const std::vector<double> n_dot_l = n_dot_l_of(sample, hypothesis);
     const std::vector<double> radii_mm = radii_of(sample, hypothesis);
     const std::vector<float> light = decoded(sample, hypothesis);
-    Result<std::vector<float>> exact = integrate_model(
-        *profile, itself ? hypothesis.integration : Integration::exact, n_dot_l, radii_mm, how);
-    if (!exact) return exact.error();
-    if (itself) cut(*exact, n_dot_l, hypothesis);
+    DERMIS_TRY_ASSIGN(std::vector<float> exact,
+                      integrate_model(profile, itself ? hypothesis.integration : Integration::exact, n_dot_l,
+                                      radii_mm, how));
+    if (itself) cut(exact, n_dot_l, hypothesis);
     Difference result;
     double squares = 0;
     for (size_t i = 0; i < light.size(); ++i) {
-        const double distance = std::abs(double(light[i]) - double((*exact)[i]));
+        const double distance = std::abs(double(light[i]) - double(exact[i]));
         squares += distance * distance;
         if (distance > result.max)
             result = {.max = distance,
@@ -287,4 +286,4 @@ Result<Difference> difference(const Sample& sample, const LintHypothesis& hypoth
     return result;
 }
 
-}  // namespace dermis::lint
+}  // namespace dermis::inline bake::lint

@@ -6,7 +6,7 @@
 #include "dermis/base/file.h"
 #include "dermis/image/io.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 Result<Convention> convention_of(const LintReport& report) {
     const LintHypothesis& best = report.best;
     if (!report.refusal.empty()) return Error{"no table of skin: " + report.refusal + "; nothing is written"};
@@ -42,14 +42,13 @@ Result<std::filesystem::path> write_sidecar(const std::filesystem::path& path, c
         return Error{where.message + ": has a convention already; nothing is written"};
     const Result<Convention> convention = convention_of(report);
     if (!convention) return Error{where.message + ": " + convention.error().message};
-    const Result<lint::TablePicture> picture = lint::read_picture(path);
-    if (!picture) return picture.error();
-    if (picture->holds_light && report.best.stored_as != StoredAs::linear)
+    DERMIS_TRY_ASSIGN(const lint::TablePicture picture, lint::read_picture(path));
+    if (picture.holds_light && report.best.stored_as != StoredAs::linear)
         return Error{where.message + ": its numbers are encoded; a CSV table has light"};
     const std::filesystem::path beside = sidecar_path(path);
-    const std::string json = convention_json(*convention, picture->image.width, picture->image.height) + "\n";
-    if (Result<void> written = write_text_file(beside, json); !written) return written.error();
+    const std::string json = convention_json(*convention, picture.image.width, picture.image.height) + "\n";
+    DERMIS_TRY(write_text_file(beside, json));
     return beside;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

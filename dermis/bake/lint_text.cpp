@@ -6,7 +6,7 @@
 
 #include "dermis/bake/lint_model.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 // A fit ends within this share of the axis's length of the number that was meant.
@@ -279,4 +279,4 @@ void lint::explain(LintReport& report, const Image& image) {
     advise_on_construction(report, columns, rows);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -5,7 +5,7 @@
 #include "dermis/base/text.h"
 #include "dermis/optics/presets.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 const std::vector<std::string>& names() {
@@ -74,7 +74,7 @@ Result<LutOptions> lut_options(std::string_view convention_name) {
 }
 
 Result<Table> bake_lut(const LutOptions& options) {
-    if (Result<void> valid = check(options); !valid) return valid.error();
+    DERMIS_TRY(check(options));
     Table table{.width = options.width, .height = options.height, .convention = options.convention};
     table.convention.profile = options.profile.name;
     table.convention.tool = tool_version();
@@ -92,4 +92,4 @@ Result<Table> bake_lut(const LutOptions& options) {
     return table;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

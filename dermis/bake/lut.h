@@ -16,7 +16,7 @@
 #include "dermis/bake/table.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// Everything that decides the numbers. The profile's name and the tool are filled into the table's
 /// convention.
@@ -48,4 +48,4 @@ struct LutOptions {
 /// curvature_per_mm 0..1000 or radius_mm 0.001..1e6, taps of a profile that is no Gaussian sum.
 [[nodiscard]] Result<Table> bake_lut(const LutOptions& options);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -7,7 +7,7 @@
 #include "dermis/bake/rows.h"
 #include "dermis/base/parallel.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -92,7 +92,7 @@ Result<std::vector<float>> integrate_by_taps(const Profile& profile, Integration
     if (!sum)
         return Error{"profile '" + profile.name + "' is " + model_name(profile) + "; " +
                      std::string(name_of(integration)) + " need a sum of Gaussians"};
-    if (Result<void> valid = check_preintegrable(profile, how); !valid) return valid.error();
+    DERMIS_TRY(check_preintegrable(profile, how));
     const GaussianSum white = without_albedo(*sum);
     std::vector<double> theta;
     for (double t : n_dot_l) theta.push_back(std::acos(t));
@@ -120,4 +120,4 @@ Result<std::vector<float>> integrate_model(const Profile& profile, Integration i
     return integrate_by_taps(profile, integration, n_dot_l, radii_mm, how);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

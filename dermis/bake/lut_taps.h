@@ -7,7 +7,7 @@
 #include "dermis/bake/table.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// Interleaved RGB, one row of n_dot_l a radius (finite, mm). unity_taps: a = -pi/2, -pi/2 + 0.05, ... up to
 /// pi/2, the profile at the chord 2 r |sin(a/2)| as one-dimensional Gaussians, divided by the sum of weights
@@ -25,4 +25,4 @@ namespace dermis {
                                                          std::span<const double> radii_mm,
                                                          const Preintegration& how);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -7,7 +7,7 @@
 #include "dermis/optics/check_value.h"
 #include "dermis/optics/presets.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 constexpr int kSamples = 160;
@@ -186,4 +186,4 @@ std::string profile_tables_markdown() {
            "Largest part of the light at a wrong distance.\n\n" + fit_table();
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -9,7 +9,7 @@
 #include "dermis/optics/profile.h"
 #include "dermis/plot/plot.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// The fractions of light whose radii are reported.
 inline constexpr double kReportedFractions[] = {0.5, 0.9, 0.99, 0.997};
@@ -28,4 +28,4 @@ inline constexpr double kReportedFractions[] = {0.5, 0.9, 0.99, 0.997};
 /// Takes about a second.
 [[nodiscard]] std::string profile_tables_markdown();
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -11,7 +11,7 @@
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 // Raise with every change to the quadrature: old cache entries are then not found.
@@ -99,11 +99,10 @@ Result<std::vector<float>> cached_radial_rows(const Profile& profile, std::span<
         const std::span<const std::byte> bytes = std::as_bytes(std::span(data));
         return std::vector<std::byte>(bytes.begin(), bytes.end());
     };
-    const Result<std::vector<std::byte>> bytes =
-        cached(kCacheKind, hash_of(profile, n_dot_l, radii_mm), count * sizeof(float), make);
-    if (!bytes) return bytes.error();
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes,
+                      cached(kCacheKind, hash_of(profile, n_dot_l, radii_mm), count * sizeof(float), make));
     std::vector<float> data(count);
-    std::memcpy(data.data(), bytes->data(), bytes->size());
+    std::memcpy(data.data(), bytes.data(), bytes.size());
     return data;
 }
 
@@ -151,7 +150,7 @@ Result<void> check_preintegrable(const Profile& profile, const Preintegration& h
 
 Result<std::vector<float>> integrate_rows(const Profile& profile, std::span<const double> n_dot_l,
                                           std::span<const double> radii_mm, const Preintegration& how) {
-    if (Result<void> valid = check_preintegrable(profile, how); !valid) return valid.error();
+    DERMIS_TRY(check_preintegrable(profile, how));
     const auto* sum = std::get_if<GaussianSum>(&profile.model);
     if (!sum) return cached_radial_rows(profile, n_dot_l, radii_mm);
     std::vector<float> data(3 * n_dot_l.size() * radii_mm.size());
@@ -167,4 +166,4 @@ Result<std::vector<float>> integrate_rows(const Profile& profile, std::span<cons
     return data;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

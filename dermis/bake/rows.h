@@ -7,7 +7,7 @@
 #include "dermis/bake/table.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// The radius that an axis value means: itself on "radius_mm", its reciprocal (infinite at 0) on
 /// "curvature_per_mm".
@@ -30,4 +30,4 @@ namespace dermis {
 /// Success when a profile can be integrated this way at all.
 [[nodiscard]] Result<void> check_preintegrable(const Profile& profile, const Preintegration& how);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

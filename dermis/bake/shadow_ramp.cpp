@@ -9,7 +9,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/shadow_edge.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 // Of a straight edge in the light of a disk, blurred by a Gaussian: the disk's lines of light at u radii have
@@ -41,7 +41,7 @@ Rgb scattered_edge(const GaussianSum& profile, double x_mm, double radius_mm) {
 }  // namespace
 
 Result<std::vector<Rgb>> shadow_ramp(const Profile& profile, double width_mm, int count) {
-    if (const Result<void> valid = check_preintegrable(profile, {}); !valid) return valid.error();
+    DERMIS_TRY(check_preintegrable(profile, {}));
     const GaussianSum gaussians = to_gaussian_sum(profile, kShadowGaussians).sum;
     const double filter_mm = 0.5 * width_mm, light_mm = 0.5 * std::min(kLightEdgeMm, width_mm);
     const Rgb dark = scattered_edge(gaussians, -filter_mm, light_mm),
@@ -57,4 +57,4 @@ Result<std::vector<Rgb>> shadow_ramp(const Profile& profile, double width_mm, in
     return ramp;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -8,7 +8,7 @@
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// The light's own edge: the default of DrawSettings::penumbra_mm.
 inline constexpr double kLightEdgeMm = 2;
@@ -22,4 +22,4 @@ inline constexpr float kShadowWidthMm = 3;
 /// would be darker by it (red: 15 % at 2 mm, 8 % at 3 mm, 0.1 % at 16).
 [[nodiscard]] Result<std::vector<Rgb>> shadow_ramp(const Profile& profile, double width_mm, int count);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -15,7 +15,7 @@
 #include "dermis/optics/preintegration/quadrature.h"
 #include "dermis/optics/shadow_edge.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 double normal_density(double x) {
@@ -57,7 +57,7 @@ double blurred_smoothstep(double position, double sigma, double sharpening) {
 }
 
 Result<Table> bake_shadow(const ShadowOptions& options) {
-    if (Result<void> valid = check(options); !valid) return valid.error();
+    DERMIS_TRY(check(options));
     Table table{.width = options.width, .height = options.height};
     table.convention = {.kind = TableKind::shadow,
                         .axes = {TableAxis{"penumbra_position", "1", 0, 1},
@@ -66,7 +66,7 @@ Result<Table> bake_shadow(const ShadowOptions& options) {
                         .shadow_sharpening = options.sharpening,
                         .profile = options.profile.name,
                         .tool = tool_version()};
-    if (Result<void> axis = check_axis(table.convention.axes[1], 0.01, 10000); !axis) return axis.error();
+    DERMIS_TRY(check_axis(table.convention.axes[1], 0.01, 10000));
     const GaussianSum sum = to_gaussian_sum(options.profile, kShadowGaussians).sum;
     Rgb total = {};
     for (const GaussianTerm& term : sum.terms)
@@ -89,4 +89,4 @@ Result<Table> bake_shadow(const ShadowOptions& options) {
     return table;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -20,7 +20,7 @@
 #include "dermis/bake/table.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// Gaussians a channel that other profiles are fitted with.
 inline constexpr int kShadowGaussians = 8;
@@ -41,4 +41,4 @@ struct ShadowOptions {
 /// T of one Gaussian of standard deviation sigma, everything in units of the ramp's width: about 1e-13.
 [[nodiscard]] double blurred_smoothstep(double position, double sigma, double sharpening);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -7,7 +7,7 @@
 #include "dermis/image/half.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 double rounded(double stored, TableStorage storage) {
@@ -84,4 +84,4 @@ Rgb lookup(const Table& table, double u_value, double v_value) {
     return value;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -6,7 +6,7 @@
 
 #include "dermis/bake/convention.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// Rows in the order of v (row 0 is the least v, whatever the file's v_origin), texels in the order of u,
 /// channels interleaved: 3 (linear red, green, blue) or 1. Values are decoded: `encoding` is what the file
@@ -38,4 +38,4 @@ enum class TableStorage { automatic, u8, u16, f16, f32 };
 /// texels to be at their centres, whatever the convention evaluated). NaN reads the first texel.
 [[nodiscard]] Rgb lookup(const Table& table, double u_value, double v_value);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -9,7 +9,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace fs = std::filesystem;
 namespace {
 
@@ -80,9 +80,8 @@ Result<ParsedConvention> load_convention(const fs::path& path, const std::string
     std::error_code ec;
     std::string sidecar;
     if (fs::exists(beside, ec)) {
-        Result<std::string> text = read_text_file(beside);
-        if (!text) return text.error();
-        sidecar = std::move(*text);
+        DERMIS_TRY_ASSIGN(std::string text, read_text_file(beside));
+        sidecar = std::move(text);
     }
     if (embedded.empty() && sidecar.empty())
         return Error{path.string() + ": has no convention (neither inside nor as " +
@@ -121,12 +120,10 @@ Result<Table> decoded_table(const LoadedImage& loaded, const ParsedConvention& p
 }
 
 Result<Table> read_csv(const fs::path& path, const TableUse& use) {
-    const Result<ParsedConvention> parsed = load_convention(path, "");
-    if (!parsed) return parsed.error();
-    if (Result<void> fits = check_use(parsed->convention, use, path.string()); !fits) return fits.error();
-    const Result<std::string> text = read_text_file(path);
-    if (!text) return text.error();
-    return parse_table_csv(*text, *parsed, path.string());
+    DERMIS_TRY_ASSIGN(const ParsedConvention parsed, load_convention(path, ""));
+    DERMIS_TRY(check_use(parsed.convention, use, path.string()));
+    DERMIS_TRY_ASSIGN(const std::string text, read_text_file(path));
+    return parse_table_csv(text, parsed, path.string());
 }
 
 Result<void> check_flag(std::span<const std::byte> file, const Convention& convention, const fs::path& path) {
@@ -165,23 +162,21 @@ TableEncoding encoding_for(TableKind kind, TableStorage storage) {
 }
 
 Result<std::vector<std::byte>> table_bytes(const fs::path& path, const Table& table, TableStorage storage) {
-    const Result<TableStorage> chosen = storage_for(path, storage);
-    if (!chosen) return chosen.error();
+    DERMIS_TRY_ASSIGN(const TableStorage chosen, storage_for(path, storage));
     const std::string extension = to_lower(path.extension().string());
     if (extension == ".csv") return to_bytes(table_csv(table));
     if (extension == ".h") return to_bytes(table_c_header(table, path.stem().string()));
     const std::string json = convention_json(table.convention, table.width, table.height);
     Result<std::vector<std::byte>> image =
-        encode_image(extension, encoded_image(table, *chosen), {{kTextKey, json}});
+        encode_image(extension, encoded_image(table, chosen), {{kTextKey, json}});
     if (!image) return Error{path.string() + ": " + image.error().message};
     return image;
 }
 
 Result<void> write_table(const fs::path& path, const Table& table, TableStorage storage) {
-    const auto content = table_bytes(path, table, storage);
-    if (!content) return content.error();
+    DERMIS_TRY_ASSIGN(const auto content, table_bytes(path, table, storage));
     const std::string json = convention_json(table.convention, table.width, table.height) + "\n";
-    const FileContent files[] = {{path, *content}, {sidecar_path(path), as_bytes(json)}};
+    const FileContent files[] = {{path, content}, {sidecar_path(path), as_bytes(json)}};
     return write_files(files);
 }
 
@@ -190,17 +185,14 @@ Result<Table> read_table(const fs::path& path, const TableUse& use) {
     if (extension == ".csv") return read_csv(path, use);
     if (extension == ".h")
         return Error{path.string() + ": a .h table is for a compiler; read .exr, .png or .csv"};
-    const Result<std::vector<std::byte>> file = read_file(path);
-    if (!file) return file.error();
-    const Result<LoadedImage> loaded = decode_image(*file, path.string(), ImageUse::data);
-    if (!loaded) return loaded.error();
-    const auto text = loaded->text.find(kTextKey);
-    const Result<ParsedConvention> parsed =
-        load_convention(path, text == loaded->text.end() ? std::string() : text->second);
-    if (!parsed) return parsed.error();
-    if (Result<void> fits = check_use(parsed->convention, use, path.string()); !fits) return fits.error();
-    if (Result<void> flag = check_flag(*file, parsed->convention, path); !flag) return flag.error();
-    return decoded_table(*loaded, *parsed, path);
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(path));
+    DERMIS_TRY_ASSIGN(const LoadedImage loaded, decode_image(file, path.string(), ImageUse::data));
+    const auto text = loaded.text.find(kTextKey);
+    DERMIS_TRY_ASSIGN(const ParsedConvention parsed,
+                      load_convention(path, text == loaded.text.end() ? std::string() : text->second));
+    DERMIS_TRY(check_use(parsed.convention, use, path.string()));
+    DERMIS_TRY(check_flag(file, parsed.convention, path));
+    return decoded_table(loaded, parsed, path);
 }
 
 bool png_is_flagged_srgb(std::span<const std::byte> file) {
@@ -218,4 +210,4 @@ bool png_is_flagged_srgb(std::span<const std::byte> file) {
     return false;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

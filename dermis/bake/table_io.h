@@ -15,7 +15,7 @@
 
 #include "dermis/bake/table.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// What `automatic` means for this extension. Error: an unknown extension or one that cannot hold `storage`;
 /// the message lists what can.
@@ -45,4 +45,4 @@ namespace dermis {
 /// Whether a PNG's chunks claim sRGB. Files that are no PNG do not.
 [[nodiscard]] bool png_is_flagged_srgb(std::span<const std::byte> file);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

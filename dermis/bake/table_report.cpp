@@ -10,18 +10,17 @@
 #include "dermis/base/text.h"
 #include "dermis/optics/gaussian_fit.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 Result<std::vector<Rgb>> exact_diffuse(const Convention& convention, const Profile& profile,
                                        std::span<const double> n_dot_l, double v) {
     const double radius_mm = radius_of(convention.axes[1], v);
-    const Result<std::vector<float>> row =
-        integrate_rows(profile, n_dot_l, std::span(&radius_mm, 1), convention.how);
-    if (!row) return row.error();
+    DERMIS_TRY_ASSIGN(const std::vector<float> row,
+                      integrate_rows(profile, n_dot_l, std::span(&radius_mm, 1), convention.how));
     std::vector<Rgb> values;
     for (size_t i = 0; i < n_dot_l.size(); ++i)
-        values.push_back({(*row)[3 * i], (*row)[3 * i + 1], (*row)[3 * i + 2]});
+        values.push_back({row[3 * i], row[3 * i + 1], row[3 * i + 2]});
     return values;
 }
 
@@ -176,12 +175,11 @@ Result<LookupError> lookup_error(const Table& table, const ExactFunction& exact)
     LookupError error;
     double squares = 0;
     for (double row : v) {
-        const Result<std::vector<Rgb>> values = exact(u, row);
-        if (!values) return values.error();
+        DERMIS_TRY_ASSIGN(const std::vector<Rgb> values, exact(u, row));
         for (size_t i = 0; i < u.size(); ++i) {
             const Rgb looked_up = lookup(table, u[i], row);
             for (size_t c = 0; c < size_t(table.channels); ++c) {
-                const double difference = std::abs(looked_up[c] - (*values)[i][c]);
+                const double difference = std::abs(looked_up[c] - values[i][c]);
                 squares += difference * difference;
                 if (difference > error.max) error = {.max = difference, .u = u[i], .v = row};
             }
@@ -204,13 +202,11 @@ Result<Plot> table_plot(const Table& table, const Profile& profile, TableStorage
     std::vector<Curves> all;
     for (const Section& section : sections_of(table)) {
         Curves curves{.section = section};
-        Result<std::vector<Rgb>> values = exact(u, section.v);
-        if (!values) return values.error();
-        curves.exact = std::move(*values);
+        DERMIS_TRY_ASSIGN(std::vector<Rgb> values, exact(u, section.v));
+        curves.exact = std::move(values);
         if (differs) {
-            Result<std::vector<Rgb>> right = sphere(u, section.v);
-            if (!right) return right.error();
-            curves.sphere = std::move(*right);
+            DERMIS_TRY_ASSIGN(std::vector<Rgb> right, sphere(u, section.v));
+            curves.sphere = std::move(right);
         }
         for (double x : u) curves.looked_up.push_back(lookup(stored, x, section.v));
         all.push_back(std::move(curves));
@@ -230,4 +226,4 @@ std::string describe(const Table& table) {
     return text + ", " + std::string(name_of(convention.encoding));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -11,7 +11,7 @@
 #include "dermis/optics/profile.h"
 #include "dermis/plot/plot.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// The exact function of the table's convention (construction, variance scale; taps count as error) at many u
 /// for one v, as axis values.
@@ -38,4 +38,4 @@ struct LookupError {
 /// "256 x 256 diffuse, sphere, gpu_gems_3, n_dot_l -1..1, curvature_per_mm 0..0.5, linear"
 [[nodiscard]] std::string describe(const Table& table);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -6,7 +6,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 namespace {
 
 std::string csv_header(const Convention& convention, int channels) {
@@ -111,4 +111,4 @@ std::string table_c_header(const Table& table, std::string_view name) {
     return text + "};\n";
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

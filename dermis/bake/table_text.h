@@ -6,7 +6,7 @@
 
 #include "dermis/bake/table.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 /// Header "U,V,r,g,b" (or "U,V,value"), zonal tables "U,order,r,g,b".
 [[nodiscard]] std::string table_csv(const Table& table);
@@ -19,4 +19,4 @@ namespace dermis {
 /// `name` is the stem of the file; anything that is not a letter or digit becomes '_'.
 [[nodiscard]] std::string table_c_header(const Table& table, std::string_view name);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

@@ -3,7 +3,7 @@
 #include "dermis/bake/rows.h"
 #include "dermis/base/parallel.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 std::array<Rgb, 3> zonal_harmonics_at(const Profile& profile, double radius_mm, const Preintegration& how) {
     if (const auto* sum = std::get_if<GaussianSum>(&profile.model))
@@ -14,10 +14,9 @@ std::array<Rgb, 3> zonal_harmonics_at(const Profile& profile, double radius_mm, 
 Result<Table> bake_zonal_harmonics(const ZonalOptions& options) {
     const bool remapped = options.layout == ZonalLayout::two_rows_remapped_8;
     const int orders = remapped ? 2 : 3;
-    if (Result<void> size = check_table_size(options.width, orders); !size) return size.error();
-    if (Result<void> axis = check_curvature_axis(options.curvature); !axis) return axis.error();
-    if (Result<void> profile = check_preintegrable(options.profile, options.how); !profile)
-        return profile.error();
+    DERMIS_TRY(check_table_size(options.width, orders));
+    DERMIS_TRY(check_curvature_axis(options.curvature));
+    DERMIS_TRY(check_preintegrable(options.profile, options.how));
 
     Table table{.width = options.width, .height = orders};
     // Texel l is order l.
@@ -44,4 +43,4 @@ Result<Table> bake_zonal_harmonics(const ZonalOptions& options) {
     return table;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

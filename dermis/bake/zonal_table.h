@@ -10,7 +10,7 @@
 #include "dermis/bake/table.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline bake {
 
 enum class ZonalLayout {
     three_rows,          ///< rows are orders 0, 1, 2; values as they are
@@ -33,4 +33,4 @@ struct ZonalOptions {
 [[nodiscard]] std::array<Rgb, 3> zonal_harmonics_at(const Profile& profile, double radius_mm,
                                                     const Preintegration& how);
 
-}  // namespace dermis
+}  // namespace dermis::inline bake

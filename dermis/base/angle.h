@@ -3,10 +3,10 @@
 
 #include <numbers>
 
-namespace dermis {
+namespace dermis::inline base {
 
 inline constexpr float kPi = std::numbers::pi_v<float>;
 inline constexpr float kRadiansPerDegree = kPi / 180;
 inline constexpr float kDegreesPerRadian = 180 / kPi;
 
-}  // namespace dermis
+}  // namespace dermis::inline base

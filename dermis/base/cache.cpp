@@ -4,7 +4,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/base/system/system.h"
 
-namespace dermis {
+namespace dermis::inline base {
 namespace fs = std::filesystem;
 namespace {
 
@@ -60,4 +60,4 @@ Result<std::vector<std::byte>> cached(std::string_view kind, std::string_view ha
     return made;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

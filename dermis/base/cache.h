@@ -11,7 +11,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline base {
 
 [[nodiscard]] std::filesystem::path cache_directory();
 
@@ -28,4 +28,4 @@ bool cache_store(std::string_view kind, std::string_view hash, const std::vector
     std::string_view kind, std::string_view hash, size_t expected_bytes,
     const std::function<Result<std::vector<std::byte>>()>& make);
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -7,7 +7,7 @@
 
 #include "dermis/base/system/system.h"
 
-namespace dermis {
+namespace dermis::inline base {
 namespace fs = std::filesystem;
 namespace {
 
@@ -190,4 +190,4 @@ Result<void> write_text_file(const fs::path& path, std::string_view text) {
     return write_file(path, as_bytes(text));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -12,7 +12,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline base {
 
 /// The path of a name in UTF-8, which names inside of files and in arguments are. std::filesystem::path takes
 /// plain text for the system's encoding, and on Windows that is another one. Where bytes are no UTF-8,
@@ -62,4 +62,4 @@ void remove_temporary_files_on_signals();
     return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <new>
 
-namespace dermis {
+namespace dermis::inline base {
 namespace {
 XXH3_state_t* as_state(void* state) {
     return static_cast<XXH3_state_t*>(state);
@@ -39,4 +39,4 @@ std::string Hasher::hex() const {
     return text;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

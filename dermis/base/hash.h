@@ -8,7 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace dermis {
+namespace dermis::inline base {
 
 /// 128-bit XXH3 over everything added, in order. Lengths are hashed too, so ("ab","c") differs from
 /// ("a","bc"). Not for security. About 10 GB/s on one core.
@@ -33,4 +33,4 @@ class Hasher {
     void* state_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -5,7 +5,7 @@
 
 #include "dermis/base/file.h"
 
-namespace dermis {
+namespace dermis::inline base {
 namespace fs = std::filesystem;
 namespace {
 
@@ -73,4 +73,4 @@ Result<void> check_outputs(const FileUse& files) {
     return {};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

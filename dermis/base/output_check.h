@@ -6,7 +6,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline base {
 
 struct FileUse {
     std::vector<std::filesystem::path> outputs;
@@ -19,4 +19,4 @@ struct FileUse {
 /// name of it. Writes and removes one trial file in every folder; leaves nothing.
 [[nodiscard]] Result<void> check_outputs(const FileUse& files);
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -10,7 +10,7 @@
 
 #include "dermis/base/stop.h"
 
-namespace dermis {
+namespace dermis::inline base {
 namespace {
 std::atomic<unsigned> g_limit = 0;
 }
@@ -77,4 +77,4 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
     if (thrown) std::rethrow_exception(thrown);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

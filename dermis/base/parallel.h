@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace dermis {
+namespace dermis::inline base {
 
 /// Calls body(begin, end) over disjoint ranges that cover [0, count), on all cores; returns when all are
 /// done. `grain` is the least number of items worth a task. The split depends on the machine, so a body must
@@ -22,4 +22,4 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t be
 void set_thread_limit(unsigned threads);
 [[nodiscard]] unsigned thread_limit();
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -5,7 +5,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline base {
 namespace {
 
 Error out_of_range(const Parameter& parameter, std::string_view text) {
@@ -47,9 +47,8 @@ Result<std::array<double, 3>> parse_color(const Parameter& parameter, std::strin
     std::vector<double> components;
     for (const std::string_view part : split(spaced, ',')) {
         if (trim(part).empty()) continue;
-        const Result<double> component = parse_component(parameter, part);
-        if (!component) return component.error();
-        components.push_back(*component);
+        DERMIS_TRY_ASSIGN(const double component, parse_component(parameter, part));
+        components.push_back(component);
     }
     if (components.size() == 1) components.resize(3, components[0]);
     if (components.size() != 3)
@@ -73,15 +72,14 @@ Result<void> ParameterValues::set(std::string_view name, std::string_view text) 
         return Error{unknown_name("parameter", name, names)};
     }
     if (parameter->kind == ParameterKind::color) {
-        const Result<std::array<double, 3>> color = parse_color(*parameter, text);
-        if (!color) return color.error();
-        put(*parameter, *color);
+        DERMIS_TRY_ASSIGN(const auto color, parse_color(*parameter, text));
+        put(*parameter, color);
         return {};
     }
     const bool named = parameter->kind == ParameterKind::toggle || parameter->kind == ParameterKind::choice;
-    const Result<double> value = named ? parse_choice(*parameter, text) : parse_component(*parameter, text);
-    if (!value) return value.error();
-    put(*parameter, {*value});
+    DERMIS_TRY_ASSIGN(const double value,
+                      named ? parse_choice(*parameter, text) : parse_component(*parameter, text));
+    put(*parameter, {value});
     return {};
 }
 
@@ -149,4 +147,4 @@ std::string ParameterValues::text(const Parameter& parameter) const {
     return {};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -14,7 +14,7 @@
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline base {
 
 enum class ParameterKind { number, integer, toggle, choice, color };
 
@@ -174,4 +174,4 @@ class ParameterTableBuilder {
     ParameterTable table_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -4,7 +4,7 @@
 
 #include "dermis/base/system/system.h"
 
-namespace dermis {
+namespace dermis::inline base {
 
 using namespace std::chrono_literals;
 
@@ -51,4 +51,4 @@ void Progress::draw(double fraction) {
     drawn_ = true;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace dermis {
+namespace dermis::inline base {
 
 /// Counts finished items from any thread; draws on standard error at most ten times a second, after the first
 /// second. The destructor erases the line.
@@ -41,4 +41,4 @@ class Progress {
     Clock::time_point start_, last_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -3,9 +3,11 @@
 //
 // For bad input, files and devices only; a broken assumption of ours is an assert. Nothing here throws.
 //
-//     Result<Image> image = read_image(path);
-//     if (!image) return image.error();
-//     use(*image);
+//     Result<void> copy(const std::string& from, const std::string& to) {
+//         DERMIS_TRY_ASSIGN(const Image image, read_image(from));  // returns the error, or has the value
+//         DERMIS_TRY(check_size(image));
+//         return write_image(to, image);
+//     }
 
 #include <cassert>
 #include <optional>
@@ -13,7 +15,20 @@
 #include <utility>
 #include <variant>
 
-namespace dermis {
+/// Returns the error of a Result from this function; otherwise goes on.
+#define DERMIS_TRY(...) \
+    if (const auto dermis_tried = (__VA_ARGS__); !dermis_tried) return dermis_tried.error()
+/// Two statements, for a block: returns the error of a Result, or initialises `declaration` with its value.
+#define DERMIS_TRY_ASSIGN(declaration, ...) \
+    DERMIS_TRY_NAMED(DERMIS_JOIN(dermis_tried_, __LINE__), declaration, __VA_ARGS__)
+#define DERMIS_TRY_NAMED(name, declaration, ...) \
+    auto name = __VA_ARGS__;                     \
+    if (!name) return name.error();              \
+    declaration = *std::move(name)
+#define DERMIS_JOIN(a, b) DERMIS_JOIN_EXPANDED(a, b)
+#define DERMIS_JOIN_EXPANDED(a, b) a##b
+
+namespace dermis::inline base {
 
 /// Errors that a program handles; every other error is text for the user.
 enum class ErrorCode {
@@ -68,4 +83,4 @@ class [[nodiscard]] Result<void> {
     std::optional<Error> error_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -1,6 +1,6 @@
 #include "dermis/base/stop.h"
 
-namespace dermis {
+namespace dermis::inline base {
 namespace {
 thread_local const std::atomic<bool>* t_flag = nullptr;
 }
@@ -21,4 +21,4 @@ void leave_if_stopped() {
     if (t_flag && *t_flag) throw Stopped();
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-namespace dermis {
+namespace dermis::inline base {
 
 /// What such work is left by. No std::exception: nothing on the way takes it for a failure of its own.
 struct Stopped {};
@@ -27,4 +27,4 @@ class StopScope {
 /// For loops that are long and on one thread. parallel_for() calls it between its chunks. Throws Stopped.
 void leave_if_stopped();
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace dermis {
+namespace dermis::inline base {
 namespace {
 
 template <class Number>
@@ -156,4 +156,4 @@ std::string unknown_name(std::string_view what, std::string_view wrong, std::spa
     return message + " Known: " + join(names, ", ");
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

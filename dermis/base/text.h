@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dermis {
+namespace dermis::inline base {
 
 /// Shortest text that reads back to the same number ("0.1", not "0.100000001"); "nan", "inf" as C++ has them.
 [[nodiscard]] std::string to_text(double value);
@@ -43,4 +43,4 @@ namespace dermis {
 [[nodiscard]] std::string unknown_name(std::string_view what, std::string_view wrong,
                                        std::span<const std::string> names);
 
-}  // namespace dermis
+}  // namespace dermis::inline base

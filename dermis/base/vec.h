@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline base {
 
 struct Vec2 {
     float x = 0, y = 0;
@@ -88,4 +88,4 @@ inline Vec3 normalize(Vec3 a) {
     return l > 1e-30f ? a * (1.0f / l) : Vec3{};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

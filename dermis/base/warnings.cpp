@@ -2,7 +2,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline base {
 
 void tidy_warnings(std::vector<std::string>& warnings) {
     constexpr size_t kMost = 50;
@@ -16,4 +16,4 @@ void tidy_warnings(std::vector<std::string>& warnings) {
     warnings = std::move(once);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

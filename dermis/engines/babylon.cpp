@@ -3,7 +3,7 @@
 
 #include "dermis/engines/engine.h"
 
-namespace dermis::packages {
+namespace dermis::inline engines::packages {
 
 Engine babylon() {
     return {.name = "babylon",
@@ -15,4 +15,4 @@ Engine babylon() {
             .v_origin = VOrigin::top};
 }
 
-}  // namespace dermis::packages
+}  // namespace dermis::inline engines::packages

@@ -9,7 +9,7 @@
 #include "dermis/optics/curvature_expressions.h"
 #include "dermis/optics/edge_expression.h"
 
-namespace dermis::export_text {
+namespace dermis::inline engines::export_text {
 namespace {
 
 // Steps of visibility that the edge is fitted at.
@@ -34,28 +34,26 @@ Rgb squared(Rgb value) {
 }  // namespace
 
 Result<std::string> diffuse_function(const GaussianSum& sum) {
-    const Result<CurvatureExpressions> form = fit_curvature_expressions(sum);
-    if (!form) return form.error();
+    DERMIS_TRY_ASSIGN(const CurvatureExpressions form, fit_curvature_expressions(sum));
     return "// Diffuse light without a table: radiant exitance over irradiance at normal incidence, about 0 "
            "to 1.\n"
            "// n_dot_l from -1 to 1; curvature_per_mm 0 upwards, from 1 on the same. Within " +
-           error_text(form->max_error) +
+           error_text(form.max_error) +
            " of the integral\n// over the sphere.\n"
            "vec3 skin_diffuse(float n_dot_l, float curvature_per_mm) {\n"
            "    float k = min(curvature_per_mm, 1.0), u = knee_coordinate(k, " +
-           literal(kCurvatureKnee) + ");\n" + half_polynomial("a", 0.5, form->a) +
-           half_polynomial("s", 0.5, form->s) + half_polynomial("k0", 0, form->k0) +
-           half_polynomial("k1", 0, form->k1) + "    vec3 q = k * (" + vec3_literal(form->q[0]) + " + u * " +
-           vec3_literal(form->q[1]) +
+           literal(kCurvatureKnee) + ");\n" + half_polynomial("a", 0.5, form.a) +
+           half_polynomial("s", 0.5, form.s) + half_polynomial("k0", 0, form.k0) +
+           half_polynomial("k1", 0, form.k1) + "    vec3 q = k * (" + vec3_literal(form.q[0]) + " + u * " +
+           vec3_literal(form.q[1]) +
            ");\n"
            "    return line_and_hyperbola(vec3(n_dot_l), a, s, q, k0, k1);\n"
            "}\n";
 }
 
 Result<std::string> shadow_function(const Profile& profile) {
-    const Result<std::vector<Rgb>> ramp = shadow_ramp(profile, kShadowWidthMm, kRampSteps);
-    if (!ramp) return ramp.error();
-    const EdgeExpression edge = fit_edge_expression(*ramp);
+    DERMIS_TRY_ASSIGN(const std::vector<Rgb> ramp, shadow_ramp(profile, kShadowWidthMm, kRampSteps));
+    const EdgeExpression edge = fit_edge_expression(ramp);
     std::string arguments;
     for (const Rgb& value : {edge.weight[0], edge.weight[1], edge.weight[2], edge.weight[3], edge.weight[4],
                              squared(edge.width[0]), edge.weight[5], squared(edge.width[1])})
@@ -94,4 +92,4 @@ std::string transmission_function(const std::vector<ChannelGaussians>& terms) {
            "    return through / (1.0 + through);\n}\n";
 }
 
-}  // namespace dermis::export_text
+}  // namespace dermis::inline engines::export_text

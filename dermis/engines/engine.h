@@ -6,7 +6,7 @@
 #include "dermis/bake/convention.h"
 #include "dermis/engines/package.h"
 
-namespace dermis::packages {
+namespace dermis::inline engines::packages {
 
 /// Word between @ in a template, and what is written for it.
 using Words = std::map<std::string, std::string>;
@@ -49,4 +49,4 @@ inline constexpr double kTableMaxCurvaturePerMm = 1;
 [[nodiscard]] Engine unity();
 [[nodiscard]] Engine unreal();
 
-}  // namespace dermis::packages
+}  // namespace dermis::inline engines::packages

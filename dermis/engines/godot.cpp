@@ -2,7 +2,7 @@
 
 #include "dermis/engines/engine.h"
 
-namespace dermis::packages {
+namespace dermis::inline engines::packages {
 
 Engine godot() {
     return {.name = "godot",
@@ -12,4 +12,4 @@ Engine godot() {
             .v_origin = VOrigin::top};
 }
 
-}  // namespace dermis::packages
+}  // namespace dermis::inline engines::packages

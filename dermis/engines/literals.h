@@ -5,7 +5,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis::export_text {
+namespace dermis::inline engines::export_text {
 
 /// A float literal of six digits: "1.0", "0.000310047".
 [[nodiscard]] std::string literal(double value);
@@ -19,4 +19,4 @@ namespace dermis::export_text {
 /// Two digits, rounded up: "0.0027".
 [[nodiscard]] std::string error_text(double error);
 
-}  // namespace dermis::export_text
+}  // namespace dermis::inline engines::export_text

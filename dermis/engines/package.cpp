@@ -6,12 +6,12 @@
 #include "dermis/bake/table_io.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
-#include "dermis/engines/profile_source.h"
-#include "dermis/optics/gaussian_fit.h"
 #include "dermis/engines/engine.h"
 #include "dermis/engines/picture.h"
+#include "dermis/engines/profile_source.h"
+#include "dermis/optics/gaussian_fit.h"
 
-namespace dermis {
+namespace dermis::inline engines {
 
 namespace packages {
 
@@ -63,28 +63,23 @@ Result<const Engine*> find_engine(std::string_view name) {
 
 // Of the Gaussians that the coefficients are for, so that table and functions agree.
 Result<Table> diffuse_table(const Engine& engine, const Profile& profile) {
-    Result<LutOptions> options = lut_options("dermis");
-    if (!options) return options.error();
-    options->profile = {
-        .name = profile.name, .source = profile.source, .model = to_gaussian_sum(profile).sum};
-    options->width = packages::kTableWidth;
-    options->height = packages::kTableHeight;
-    options->convention.axes[1] = curvature_axis(0, packages::kTableMaxCurvaturePerMm);
-    options->convention.v_origin = engine.v_origin;
-    return bake_lut(*options);
+    DERMIS_TRY_ASSIGN(LutOptions options, lut_options("dermis"));
+    options.profile = {.name = profile.name, .source = profile.source, .model = to_gaussian_sum(profile).sum};
+    options.width = packages::kTableWidth;
+    options.height = packages::kTableHeight;
+    options.convention.axes[1] = curvature_axis(0, packages::kTableMaxCurvaturePerMm);
+    options.convention.v_origin = engine.v_origin;
+    return bake_lut(options);
 }
 
 Result<void> add_table_and_picture(const Engine& engine, const Profile& profile,
                                    std::vector<PackageFile>& files) {
-    const Result<Table> table = diffuse_table(engine, profile);
-    if (!table) return table.error();
-    Result<std::vector<std::byte>> picture = packages::picture_of(*table);
-    if (!picture) return picture.error();
-    files.push_back({std::string(engine.picture_path), std::move(*picture)});
+    DERMIS_TRY_ASSIGN(const Table table, diffuse_table(engine, profile));
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> picture, packages::picture_of(table));
+    files.push_back({std::string(engine.picture_path), std::move(picture)});
     if (engine.table_path.empty()) return {};
-    Result<std::vector<std::byte>> bytes = table_bytes(engine.table_path, *table);
-    if (!bytes) return bytes.error();
-    files.push_back({std::string(engine.table_path), std::move(*bytes)});
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, table_bytes(engine.table_path, table));
+    files.push_back({std::string(engine.table_path), std::move(bytes)});
     return {};
 }
 
@@ -116,9 +111,8 @@ Result<void> add_templates(const Engine& engine, const PackageInput& input, std:
     for (const PackageTemplate& file : input.templates) {
         if (file.path == "LICENSE") files.push_back({std::string(engine.license_path), to_bytes(file.text)});
         if (!file.path.starts_with(folder)) continue;
-        const Result<std::string> text = packages::filled(file, words);
-        if (!text) return text.error();
-        files.push_back({file.path.substr(folder.size()), to_bytes(*text)});
+        DERMIS_TRY_ASSIGN(const std::string text, packages::filled(file, words));
+        files.push_back({file.path.substr(folder.size()), to_bytes(text)});
     }
     return {};
 }
@@ -137,10 +131,9 @@ Result<void> add_skin_texts(const Engine& engine, const PackageInput& input,
                             std::vector<PackageFile>& files) {
     const std::vector<shading::Source> functions = functions_for(engine, input);
     for (const Engine::SkinText& skin : engine.texts) {
-        const Result<std::string> text = skin_text(input.profile, functions, skin.language);
-        if (!text) return text.error();
+        DERMIS_TRY_ASSIGN(const std::string text, skin_text(input.profile, functions, skin.language));
         const std::vector<std::byte> bytes =
-            to_bytes(skin.constant.empty() ? *text : javascript_constant(skin.constant, *text));
+            to_bytes(skin.constant.empty() ? text : javascript_constant(skin.constant, text));
         const auto same = std::ranges::find(files, skin.path, &PackageFile::path);
         if (same == files.end())
             files.push_back({std::string(skin.path), bytes});
@@ -159,24 +152,20 @@ std::vector<std::string> engine_names() {
 }
 
 Result<void> check_engine(std::string_view name) {
-    const Result<const Engine*> engine = find_engine(name);
-    if (!engine) return engine.error();
+    DERMIS_TRY(find_engine(name));
     return {};
 }
 
 Result<std::vector<PackageFile>> make_package(std::string_view name, const PackageInput& input) {
-    const Result<const Engine*> found = find_engine(name);
-    if (!found) return found.error();
-    const Engine& engine = **found;
+    DERMIS_TRY_ASSIGN(const Engine* found, find_engine(name));
+    const Engine& engine = *found;
     std::vector<PackageFile> files;
-    if (const Result<void> added = add_skin_texts(engine, input, files); !added) return added.error();
-    if (const Result<void> added = add_table_and_picture(engine, input.profile, files); !added)
-        return added.error();
-    if (const Result<void> added = add_templates(engine, input, files); !added) return added.error();
-    if (engine.add_files)
-        if (const Result<void> added = engine.add_files(input, files); !added) return added.error();
+    DERMIS_TRY(add_skin_texts(engine, input, files));
+    DERMIS_TRY(add_table_and_picture(engine, input.profile, files));
+    DERMIS_TRY(add_templates(engine, input, files));
+    if (engine.add_files) DERMIS_TRY(engine.add_files(input, files));
     std::ranges::sort(files, {}, &PackageFile::path);
     return files;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline engines

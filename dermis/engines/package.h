@@ -16,7 +16,7 @@
 #include "dermis/optics/profile.h"
 #include "dermis/shading/shading.h"
 
-namespace dermis {
+namespace dermis::inline engines {
 
 /// `path` is relative to the package's folder, with '/'.
 struct PackageFile {
@@ -46,4 +46,4 @@ struct PackageInput {
 [[nodiscard]] Result<std::vector<PackageFile>> make_package(std::string_view engine,
                                                             const PackageInput& input);
 
-}  // namespace dermis
+}  // namespace dermis::inline engines

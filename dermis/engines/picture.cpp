@@ -5,7 +5,7 @@
 
 #include "dermis/image/io.h"
 
-namespace dermis::packages {
+namespace dermis::inline engines::packages {
 namespace {
 
 constexpr int kSide = 160, kColumns = 3, kRows = 2, kSamples = 3;
@@ -43,4 +43,4 @@ Result<std::vector<std::byte>> picture_of(const Table& table) {
     return encode_image(".png", image);
 }
 
-}  // namespace dermis::packages
+}  // namespace dermis::inline engines::packages

@@ -11,7 +11,7 @@
 #include "dermis/optics/wrap_reach.h"
 #include "dermis/shading/prefix.h"
 
-namespace dermis {
+namespace dermis::inline engines {
 namespace {
 
 using namespace export_text;
@@ -116,30 +116,26 @@ std::string wrap_function(const WrapReach& reach) {
 
 Result<shading::Source> profile_source(const Profile& profile) {
     const GaussianFit fit = to_gaussian_sum(profile);
-    if (const Result<void> good = check_preintegrable(fit.sum); !good) return good.error();
+    DERMIS_TRY(check_preintegrable(fit.sum));
     const std::vector<ChannelGaussians> terms = by_channel(fit.sum);
     std::string text = heading(profile, fit);
     for (const char* file : {"pi", "closed_form", "spherical_gaussians", "transmission", "wrap", "zonal"})
         text += "#include \"shaders/include/skin/" + std::string(file) + ".glsl\"\n";
-    const Result<std::string> diffuse = diffuse_function(fit.sum);
-    if (!diffuse) return diffuse.error();
-    const Result<std::string> shadow = shadow_function(profile);
-    if (!shadow) return shadow.error();
-    text += "\n" + gaussian_constants(terms) + "\n" + *diffuse + "\n" +
-            spherical_gaussians_function(fit.sum) + "\n" + wrap_function(wrap_reach(fit.sum)) + "\n" +
-            ambient_functions(terms.size()) + "\n" + *shadow + "\n" + transmission_function(terms);
+    DERMIS_TRY_ASSIGN(const std::string diffuse, diffuse_function(fit.sum));
+    DERMIS_TRY_ASSIGN(const std::string shadow, shadow_function(profile));
+    text += "\n" + gaussian_constants(terms) + "\n" + diffuse + "\n" + spherical_gaussians_function(fit.sum) +
+            "\n" + wrap_function(wrap_reach(fit.sum)) + "\n" + ambient_functions(terms.size()) + "\n" +
+            shadow + "\n" + transmission_function(terms);
     return shading::Source{"profile " + printable_line(profile.name), text};
 }
 
 Result<std::string> skin_text(const Profile& profile, std::span<const shading::Source> functions,
                               shading::Language language) {
-    Result<shading::Source> own = profile_source(profile);
-    if (!own) return own.error();
+    DERMIS_TRY_ASSIGN(shading::Source own, profile_source(profile));
     std::vector<shading::Source> sources(functions.begin(), functions.end());
-    sources.push_back(std::move(*own));
-    Result<std::vector<shading::Unit>> units = shading::read_sources(sources);
-    if (!units) return units.error();
-    shading::prefix_names(*units);
+    sources.push_back(std::move(own));
+    DERMIS_TRY_ASSIGN(std::vector<shading::Unit> units, shading::read_sources(sources));
+    shading::prefix_names(units);
     const std::vector<std::string> heading = {
         "Shading functions for skin: " + printable_line(profile.name) +
             ". Printed by `dermis export`; change its source, not this file.",
@@ -148,7 +144,7 @@ Result<std::string> skin_text(const Profile& profile, std::span<const shading::S
         "from the surface.",
         "Pure functions: fetch textures and derivatives yourself and pass them. Needs 32-bit floats "
         "(highp)."};
-    return shading::print(*units, language, heading);
+    return shading::print(units, language, heading);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline engines

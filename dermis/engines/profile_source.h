@@ -5,7 +5,7 @@
 #include "dermis/optics/profile.h"
 #include "dermis/shading/shading.h"
 
-namespace dermis {
+namespace dermis::inline engines {
 
 /// In the subset of GLSL that dermis/shading reads; it includes files of shaders/include/skin. Comments name
 /// the profile and the error of each fit. Errors: a profile that cannot be pre-integrated.
@@ -17,4 +17,4 @@ namespace dermis {
                                             std::span<const shading::Source> functions,
                                             shading::Language language);
 
-}  // namespace dermis
+}  // namespace dermis::inline engines

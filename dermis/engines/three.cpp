@@ -2,7 +2,7 @@
 
 #include "dermis/engines/engine.h"
 
-namespace dermis::packages {
+namespace dermis::inline engines::packages {
 
 Engine three() {
     return {.name = "three",
@@ -12,4 +12,4 @@ Engine three() {
             .v_origin = VOrigin::bottom};
 }
 
-}  // namespace dermis::packages
+}  // namespace dermis::inline engines::packages

@@ -8,7 +8,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/engines/engine.h"
 
-namespace dermis::packages {
+namespace dermis::inline engines::packages {
 namespace {
 
 constexpr std::string_view kTable = "Runtime/SkinTable.exr";
@@ -47,9 +47,8 @@ Result<void> add_meta_files(const PackageInput& input, std::vector<PackageFile>&
                                              &PackageTemplate::path);
         if (found == input.templates.end())
             return Error{"engines/unity_meta has no " + kind + ".meta, which " + path + " needs"};
-        const Result<std::string> text = filled(*found, {{"guid", guid_of(path)}});
-        if (!text) return text.error();
-        files.push_back({path + ".meta", to_bytes(*text)});
+        DERMIS_TRY_ASSIGN(const std::string text, filled(*found, {{"guid", guid_of(path)}}));
+        files.push_back({path + ".meta", to_bytes(text)});
     }
     return {};
 }
@@ -67,4 +66,4 @@ Engine unity() {
             .add_files = add_meta_files};
 }
 
-}  // namespace dermis::packages
+}  // namespace dermis::inline engines::packages

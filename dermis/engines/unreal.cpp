@@ -3,7 +3,7 @@
 
 #include "dermis/engines/engine.h"
 
-namespace dermis::packages {
+namespace dermis::inline engines::packages {
 
 Engine unreal() {
     return {.name = "unreal",
@@ -13,4 +13,4 @@ Engine unreal() {
             .v_origin = VOrigin::top};
 }
 
-}  // namespace dermis::packages
+}  // namespace dermis::inline engines::packages

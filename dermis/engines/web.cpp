@@ -5,14 +5,14 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
-#include "dermis/optics/fresnel.h"
-#include "dermis/render/renderer.h"
 #include "dermis/engines/web/geometry.h"
 #include "dermis/engines/web/maps.h"
 #include "dermis/engines/web/tables.h"
+#include "dermis/optics/fresnel.h"
+#include "dermis/render/renderer.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline engines {
 namespace {
 
 using nlohmann::json;
@@ -46,23 +46,20 @@ Result<void> add_texts(const WebInput& input, std::vector<WebFile>& files) {
         if (text.path.starts_with(kPageFolder))
             files.push_back({text.path.substr(kPageFolder.size()), to_bytes(text.text)});
     if (files.empty()) return Error{"the page's own files are not among the texts"};
-    const Result<std::string> license = text_of(input.texts, "LICENSE");
-    if (!license) return license.error();
-    files.push_back({"LICENSE.txt", to_bytes(*license)});
+    DERMIS_TRY_ASSIGN(const std::string license, text_of(input.texts, "LICENSE"));
+    files.push_back({"LICENSE.txt", to_bytes(license)});
     std::string shared;
     for (const std::string_view path : input.shared_shaders) {
-        const Result<std::string> text = text_of(input.texts, path);
-        if (!text) return text.error();
-        shared += "// " + std::string(path) + "\n" + without_includes(*text) + "\n";
+        DERMIS_TRY_ASSIGN(const std::string text, text_of(input.texts, path));
+        shared += "// " + std::string(path) + "\n" + without_includes(text) + "\n";
     }
     files.push_back({"shared.glsl", to_bytes(shared)});
-    const Result<std::vector<shading::Unit>> units = shading::read_sources(input.functions);
-    if (!units) return units.error();
+    DERMIS_TRY_ASSIGN(const std::vector<shading::Unit> units, shading::read_sources(input.functions));
     const std::vector<std::string> heading = {
         "Shading functions for skin, printed by `dermis export`; change their source, not this file.",
         "SPDX-License-Identifier: MIT, Copyright (c) 2026 The Dermis authors", "",
         "Units: lengths in mm, curvature in 1/mm, colours linear."};
-    files.push_back({"skin.essl", to_bytes(shading::print(*units, shading::Language::essl, heading))});
+    files.push_back({"skin.essl", to_bytes(shading::print(units, shading::Language::essl, heading))});
     return {};
 }
 
@@ -152,9 +149,9 @@ Result<json> object_json(const WebInput& input, size_t index, web::Binary& binar
         if (materials[number].is_null()) {
             materials[number] = material_json(material, object.classes[number]);
             const std::string prefix = std::to_string(index) + "_" + std::to_string(number);
-            Result<json> maps = web::add_maps(page.files, material, object.mesh, prefix, input.map_side);
-            if (!maps) return maps.error();
-            materials[number].update(*maps);
+            DERMIS_TRY_ASSIGN(json maps,
+                              web::add_maps(page.files, material, object.mesh, prefix, input.map_side));
+            materials[number].update(maps);
         }
         json part = (*made)["parts"][i];
         part["material"] = materials[number];
@@ -172,9 +169,8 @@ Result<json> scene_json(const WebInput& input, web::Binary& binary, WebPage& pag
     if (!environment) return environment.error();
     json objects = json::array();
     for (size_t i = 0; i < scene.objects.size(); ++i) {
-        Result<json> object = object_json(input, i, binary, page);
-        if (!object) return object.error();
-        objects.push_back(std::move(*object));
+        DERMIS_TRY_ASSIGN(json object, object_json(input, i, binary, page));
+        objects.push_back(std::move(object));
     }
     return json{
         {"name", scene.name},
@@ -211,7 +207,7 @@ Result<WebPage> make_web_page(const WebInput& input) {
     if (input.tones.empty() || input.tones.size() > kMaxTones)
         return Error{"a page has 1 to " + std::to_string(kMaxTones) + " skins"};
     WebPage page;
-    if (const Result<void> added = add_texts(input, page.files); !added) return added.error();
+    DERMIS_TRY(add_texts(input, page.files));
     web::Binary binary;
     const Result<json> scene = scene_json(input, binary, page);
     if (!scene) return scene.error();
@@ -221,4 +217,4 @@ Result<WebPage> make_web_page(const WebInput& input) {
     return page;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline engines

@@ -21,7 +21,7 @@
 #include "dermis/shading/shading.h"
 #include "dermis/technique/technique.h"
 
-namespace dermis {
+namespace dermis::inline engines {
 
 /// A skin to choose on the page.
 struct WebTone {
@@ -65,4 +65,4 @@ struct WebPage {
 /// format.
 [[nodiscard]] Result<WebPage> make_web_page(const WebInput& input);
 
-}  // namespace dermis
+}  // namespace dermis::inline engines

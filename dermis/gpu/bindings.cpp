@@ -230,10 +230,9 @@ Result<void> BindingResolver::resolve(PlannedPass& planned, PlannedDraw& target,
     const std::vector<Binding>& bindings = planned.pipeline->bindings;
     for (size_t i = 0; i < bindings.size(); ++i) {
         const Binding& binding = bindings[i];
-        Result<Descriptor> descriptor = resolve_one(planned, binding, draw);
-        if (!descriptor) return descriptor.error();
-        descriptor->binding = uint32_t(i);
-        target.descriptors.push_back(*descriptor);
+        DERMIS_TRY_ASSIGN(Descriptor descriptor, resolve_one(planned, binding, draw));
+        descriptor.binding = uint32_t(i);
+        target.descriptors.push_back(descriptor);
     }
     return {};
 }

@@ -64,7 +64,7 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
         return Error{
             "the threads of the Vulkan driver cannot be started; raise the limit on processes (ulimit -u)"};
     const VkResult result = vkCreateDevice(context.physical, &info, nullptr, &context.device);
-    if (Result<void> ok = check(result, "open " + state.info.name); !ok) return ok.error();
+    DERMIS_TRY(check(result, "open " + state.info.name));
     volkLoadDeviceTable(&context.vk, context.device);
     context.vk.vkGetDeviceQueue(context.device, context.queue_family, 0, &context.queue);
     return {};
@@ -72,9 +72,9 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
 
 // A device without hardware gets no submission.
 Result<void> make_submissions(Device::State& state) {
-    Result<OwnedCommandPool> pool = make_command_pool(state.context, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT);
-    if (!pool) return pool.error();
-    state.uploads = std::move(*pool);
+    DERMIS_TRY_ASSIGN(OwnedCommandPool pool,
+                      make_command_pool(state.context, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT));
+    state.uploads = std::move(pool);
     if (state.context.keep_statistics) return {};
     Result<OwnedSemaphore> done = make_semaphore(state.context, VK_SEMAPHORE_TYPE_TIMELINE);
     if (!done) return done.error();
@@ -117,22 +117,19 @@ Device::State::~State() {
 Result<Device> Device::create(const DeviceOptions& options) {
     Result<Instance> instance = Instance::create(options);
     if (!instance) return instance.error();
-    Result<std::vector<PhysicalDevice>> devices = physical_devices(*instance);
-    if (!devices) return devices.error();
-    Result<PhysicalDevice> device = pick(*devices, options.name_contains);
-    if (!device) return device.error();
+    DERMIS_TRY_ASSIGN(std::vector<PhysicalDevice> devices, physical_devices(*instance));
+    DERMIS_TRY_ASSIGN(PhysicalDevice device, pick(devices, options.name_contains));
 
     auto state = std::make_unique<State>();
     state->instance = std::move(*instance);
     state->context.instance = state->instance.get();
     load_debug_names(state->instance, state->context);
-    take_physical_device(*state, *device, options);
+    take_physical_device(*state, device, options);
     state->context.keep_statistics = options.keep_statistics;
-    if (Result<void> ok = make_device(*state, options); !ok) return ok.error();
-    if (Result<void> ok = make_submissions(*state); !ok) return ok.error();
-    if (Result<void> ok = make_samplers(*state); !ok) return ok.error();
-    if (!options.keep_statistics)
-        if (Result<void> ok = open_pipeline_cache(*state); !ok) return ok.error();
+    DERMIS_TRY(make_device(*state, options));
+    DERMIS_TRY(make_submissions(*state));
+    DERMIS_TRY(make_samplers(*state));
+    if (!options.keep_statistics) DERMIS_TRY(open_pipeline_cache(*state));
     return Device(std::move(state));
 }
 

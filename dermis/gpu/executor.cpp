@@ -15,10 +15,10 @@ Result<void> FrameSlot::store(const Context& context, const std::vector<std::byt
             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         // A frame of a scene has a few kB, an interface with all its panels some hundred.
         constexpr size_t kSmallest = 256 << 10;
-        Result<Buffer> larger = make_buffer(
-            context, "frame blocks", std::max(bytes.size() * 3 / 2, kSmallest), kUsage, MemoryUse::upload);
-        if (!larger) return larger.error();
-        uploads = std::move(*larger);
+        DERMIS_TRY_ASSIGN(Buffer larger,
+                          make_buffer(context, "frame blocks", std::max(bytes.size() * 3 / 2, kSmallest),
+                                      kUsage, MemoryUse::upload));
+        uploads = std::move(larger);
     }
     if (!bytes.empty()) std::memcpy(uploads.mapped, bytes.data(), bytes.size());
     return {};
@@ -63,19 +63,17 @@ Result<Executor> Executor::create(Device& device, ShaderSource shaders) {
 
 Result<uint64_t> Executor::State::submit(const PassList& list, const FrameInputs& inputs) {
     const Context& context = device.context;
-    if (Result<void> ok = check_frame(list, inputs, context); !ok) return ok.error();
+    DERMIS_TRY(check_frame(list, inputs, context));
     pipelines.begin_run();
-    if (Result<void> ok = images.prepare(list, inputs.width, inputs.height); !ok) return ok.error();
-    Result<Plan> plan = make_plan({device, list, inputs, images, shaders, pipelines});
-    if (!plan) return plan.error();
+    DERMIS_TRY(images.prepare(list, inputs.width, inputs.height));
+    DERMIS_TRY_ASSIGN(Plan plan, make_plan({device, list, inputs, images, shaders, pipelines}));
     FrameSlot& slot = slots[(frames + 1) % slots.size()];
-    if (Result<void> ok = collect(slot); !ok) return ok.error();
-    if (Result<void> ok = slot.store(context, plan->uploads); !ok) return ok.error();
-    if (Result<void> ok = slot.descriptors.prepare(context, *plan, slot.uploads.handle.get()); !ok)
-        return ok.error();
-    if (Result<void> ok = slot.queries.prepare(context, *plan); !ok) return ok.error();
+    DERMIS_TRY(collect(slot));
+    DERMIS_TRY(slot.store(context, plan.uploads));
+    DERMIS_TRY(slot.descriptors.prepare(context, plan, slot.uploads.handle.get()));
+    DERMIS_TRY(slot.queries.prepare(context, plan));
     const Result<void> done = slot.commands.run(device, "the frame", [&](VkCommandBuffer commands) {
-        record_plan(context, commands, *plan, slot.uploads.handle.get(), slot.queries);
+        record_plan(context, commands, plan, slot.uploads.handle.get(), slot.queries);
     });
     if (!done) return done.error();
     return slot.frame = ++frames;
@@ -84,19 +82,17 @@ Result<uint64_t> Executor::State::submit(const PassList& list, const FrameInputs
 Result<void> Executor::State::collect(FrameSlot& slot) {
     if (!slot.frame) return {};
     if (Result<void> done = slot.commands.wait(device.context, "the frame"); !done) return done;
-    Result<FrameResult> result = slot.queries.collect(device.context);
-    if (!result) return result.error();
-    result->frame = std::exchange(slot.frame, 0);
+    DERMIS_TRY_ASSIGN(FrameResult result, slot.queries.collect(device.context));
+    result.frame = std::exchange(slot.frame, 0);
     if (finished.size() == kResultsKept) finished.erase(finished.begin());
-    finished.push_back(std::move(*result));
+    finished.push_back(std::move(result));
     return {};
 }
 
 Result<FrameResult> Executor::run(const PassList& list, const FrameInputs& inputs) {
-    const Result<uint64_t> frame = state_->submit(list, inputs);
-    if (!frame) return frame.error();
-    for (uint64_t one = *frame - std::min(*frame, kFramesInFlight) + 1; one <= *frame; ++one)
-        if (Result<void> ok = state_->collect(state_->slots[one % kFramesInFlight]); !ok) return ok.error();
+    DERMIS_TRY_ASSIGN(const uint64_t frame, state_->submit(list, inputs));
+    for (uint64_t one = frame - std::min(frame, kFramesInFlight) + 1; one <= frame; ++one)
+        DERMIS_TRY(state_->collect(state_->slots[one % kFramesInFlight]));
     FrameResult result = std::move(state_->finished.back());
     state_->finished.pop_back();
     return result;
@@ -111,7 +107,7 @@ Result<std::vector<FrameResult>> Executor::finished() {
     for (size_t i = 1; i <= state.slots.size(); ++i) {  // the slot of the next frame has the oldest
         FrameSlot& slot = state.slots[(state.frames + i) % state.slots.size()];
         if (!slot.commands.is_done(state.device.context)) break;
-        if (Result<void> ok = state.collect(slot); !ok) return ok.error();
+        DERMIS_TRY(state.collect(slot));
     }
     return std::exchange(state.finished, {});
 }

@@ -37,9 +37,8 @@ Result<void> FrameImages::prepare(const PassList& list, int width, int height) {
         const std::string key = image_key(declaration, extent, storage);
         auto found = images_.find(key);
         if (found == images_.end()) {
-            Result<FrameImage> image = make(declaration, extent, storage);
-            if (!image) return image.error();
-            found = images_.emplace(key, std::move(*image)).first;
+            DERMIS_TRY_ASSIGN(FrameImage image, make(declaration, extent, storage));
+            found = images_.emplace(key, std::move(image)).first;
             if (declaration.persistent)
                 if (Result<void> ok = clear(found->second); !ok) return ok;
         }
@@ -100,9 +99,8 @@ Result<FrameImage> FrameImages::make(const ImageDeclaration& declaration, VkExte
     if (!image) return image.error();
     FrameImage result{.declaration = declaration, .image = std::move(*image)};
     for (uint32_t mip = 0; mip < result.image.info.mips; ++mip) {
-        Result<OwnedView> view = make_mip_view(context, result.image, mip);
-        if (!view) return view.error();
-        result.mip_views.push_back(std::move(*view));
+        DERMIS_TRY_ASSIGN(OwnedView view, make_mip_view(context, result.image, mip));
+        result.mip_views.push_back(std::move(view));
         set_object_name(context, VK_OBJECT_TYPE_IMAGE_VIEW, result.mip_views.back().get(),
                         declaration.name + " mip " + std::to_string(mip));
         result.last_use.push_back(ImageUse::none);

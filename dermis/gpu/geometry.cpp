@@ -60,22 +60,20 @@ template <class Put>
 Result<std::unique_ptr<Geometry::State>> make_state(std::string_view name,
                                                     std::span<const VertexStream> streams,
                                                     std::span<const uint32_t> indices, const Put& put) {
-    const Result<size_t> vertices = check_streams(name, streams, indices);
-    if (!vertices) return vertices.error();
+    DERMIS_TRY_ASSIGN(const size_t vertices, check_streams(name, streams, indices));
     auto state = std::make_unique<Geometry::State>();
     state->name = name;
-    state->vertex_count = uint32_t(*vertices);
+    state->vertex_count = uint32_t(vertices);
     state->index_count = uint32_t(indices.size());
     for (const VertexStream& stream : streams) {
-        Result<GeometryData> data = put(state->name + " " + stream.name, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                                        std::as_bytes(stream.values));
-        if (!data) return data.error();
-        state->streams[stream.name] = {stream.components, std::move(*data)};
+        DERMIS_TRY_ASSIGN(GeometryData data,
+                          put(state->name + " " + stream.name, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                              std::as_bytes(stream.values)));
+        state->streams[stream.name] = {stream.components, std::move(data)};
     }
-    Result<GeometryData> data =
-        put(state->name + " indices", VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(indices));
-    if (!data) return data.error();
-    state->indices = std::move(*data);
+    DERMIS_TRY_ASSIGN(GeometryData data, put(state->name + " indices", VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                             std::as_bytes(indices)));
+    state->indices = std::move(data);
     return state;
 }
 
@@ -89,9 +87,8 @@ Result<Geometry> Geometry::upload(Device& device, std::string_view name,
         if (!buffer) return buffer.error();
         return GeometryData{.buffer = std::move(*buffer)};
     };
-    Result<std::unique_ptr<State>> state = make_state(name, streams, indices, put);
-    if (!state) return state.error();
-    return Geometry(std::move(*state));
+    DERMIS_TRY_ASSIGN(std::unique_ptr<State> state, make_state(name, streams, indices, put));
+    return Geometry(std::move(state));
 }
 
 Result<Geometry> Geometry::streamed(std::string_view name, std::span<const VertexStream> streams,
@@ -100,9 +97,8 @@ Result<Geometry> Geometry::streamed(std::string_view name, std::span<const Verte
                         std::span<const std::byte> bytes) -> Result<GeometryData> {
         return GeometryData{.bytes = {bytes.begin(), bytes.end()}};
     };
-    Result<std::unique_ptr<State>> state = make_state(name, streams, indices, put);
-    if (!state) return state.error();
-    return Geometry(std::move(*state));
+    DERMIS_TRY_ASSIGN(std::unique_ptr<State> state, make_state(name, streams, indices, put));
+    return Geometry(std::move(state));
 }
 
 uint32_t Geometry::vertex_count() const {

@@ -72,7 +72,7 @@ std::vector<std::string> MessageLog::all() const {
 }
 
 Result<Instance> Instance::create(const DeviceOptions& options) {
-    if (Result<void> ok = check_loader(options); !ok) return ok.error();
+    DERMIS_TRY(check_loader(options));
     Instance instance;
     instance.log_ = std::make_unique<MessageLog>(options.on_message);
     instance.has_debug_utils_ = has_extension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -100,7 +100,7 @@ Result<Instance> Instance::create(const DeviceOptions& options) {
                                        .enabledExtensionCount = uint32_t(extensions.size()),
                                        .ppEnabledExtensionNames = extensions.data()};
     const VkResult result = vkCreateInstance(&info, nullptr, &instance.handle_);
-    if (Result<void> ok = check(result, "start Vulkan"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "start Vulkan"));
     volkLoadInstanceOnly(instance.handle_);
     if (!options.validation) return instance;
 
@@ -108,7 +108,7 @@ Result<Instance> Instance::create(const DeviceOptions& options) {
         vkGetInstanceProcAddr(instance.handle_, "vkCreateDebugUtilsMessengerEXT"));
     if (!create) return Error{"the validation layers lack VK_EXT_debug_utils; update them"};
     const VkResult made = create(instance.handle_, &messenger, nullptr, &instance.messenger_);
-    if (Result<void> ok = check(made, "listen to the validation layers"); !ok) return ok.error();
+    DERMIS_TRY(check(made, "listen to the validation layers"));
     return instance;
 }
 

@@ -40,7 +40,7 @@ Result<OwnedMemory> allocate(const Context& context, const VkMemoryRequirements&
     VkDeviceMemory memory = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkAllocateMemory(context.device, &info, nullptr, &memory);
     const std::string what = "allocate " + megabytes(needs.size) + " for '" + std::string(name) + "'";
-    if (Result<void> ok = check(result, what); !ok) return ok.error();
+    DERMIS_TRY(check(result, what));
     set_object_name(context, VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
     return OwnedMemory(context, memory);
 }
@@ -57,7 +57,7 @@ Result<OwnedView> make_view(const Context& context, const DeviceImage& image, ui
                                                              .layerCount = image.info.layers}};
     VkImageView view = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateImageView(context.device, &info, nullptr, &view);
-    if (Result<void> ok = check(result, "make an image view"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "make an image view"));
     return OwnedView(context, view);
 }
 
@@ -70,7 +70,7 @@ Result<Buffer> make_buffer(const Context& context, std::string_view name, VkDevi
                                      .usage = usage};
     VkBuffer handle = VK_NULL_HANDLE;
     const VkResult created = context.vk.vkCreateBuffer(context.device, &info, nullptr, &handle);
-    if (Result<void> ok = check(created, "make buffer '" + std::string(name) + "'"); !ok) return ok.error();
+    DERMIS_TRY(check(created, "make buffer '" + std::string(name) + "'"));
     Buffer buffer;
     buffer.handle = OwnedBuffer(context, handle);
     buffer.size = info.size;
@@ -87,7 +87,7 @@ Result<Buffer> make_buffer(const Context& context, std::string_view name, VkDevi
         result = context.vk.vkMapMemory(context.device, buffer.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped);
         buffer.mapped = static_cast<std::byte*>(mapped);
     }
-    if (Result<void> ok = check(result, "map buffer '" + std::string(name) + "'"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "map buffer '" + std::string(name) + "'"));
     return buffer;
 }
 
@@ -115,7 +115,7 @@ Result<DeviceImage> make_image(const Context& context, std::string_view name, co
                      " samples"};
     VkImage handle = VK_NULL_HANDLE;
     VkResult result = context.vk.vkCreateImage(context.device, &create, nullptr, &handle);
-    if (Result<void> ok = check(result, "make image '" + std::string(name) + "'"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "make image '" + std::string(name) + "'"));
     DeviceImage image;
     image.handle = OwnedImage(context, handle);
     image.info = info;
@@ -127,7 +127,7 @@ Result<DeviceImage> make_image(const Context& context, std::string_view name, co
     if (!memory) return memory.error();
     image.memory = std::move(*memory);
     result = context.vk.vkBindImageMemory(context.device, handle, image.memory.get(), 0);
-    if (Result<void> ok = check(result, "bind image '" + std::string(name) + "'"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "bind image '" + std::string(name) + "'"));
     const VkImageViewType type = info.cube         ? VK_IMAGE_VIEW_TYPE_CUBE
                                  : info.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
                                                    : VK_IMAGE_VIEW_TYPE_2D;

@@ -58,9 +58,8 @@ Result<Device> open_as(const fs::path& manifest, const std::string& family) {
 // the version is read from a device of a chip that all of them know.
 Result<std::string> family_of(const fs::path& manifest, std::string_view chip) {
     if (chip != "navi31") return std::string(chip);
-    const Result<Device> known = open_as(manifest, "navi21");
-    if (!known) return known.error();
-    return std::string(known->info().driver.find("Mesa 22.") != std::string::npos ? "gfx1100" : chip);
+    DERMIS_TRY_ASSIGN(const Device known, open_as(manifest, "navi21"));
+    return std::string(known.info().driver.find("Mesa 22.") != std::string::npos ? "gfx1100" : chip);
 }
 
 }  // namespace
@@ -75,9 +74,8 @@ Result<Device> open_null_driver(std::string_view chip) {
         return Error{
             "no radeon_icd*.json in /usr/share/vulkan/icd.d: Mesa's RADV compiles for the chip and is not "
             "installed (Debian: apt-get install mesa-vulkan-drivers)"};
-    const Result<std::string> family = family_of(manifest, chip);
-    if (!family) return family.error();
-    return open_as(manifest, *family);
+    DERMIS_TRY_ASSIGN(const std::string family, family_of(manifest, chip));
+    return open_as(manifest, family);
 }
 
 }  // namespace dermis::gpu

@@ -7,22 +7,20 @@ namespace {
 
 Result<const Pipeline*> raster_pipeline(const PassList& list, const Pass& pass, ShaderLibrary& shaders,
                                         PipelineStore& pipelines) {
-    const Result<const Shader*> vertex = shaders.get(vertex_shader_name(pass), VK_SHADER_STAGE_VERTEX_BIT);
-    if (!vertex) return vertex.error();
+    DERMIS_TRY_ASSIGN(const Shader* vertex,
+                      shaders.get(vertex_shader_name(pass), VK_SHADER_STAGE_VERTEX_BIT));
     const Shader* fragment = nullptr;
     if (!pass.shader.empty()) {
-        const Result<const Shader*> shader = shaders.get(pass.shader, VK_SHADER_STAGE_FRAGMENT_BIT);
-        if (!shader) return shader.error();
-        fragment = *shader;
+        DERMIS_TRY_ASSIGN(const Shader* shader, shaders.get(pass.shader, VK_SHADER_STAGE_FRAGMENT_BIT));
+        fragment = shader;
     }
-    return pipelines.graphics({list, pass}, **vertex, fragment, target_formats(list, pass));
+    return pipelines.graphics({list, pass}, *vertex, fragment, target_formats(list, pass));
 }
 
 Result<const Pipeline*> compute_pipeline(const PassList& list, const Pass& pass, ShaderLibrary& shaders,
                                          PipelineStore& pipelines) {
-    const Result<const Shader*> shader = shaders.get(pass.shader, VK_SHADER_STAGE_COMPUTE_BIT);
-    if (!shader) return shader.error();
-    return pipelines.compute({list, pass}, **shader);
+    DERMIS_TRY_ASSIGN(const Shader* shader, shaders.get(pass.shader, VK_SHADER_STAGE_COMPUTE_BIT));
+    return pipelines.compute({list, pass}, *shader);
 }
 
 }  // namespace

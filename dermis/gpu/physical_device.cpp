@@ -134,7 +134,7 @@ Result<std::vector<PhysicalDevice>> physical_devices(const Instance& instance) {
     std::vector<VkPhysicalDevice> handles(count);
     if (result >= 0) result = vkEnumeratePhysicalDevices(instance.get(), &count, handles.data());
     if (result != VK_ERROR_INITIALIZATION_FAILED)  // the loader returns it when every driver failed
-        if (Result<void> ok = check(result, "list Vulkan devices"); !ok) return ok.error();
+        DERMIS_TRY(check(result, "list Vulkan devices"));
     if (handles.empty() || result < 0)
         return Error{
             "no Vulkan device; install a driver (without a GPU: apt-get install "
@@ -165,12 +165,10 @@ Result<PhysicalDevice> pick(std::span<const PhysicalDevice> devices, std::string
 }
 
 Result<std::vector<DeviceInfo>> list_devices() {
-    Result<Instance> instance = Instance::create({});
-    if (!instance) return instance.error();
-    Result<std::vector<PhysicalDevice>> devices = physical_devices(*instance);
-    if (!devices) return devices.error();
+    DERMIS_TRY_ASSIGN(Instance instance, Instance::create({}));
+    DERMIS_TRY_ASSIGN(std::vector<PhysicalDevice> devices, physical_devices(instance));
     std::vector<DeviceInfo> infos;
-    for (const PhysicalDevice& device : *devices) infos.push_back(device.info);
+    for (const PhysicalDevice& device : devices) infos.push_back(device.info);
     return infos;
 }
 

@@ -98,36 +98,34 @@ std::string compute_key(const Context& context, const ListedPass& pass, const Sh
 // Layout first: the modules carry its binding numbers.
 Result<std::vector<Stage>> make_stages(Device::State& device, const ListedPass& pass,
                                        std::span<const Shader* const> shaders, Pipeline& pipeline) {
-    if (Result<void> ok = check_constants(pass.pass, shaders); !ok) return ok.error();
-    if (Result<void> ok = merge_interface(shaders, pipeline); !ok) return ok.error();
-    if (Result<void> ok = make_layout(device, pipeline); !ok) return ok.error();
+    DERMIS_TRY(check_constants(pass.pass, shaders));
+    DERMIS_TRY(merge_interface(shaders, pipeline));
+    DERMIS_TRY(make_layout(device, pipeline));
     std::vector<Stage> stages(shaders.size());
     for (size_t i = 0; i < shaders.size(); ++i)
-        if (Result<void> ok = make_stage(device.context, pass, *shaders[i], pipeline, stages[i]); !ok)
-            return ok.error();
+        DERMIS_TRY(make_stage(device.context, pass, *shaders[i], pipeline, stages[i]));
     return stages;
 }
 
 Result<Pipeline> build_graphics(Device::State& device, const ListedPass& listed, const Shader& vertex,
                                 const Shader* fragment, const TargetFormats& formats) {
     const Pass& pass = listed.pass;
-    if (Result<void> ok = check_stage_borders(pass, vertex, fragment); !ok) return ok.error();
+    DERMIS_TRY(check_stage_borders(pass, vertex, fragment));
     const Context& context = device.context;
     Pipeline pipeline;
     pipeline.inputs = vertex.interface.inputs;
     std::vector<const Shader*> shaders = {&vertex};
     if (fragment) shaders.push_back(fragment);
-    const Result<std::vector<Stage>> stages = make_stages(device, listed, shaders, pipeline);
-    if (!stages) return stages.error();
+    DERMIS_TRY_ASSIGN(const std::vector<Stage> stages, make_stages(device, listed, shaders, pipeline));
     std::vector<VkPipelineShaderStageCreateInfo> stage_infos;
-    for (const Stage& stage : *stages) stage_infos.push_back(stage.info);
+    for (const Stage& stage : stages) stage_infos.push_back(stage.info);
     const GraphicsState state(pass, formats, pipeline.inputs);
     const VkGraphicsPipelineCreateInfo info =
         state.info(stage_infos, pipeline.layout.get(), context.pipeline_flags());
     VkPipeline handle = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateGraphicsPipelines(context.device, device.pipeline_cache.get(),
                                                                  1, &info, nullptr, &handle);
-    if (Result<void> ok = check(result, "build its pipeline"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "build its pipeline"));
     pipeline.handle = OwnedPipeline(context, handle);
     return pipeline;
 }
@@ -138,16 +136,15 @@ Result<Pipeline> build_compute(Device::State& device, const ListedPass& pass, co
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
     pipeline.local_size = shader.interface.local_size;
     const Shader* const shaders[] = {&shader};
-    const Result<std::vector<Stage>> stages = make_stages(device, pass, shaders, pipeline);
-    if (!stages) return stages.error();
+    DERMIS_TRY_ASSIGN(const std::vector<Stage> stages, make_stages(device, pass, shaders, pipeline));
     const VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                               .flags = context.pipeline_flags(),
-                                              .stage = stages->front().info,
+                                              .stage = stages.front().info,
                                               .layout = pipeline.layout.get()};
     VkPipeline handle = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateComputePipelines(context.device, device.pipeline_cache.get(),
                                                                 1, &info, nullptr, &handle);
-    if (Result<void> ok = check(result, "build its pipeline"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "build its pipeline"));
     pipeline.handle = OwnedPipeline(context, handle);
     return pipeline;
 }
@@ -158,10 +155,9 @@ Result<const Pipeline*> PipelineStore::find_or_build(const std::string& key, con
                                                      const std::function<Result<Pipeline>()>& build) {
     auto found = pipelines_.find(key);
     if (found == pipelines_.end()) {
-        Result<Pipeline> pipeline = build();
-        if (!pipeline) return pipeline.error();
-        set_object_name(device_->context, VK_OBJECT_TYPE_PIPELINE, pipeline->handle.get(), pass.name);
-        found = pipelines_.emplace(key, std::move(*pipeline)).first;
+        DERMIS_TRY_ASSIGN(Pipeline pipeline, build());
+        set_object_name(device_->context, VK_OBJECT_TYPE_PIPELINE, pipeline.handle.get(), pass.name);
+        found = pipelines_.emplace(key, std::move(pipeline)).first;
     }
     found->second.last_run = run_;
     return &found->second;

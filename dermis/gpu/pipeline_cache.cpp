@@ -33,7 +33,7 @@ Result<void> open_pipeline_cache(Device::State& state) {
     if (bytes.size() > kMaxCacheBytes) info.initialDataSize = 0;
     VkPipelineCache cache = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreatePipelineCache(context.device, &info, nullptr, &cache);
-    if (Result<void> ok = check(result, "make a pipeline cache"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "make a pipeline cache"));
     state.pipeline_cache = OwnedPipelineCache(context, cache);
     state.pipeline_cache_bytes = info.initialDataSize;
     return {};

@@ -8,7 +8,7 @@ Result<OwnedQueryPool> make_pool(const Context& context, VkQueryType type, size_
         .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = type, .queryCount = uint32_t(count)};
     VkQueryPool pool = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateQueryPool(context.device, &info, nullptr, &pool);
-    if (Result<void> ok = check(result, "make a query pool"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "make a query pool"));
     return OwnedQueryPool(context, pool);
 }
 
@@ -18,7 +18,7 @@ Result<std::vector<uint64_t>> read_pool(const Context& context, VkQueryPool pool
     const VkResult result = context.vk.vkGetQueryPoolResults(
         context.device, pool, uint32_t(first), uint32_t(count), count * sizeof(uint64_t), values.data(),
         sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
-    if (Result<void> ok = check(result, "read the timings"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "read the timings"));
     return values;
 }
 
@@ -46,12 +46,10 @@ Result<void> FrameQueries::prepare(const Context& context, const Plan& plan) {
     }
     const size_t passes = passes_.size();
     if (passes <= capacity_) return {};
-    Result<OwnedQueryPool> timestamps = make_pool(context, VK_QUERY_TYPE_TIMESTAMP, passes + 1);
-    if (!timestamps) return timestamps.error();
-    Result<OwnedQueryPool> samples = make_pool(context, VK_QUERY_TYPE_OCCLUSION, passes);
-    if (!samples) return samples.error();
-    timestamps_ = std::move(*timestamps);
-    samples_ = std::move(*samples);
+    DERMIS_TRY_ASSIGN(OwnedQueryPool timestamps, make_pool(context, VK_QUERY_TYPE_TIMESTAMP, passes + 1));
+    DERMIS_TRY_ASSIGN(OwnedQueryPool samples, make_pool(context, VK_QUERY_TYPE_OCCLUSION, passes));
+    timestamps_ = std::move(timestamps);
+    samples_ = std::move(samples);
     capacity_ = passes;
     return {};
 }
@@ -83,17 +81,15 @@ Result<FrameResult> FrameQueries::collect(const Context& context) const {
     const size_t count = passes_.size();
     std::vector<uint64_t> times(count + 1);
     if (count && context.timestamp_bits) {
-        Result<std::vector<uint64_t>> read = read_pool(context, timestamps_.get(), 0, count + 1);
-        if (!read) return read.error();
-        times = std::move(*read);
+        DERMIS_TRY_ASSIGN(std::vector<uint64_t> read, read_pool(context, timestamps_.get(), 0, count + 1));
+        times = std::move(read);
     }
     for (size_t i = 0; i < count; ++i) {
         PassTiming& timing = result.passes[i];
         timing.time_ms = elapsed_ms(context, times[i], times[i + 1]);
         if (!counted_[i]) continue;
-        const Result<std::vector<uint64_t>> samples = read_pool(context, samples_.get(), i, 1);
-        if (!samples) return samples.error();
-        timing.samples_passed = samples->front();
+        DERMIS_TRY_ASSIGN(const std::vector<uint64_t> samples, read_pool(context, samples_.get(), i, 1));
+        timing.samples_passed = samples.front();
     }
     result.frame_ms = elapsed_ms(context, times.front(), times.back());
     return result;

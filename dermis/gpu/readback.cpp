@@ -16,9 +16,9 @@ Result<Image> read_image(Device::State& device, FrameImage& source, int mip) {
     const VkExtent2D extent = source.extent(mip);
     const FormatInfo format = format_info(declaration.format);
     const size_t size = size_t(extent.width) * extent.height * bytes_per_texel(declaration.format);
-    const Result<Buffer> staging = make_buffer(context, "read-back of " + declaration.name, size,
-                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
-    if (!staging) return staging.error();
+    DERMIS_TRY_ASSIGN(const Buffer staging,
+                      make_buffer(context, "read-back of " + declaration.name, size,
+                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback));
     const Result<void> done =
         run_once(device, "the read-back of " + declaration.name, [&](VkCommandBuffer commands) {
             BarrierBatch barriers;
@@ -27,7 +27,7 @@ Result<Image> read_image(Device::State& device, FrameImage& source, int mip) {
             const VkBufferImageCopy region = {.imageSubresource = {format.aspect, uint32_t(mip), 0, 1},
                                               .imageExtent = {extent.width, extent.height, 1}};
             context.vk.vkCmdCopyImageToBuffer(commands, source.image.handle.get(),
-                                              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging->handle.get(), 1,
+                                              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.handle.get(), 1,
                                               &region);
             const VkMemoryBarrier2 to_host = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                               .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
@@ -45,7 +45,7 @@ Result<Image> read_image(Device::State& device, FrameImage& source, int mip) {
     image.height = int(extent.height);
     image.channels = format.channels;
     image.format = format.pixel;
-    image.bytes.assign(staging->mapped, staging->mapped + size);
+    image.bytes.assign(staging.mapped, staging.mapped + size);
     return image;
 }
 

@@ -42,7 +42,7 @@ Result<OwnedSampler> make_sampler(const Context& context, const VkSamplerCreateI
                                   const std::string& name) {
     VkSampler sampler = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateSampler(context.device, &info, nullptr, &sampler);
-    if (Result<void> ok = check(result, "make a sampler"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "make a sampler"));
     set_object_name(context, VK_OBJECT_TYPE_SAMPLER, sampler, name);
     return OwnedSampler(context, sampler);
 }
@@ -53,17 +53,15 @@ Result<void> make_samplers(Device::State& state) {
     const Context& context = state.context;
     for (size_t i = 0; i < kSamplerNames.size(); ++i) {
         const std::string name(kSamplerNames[i]);
-        Result<OwnedSampler> made = make_sampler(context, sampler_info(name, context), name);
-        if (!made) return made.error();
-        state.samplers[i] = std::move(*made);
+        DERMIS_TRY_ASSIGN(OwnedSampler made, make_sampler(context, sampler_info(name, context), name));
+        state.samplers[i] = std::move(made);
     }
     for (size_t i = 0; i < state.map_samplers.size(); ++i) {
         VkSamplerCreateInfo info = sampler_info("trilinear", context);
         info.addressModeU = kVulkanModes[i / kAddressModes];
         info.addressModeV = kVulkanModes[i % kAddressModes];
-        Result<OwnedSampler> made = make_sampler(context, info, "map " + std::to_string(i));
-        if (!made) return made.error();
-        state.map_samplers[i] = std::move(*made);
+        DERMIS_TRY_ASSIGN(OwnedSampler made, make_sampler(context, info, "map " + std::to_string(i)));
+        state.map_samplers[i] = std::move(made);
     }
     return {};
 }

@@ -7,12 +7,10 @@ namespace dermis::gpu {
 Result<const Shader*> ShaderLibrary::get(std::string_view name, VkShaderStageFlagBits stage) {
     auto found = shaders_.find(name);
     if (found == shaders_.end()) {
-        Result<std::vector<uint32_t>> words = source_(name);
-        if (!words) return words.error();
-        Result<ShaderInterface> interface = reflect(name, *words);
-        if (!interface) return interface.error();
-        std::string hash = Hasher().add(std::as_bytes(std::span(*words))).hex();
-        Shader shader{std::string(name), std::move(hash), std::move(*words), std::move(*interface)};
+        DERMIS_TRY_ASSIGN(std::vector<uint32_t> words, source_(name));
+        DERMIS_TRY_ASSIGN(ShaderInterface interface, reflect(name, words));
+        std::string hash = Hasher().add(std::as_bytes(std::span(words))).hex();
+        Shader shader{std::string(name), std::move(hash), std::move(words), std::move(interface)};
         found = shaders_.emplace(std::string(name), std::move(shader)).first;
     }
     if (found->second.interface.stage != stage)

@@ -54,24 +54,22 @@ Result<std::vector<uint32_t>> to_words(std::string_view name, std::span<const st
 }
 
 Result<std::vector<uint32_t>> compile(const fs::path& root, std::string_view name) {
-    const Result<fs::path> source = find_source(root, name);
-    if (!source) return source.error();
+    DERMIS_TRY_ASSIGN(const fs::path source, find_source(root, name));
     const TemporaryFolder folder;
     if (folder.path.empty()) return Error{"cannot make a folder in " + fs::temp_directory_path().string()};
     const fs::path output = folder.path / "shader.spv", log = folder.path / "log.txt";
     const int status = run_program({"glslc", "--target-env=vulkan1.3", "-O", "-g", "-fauto-bind-uniforms",
-                                    "-I", root.string(), "-o", output.string(), source->string()},
+                                    "-I", root.string(), "-o", output.string(), source.string()},
                                    log);
     // posix_spawn's child exits with 127 when there is no such program.
     if (status == -1 || status == 127)
         return Error{"cannot run glslc, the shader compiler; install it (Debian: apt-get install glslc)"};
     if (status != 0) {
         const Result<std::string> said = read_text_file(log);
-        return Error{said ? one_line(*said) : "glslc failed on " + source->string()};
+        return Error{said ? one_line(*said) : "glslc failed on " + source.string()};
     }
-    const Result<std::vector<std::byte>> bytes = read_file(output);
-    if (!bytes) return bytes.error();
-    return to_words(name, *bytes);
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(output));
+    return to_words(name, bytes);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ Result<ShaderStatistics> read_executable(const Context& context, VkPipeline pipe
         count, {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR});
     if (result == VK_SUCCESS)
         result = context.vk.vkGetPipelineExecutableStatisticsKHR(context.device, &info, &count, read.data());
-    if (Result<void> ok = check(result, "read the compiler's statistics"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "read the compiler's statistics"));
     ShaderStatistics shader = {.stage = std::string(stage_name(properties.stages)),
                                .subgroup_size = properties.subgroupSize};
     for (const StatisticField& field : statistic_fields()) {
@@ -57,12 +57,11 @@ Result<std::vector<ShaderStatistics>> read_pipeline(const Context& context, VkPi
     if (result == VK_SUCCESS)
         result =
             context.vk.vkGetPipelineExecutablePropertiesKHR(context.device, &info, &count, properties.data());
-    if (Result<void> ok = check(result, "list the shaders of a pipeline"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "list the shaders of a pipeline"));
     std::vector<ShaderStatistics> shaders;
     for (uint32_t i = 0; i < count; ++i) {
-        Result<ShaderStatistics> shader = read_executable(context, pipeline, i, properties[i]);
-        if (!shader) return shader.error();
-        shaders.push_back(std::move(*shader));
+        DERMIS_TRY_ASSIGN(ShaderStatistics shader, read_executable(context, pipeline, i, properties[i]));
+        shaders.push_back(std::move(shader));
     }
     return shaders;
 }
@@ -99,26 +98,24 @@ struct NullDevice::State {
 };
 
 Result<NullDevice> NullDevice::open(std::string_view chip, ShaderSource shaders) {
-    Result<Device> device = open_null_driver(chip);
-    if (!device) return device.error();
-    return NullDevice(std::make_unique<State>(std::move(*device), std::move(shaders)));
+    DERMIS_TRY_ASSIGN(Device device, open_null_driver(chip));
+    return NullDevice(std::make_unique<State>(std::move(device), std::move(shaders)));
 }
 
 Result<std::vector<PassStatistics>> NullDevice::compile(const PassList& list) {
     std::vector<PassStatistics> passes;
     for (const Pass& pass : list.passes) {
         PassStatistics& statistics = passes.emplace_back(PassStatistics{.pass = pass.name});
-        const Result<const Pipeline*> pipeline =
-            pass_pipeline(list, pass, state_->shaders, state_->pipelines);
-        if (!pipeline) return pipeline.error();
-        if (!*pipeline) continue;
+        DERMIS_TRY_ASSIGN(const Pipeline* pipeline,
+                          pass_pipeline(list, pass, state_->shaders, state_->pipelines));
+        if (!pipeline) continue;
         Result<std::vector<ShaderStatistics>> shaders =
-            read_pipeline(state_->device.state().context, (*pipeline)->handle.get());
+            read_pipeline(state_->device.state().context, pipeline->handle.get());
         if (!shaders) return shaders.error().within(pass_label(pass));
         statistics.shaders = std::move(*shaders);
-        for (const StageVariable& input : (*pipeline)->inputs)
+        for (const StageVariable& input : pipeline->inputs)
             statistics.vertex_bytes += uint32_t(input.components) * 4;
-        for (const Binding& binding : (*pipeline)->bindings)
+        for (const Binding& binding : pipeline->bindings)
             if (binding.kind == BindingKind::texture || binding.kind == BindingKind::sampled_texture)
                 statistics.textures.push_back(binding.name);
     }

@@ -21,7 +21,7 @@ Result<VkCommandBuffer> allocate_commands(const Context& context, VkCommandPool 
                                               .commandBufferCount = 1};
     VkCommandBuffer commands = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkAllocateCommandBuffers(context.device, &info, &commands);
-    if (Result<void> ok = check(result, "make a command buffer"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "make a command buffer"));
     ++context.created;
     return commands;
 }
@@ -31,7 +31,7 @@ Result<void> record_once(const Context& context, VkCommandBuffer commands, std::
     const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     VkResult result = context.vk.vkBeginCommandBuffer(commands, &begin);
-    if (Result<void> ok = check(result, "record " + std::string(name)); !ok) return ok.error();
+    DERMIS_TRY(check(result, "record " + std::string(name)));
     record(commands);
     result = context.vk.vkEndCommandBuffer(commands);
     return check(result, "record " + std::string(name));
@@ -61,7 +61,7 @@ Result<uint64_t> submit(const Context& context, VkCommandBuffer commands, std::s
                                 .signalSemaphoreInfoCount = semaphores.signal ? 2u : 1u,
                                 .pSignalSemaphoreInfos = signals};
     const VkResult result = context.vk.vkQueueSubmit2(context.queue, 1, &info, VK_NULL_HANDLE);
-    if (Result<void> ok = check(result, "run " + std::string(name)); !ok) return ok.error();
+    DERMIS_TRY(check(result, "run " + std::string(name)));
     return context.submissions.submitted = number;
 }
 
@@ -73,7 +73,7 @@ Result<OwnedSemaphore> make_semaphore(const Context& context, VkSemaphoreType ty
     const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &kind};
     VkSemaphore semaphore = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateSemaphore(context.device, &info, nullptr, &semaphore);
-    if (Result<void> ok = check(result, "make a semaphore"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "make a semaphore"));
     return OwnedSemaphore(context, semaphore);
 }
 
@@ -83,19 +83,17 @@ Result<OwnedCommandPool> make_command_pool(const Context& context, VkCommandPool
                                           .queueFamilyIndex = context.queue_family};
     VkCommandPool pool = VK_NULL_HANDLE;
     const VkResult result = context.vk.vkCreateCommandPool(context.device, &info, nullptr, &pool);
-    if (Result<void> ok = check(result, "make a command pool"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "make a command pool"));
     return OwnedCommandPool(context, pool);
 }
 
 Result<ReusedCommands> ReusedCommands::create(const Context& context) {
-    Result<OwnedCommandPool> pool =
-        make_command_pool(context, VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT);
-    if (!pool) return pool.error();
-    Result<VkCommandBuffer> commands = allocate_commands(context, pool->get());
-    if (!commands) return commands.error();
+    DERMIS_TRY_ASSIGN(OwnedCommandPool pool,
+                      make_command_pool(context, VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT));
+    DERMIS_TRY_ASSIGN(VkCommandBuffer commands, allocate_commands(context, pool.get()));
     ReusedCommands made;
-    made.pool_ = std::move(*pool);
-    made.commands_ = *commands;
+    made.pool_ = std::move(pool);
+    made.commands_ = commands;
     return made;
 }
 
@@ -108,9 +106,8 @@ Result<void> ReusedCommands::run(Device::State& state, std::string_view name,
                                  const Semaphores& semaphores) {
     if (Result<void> done = wait(state.context, name); !done) return done;
     if (Result<void> ok = record_once(state.context, commands_, name, record); !ok) return ok;
-    const Result<uint64_t> number = submit(state.context, commands_, name, semaphores);
-    if (!number) return number.error();
-    submission_ = *number;
+    DERMIS_TRY_ASSIGN(const uint64_t number, submit(state.context, commands_, name, semaphores));
+    submission_ = number;
     return {};
 }
 
@@ -122,9 +119,8 @@ Result<void> run_once(Device::State& state, std::string_view name,
     if (!commands) return commands.error();
     once.commands = *commands;
     if (Result<void> ok = record_once(context, once.commands, name, record); !ok) return ok;
-    const Result<uint64_t> number = submit(context, once.commands, name, {});
-    if (!number) return number.error();
-    return check(context.wait_for(*number), "finish " + std::string(name));
+    DERMIS_TRY_ASSIGN(const uint64_t number, submit(context, once.commands, name, {}));
+    return check(context.wait_for(number), "finish " + std::string(name));
 }
 
 }  // namespace dermis::gpu

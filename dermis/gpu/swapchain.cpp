@@ -129,16 +129,13 @@ Result<void> Swapchain::State::build_images() {
     drawn.clear();
     slots.clear();
     for (uint32_t i = 0; i < count; ++i) {
-        Result<OwnedSemaphore> semaphore = make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY);
-        if (!semaphore) return semaphore.error();
-        drawn.push_back(std::move(*semaphore));
+        DERMIS_TRY_ASSIGN(OwnedSemaphore semaphore, make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY));
+        drawn.push_back(std::move(semaphore));
     }
     for (size_t i = 0; i < kFramesInFlight; ++i) {
-        Result<OwnedSemaphore> acquired = make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY);
-        if (!acquired) return acquired.error();
-        Result<ReusedCommands> commands = ReusedCommands::create(context);
-        if (!commands) return commands.error();
-        slots.push_back({std::move(*acquired), std::move(*commands)});
+        DERMIS_TRY_ASSIGN(OwnedSemaphore acquired, make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY));
+        DERMIS_TRY_ASSIGN(ReusedCommands commands, ReusedCommands::create(context));
+        slots.push_back({std::move(acquired), std::move(commands)});
     }
     return {};
 }
@@ -191,12 +188,12 @@ Result<Presented> Swapchain::present(Executor& executor, std::string_view name) 
         return Error{"no colour image '" + std::string(name) + "' with one sample to show"};
     if (!state.handle) return Presented::resize;
     State::Slot& slot = state.slots[state.next_slot];
-    if (Result<void> free = slot.commands.wait(context, "the copy to the window"); !free) return free.error();
+    DERMIS_TRY(slot.commands.wait(context, "the copy to the window"));
     uint32_t index = 0;
     VkResult result = context.vk.vkAcquireNextImageKHR(context.device, state.handle.get(), UINT64_MAX,
                                                        slot.acquired.get(), VK_NULL_HANDLE, &index);
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return Presented::resize;
-    if (Result<void> ok = check(result, "get a picture of the window"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "get a picture of the window"));
     const VkSemaphore drawn = state.drawn[index].get();
     const Result<void> copied = slot.commands.run(
         state.device, "the copy to the window",
@@ -213,7 +210,7 @@ Result<Presented> Swapchain::present(Executor& executor, std::string_view name) 
                                    .pImageIndices = &index};
     result = context.vk.vkQueuePresentKHR(context.queue, &info);
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) return Presented::resize;
-    if (Result<void> ok = check(result, "show a picture"); !ok) return ok.error();
+    DERMIS_TRY(check(result, "show a picture"));
     return Presented::shown;
 }
 

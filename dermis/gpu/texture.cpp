@@ -116,13 +116,12 @@ Result<void> copy_strips(Device& device, const TextureData& data, const DeviceIm
     std::vector<Strip> strips = strips_of(data, image.info);
     const size_t largest = std::ranges::max(strips, {}, &Strip::bytes).bytes;
     const size_t staging_bytes = std::min(std::max(kStagingBytes, largest), data.bytes.size());
-    Result<Buffer> staging = make_buffer(context, "staging " + data.name, staging_bytes,
-                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
-    if (!staging) return staging.error();
+    DERMIS_TRY_ASSIGN(Buffer staging, make_buffer(context, "staging " + data.name, staging_bytes,
+                                                  VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload));
     for (std::span<Strip> rest = strips; !rest.empty();) {
         const std::span<Strip> batch = first_batch(rest, staging_bytes);
         for (const Strip& strip : batch)
-            std::memcpy(static_cast<std::byte*>(staging->mapped) + strip.region.bufferOffset,
+            std::memcpy(static_cast<std::byte*>(staging.mapped) + strip.region.bufferOffset,
                         data.bytes.data() + strip.begin, strip.bytes);
         const bool is_first = rest.size() == strips.size(), is_last = rest.size() == batch.size();
         Result<void> done =
@@ -131,7 +130,7 @@ Result<void> copy_strips(Device& device, const TextureData& data, const DeviceIm
                     transition(context, commands, image, 0, image.info.mips, VK_IMAGE_LAYOUT_UNDEFINED,
                                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
                 for (const Strip& strip : batch)
-                    context.vk.vkCmdCopyBufferToImage(commands, staging->handle.get(), image.handle.get(),
+                    context.vk.vkCmdCopyBufferToImage(commands, staging.handle.get(), image.handle.get(),
                                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &strip.region);
                 if (is_last) finish_mips(context, commands, data, image);
             });
@@ -175,10 +174,10 @@ void blit_mip(const Context& context, VkCommandBuffer commands, const DeviceImag
 
 Result<Texture> Texture::upload(Device& device, const TextureData& data) {
     const Context& context = device.state().context;
-    if (Result<void> ok = check_data(data, context); !ok) return ok.error();
+    DERMIS_TRY(check_data(data, context));
     Result<DeviceImage> image = make_image(context, data.name, image_info(data));
     if (!image) return image.error();
-    if (Result<void> done = copy_strips(device, data, *image); !done) return done.error();
+    DERMIS_TRY(copy_strips(device, data, *image));
     auto state = std::make_unique<State>();
     state->image = std::move(*image);
     state->name = data.name;

@@ -1,6 +1,6 @@
 #include "dermis/image/colour.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 // CIE 15:2004, equations 8.3 to 8.11. The threshold (6/29)^3 and slope 841/108 are the exact fractions that
 // make the linear toe meet the cube root with equal value and slope.
@@ -12,4 +12,4 @@ Vec3 lab_from_xyz(Vec3 xyz) {
     return {116.0f * fy - 16.0f, 500.0f * (fx - fy), 200.0f * (fy - fz)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

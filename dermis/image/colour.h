@@ -7,7 +7,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 /// IEC 61966-2-1:1999, the piecewise function (not a 2.2 power). [0,1] -> [0,1]; negative values follow the
 /// linear segment, values above 1 the power, so that decode(encode(x)) = x everywhere.
@@ -61,4 +61,4 @@ inline constexpr Mat3 kLinearFromAcesCg = {{{1.7050510f, -0.6217921f, -0.0832589
     return lab_from_xyz(kXyzFromLinear * c_linear);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

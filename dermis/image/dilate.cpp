@@ -11,7 +11,7 @@
 
 #include "dermis/base/parallel.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 constexpr int kNone = -1;
@@ -79,4 +79,4 @@ void dilate(Image& image, const Image& mask, int texels) {
     });
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -4,7 +4,7 @@
 
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 /// Every texel outside the mask and at most `texels` away from it (Euclidean, between centres) becomes a copy
 /// of the nearest one inside; ties go to the upper, then the left one. All others stay. `mask` has one
@@ -13,4 +13,4 @@ namespace dermis {
 /// ms.
 void dilate(Image& image, const Image& mask, int texels);
 
-}  // namespace dermis
+}  // namespace dermis::inline image

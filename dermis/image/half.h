@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace dermis {
+namespace dermis::inline image {
 
 inline constexpr float kMaxHalf = 65504.0f;
 
@@ -40,4 +40,4 @@ constexpr uint16_t to_half(float value) {
     return sign | uint16_t(rounded >> 13);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

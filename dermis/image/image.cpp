@@ -13,7 +13,7 @@
 #include "dermis/image/colour.h"
 #include "dermis/image/half.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 constexpr size_t kGrain = 1 << 15;
@@ -240,4 +240,4 @@ Image convert(const Image& linear_float, PixelFormat format, Encoding encoding) 
     return out;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -9,7 +9,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 enum class PixelFormat { u8, u16, f16, f32 };
 
@@ -84,4 +84,4 @@ struct Image {
 /// 0 in them; f16 saturates (half.h).
 [[nodiscard]] Image convert(const Image& linear_float, PixelFormat format, Encoding encoding);
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -7,7 +7,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/codec/codec.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 struct Decoder {
@@ -105,22 +105,20 @@ Result<LoadedImage> decode_image(std::span<const std::byte> bytes, std::string_v
 }
 
 Result<LoadedImage> read_image(const std::filesystem::path& path, ImageUse use) {
-    const Result<std::vector<std::byte>> bytes = read_file(path);
-    if (!bytes) return bytes.error();
-    return decode_image(*bytes, path.string(), use);
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(path));
+    return decode_image(bytes, path.string(), use);
 }
 
 Result<LayeredImage> read_layered_exr(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path);
-    if (!bytes) return bytes.error();
-    if (!codec::is_exr(*bytes)) return Error{path.string() + ": is no EXR file"};
-    return named(codec::decode_layered_exr(*bytes), path.string());
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(path));
+    if (!codec::is_exr(bytes)) return Error{path.string() + ": is no EXR file"};
+    return named(codec::decode_layered_exr(bytes), path.string());
 }
 
 Result<std::vector<std::byte>> encode_image(std::string_view extension, const Image& image,
                                             const ImageText& text) {
     if (image.empty()) return Error{"the image is empty"};
-    if (Result<void> valid = check_text(text); !valid) return valid.error();
+    DERMIS_TRY(check_text(text));
     const std::string type = to_lower(extension);
     if (type == ".png") return codec::encode_png(as_png(image), text);
     if (type == ".exr") return codec::encode_exr(std::array{ImageLayer{"", as_exr(image)}}, text);
@@ -132,10 +130,9 @@ Result<std::vector<std::byte>> encode_image(std::string_view extension, const Im
 }
 
 Result<void> write_image(const std::filesystem::path& path, const Image& image, const ImageText& text) {
-    const Result<std::vector<std::byte>> bytes =
-        named(encode_image(path.extension().string(), image, text), path.string());
-    if (!bytes) return bytes.error();
-    return write_file(path, *bytes);
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes,
+                      named(encode_image(path.extension().string(), image, text), path.string()));
+    return write_file(path, bytes);
 }
 
 Result<void> write_layered_exr(const std::filesystem::path& path, std::span<const ImageLayer> layers,
@@ -144,9 +141,9 @@ Result<void> write_layered_exr(const std::filesystem::path& path, std::span<cons
         return Error{path.string() + ": " + valid.error().message};
     std::vector<ImageLayer> linear;
     for (const ImageLayer& layer : layers) linear.push_back({layer.name, as_exr(layer.image)});
-    const Result<std::vector<std::byte>> bytes = named(codec::encode_exr(linear, text), path.string());
-    if (!bytes) return bytes.error();
-    return write_file(path, *bytes);
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes,
+                      named(codec::encode_exr(linear, text), path.string()));
+    return write_file(path, bytes);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

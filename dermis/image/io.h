@@ -9,7 +9,7 @@
 
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 /// How a file's integers are to be taken. Colour maps are sRGB unless the file says otherwise; normal maps,
 /// roughness, curvature and tables are data. Float files are always linear.
@@ -66,4 +66,4 @@ struct LayeredImage {
 /// is the display window. read_image takes the layer without a name.
 [[nodiscard]] Result<LayeredImage> read_layered_exr(const std::filesystem::path& path);
 
-}  // namespace dermis
+}  // namespace dermis::inline image

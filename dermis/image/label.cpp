@@ -9,7 +9,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace fs = std::filesystem;
 namespace {
 
@@ -134,4 +134,4 @@ std::vector<std::string> Font::wrap(std::string_view text, float size_px, int wi
     return lines;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -10,7 +10,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 /// $DERMIS_FONT (any file FreeType reads), or DejaVuSans.ttf where the systems put it. The error names the
 /// package.
@@ -47,4 +47,4 @@ class Font {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline image

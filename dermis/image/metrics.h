@@ -17,7 +17,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 /// Largest difference of any channel of any texel.
 [[nodiscard]] Result<double> max_abs_error(const Image& image, const Image& reference,
@@ -77,4 +77,4 @@ struct ErrorReport {
                                                  const Image& mask = {},
                                                  double pixels_per_degree = kFlipPixelsPerDegree);
 
-}  // namespace dermis
+}  // namespace dermis::inline image

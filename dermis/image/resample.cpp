@@ -6,7 +6,7 @@
 
 #include "dermis/base/parallel.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 // The source texels that a target texel averages, and how much of each.
@@ -142,4 +142,4 @@ Vec4 sample_bilinear(const Image& image, Vec2 uv) {
     return {sum[0], sum[1], sum[2], image.channels == 4 ? sum[3] : 1};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -7,7 +7,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 /// What the first three channels are: numbers to average, or unit vectors to average and make unit again.
 /// Vectors are n * 0.5 + 0.5 in integer formats and n itself in f16 and f32; a fourth channel is a number.
@@ -29,4 +29,4 @@ enum class Texels { values, unit_vectors };
 /// 0..1 the border's texels are repeated.
 [[nodiscard]] Vec4 sample_bilinear(const Image& image, Vec2 uv);
 
-}  // namespace dermis
+}  // namespace dermis::inline image

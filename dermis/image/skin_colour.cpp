@@ -6,7 +6,7 @@
 
 #include "dermis/image/colour.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 // L*, a*, b* (D65).
@@ -44,4 +44,4 @@ Vec3 with_pigments(Vec3 c, float melanin, float blood) {
     return c * Vec3{std::exp(-density.x), std::exp(-density.y), std::exp(-density.z)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

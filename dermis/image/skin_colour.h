@@ -3,7 +3,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 /// Mean albedo of the bare skin of tone 1 to 6 (clamped), linear sRGB; between two, straight in CIELAB.
 /// OpenPBR's skin examples IV to VI give the lightness of theirs; I to III, which are lighter than faces are
@@ -19,4 +19,4 @@ namespace dermis {
 /// An amount of 0.1 takes 10 % of green.
 [[nodiscard]] Vec3 with_pigments(Vec3 albedo_linear, float melanin, float blood);
 
-}  // namespace dermis
+}  // namespace dermis::inline image

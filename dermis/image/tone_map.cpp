@@ -8,7 +8,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/colour.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 template <class Curve>
@@ -109,4 +109,4 @@ Image tone_mapped(const Image& image, ToneMap curve, float exposure) {
     return out;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

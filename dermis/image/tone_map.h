@@ -17,7 +17,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 enum class ToneMap { none, hable, aces, pbr_neutral };
 
@@ -32,4 +32,4 @@ enum class ToneMap { none, hable, aces, pbr_neutral };
 /// passes. The result is f32 and linear.
 [[nodiscard]] Image tone_mapped(const Image& image, ToneMap curve, float exposure = 1.0f);
 
-}  // namespace dermis
+}  // namespace dermis::inline image

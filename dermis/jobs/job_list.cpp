@@ -5,7 +5,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/process.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -163,4 +163,4 @@ Result<void> write_job_lists(const JobLists& lists, const fs::path& folder) {
     return write_files(files);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

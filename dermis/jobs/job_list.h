@@ -11,7 +11,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 
 struct Job {
     std::string name;                  ///< for people
@@ -61,4 +61,4 @@ struct JobLists {
 /// Writes work.txt and merge.txt, and makes the folders parts, done and logs.
 [[nodiscard]] Result<void> write_job_lists(const JobLists& lists, const std::filesystem::path& folder);
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

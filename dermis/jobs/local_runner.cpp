@@ -16,7 +16,7 @@
 
 extern char** environ;
 
-namespace dermis {
+namespace dermis::inline jobs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,4 +138,4 @@ LocalOutcome run_lines(std::span<const JobLine> lines, const LocalRun& run) {
     return Pool(lines, run).run();
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

@@ -10,7 +10,7 @@
 
 #include "dermis/jobs/job_list.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 
 struct LocalRun {
     int workers = 1;
@@ -32,4 +32,4 @@ struct LocalOutcome {
 /// (kill, out of memory) is started again.
 [[nodiscard]] LocalOutcome run_lines(std::span<const JobLine> lines, const LocalRun& run);
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace dermis {
+namespace dermis::inline jobs {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -105,7 +105,7 @@ Result<MergedPicture> merge_parts(std::span<const fs::path> files,
         } else if (Result<void> same = check_same(parts[0].file, facts, file, part->facts); !same) {
             return same.error();
         }
-        if (Result<void> apart = check_overlap(parts, file, part->facts.range); !apart) return apart.error();
+        DERMIS_TRY(check_overlap(parts, file, part->facts.range));
         // A picture can get more samples later: the part that says so knows of all.
         if (part->facts.samples > facts.samples) {
             facts.samples = part->facts.samples;
@@ -122,4 +122,4 @@ Result<MergedPicture> merge_parts(std::span<const fs::path> files,
     return MergedPicture{picture_of(sums), std::move(facts)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

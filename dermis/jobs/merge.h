@@ -7,7 +7,7 @@
 
 #include "dermis/jobs/part.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 
 struct MergedPicture {
     ReferencePicture picture;
@@ -21,4 +21,4 @@ struct MergedPicture {
 [[nodiscard]] Result<MergedPicture> merge_parts(std::span<const std::filesystem::path> files,
                                                 const std::function<void(double)>& progress = {});
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

@@ -7,7 +7,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -186,13 +186,12 @@ bool within_limits(const Sums& sums, int samples) {
 }
 
 Result<void> check_sums(const LayeredImage& file, const PartFacts& facts) {
-    const auto layers = find_layers(file);
-    if (!layers) return layers.error();
+    DERMIS_TRY_ASSIGN(const auto layers, find_layers(file));
     const size_t pixels = size_t(facts.width) * size_t(facts.height);
     Hasher hasher;
     for (size_t i = 0; i < pixels; ++i) {
         Sums sums;
-        if (!sums_of(*layers, i, sums) || !within_limits(sums, facts.range.end - facts.range.begin))
+        if (!sums_of(layers, i, sums) || !within_limits(sums, facts.range.end - facts.range.begin))
             return Error{"is damaged: it has sums that no samples have"};
         add(hasher, sums);
     }
@@ -251,9 +250,8 @@ Result<Part> part_of(LayeredImage file, std::string_view name) {
 }
 
 Result<Part> read_part(const std::filesystem::path& path) {
-    Result<LayeredImage> file = read_layered_exr(path);
-    if (!file) return file.error();
-    return part_of(std::move(*file), path.string());
+    DERMIS_TRY_ASSIGN(LayeredImage file, read_layered_exr(path));
+    return part_of(std::move(file), path.string());
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

@@ -11,7 +11,7 @@
 #include "dermis/jobs/picture_file.h"
 #include "dermis/reference/picture_sums.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 
 /// What a part says of itself.
 struct PartFacts {
@@ -44,4 +44,4 @@ struct Part {
 /// The same of a file that is decoded already; `name` is for errors.
 [[nodiscard]] Result<Part> part_of(LayeredImage file, std::string_view name);
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

@@ -8,7 +8,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 
 std::string described(const PictureFacts& facts, const ReferencePicture& picture, bool stopped) {
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(facts.description, nullptr, false);
@@ -56,4 +56,4 @@ Result<void> write_preview_file(const std::filesystem::path& path, const Picture
     return write_image(path, convert(opaque, PixelFormat::u8, Encoding::srgb), text);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

@@ -10,7 +10,7 @@
 #include "dermis/image/tone_map.h"
 #include "dermis/reference/picture.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 
 /// What a picture's files state beside its pixels.
 struct PictureFacts {
@@ -40,4 +40,4 @@ struct PictureFacts {
 [[nodiscard]] Result<void> write_preview_file(const std::filesystem::path& path, const PictureFacts& facts,
                                               const ReferencePicture& picture);
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

@@ -8,7 +8,7 @@
 #include "dermis/base/process.h"
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,9 +99,8 @@ Result<void> run_round(const JobLists& lists, const SlurmRun& run, SlurmOutcome&
     std::vector<std::string> jobs;
     for (const auto& [name, lines] : {std::pair("work", &work), std::pair("merge", &merges)}) {
         if (lines->empty()) continue;
-        const Result<std::string> job = cluster.submit(name, *lines, jobs.empty() ? "" : jobs[0]);
-        if (!job) return job.error();
-        jobs.push_back(*job);
+        DERMIS_TRY_ASSIGN(const std::string job, cluster.submit(name, *lines, jobs.empty() ? "" : jobs[0]));
+        jobs.push_back(job);
     }
     outcome.jobs.insert(outcome.jobs.end(), jobs.begin(), jobs.end());
     const size_t all = lists.work.size() + lists.merges.size();
@@ -142,7 +141,7 @@ Result<SlurmOutcome> run_on_slurm(const JobLists& lists, const SlurmRun& run) {
         const size_t open = open_lines(lists.work).size();
         if (open + open_lines(lists.merges).size() == 0) return outcome;
         if (attempt > 0) outcome.repeated += open;
-        if (Result<void> done = run_round(lists, run, outcome); !done) return done.error();
+        DERMIS_TRY(run_round(lists, run, outcome));
         if (!run.wait || outcome.stopped) return outcome;
     }
     for (const std::vector<JobLine>* some : {&lists.work, &lists.merges})
@@ -150,4 +149,4 @@ Result<SlurmOutcome> run_on_slurm(const JobLists& lists, const SlurmRun& run) {
     return outcome;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

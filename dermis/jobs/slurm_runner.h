@@ -10,7 +10,7 @@
 
 #include "dermis/jobs/job_list.h"
 
-namespace dermis {
+namespace dermis::inline jobs {
 
 struct SlurmRun {
     std::filesystem::path folder;      ///< of write_job_lists()
@@ -34,4 +34,4 @@ struct SlurmOutcome {
 /// Submits what is not done. Errors: no sbatch here, what sbatch says.
 [[nodiscard]] Result<SlurmOutcome> run_on_slurm(const JobLists& lists, const SlurmRun& run);
 
-}  // namespace dermis
+}  // namespace dermis::inline jobs

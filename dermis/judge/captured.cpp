@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 constexpr double kInterval = 1.96;  // standard errors on each side: 95 %
@@ -107,7 +107,7 @@ Result<void> check(const Pictures& p) {
 }
 
 Result<Captured> captured_of(const Pictures& pictures) {
-    if (Result<void> good = check(pictures); !good) return good.error();
+    DERMIS_TRY(check(pictures));
     Captured result;
     std::array<Sums, 3> sums;
     Sums all;
@@ -160,4 +160,4 @@ Image mean_effect(const EffectHalves& truth) {
     return mean;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -22,7 +22,7 @@
 #include "dermis/base/result.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// Two independent estimates of an effect, f32 RGB, of one size.
 struct EffectHalves {
@@ -69,4 +69,4 @@ struct EffectNoise {
 /// The mean of both halves.
 [[nodiscard]] Image mean_effect(const EffectHalves& truth);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

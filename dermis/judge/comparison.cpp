@@ -8,7 +8,7 @@
 #include "dermis/judge/technique_pictures.h"
 #include "dermis/render/renderer.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 Result<void> check_grid(const ComparisonSettings& settings) {
@@ -89,9 +89,8 @@ Result<void> add_exact(PictureMaker& maker, const Technique& lambert, const Scen
     Result<Image> effect = exact_effect(scene, settings.exact, settings.width, settings.height, settings.grid,
                                         settings.reference.lighting.penumbra_mm);
     if (!effect) return effect.error();
-    Result<TechniquePictures> base = maker.make({&lambert, ParameterValues(lambert.parameters)});
-    if (!base) return base.error();
-    Image radiance = std::move(base->radiance);
+    DERMIS_TRY_ASSIGN(TechniquePictures base, maker.make({&lambert, ParameterValues(lambert.parameters)}));
+    Image radiance = std::move(base.radiance);
     for (size_t i = 0; i < effect->pixel_count(); ++i)
         for (size_t c = 0; c < 3; ++c)
             radiance.floats()[size_t(radiance.channels) * i + c] += effect->floats()[3 * i + c];
@@ -105,9 +104,8 @@ Result<void> add_exact(PictureMaker& maker, const Technique& lambert, const Scen
 Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const Scene& scene,
                              const std::vector<Contestant>& contestants, const ComparisonSettings& settings,
                              const ComparisonHooks& hooks, Comparison& comparison) {
-    const Result<const Technique*> lambert = find_technique(catalog.techniques, "lambert");
-    if (!lambert) return lambert.error();
-    PictureMaker maker(renderer, **lambert,
+    DERMIS_TRY_ASSIGN(const Technique* lambert, find_technique(catalog.techniques, "lambert"));
+    PictureMaker maker(renderer, *lambert,
                        {.width = settings.width,
                         .height = settings.height,
                         .grid = settings.grid,
@@ -118,26 +116,26 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
         if (hooks.techniques)
             hooks.techniques(double(comparison.rows.size()) / work.all(), contestant.name());
         if (hooks.stop && hooks.stop->load()) return Error{"stopped"};
-        Result<TechniquePictures> pictures = maker.make(contestant);
-        if (!pictures) return pictures.error();
+        DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(contestant));
         comparison.rows.push_back({.contestant = contestant,
-                                   .radiance = std::move(pictures->radiance),
-                                   .effect = std::move(pictures->effect)});
+                                   .radiance = std::move(pictures.radiance),
+                                   .effect = std::move(pictures.effect)});
     }
     if (settings.exact)
-        if (Result<void> added = add_exact(maker, **lambert, scene, settings, comparison); !added)
+        if (Result<void> added = add_exact(maker, *lambert, scene, settings, comparison); !added)
             return added;
     Result<SkinMasks> masks = maker.masks(comparison.truth.skin);
     if (!masks) return masks.error();
     comparison.masks = std::move(*masks);
-    const Result<std::vector<TechniqueCost>> costs = measure_costs(
-        renderer, scene, contestants, settings.width, settings.height, settings.frames,
-        [&](double done, const std::string& name) {
-            if (hooks.techniques)
-                hooks.techniques((work.pictures + done * work.frames) / work.all(), "frame times, " + name);
-        });
-    if (!costs) return costs.error();
-    for (size_t i = 0; i < costs->size(); ++i) comparison.rows[i].cost = (*costs)[i];
+    DERMIS_TRY_ASSIGN(const std::vector<TechniqueCost> costs,
+                      measure_costs(renderer, scene, contestants, settings.width, settings.height,
+                                    settings.frames, [&](double done, const std::string& name) {
+                                        if (hooks.techniques)
+                                            hooks.techniques(
+                                                (work.pictures + done * work.frames) / work.all(),
+                                                "frame times, " + name);
+                                    }));
+    for (size_t i = 0; i < costs.size(); ++i) comparison.rows[i].cost = costs[i];
     return {};
 }
 
@@ -157,10 +155,10 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
                                       const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings, const ComparisonHooks& hooks) {
     if (contestants.empty()) return Error{"no technique to compare"};
-    if (Result<void> good = check_grid(settings); !good) return good.error();
+    DERMIS_TRY(check_grid(settings));
     // First, as it says at once what it cannot do.
-    Result<Renderer> renderer = Renderer::create(device, gpu::embedded_shaders(catalog.shaders), scene);
-    if (!renderer) return renderer.error();
+    DERMIS_TRY_ASSIGN(Renderer renderer,
+                      Renderer::create(device, gpu::embedded_shaders(catalog.shaders), scene));
     Comparison comparison{.device = device.info().name};
     Result<EffectTruth> truth =
         make_effect_truth(scene, truth_settings(settings), hooks.reference, hooks.stop);
@@ -168,7 +166,7 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
     comparison.truth = std::move(*truth);
     comparison.truth_radiance = comparison.truth.radiance();
     if (Result<void> drawn =
-            draw_techniques(*renderer, catalog, scene, contestants, settings, hooks, comparison);
+            draw_techniques(renderer, catalog, scene, contestants, settings, hooks, comparison);
         !drawn)
         return drawn.error();
     Result<RegionMasks> regions = find_regions(scene, comparison.masks.skin);
@@ -180,7 +178,7 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
         const double judged = double(i) / double(comparison.rows.size());
         if (hooks.techniques)
             hooks.techniques((work.pictures + work.frames + judged * work.judging) / work.all(), "scores");
-        if (Result<void> done = judge(comparison, scene, comparison.rows[i]); !done) return done.error();
+        DERMIS_TRY(judge(comparison, scene, comparison.rows[i]));
     }
     return comparison;
 }
@@ -200,4 +198,4 @@ std::vector<ScoreRow> score_rows(const std::string& scene, const Comparison& com
     return rows;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -22,7 +22,7 @@
 #include "dermis/render/catalog.h"
 #include "dermis/scene/subject.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 struct ComparisonSettings {
     int width = 512, height = 512;
@@ -92,4 +92,4 @@ struct ComparisonHooks {
 /// empty.
 [[nodiscard]] std::string regions_csv(const std::string& scene, const Comparison& comparison);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

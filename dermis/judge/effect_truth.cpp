@@ -9,7 +9,7 @@
 #include "dermis/judge/reference_cache.h"
 #include "dermis/rays/random.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 // Rounds over the grid in one batch at most: what a run that is stopped loses.
@@ -44,9 +44,8 @@ struct State {
 Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& settings) {
     ReferenceSettings plain = settings;
     plain.samples = settings.grid * settings.grid;
-    const Result<std::string> hash = reference_hash(scene, plain);
-    if (!hash) return hash.error();
-    return Hasher().add(std::string_view("effect")).add(*hash).hex();
+    DERMIS_TRY_ASSIGN(const std::string hash, reference_hash(scene, plain));
+    return Hasher().add(std::string_view("effect")).add(hash).hex();
 }
 
 std::vector<std::byte> pack(State& state) {
@@ -87,15 +86,14 @@ Result<void> add_batch(const Scene& scene, ReferenceSettings settings, int half,
     const Result<ReferencePicture> skin = render_reference(scene, settings, progress, stop);
     if (!skin) return skin.error();
     settings.integrator = Integrator::lambert;
-    const Result<ReferencePicture> none = render_reference(scene, settings, {}, stop);
-    if (!none) return none.error();
+    DERMIS_TRY_ASSIGN(const ReferencePicture none, render_reference(scene, settings, {}, stop));
     if (stop && stop->load()) return Error{"stopped"};
     const float share = float(settings.samples) / float(state.header.passes + settings.samples);
     add_weighted(half == 0 ? state.truth.effect.a : state.truth.effect.b,
-                 difference(skin->diffuse, none->diffuse), share);
+                 difference(skin->diffuse, none.diffuse), share);
     add_weighted(state.truth.halves[size_t(half)], skin->radiance, share);
     state.truth.skin = skin->skin;
-    state.header.time_ms += skin->time_ms + none->time_ms;
+    state.header.time_ms += skin->time_ms + none.time_ms;
     ++state.header.batches;
     for (const std::string& warning : skin->warnings)
         if (std::ranges::find(state.truth.warnings, warning) == state.truth.warnings.end())
@@ -151,10 +149,9 @@ Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSetti
     if (settings.samples < 2 * cells)
         return Error{"at most " + std::to_string(settings.samples) +
                      " samples a pixel: both halves of the truth need " + std::to_string(2 * cells)};
-    const Result<std::string> hash = state_hash(scene, reference);
-    if (!hash) return hash.error();
+    DERMIS_TRY_ASSIGN(const std::string hash, state_hash(scene, reference));
     State state(reference);
-    if (const auto bytes = cache_load("effect", *hash); bytes && unpack(*bytes, state))
+    if (const auto bytes = cache_load("effect", hash); bytes && unpack(*bytes, state))
         state.truth.noise = effect_noise(state.truth.effect, whole_skin(state.truth.skin));
     state.truth.from_cache = true;
     while (!fine_enough(state, settings)) {
@@ -169,15 +166,14 @@ Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSetti
                 const double wanted = first ? reference.samples : passes_wanted(state, settings);
                 progress(std::min(1.0, passes / std::max(wanted, 1.0)), first);
             };
-            if (Result<void> added = add_batch(scene, reference, half, state, done, stop); !added)
-                return added.error();
+            DERMIS_TRY(add_batch(scene, reference, half, state, done, stop));
         }
         state.header.passes += reference.samples;
         const Image mask = whole_skin(state.truth.skin);
         if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
             return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
         state.truth.noise = effect_noise(state.truth.effect, mask);
-        cache_store("effect", *hash, pack(state));
+        cache_store("effect", hash, pack(state));
     }
     state.truth.reached = fine_enough(state, settings);
     state.truth.samples = 2 * state.header.passes;
@@ -185,4 +181,4 @@ Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSetti
     return std::move(state.truth);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -10,7 +10,7 @@
 #include "dermis/judge/captured.h"
 #include "dermis/reference/picture.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 struct EffectTruthSettings {
     /// Its size, grid, integrator, lighting, probes and seed; `samples`, `noise` and `filter` are not read.
@@ -46,4 +46,4 @@ using ReferenceDone = std::function<void(double done, bool first_samples)>;
                                                     const ReferenceDone& progress = {},
                                                     const std::atomic<bool>* stop = nullptr);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -8,24 +8,21 @@
 #include "dermis/rays/camera_ray.h"
 #include "dermis/reference/materials.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 Result<Image> exact_effect(const Scene& scene, const ExactExitance& exact, int width, int height, int grid,
                            float penumbra_mm) {
-    const Result<Profile> profile = find_profile(scene.skin.profile);
-    if (!profile) return profile.error();
-    const Result<RayScene> rays = RayScene::build(scene.objects);
-    if (!rays) return rays.error();
-    const Result<MaterialSet> materials = MaterialSet::load(scene);
-    if (!materials) return materials.error();
-    const GaussianSum gaussians = to_gaussian_sum(*profile).sum;
+    DERMIS_TRY_ASSIGN(const Profile profile, find_profile(scene.skin.profile));
+    DERMIS_TRY_ASSIGN(const RayScene rays, RayScene::build(scene.objects));
+    DERMIS_TRY_ASSIGN(const MaterialSet materials, MaterialSet::load(scene));
+    const GaussianSum gaussians = to_gaussian_sum(profile).sum;
     const Light& key = scene.key_light();
     const Vec3 light = key.color_linear * (key.intensity / std::numbers::pi_v<float>);
     const Mat4 inverse = camera_matrices(scene.camera, float(width) / float(height)).inverse_view_projection;
     const auto effect_at = [&](float x, float y) -> Vec3 {
-        const auto hit = rays->closest_hit(RaySet::opaque, camera_ray(inverse, x, y, width, height));
+        const auto hit = rays.closest_hit(RaySet::opaque, camera_ray(inverse, x, y, width, height));
         if (!hit) return {};
-        const ShadingPoint point = materials->shade(rays->surface_at(*hit), *hit);
+        const ShadingPoint point = materials.shade(rays.surface_at(*hit), *hit);
         if (point.material_class != MaterialClass::skin) return {};
         const ExactPoint value = exact(gaussians, penumbra_mm, point.p_mm);
         const Vec3 without = {value.irradiance, value.irradiance, value.irradiance};
@@ -48,4 +45,4 @@ Result<Image> exact_effect(const Scene& scene, const ExactExitance& exact, int w
     return picture;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

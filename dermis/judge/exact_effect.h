@@ -5,7 +5,7 @@
 #include "dermis/image/image.h"
 #include "dermis/scene/subject.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// RGB, the effect of the key light alone: other lights must not be there. Averaged over the same grid x grid
 /// points of a pixel as truth and techniques; 0 where no skin is seen. Errors: maps, profile, the ray
@@ -13,4 +13,4 @@ namespace dermis {
 [[nodiscard]] Result<Image> exact_effect(const Scene& scene, const ExactExitance& exact, int width,
                                          int height, int grid, float penumbra_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 // CIE L* of about 3, 22, 41, 60, 79, 96: equal steps, so that equal differences look equal.
@@ -58,4 +58,4 @@ Image signed_map(const Image& rgb, double full, const Image& mask) {
     });
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -5,7 +5,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// 0 to 1 (clamped) to sRGB-encoded colour.
 [[nodiscard]] Vec3 heat_color(float value);
@@ -20,4 +20,4 @@ namespace dermis {
 /// bluest; outside the mask a neutral grey.
 [[nodiscard]] Image signed_map(const Image& rgb, double full, const Image& mask);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

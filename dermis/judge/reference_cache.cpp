@@ -9,7 +9,7 @@
 #include "dermis/optics/presets.h"
 #include "dermis/scene/scene_hash.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 // What a profile is to the integrator: its values, whatever its model and name.
@@ -90,26 +90,22 @@ std::optional<ReferencePicture> unpack(const std::vector<std::byte>& bytes,
 Result<std::string> reference_hash(const Scene& scene, const ReferenceSettings& settings) {
     Hasher hasher;
     hasher.add(truth_version());
-    const Result<std::string> content = hash_of(scene);
-    if (!content) return content.error();
-    hasher.add(*content);
-    const Result<Profile> profile = find_profile(scene.skin.profile);
-    if (!profile) return profile.error();
-    add(hasher, *profile);
+    DERMIS_TRY_ASSIGN(const std::string content, hash_of(scene));
+    hasher.add(content);
+    DERMIS_TRY_ASSIGN(const Profile profile, find_profile(scene.skin.profile));
+    add(hasher, profile);
     add(hasher, settings);
     return hasher.hex();
 }
 
 Result<CachedReference> cached_reference(const Scene& scene, const ReferenceSettings& settings,
                                          const ReferenceProgress& progress, const std::atomic<bool>* stop) {
-    const Result<std::string> hash = reference_hash(scene, settings);
-    if (!hash) return hash.error();
-    if (const auto bytes = cache_load("reference", *hash))
+    DERMIS_TRY_ASSIGN(const std::string hash, reference_hash(scene, settings));
+    if (const auto bytes = cache_load("reference", hash))
         if (auto picture = unpack(*bytes, settings)) return CachedReference{std::move(*picture), true};
-    Result<ReferencePicture> picture = render_reference(scene, settings, progress, stop);
-    if (!picture) return picture.error();
-    if (!stop || !stop->load()) cache_store("reference", *hash, pack(*picture));
-    return CachedReference{std::move(*picture), false};
+    DERMIS_TRY_ASSIGN(ReferencePicture picture, render_reference(scene, settings, progress, stop));
+    if (!stop || !stop->load()) cache_store("reference", hash, pack(picture));
+    return CachedReference{std::move(picture), false};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -7,7 +7,7 @@
 
 #include "dermis/reference/picture.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// A hash of everything that the ground truth's picture depends on: meshes, materials, the bytes of map
 /// files, lights, camera, environment, profile, and the settings. Not names, exposure or tone map. Errors: a
@@ -25,4 +25,4 @@ struct CachedReference {
                                                        const ReferenceProgress& progress = {},
                                                        const std::atomic<bool>* stop = nullptr);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -10,7 +10,7 @@
 #include "dermis/reference/lighting.h"
 #include "dermis/reference/materials.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 // Of interpolated and face normals at the terminator, so that a point's own facet is no cast shadow.
@@ -94,13 +94,11 @@ class PointGrid {
 }  // namespace
 
 Result<std::vector<RegionPoint>> find_region_points(const Scene& scene, const Image& mask) {
-    const Result<RayScene> rays = RayScene::build(scene.objects);
-    if (!rays) return rays.error();
-    const Result<MaterialSet> materials = MaterialSet::load(scene);
-    if (!materials) return materials.error();
+    DERMIS_TRY_ASSIGN(const RayScene rays, RayScene::build(scene.objects));
+    DERMIS_TRY_ASSIGN(const MaterialSet materials, MaterialSet::load(scene));
     const float aspect = float(mask.width) / float(mask.height);
-    const Finder finder{scene,      *rays,
-                        *materials, camera_matrices(scene.camera, aspect).inverse_view_projection,
+    const Finder finder{scene,      rays,
+                        materials,  camera_matrices(scene.camera, aspect).inverse_view_projection,
                         mask.width, mask.height};
     std::vector<RegionPoint> points(mask.pixel_count());
     parallel_for(size_t(mask.height), 4, [&](size_t begin, size_t end) {
@@ -139,13 +137,12 @@ std::vector<Vec3> shadow_edges_mm(const std::vector<RegionPoint>& points, int wi
 }
 
 Result<std::vector<Vec3>> hidden_skin_mm(const Scene& scene) {
-    const Result<std::vector<Flesh>> flesh = find_flesh(scene.objects);
-    if (!flesh) return flesh.error();
+    DERMIS_TRY_ASSIGN(const std::vector<Flesh> flesh, find_flesh(scene.objects));
     std::vector<Vec3> hidden_mm;
-    for (size_t object = 0; object < flesh->size(); ++object) {
+    for (size_t object = 0; object < flesh.size(); ++object) {
         const Mesh& mesh = scene.objects[object].mesh;
-        for (size_t triangle = 0; triangle < (*flesh)[object].faces.size(); ++triangle) {
-            if ((*flesh)[object].faces[triangle] == SkinFace::visible) continue;
+        for (size_t triangle = 0; triangle < flesh[object].faces.size(); ++triangle) {
+            if (flesh[object].faces[triangle] == SkinFace::visible) continue;
             const uint32_t* corner = &mesh.indices[3 * triangle];
             hidden_mm.push_back(
                 (mesh.positions_mm[corner[0]] + mesh.positions_mm[corner[1]] + mesh.positions_mm[corner[2]]) *
@@ -155,4 +152,4 @@ Result<std::vector<Vec3>> hidden_skin_mm(const Scene& scene) {
     return hidden_mm;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -8,7 +8,7 @@
 #include "dermis/image/image.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 struct RegionPoint {
     bool skin = false;
@@ -34,4 +34,4 @@ struct RegionPoint {
 /// Middles of the triangles that the outside does not see.
 [[nodiscard]] Result<std::vector<Vec3>> hidden_skin_mm(const Scene& scene);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -5,7 +5,7 @@
 
 #include "dermis/judge/region_points.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 struct RegionEntry {
@@ -59,20 +59,18 @@ Vec3 region_color(Region region) {
 }
 
 Result<RegionMasks> find_regions(const Scene& scene, const Image& skin) {
-    const Result<std::vector<RegionPoint>> points = find_region_points(scene, skin);
-    if (!points) return points.error();
-    const Result<std::vector<Vec3>> hidden_mm = hidden_skin_mm(scene);
-    if (!hidden_mm) return hidden_mm.error();
+    DERMIS_TRY_ASSIGN(const std::vector<RegionPoint> points, find_region_points(scene, skin));
+    DERMIS_TRY_ASSIGN(const std::vector<Vec3> hidden_mm, hidden_skin_mm(scene));
     const int width = skin.width, height = skin.height;
     const Image near_edge =
-        near_points(*points, shadow_edges_mm(*points, width, height, kNearMm), kNearMm, width, height);
-    const Image near_hidden = near_points(*points, *hidden_mm, kNearMm, width, height);
+        near_points(points, shadow_edges_mm(points, width, height, kNearMm), kNearMm, width, height);
+    const Image near_hidden = near_points(points, hidden_mm, kNearMm, width, height);
     RegionMasks masks;
     for (const Region region : kRegions) {
         Image& mask = masks[size_t(region)] = Image(width, height, 1);
-        for (size_t i = 0; i < points->size(); ++i)
-            if ((*points)[i].skin &&
-                belongs((*points)[i], region, near_edge.floats()[i] > 0, near_hidden.floats()[i] > 0))
+        for (size_t i = 0; i < points.size(); ++i)
+            if (points[i].skin &&
+                belongs(points[i], region, near_edge.floats()[i] > 0, near_hidden.floats()[i] > 0))
                 mask.floats()[i] = 1;
     }
     return masks;
@@ -104,13 +102,12 @@ Result<std::vector<RegionShare>> captured_by_region(const Image& technique_effec
         const Image& mask = regions[size_t(region)];
         RegionShare share{.region = region};
         if (std::ranges::any_of(mask.floats(), [](float v) { return v > 0; })) {
-            const Result<Captured> found = captured(technique_effect, truth, mask);
-            if (!found) return found.error();
-            share.captured = *found;
+            DERMIS_TRY_ASSIGN(const Captured found, captured(technique_effect, truth, mask));
+            share.captured = found;
         }
         shares.push_back(std::move(share));
     }
     return shares;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -11,7 +11,7 @@
 #include "dermis/judge/captured.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// N.L is of the key light and the shading normal.
 enum class Region {
@@ -56,4 +56,4 @@ struct RegionShare {
                                                                   const EffectHalves& truth,
                                                                   const RegionMasks& regions);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

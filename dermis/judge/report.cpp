@@ -8,7 +8,7 @@
 #include "dermis/judge/heat_map.h"
 #include "dermis/scene/scene_words.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 extern const std::string_view kReportPage;
 
@@ -249,4 +249,4 @@ Result<std::string> report_html(const Scene& scene, const Comparison& comparison
     return page;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -6,7 +6,7 @@
 
 #include "dermis/judge/comparison.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// The page. A picture of 512 x 512 adds about 1 MB a technique (tone-mapped picture, FLIP, linear error, as
 /// PNG). Errors: a picture that cannot be encoded.
@@ -16,4 +16,4 @@ namespace dermis {
 /// RFC 4648, section 4.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -6,7 +6,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 // Beyond the defaults of every technique.
@@ -193,4 +193,4 @@ Plot scoreboard_plot(const std::vector<ScoreRow>& rows) {
     return plot;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -7,7 +7,7 @@
 #include "dermis/judge/comparison.h"
 #include "dermis/plot/plot.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// Every technique with its defaults, and the settings whose difference is worth knowing; lambert first.
 [[nodiscard]] std::vector<Contestant> scoreboard_contestants(std::span<const Technique> techniques);
@@ -24,4 +24,4 @@ namespace dermis {
 inline constexpr double kLowestPlotted = -0.5;
 [[nodiscard]] Plot scoreboard_plot(const std::vector<ScoreRow>& rows);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -5,7 +5,7 @@
 
 #include "dermis/image/metrics.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 // The mean of a pixel's points that are all skin may round below 1, as that of 12 x 12 does.
@@ -17,9 +17,8 @@ bool covers_anything(const Image& mask) {
 
 Result<std::optional<double>> rmse_over(const Image& radiance, const Image& reference, const Image& mask) {
     if (!covers_anything(mask)) return std::optional<double>();
-    const Result<double> value = rmse(radiance, reference, mask);
-    if (!value) return value.error();
-    return std::optional<double>(*value);
+    DERMIS_TRY_ASSIGN(const double value, rmse(radiance, reference, mask));
+    return std::optional<double>(value);
 }
 
 }  // namespace
@@ -70,13 +69,11 @@ Result<Scores> score(const Image& radiance, const Image& reference, const SkinMa
           keep(scores.delta_e_2000, mean_ciede2000(shown, shown_reference, masks.skin)),
           keep(scores.flip, mean_flip(shown, shown_reference, masks.skin))})
         if (!step) return step.error();
-    const Result<std::optional<double>> terminator = rmse_over(light, reference, masks.terminator);
-    if (!terminator) return terminator.error();
-    const Result<std::optional<double>> penumbra = rmse_over(light, reference, masks.penumbra);
-    if (!penumbra) return penumbra.error();
-    scores.terminator_rmse = *terminator;
-    scores.penumbra_rmse = *penumbra;
+    DERMIS_TRY_ASSIGN(const std::optional<double> terminator, rmse_over(light, reference, masks.terminator));
+    DERMIS_TRY_ASSIGN(const std::optional<double> penumbra, rmse_over(light, reference, masks.penumbra));
+    scores.terminator_rmse = terminator;
+    scores.penumbra_rmse = penumbra;
     return scores;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -12,7 +12,7 @@
 #include "dermis/image/tone_map.h"
 #include "dermis/judge/captured.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// The band along the terminator, and how wide the band around a cast shadow's edge is.
 inline constexpr float kTerminatorCosine = 0.3f;
@@ -84,4 +84,4 @@ struct ScoreColumn {
 /// Errors name line and column: another heading, too few columns, no number.
 [[nodiscard]] Result<std::vector<ScoreRow>> parse_scores(std::string_view text);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -8,7 +8,7 @@
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/scores.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 using Value = std::optional<double>;
@@ -219,11 +219,10 @@ Result<std::vector<ScoreRow>> parse_scores(std::string_view text) {
             if (columns.empty()) return Error{"scores line 1: the heading is not " + heading()};
         }
         if (line_number == 1 || trim(line).empty()) continue;
-        Result<ScoreRow> row = parse_row(trim(line), line_number, columns);
-        if (!row) return row.error();
-        rows.push_back(std::move(*row));
+        DERMIS_TRY_ASSIGN(ScoreRow row, parse_row(trim(line), line_number, columns));
+        rows.push_back(std::move(row));
     }
     return rows;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

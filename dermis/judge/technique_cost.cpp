@@ -5,7 +5,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 double median(std::vector<double> values) {
@@ -24,12 +24,12 @@ Result<void> measure_bytes(const Scene& scene, const Contestant& contestant, int
     if (!technique.tables) return {};
     const Result<Profile> profile = find_profile(scene.skin.profile);
     if (!profile) return profile.error();
-    const auto tables = technique.tables(contestant.values, {.profile = *profile,
-                                                             .gaussians = to_gaussian_sum(*profile).sum,
-                                                             .diffuse_table = scene.skin.diffuse_table,
-                                                             .zonal_table = scene.skin.zonal_table});
-    if (!tables) return tables.error();
-    for (const TableImage& table : *tables) cost.table_bytes += table.bytes.size();
+    DERMIS_TRY_ASSIGN(const auto tables,
+                      technique.tables(contestant.values, {.profile = *profile,
+                                                           .gaussians = to_gaussian_sum(*profile).sum,
+                                                           .diffuse_table = scene.skin.diffuse_table,
+                                                           .zonal_table = scene.skin.zonal_table}));
+    for (const TableImage& table : tables) cost.table_bytes += table.bytes.size();
     return {};
 }
 
@@ -40,8 +40,7 @@ Result<std::vector<TechniqueCost>> measure_costs(
     int frames, const std::function<void(double done, const std::string& name)>& progress) {
     std::vector<TechniqueCost> costs(contestants.size());
     for (size_t i = 0; i < costs.size(); ++i)
-        if (Result<void> done = measure_bytes(scene, contestants[i], width, height, costs[i]); !done)
-            return done.error();
+        DERMIS_TRY(measure_bytes(scene, contestants[i], width, height, costs[i]));
     if (frames == 0) return costs;
     std::vector<std::vector<double>> times(costs.size());
     for (int frame = 0; frame <= frames; ++frame)
@@ -68,4 +67,4 @@ Result<std::vector<TechniqueCost>> measure_costs(
     return costs;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -9,7 +9,7 @@
 #include "dermis/judge/technique_list.h"
 #include "dermis/render/renderer.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 struct TechniqueCost {
     double time_ms = 0;      ///< median of whole frames
@@ -26,4 +26,4 @@ struct TechniqueCost {
     Renderer& renderer, const Scene& scene, const std::vector<Contestant>& contestants, int width, int height,
     int frames, const std::function<void(double done, const std::string& name)>& progress = {});
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -4,7 +4,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 namespace {
 
 // Splits at commas outside brackets. The bracket that does not fit is an error.
@@ -78,17 +78,15 @@ std::string Contestant::name() const {
 
 Result<std::vector<Contestant>> parse_technique_list(std::span<const Technique> techniques,
                                                      std::string_view text) {
-    const Result<std::vector<std::string_view>> entries = split_entries(text);
-    if (!entries) return entries.error();
+    DERMIS_TRY_ASSIGN(const std::vector<std::string_view> entries, split_entries(text));
     std::vector<Contestant> list;
-    for (const std::string_view entry : *entries) {
-        Result<Contestant> contestant = parse_entry(techniques, entry);
-        if (!contestant) return contestant.error();
+    for (const std::string_view entry : entries) {
+        DERMIS_TRY_ASSIGN(Contestant contestant, parse_entry(techniques, entry));
         for (const Contestant& other : list)
-            if (same_values(other, *contestant))
-                return Error{"--techniques: '" + contestant->name() + "' and '" + other.name() +
+            if (same_values(other, contestant))
+                return Error{"--techniques: '" + contestant.name() + "' and '" + other.name() +
                              "' have the same settings; remove one"};
-        list.push_back(std::move(*contestant));
+        list.push_back(std::move(contestant));
     }
     return list;
 }
@@ -102,4 +100,4 @@ std::vector<Contestant> default_contestants(std::span<const Technique> technique
     return list;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -9,7 +9,7 @@
 #include "dermis/base/result.h"
 #include "dermis/technique/technique.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 struct Contestant {
     const Technique* technique = nullptr;
@@ -30,4 +30,4 @@ struct Contestant {
 /// Every technique with its defaults, lambert first.
 [[nodiscard]] std::vector<Contestant> default_contestants(std::span<const Technique> techniques);
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

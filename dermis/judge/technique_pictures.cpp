@@ -5,7 +5,7 @@
 #include "dermis/image/resample.h"
 #include "dermis/judge/captured.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 Result<Image> PictureMaker::draw(const Technique& technique, const ParameterValues& values) {
     const DrawSettings draw{.width = settings_.width * settings_.grid,
@@ -13,10 +13,9 @@ Result<Image> PictureMaker::draw(const Technique& technique, const ParameterValu
                             .deep = true,
                             .shadow_map_size = settings_.shadow_map_size,
                             .penumbra_mm = settings_.penumbra_mm};
-    if (const auto drawn = renderer_.draw(technique, values, draw); !drawn) return drawn.error();
-    const Result<Image> radiance = renderer_.radiance();
-    if (!radiance) return radiance.error();
-    return resize(to_linear_float(*radiance), settings_.width, settings_.height);
+    DERMIS_TRY(renderer_.draw(technique, values, draw));
+    DERMIS_TRY_ASSIGN(const Image radiance, renderer_.radiance());
+    return resize(to_linear_float(radiance), settings_.width, settings_.height);
 }
 
 Result<const Image*> PictureMaker::lambert_beside(const Contestant& contestant) {
@@ -26,7 +25,7 @@ Result<const Image*> PictureMaker::lambert_beside(const Contestant& contestant) 
         const Parameter* same = contestant.values.table().find(parameter.name);
         if (!same) continue;
         const std::string text = contestant.values.text(*same);
-        if (Result<void> set = values.set(parameter.name, text); !set) return set.error();
+        DERMIS_TRY(values.set(parameter.name, text));
         key += parameter.name + "=" + text + "\n";
     }
     if (const auto found = lambert_pictures_.find(key); found != lambert_pictures_.end())
@@ -37,14 +36,13 @@ Result<const Image*> PictureMaker::lambert_beside(const Contestant& contestant) 
 }
 
 Result<TechniquePictures> PictureMaker::make(const Contestant& contestant) {
-    const Result<const Image*> lambert = lambert_beside(contestant);
-    if (!lambert) return lambert.error();
+    DERMIS_TRY_ASSIGN(const Image* lambert, lambert_beside(contestant));
     // Lambert itself is drawn once, so that its effect is 0 and no rounding.
     Result<Image> radiance = contestant.technique->id == lambert_.id
-                                 ? Result<Image>(**lambert)
+                                 ? Result<Image>(*lambert)
                                  : draw(*contestant.technique, contestant.values);
     if (!radiance) return Error{contestant.name() + ": " + radiance.error().message};
-    TechniquePictures pictures{.effect = difference(*radiance, **lambert)};
+    TechniquePictures pictures{.effect = difference(*radiance, *lambert)};
     pictures.radiance = std::move(*radiance);
     return pictures;
 }
@@ -55,21 +53,19 @@ Result<SkinMasks> PictureMaker::masks(const Image& skin) {
                             .gbuffer = true,
                             .shadow_map_size = settings_.shadow_map_size,
                             .penumbra_mm = kPenumbraBandMm};
-    if (const auto drawn = renderer_.draw(lambert_, ParameterValues(lambert_.parameters), draw); !drawn)
-        return drawn.error();
-    const Result<Image> light = renderer_.read("gbuffer_light"),
-                        position = renderer_.read("gbuffer_position");
-    if (!light) return light.error();
+    DERMIS_TRY(renderer_.draw(lambert_, ParameterValues(lambert_.parameters), draw));
+    DERMIS_TRY_ASSIGN(const Image light, renderer_.read("gbuffer_light"),
+                      position = renderer_.read("gbuffer_position"));
     if (!position) return position.error();
     Image covered(position->width, position->height, 1);
     const Image position_float = to_linear_float(*position);
     for (size_t i = 0; i < covered.pixel_count(); ++i)
         covered.floats()[i] = position_float.floats()[4 * i + 3] > 0 ? 1 : 0;
-    SkinMasks masks = make_masks(resize(to_linear_float(*light), skin.width, skin.height),
+    SkinMasks masks = make_masks(resize(to_linear_float(light), skin.width, skin.height),
                                  resize(covered, skin.width, skin.height), skin);
     if (std::ranges::none_of(masks.skin.floats(), [](float v) { return v > 0; }))
         return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
     return masks;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

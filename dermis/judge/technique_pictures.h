@@ -9,7 +9,7 @@
 #include "dermis/judge/technique_list.h"
 #include "dermis/render/renderer.h"
 
-namespace dermis {
+namespace dermis::inline judge {
 
 struct PictureSettings {
     int width = 512, height = 512;
@@ -47,4 +47,4 @@ class PictureMaker {
     std::map<std::string, Image> lambert_pictures_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

@@ -4,10 +4,10 @@
 
 #include <string_view>
 
-namespace dermis {
+namespace dermis::inline judge {
 
 /// Changes with every change, but of a comment, to base, image, mesh, optics, scene, rays, reference or
 /// judge/effect_truth.cpp. Made by the build (cmake/SourceVersion.cmake).
 [[nodiscard]] std::string_view truth_version();
 
-}  // namespace dermis
+}  // namespace dermis::inline judge

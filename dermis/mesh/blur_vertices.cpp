@@ -7,7 +7,7 @@
 
 #include "dermis/mesh/topology.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -74,4 +74,4 @@ Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const f
     return blurred;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -7,7 +7,7 @@
 #include "dermis/base/result.h"
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// `values`, one a vertex, blurred by about a Gaussian of `variance_mm2` an axis along the surface, 0 or
 /// more. Vertices at one place are one, so that UV seams do not show. Linear, keeps constants and, weighted
@@ -19,4 +19,4 @@ namespace dermis {
 [[nodiscard]] Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const float> values,
                                                            double variance_mm2);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -15,7 +15,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/mesh/topology.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 constexpr size_t kMaxNeighbours = 1500;
@@ -246,4 +246,4 @@ std::vector<float> compute_curvature(const Mesh& mesh, double smoothing_mm) {
     return curvatures;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -5,7 +5,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// Over which curvature for shading is averaged. Of 3 mm and 1.8 mm the smaller captures more of
 /// the effect of scattering: bust .134 against .112, head scan .227 against .220 (`preintegrated`, 128 and
@@ -39,4 +39,4 @@ inline constexpr double kCurvatureSmoothingMm = 1.8;
 [[nodiscard]] std::vector<CurvatureTensor> compute_curvature_tensors(const Mesh& mesh,
                                                                      double smoothing_mm = 0);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -6,7 +6,7 @@
 #include "dermis/mesh/tangents.h"
 #include "dermis/mesh/weld.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 void displace(Mesh& mesh, const std::function<float(Vec2 uv)>& height, const DisplacementOptions& options) {
     std::vector<float> heights(mesh.uvs.size());
@@ -33,4 +33,4 @@ void displace(Mesh& mesh, const std::function<float(Vec2 uv)>& height, const Dis
     compute_tangents(mesh);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -6,7 +6,7 @@
 
 #include "dermis/mesh/weld.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 struct Edge {
@@ -171,4 +171,4 @@ std::vector<std::array<Vec3, 3>> cap_of(const BorderLoop& loop, size_t largest_e
     return triangles;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -9,7 +9,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// One closed border: positions in the order in which its triangles turn, so that a cap that turns the other
 /// way continues the surface.
@@ -53,4 +53,4 @@ inline constexpr size_t kLargestExactLoop = 400;
 /// a mesh of thousands of long borders.
 [[nodiscard]] size_t affordable_exact(std::span<const BorderLoop> loops);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 float inside_side(float at, TextureWrap wrap) {
@@ -37,4 +37,4 @@ bool is_blended(const Material& material) {
     return material.alpha_mode != AlphaMode::mask && (material.opacity < 1 || cutoff_of_map(material) > 0);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -8,7 +8,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// What an image has beyond its edges.
 enum class TextureWrap { repeat, clamp, mirror };
@@ -97,4 +97,4 @@ struct Material {
 /// Lies over what is behind it by its opacity, times that of the alpha map and the vertices.
 [[nodiscard]] bool is_blended(const Material& material);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

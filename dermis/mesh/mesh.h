@@ -9,7 +9,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/mesh/material.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// A run of triangles with one material.
 struct Submesh {
@@ -62,4 +62,4 @@ struct Mesh {
     [[nodiscard]] size_t triangle_count() const { return indices.size() / 3; }
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

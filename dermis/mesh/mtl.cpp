@@ -12,7 +12,7 @@
 #include "dermis/mesh/obj.h"
 #include "dermis/mesh/text_cursor.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 constexpr size_t kMaxMaterials = 65536;
@@ -275,4 +275,4 @@ std::vector<Material> parse_mtl(std::string_view text, const std::string& name,
     return MtlParser(name, directory, warnings).run(text);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -9,7 +9,7 @@
 
 #include "dermis/mesh/topology.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 struct CornerNormals {
@@ -125,4 +125,4 @@ double fraction_facing_backwards(const Mesh& mesh) {
     return faces.empty() ? 0 : double(backwards) / double(faces.size());
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

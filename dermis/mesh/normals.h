@@ -3,7 +3,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 struct NormalOptions {
     /// Edges whose faces differ by more stay sharp, and their vertices are split. 180: smooth everywhere, as
@@ -26,4 +26,4 @@ void complete_normals(Mesh& mesh);
 /// reversed.
 [[nodiscard]] double fraction_facing_backwards(const Mesh& mesh);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

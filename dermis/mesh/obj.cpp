@@ -13,7 +13,7 @@
 #include "dermis/base/text.h"
 #include "dermis/mesh/text_cursor.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 constexpr size_t kMaxFaceCorners = 65536;
@@ -243,4 +243,4 @@ Result<ObjFile> parse_obj(std::string_view text, const std::filesystem::path& na
     return ObjParser(text, name, read_sibling, options).run();
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -10,7 +10,7 @@
 #include "dermis/mesh/polygons.h"
 #include "dermis/mesh/read_mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 struct ObjFile {
     PolygonMesh polygons;  ///< in file units until scaled; V flipped already
@@ -29,4 +29,4 @@ struct ObjFile {
                                               const std::filesystem::path& directory,
                                               std::vector<std::string>& warnings);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -9,7 +9,7 @@
 
 #include "dermis/mesh/weld.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 // Twice the vector area, in double: scanned faces are small and far from the origin.
@@ -221,4 +221,4 @@ PolygonMesh polygons_of(const Mesh& mesh) {
     return polygons;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -10,7 +10,7 @@
 #include "dermis/mesh/material.h"
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 inline constexpr uint32_t kNoIndex = ~0u;
 
@@ -48,4 +48,4 @@ void triangulate_polygon(std::span<const Vec3> corners, std::vector<uint32_t>& t
 /// value.
 [[nodiscard]] PolygonMesh polygons_of(const Mesh& mesh);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

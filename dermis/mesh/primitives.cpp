@@ -7,7 +7,7 @@
 
 #include "dermis/mesh/topology.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
@@ -134,4 +134,4 @@ Mesh make_box(Vec3 size_mm) {
     return with_one_material(std::move(mesh), "box");
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

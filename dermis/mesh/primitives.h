@@ -4,7 +4,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// All shapes: one material, one submesh, all attributes analytic, UVs unmirrored in [0, 1] seen from
 /// outside.
@@ -25,4 +25,4 @@ namespace dermis {
 /// Around the origin with sharp edges; each face has its own sixth of the UV square.
 [[nodiscard]] Mesh make_box(Vec3 size_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

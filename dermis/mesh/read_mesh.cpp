@@ -20,7 +20,7 @@
 #include "dermis/mesh/topology.h"
 #include "dermis/mesh/uv_report.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace fs = std::filesystem;
 namespace {
 
@@ -37,13 +37,12 @@ Result<MeshFormat> format_of(const fs::path& path) {
 Result<LoadedMesh> load_obj(std::span<const std::byte> bytes, const fs::path& name,
                             const ReadSibling& read_sibling, const MeshOptions& options) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    Result<ObjFile> file = parse_obj(text, name, read_sibling, options);
-    if (!file) return file.error();
+    DERMIS_TRY_ASSIGN(ObjFile file, parse_obj(text, name, read_sibling, options));
     const auto scale = float(options.unit_mm.value_or(1));
-    for (Vec3& p : file->polygons.positions_mm) p *= scale;
-    const Result<PolygonMesh> refined = subdivide(file->polygons, options.subdivision_level);
+    for (Vec3& p : file.polygons.positions_mm) p *= scale;
+    const Result<PolygonMesh> refined = subdivide(file.polygons, options.subdivision_level);
     if (!refined) return Error{name.string() + ": " + refined.error().message};
-    return LoadedMesh{.mesh = triangulate(*refined), .warnings = std::move(file->warnings)};
+    return LoadedMesh{.mesh = triangulate(*refined), .warnings = std::move(file.warnings)};
 }
 
 // glTF has triangles only: they are the control cage.
@@ -147,7 +146,7 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     if (!loaded) return Error{printable_line(loaded.error().message)};
     Mesh& mesh = loaded->mesh;
     std::vector<std::string>& warnings = loaded->warnings;
-    if (Result<void> checked = check_finite(mesh, name, warnings); !checked) return checked.error();
+    DERMIS_TRY(check_finite(mesh, name, warnings));
     drop_unused_vertices(mesh);
     if (mesh.uvs.empty()) warnings.push_back(name.string() + ": no UVs; maps cannot be used");
     warn_of_height(mesh, name, options, is_obj, warnings);
@@ -159,17 +158,15 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
 }
 
 Result<LoadedMesh> read_mesh(const fs::path& path, const MeshOptions& options) {
-    const Result<MeshFormat> format = format_of(path);
-    if (!format) return format.error();
-    const Result<std::vector<std::byte>> bytes = read_file(path);
-    if (!bytes) return bytes.error();
+    DERMIS_TRY_ASSIGN(const MeshFormat format, format_of(path));
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(path));
     std::vector<fs::path> files = {path};
     const ReadSibling read_sibling = [&](const std::string& relative_path) {
         return read_file(files.emplace_back(path.parent_path() / utf8_path(relative_path)));
     };
-    Result<LoadedMesh> loaded = parse_mesh(*bytes, *format, path, read_sibling, options);
+    Result<LoadedMesh> loaded = parse_mesh(bytes, format, path, read_sibling, options);
     if (loaded) loaded->files = std::move(files);
     return loaded;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

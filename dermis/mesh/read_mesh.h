@@ -13,7 +13,7 @@
 #include "dermis/base/result.h"
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 struct MeshOptions {
     /// Millimetres a file unit; none: 1000 for glTF (metres), 1 for OBJ.
@@ -74,4 +74,4 @@ enum class MeshFormat { obj, gltf, glb };
 /// backslash.
 [[nodiscard]] bool stays_inside(std::string_view relative_path);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

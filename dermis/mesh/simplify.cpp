@@ -8,7 +8,7 @@
 
 #include "dermis/mesh/topology.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 // x^T A x + 2 b.x + c, weighted by area.
@@ -225,4 +225,4 @@ SimplifiedTriangles simplify(const Mesh& mesh, size_t triangle_count) {
     return Simplifier(mesh).run(triangle_count);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -6,7 +6,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 struct SimplifiedTriangles {
     std::vector<uint32_t> indices;  ///< into the mesh's vertices, of which some are not used any more
@@ -20,4 +20,4 @@ struct SimplifiedTriangles {
 /// more collapses, more triangles are left. 135,000 to 30,000 take 0.5 s.
 [[nodiscard]] SimplifiedTriangles simplify(const Mesh& mesh, size_t triangle_count);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -5,7 +5,7 @@
 
 #include "dermis/mesh/topology.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 // P is linear over a triangle: [d1 d2] = [P_u P_v] [uv1 uv2], solved for P_u and P_v.
@@ -130,4 +130,4 @@ UvDerivatives vertex_uv_derivatives(const Mesh& mesh) {
     return result;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

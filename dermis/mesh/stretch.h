@@ -6,7 +6,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// The first fundamental form of P(u, v) in mm^2 per squared UV unit: E = |dP/du|^2, F = dP/du . dP/dv,
 /// G = |dP/dv|^2. All zero where the UVs have no area.
@@ -39,4 +39,4 @@ struct UvDerivatives {
 /// Area of every triangle in mm^2.
 [[nodiscard]] std::vector<float> triangle_areas_mm2(const Mesh& mesh);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -15,7 +15,7 @@
 #include "dermis/base/progress.h"
 #include "dermis/mesh/weld.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 namespace Far = OpenSubdiv::Far;
@@ -193,4 +193,4 @@ Result<PolygonMesh> subdivide(const PolygonMesh& polygons, int level) {
     return out;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -6,7 +6,7 @@
 #include "dermis/base/result.h"
 #include "dermis/mesh/polygons.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 inline constexpr int kMaxSubdivisionLevel = 5;
 
@@ -29,4 +29,4 @@ struct DisplacementOptions {
 /// opens. `height` must be safe to call from several threads. Needs UVs and normals.
 void displace(Mesh& mesh, const std::function<float(Vec2 uv)>& height, const DisplacementOptions& options);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -11,7 +11,7 @@
 
 #include "dermis/mesh/topology.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 enum class Handedness : uint8_t { none, kept, mirrored };
@@ -199,4 +199,4 @@ void complete_tangents(Mesh& mesh) {
     }
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -3,7 +3,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// Needs normals and UVs (without UVs: any frame perpendicular to the normal). Replaces mesh.tangents and
 /// splits the vertices whose triangles demand different frames (mirrored UVs), so the vertex count may grow.
@@ -25,4 +25,4 @@ void compute_tangents(Mesh& mesh);
 /// are computed as by compute_tangents, the others kept. Without any: compute_tangents.
 void complete_tangents(Mesh& mesh);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// Reads from the front of a line; what was read is gone.
 class TextCursor {
@@ -122,4 +122,4 @@ class LineReader {
     size_t number_ = 0, extra_ = 0;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

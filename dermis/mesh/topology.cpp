@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 template <class Attribute>
@@ -113,4 +113,4 @@ float corner_angle_rad(const Mesh& mesh, uint32_t corner) {
     return std::isfinite(angle) && length(a) > 0 && length(b) > 0 ? angle : 0.0f;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

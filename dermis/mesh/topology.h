@@ -8,7 +8,7 @@
 #include "dermis/mesh/mesh.h"
 #include "dermis/mesh/weld.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// Corner c belongs to triangle c / 3. For a vertex numbering of `count` vertices: corners(v) lists all
 /// corners there.
@@ -70,4 +70,4 @@ void drop_unused_vertices(Mesh& mesh);
 /// Interior angle of a corner in radians; 0 for degenerate triangles.
 [[nodiscard]] float corner_angle_rad(const Mesh& mesh, uint32_t corner);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -11,7 +11,7 @@
 #include "dermis/mesh/stretch.h"
 #include "dermis/mesh/topology.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 constexpr int64_t kSubTexels = 256;
@@ -268,4 +268,4 @@ UvReport analyze_uvs(const Mesh& mesh, std::optional<uint32_t> material, int res
     return report;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

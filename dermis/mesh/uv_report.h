@@ -7,7 +7,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 struct Percentiles {
     float p5 = 0, p50 = 0, p95 = 0;
@@ -37,4 +37,4 @@ struct UvReport {
 /// UDIM number of the tile a UV lies in (origin top-left, so v <= 1 is the first row); 0 for none.
 [[nodiscard]] int udim_tile(Vec2 uv);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -12,7 +12,7 @@
 #include "dermis/mesh/topology.h"
 #include "dermis/mesh/weld.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 constexpr uint32_t kNone = ~0u;
@@ -191,4 +191,4 @@ SeamMap make_seam_map(std::span<const AtlasPart> parts, int size, int width_texe
     return map;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

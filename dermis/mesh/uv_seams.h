@@ -8,7 +8,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// Some triangles of a mesh that share an atlas with those of others.
 struct AtlasPart {
@@ -31,4 +31,4 @@ struct SeamMap {
 /// ms for 130,000 triangles at 1024.
 [[nodiscard]] SeamMap make_seam_map(std::span<const AtlasPart> parts, int size, int width_texels);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 constexpr uint32_t kEmpty = ~0u;
@@ -53,4 +53,4 @@ Weld weld_positions(std::span<const Vec3> positions) {
     return weld_records(words, 3);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

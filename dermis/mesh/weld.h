@@ -8,7 +8,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 struct Weld {
     std::vector<uint32_t> ids;  ///< of every record: the number of its distinct value, 0 .. first.size() - 1
@@ -27,4 +27,4 @@ struct Weld {
 /// The bits of a number as a weld key: -0 and +0 give the same.
 [[nodiscard]] uint32_t weld_key(float value);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -9,7 +9,7 @@
 #include "dermis/base/result.h"
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 
 /// A PNG or JPEG to embed for every material map of that name.
 struct NamedImage {
@@ -46,4 +46,4 @@ struct ObjTexts {
 [[nodiscard]] ObjTexts obj_texts(const std::filesystem::path& path, const Mesh& mesh);
 [[nodiscard]] std::filesystem::path mtl_path(const std::filesystem::path& obj_path);
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -5,7 +5,7 @@
 #include "dermis/base/file.h"
 #include "dermis/mesh/write_mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 std::string one_word(std::string name) {
@@ -73,4 +73,4 @@ Result<void> write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     return write_files(files);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dermis {
+namespace dermis::inline optics {
 
 WaveCurve blur_waves(const GaussianSum& profile, double texel_mm) {
     const auto [narrowest, widest] = std::ranges::minmax(profile.terms, {}, &GaussianTerm::variance_mm2);
@@ -17,4 +17,4 @@ WaveCurve blur_waves(const GaussianSum& profile, double texel_mm) {
     return x;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

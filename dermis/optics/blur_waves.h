@@ -5,7 +5,7 @@
 
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 inline constexpr int kBlurWaves = 24;
 using WaveCurve = std::array<double, kBlurWaves>;
@@ -23,4 +23,4 @@ inline constexpr double kTakenOffset = 0.1;
     return 1 / (kTakenOffset + 1 - kept);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -3,7 +3,7 @@
 // and Burley 2015 to Monte Carlo walks in an index-matched half-space, one fit per length and illumination. A
 // is the albedo under diffuse light, 0..1; every s is positive.
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// Mean free path / d for light that enters diffusely, right for blurring irradiance: equation 6.
 [[nodiscard]] inline double mean_free_path_per_d(double albedo) {
@@ -17,4 +17,4 @@ namespace dermis {
     return 3.5 + 100 * x * x * x * x;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -6,7 +6,7 @@
 #include "dermis/base/result.h"
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 inline std::string channel_name(int channel) {
     return channel == 0 ? "red" : channel == 1 ? "green" : "blue";
@@ -17,4 +17,4 @@ inline Error out_of_range(const std::string& what, double value, const std::stri
     return {what + " is " + to_text(value) + "; it must be " + range};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

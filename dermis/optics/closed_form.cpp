@@ -7,7 +7,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 constexpr int kSamples = 64;
@@ -97,7 +97,7 @@ class RowFitter {
 
 Result<ClosedForm> fit_closed_form(const GaussianSum& profile, double max_curvature_per_mm, int row_count,
                                    const Preintegration& how) {
-    if (const Result<void> good = check_preintegrable(profile); !good) return good.error();
+    DERMIS_TRY(check_preintegrable(profile));
     if (row_count < 2 || row_count > 65536)
         return Error{"closed form: " + std::to_string(row_count) + " rows; 2 to 65536"};
     if (!(max_curvature_per_mm > 0) || !std::isfinite(max_curvature_per_mm))
@@ -132,4 +132,4 @@ Rgb evaluate(const ClosedForm& form, double n_dot_l, double curvature_per_mm) {
     return d;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

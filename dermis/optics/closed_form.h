@@ -16,7 +16,7 @@
 #include "dermis/base/result.h"
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// At one curvature, red, green, blue. Flat skin: a = s = 1, the others 0.
 struct ClosedFormCoefficients {
@@ -39,4 +39,4 @@ struct ClosedForm {
 /// largest.
 [[nodiscard]] Rgb evaluate(const ClosedForm& form, double n_dot_l, double curvature_per_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

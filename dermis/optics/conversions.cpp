@@ -8,7 +8,7 @@
 #include "dermis/optics/check_value.h"
 #include "dermis/optics/tool_rows.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 const ToolRow& row_of(ToolId tool) {
@@ -81,8 +81,7 @@ Result<BurleyProfile> to_canonical(const ToolSettings& settings) {
             if (!(settings.values[0][c] + settings.values[1][c] > 0))
                 return out_of_range("pbrt: sigma_a + sigma_s of " + channel_name(int(c)), 0, "> 0");
     const BurleyProfile burley = row.read(settings.values);
-    if (const auto checked = check(Profile{std::string(row.convention.name), "", burley}); !checked)
-        return checked.error();
+    DERMIS_TRY(check(Profile{std::string(row.convention.name), "", burley}));
     return burley;
 }
 
@@ -115,4 +114,4 @@ BurleyProfile burley_of(const ScatteringMedium& medium) {
     return burley;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

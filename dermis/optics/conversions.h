@@ -17,7 +17,7 @@
 #include "dermis/base/result.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 enum class ToolId {
     faceworks,
@@ -89,4 +89,4 @@ struct ToolSettings {
 /// The other way, within 1e-4 in albedo (that of the inversion).
 [[nodiscard]] BurleyProfile burley_of(const ScatteringMedium& medium);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

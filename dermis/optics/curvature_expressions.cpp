@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 using Eigen::Index;
@@ -165,7 +165,7 @@ VectorXd fit_even_part(const LitSamples& samples, size_t channel, CurvatureExpre
 
 Result<CurvatureExpressions> fit_curvature_expressions(const GaussianSum& profile,
                                                        const Preintegration& how) {
-    if (const Result<void> good = check_preintegrable(profile); !good) return good.error();
+    DERMIS_TRY(check_preintegrable(profile));
     const LitSamples samples = sample_light(profile, how);
     CurvatureExpressions form;
     for (size_t c = 0; c < 3; ++c) {
@@ -205,4 +205,4 @@ std::array<Rgb, 3> evaluate_zonal(const CurvatureExpressions& form, double curva
     return zonal;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -17,7 +17,7 @@
 #include "dermis/base/result.h"
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 inline constexpr size_t kExpressionTerms = 6;
 inline constexpr double kCurvatureKnee = 0.5;
@@ -41,4 +41,4 @@ struct CurvatureExpressions {
 [[nodiscard]] Rgb evaluate(const CurvatureExpressions& form, double n_dot_l, double curvature_per_mm);
 [[nodiscard]] std::array<Rgb, 3> evaluate_zonal(const CurvatureExpressions& form, double curvature_per_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 double saturate(double x) {
@@ -67,4 +67,4 @@ std::array<Rgb, 3> curve_2015_zonal(double curvature_per_mm) {
     return zh;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

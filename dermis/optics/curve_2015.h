@@ -7,7 +7,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// Diffuse light at n_dot_l -1..1; radii outside 2 to 16 mm count as those. Error against the sphere's
 /// integral, largest channel: 0.20 at 2 mm, 0.071 at 4, 0.019 at 8, 0.017 at 16 (`dermis bake closed_form`).
@@ -22,4 +22,4 @@ struct TightPieces {
 /// Zonal harmonics of order 0, 1, 2; order 2 is Lambert's, as published.
 [[nodiscard]] std::array<Rgb, 3> curve_2015_zonal(double curvature_per_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

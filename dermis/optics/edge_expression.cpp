@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 using Functions = Eigen::Matrix<double, 1, kEdgeTerms>;
@@ -69,4 +69,4 @@ Rgb evaluate(const EdgeExpression& edge, double visibility) {
     return light;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

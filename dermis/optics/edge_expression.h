@@ -13,7 +13,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 inline constexpr size_t kEdgeTerms = 6;
 
@@ -29,4 +29,4 @@ struct EdgeExpression {
 /// L; visibilities outside 0..1 are clamped.
 [[nodiscard]] Rgb evaluate(const EdgeExpression& edge, double visibility);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -7,7 +7,7 @@
 #include "dermis/base/text.h"
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 using Json = nlohmann::json;
@@ -78,9 +78,8 @@ Result<TabulatedProfile> table_of(Members& members) {
 Result<Profile> profile_of(Members& members, const std::string& model) {
     Profile profile;
     if (model == "gaussians") {
-        const Result<GaussianSum> sum = gaussians_of(members);
-        if (!sum) return sum.error();
-        profile.model = *sum;
+        DERMIS_TRY_ASSIGN(const GaussianSum sum, gaussians_of(members));
+        profile.model = sum;
     } else if (model == "burley") {
         profile.model = BurleyProfile{members.value<Rgb>("albedo"), members.value<Rgb>("d_mm")};
     } else if (model == "dipole") {
@@ -89,9 +88,8 @@ Result<Profile> profile_of(Members& members, const std::string& model) {
                                        .g = members.value<double>("g"),
                                        .eta = members.value<double>("eta")}};
     } else if (model == "table") {
-        const Result<TabulatedProfile> table = table_of(members);
-        if (!table) return table.error();
-        profile.model = *table;
+        DERMIS_TRY_ASSIGN(const TabulatedProfile table, table_of(members));
+        profile.model = table;
     } else {
         return Error{unknown_name("model", printable_line(model, 40),
                                   std::vector<std::string>{"gaussians", "burley", "dipole", "table"})};
@@ -122,8 +120,8 @@ Result<Profile> parse_exact_profile(std::string_view text) {
     profile->name = printable_line(name, 60);
     profile->source = printable_line(source);
     if (auto* sum = std::get_if<GaussianSum>(&profile->model)) sum->name = profile->name;
-    if (const Result<void> checked = check(*profile); !checked) return checked.error();
+    DERMIS_TRY(check(*profile));
     return profile;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -8,11 +8,11 @@
 #include "dermis/base/result.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// "model" is gaussians, burley, dipole or table; lengths in mm, as the members of the models are named.
 [[nodiscard]] std::string exact_profile_json(const Profile& profile);
 /// Errors: no JSON, an unknown model, a member that is missing or of another type, what check() refuses.
 [[nodiscard]] Result<Profile> parse_exact_profile(std::string_view json);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

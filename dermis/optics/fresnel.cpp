@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline optics {
 
 double fresnel_dielectric(double cos_theta, double eta) {
     const double cos_i = std::clamp(cos_theta, 0.0, 1.0);
@@ -42,4 +42,4 @@ double diffuse_external_reflectance(double eta) {
     return sum / kSteps;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -3,7 +3,7 @@
 // far side divided by that on the near side (skin from air 1.4, from inside 1 / 1.4), > 0. Cosines are to the
 // normal on the near side, clamped to 0..1.
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// Fresnel's equations: the mean of both polarisations; 1 under total internal reflection. Exact.
 [[nodiscard]] double fresnel_dielectric(double cos_theta, double eta);
@@ -25,4 +25,4 @@ namespace dermis {
 /// The same for light from outside, integral of 2 cos F(cos, eta) dcos, by quadrature to 1e-6; eta >= 1.
 [[nodiscard]] double diffuse_external_reflectance(double eta);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace dermis {
+namespace dermis::inline optics {
 
 std::vector<ChannelGaussians> by_channel(const GaussianSum& sum) {
     std::vector<GaussianTerm> terms = sum.terms;
@@ -19,4 +19,4 @@ std::vector<ChannelGaussians> by_channel(const GaussianSum& sum) {
     return all;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

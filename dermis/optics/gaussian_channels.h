@@ -6,7 +6,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// Weight 0 where a channel has fewer Gaussians than another; its variance is then 1.
 struct ChannelGaussians {
@@ -17,4 +17,4 @@ struct ChannelGaussians {
 /// channel (gaussian_fit.h): 18 terms become 6.
 [[nodiscard]] std::vector<ChannelGaussians> by_channel(const GaussianSum& sum);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 constexpr int kFitSamples = 200;
@@ -189,4 +189,4 @@ GaussianFit to_gaussian_sum(const Profile& profile, int terms_per_channel) {
     return fit;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

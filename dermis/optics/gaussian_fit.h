@@ -11,7 +11,7 @@
 
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 inline constexpr int kMaxGaussianFitTerms = 12;
 
@@ -28,4 +28,4 @@ struct GaussianFit {
 /// number. Tens of milliseconds a channel. Largest error of Burley with 4, 6, 8 terms: see docs/profiles.md.
 [[nodiscard]] GaussianFit to_gaussian_sum(const Profile& profile, int terms_per_channel = 6);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

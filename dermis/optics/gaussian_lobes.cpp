@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 constexpr double kLeastVarianceMm2 = 1e-6;
@@ -89,4 +89,4 @@ double merging_error(const GaussianSum& profile, const std::vector<ChannelGaussi
     return worst;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

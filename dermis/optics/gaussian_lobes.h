@@ -3,7 +3,7 @@
 
 #include "dermis/optics/gaussian_channels.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// What a Gaussian keeps of the two that it replaces, besides their weight.
 enum class LobeWidth : int32_t {
@@ -26,4 +26,4 @@ enum class LobeWidth : int32_t {
 /// What the irradiance of a lobe in shaders/include/skin/spherical_gaussians.glsl adds at most.
 inline constexpr double kLobeLightError = 0.018;
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

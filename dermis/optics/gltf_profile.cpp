@@ -12,7 +12,7 @@
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/exact_profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 using Json = nlohmann::json;
@@ -72,16 +72,15 @@ class MaterialReader {
         notes_.push_back("material '" + name_ + "', " + extension +
                          " with KHR_materials_volume: 1/sigma_t is the mean free path in m, "
                          "multiscatterColorFactor linear Rec. 709");
-        if (const auto read = read_color(scatter); !read) return read.error();
-        if (const auto read = read_lengths(); !read) return read.error();
+        DERMIS_TRY(read_color(scatter));
+        DERMIS_TRY(read_lengths());
         Result<BurleyProfile> burley = to_canonical(settings_);
         if (!burley) return fail(burley.error().message);
-        if (const auto read = apply_anisotropy(scatter, *burley); !read) return read.error();
+        DERMIS_TRY(apply_anisotropy(scatter, *burley));
         if (scatter_) {
-            const auto strength = numbers(scatter_, "scatterStrengthFactor", 1, {0});
-            if (!strength) return strength.error();
-            if (!((*strength)[0] > 0)) return fail("has scatterStrengthFactor 0: it does not scatter");
-            if ((*strength)[0] < 1) notes_.emplace_back("scatterStrengthFactor is read as 1");
+            DERMIS_TRY_ASSIGN(const auto strength, numbers(scatter_, "scatterStrengthFactor", 1, {0}));
+            if (!(strength[0] > 0)) return fail("has scatterStrengthFactor 0: it does not scatter");
+            if (strength[0] < 1) notes_.emplace_back("scatterStrengthFactor is read as 1");
         }
         for (const char* texture : {"multiscatterColorTexture", "scatterColorTexture"})
             if (member(scatter, texture)) notes_.push_back(std::string(texture) + " is not read");
@@ -150,20 +149,17 @@ class MaterialReader {
     }
 
     Result<void> read_lengths() {
-        const auto distance = numbers(volume_, "attenuationDistance", 1, {});
-        if (!distance) return distance.error();
-        const auto color = numbers(volume_, "attenuationColor", 3, {});
-        if (!color) return color.error();
-        if (const auto done = set("attenuationDistance", *distance); !done) return done;
-        return set("attenuationColor", *color);
+        DERMIS_TRY_ASSIGN(const auto distance, numbers(volume_, "attenuationDistance", 1, {}));
+        DERMIS_TRY_ASSIGN(const auto color, numbers(volume_, "attenuationColor", 3, {}));
+        if (const auto done = set("attenuationDistance", distance); !done) return done;
+        return set("attenuationColor", color);
     }
 
     // Burley's d is that of isotropic scattering with the same reduced mean free path, which is the mean free
     // path over 1 - alpha g.
     Result<void> apply_anisotropy(const Json* scatter, BurleyProfile& burley) {
-        const auto read = numbers(scatter, "scatterAnisotropy", 1, {0});
-        if (!read) return read.error();
-        const double g = (*read)[0];
+        DERMIS_TRY_ASSIGN(const auto read, numbers(scatter, "scatterAnisotropy", 1, {0}));
+        const double g = read[0];
         if (!(std::abs(g) <= 0.99)) return fail("scatterAnisotropy must be -0.99 to 0.99");
         if (g == 0) return {};
         notes_.push_back("scatterAnisotropy " + to_text(g) +
@@ -195,9 +191,8 @@ Result<Profile> parse_gltf_profile(std::span<const std::byte> file, std::string_
 }
 
 Result<Profile> read_gltf_profile(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> file = read_file(path);
-    if (!file) return file.error();
-    return parse_gltf_profile(*file, path.string());
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(path));
+    return parse_gltf_profile(file, path.string());
 }
 
 GltfVolume gltf_volume(const Profile& profile, const Rgb& surface_albedo) {
@@ -221,4 +216,4 @@ std::string gltf_note(const Profile& profile) {
     return note + ". Dermis reads it exactly, from the material's extras." + kGltfExactProfile;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -18,7 +18,7 @@
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// The member of a material's `extras` that holds its profile exactly (exact_profile.h). Other programs keep
 /// or ignore it.
@@ -46,4 +46,4 @@ struct GltfVolume {
 /// What of the profile the volume does not hold, in one line.
 [[nodiscard]] std::string gltf_note(const Profile& profile);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

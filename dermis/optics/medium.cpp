@@ -5,7 +5,7 @@
 
 #include "dermis/optics/check_value.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 Result<void> check(const ScatteringMedium& medium) {
     for (int c = 0; c < 3; ++c) {
@@ -77,4 +77,4 @@ ScatteringMedium medium_of(const std::array<double, 3>& albedo,
     return medium;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -8,7 +8,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// sigma_s: scattering, sigma_a: absorption, per mm and channel (linear red, green, blue); g: mean cosine of
 /// the (Henyey-Greenstein) phase function, -1..1; eta: index of refraction relative to the outside, 1..3.
@@ -48,4 +48,4 @@ struct ScatteringMedium {
                                          const std::array<double, 3>& mean_free_path_mm, double g,
                                          double eta);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 using std::numbers::pi;
@@ -88,4 +88,4 @@ double oren_nayar(double n_dot_l, double n_dot_v, double l_dot_v, double sigma_r
     return a + b * std::max(0.0, sines_cos_phi) / std::max(n_dot_l, n_dot_v);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -5,7 +5,7 @@
 // is the same number. Every D is per steradian with the integral of D(h) (n.h) over the hemisphere = 1
 // (tested). BRDFs are per steradian, without the cosine.
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// Walter, Marschner, Li, Torrance 2007, Microfacet Models for Refraction, equation 33.
 [[nodiscard]] double ggx_d(double n_dot_h, double alpha);
@@ -40,4 +40,4 @@ namespace dermis {
 /// conserving.
 [[nodiscard]] double oren_nayar(double n_dot_l, double n_dot_v, double l_dot_v, double sigma_rad);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -15,7 +15,7 @@
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/primaries.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 constexpr const char* kSurface = "open_pbr_surface";
@@ -73,12 +73,12 @@ class SurfaceReader {
     SurfaceReader(std::string_view text, std::string_view place) : text_(text), place_(place) {}
 
     Result<Profile> read() {
-        if (const auto opened = open(); !opened) return opened.error();
-        if (const auto checked = read_weight(); !checked) return checked.error();
-        if (const auto read = read_color(); !read) return read.error();
-        if (const auto read = read_lengths(); !read) return read.error();
-        if (const auto read = apply_anisotropy(); !read) return read.error();
-        if (const auto read = surface(); !read) return read.error();
+        DERMIS_TRY(open());
+        DERMIS_TRY(read_weight());
+        DERMIS_TRY(read_color());
+        DERMIS_TRY(read_lengths());
+        DERMIS_TRY(apply_anisotropy());
+        DERMIS_TRY(surface());
         note_what_is_left();
         const Result<BurleyProfile> burley = to_canonical(settings_);
         if (!burley) return Error{at_surface() + burley.error().message};
@@ -87,7 +87,7 @@ class SurfaceReader {
     }
 
     Result<MtlxSurface> read_surface() {
-        if (const auto opened = open(); !opened) return opened.error();
+        DERMIS_TRY(open());
         return surface();
     }
 
@@ -151,13 +151,12 @@ class SurfaceReader {
     }
 
     Result<double> scalar(const char* name, double fallback, double low, double high) const {
-        const auto read = numbers(name);
-        if (!read) return read.error();
-        if (!*read) return fallback;
-        if ((*read)->size() != 1)
-            return Error{at_surface() + name + " has " + std::to_string((*read)->size()) +
+        DERMIS_TRY_ASSIGN(const auto read, numbers(name));
+        if (!read) return fallback;
+        if (read->size() != 1)
+            return Error{at_surface() + name + " has " + std::to_string(read->size()) +
                          " numbers; it takes one"};
-        const double value = (**read)[0];
+        const double value = (*read)[0];
         if (!(value >= low && value <= high))
             return out_of_range(at_surface() + name, value, to_text(low) + " to " + to_text(high));
         return value;
@@ -167,17 +166,14 @@ class SurfaceReader {
     Result<std::optional<double>> number_or_map(const char* name, double low, double high) const {
         const pugi::xml_node found = input(name);
         if (!found || is_connected(found)) return std::optional<double>();
-        const Result<double> number = scalar(name, low, low, high);
-        if (!number) return number.error();
-        return std::optional(*number);
+        DERMIS_TRY_ASSIGN(const double number, scalar(name, low, low, high));
+        return std::optional(number);
     }
 
     Result<MtlxSurface> surface() const {
-        const auto roughness = number_or_map("specular_roughness", 0, 1);
-        if (!roughness) return roughness.error();
-        const auto ior = number_or_map("specular_ior", 1, 3);
-        if (!ior) return ior.error();
-        return MtlxSurface{*roughness, *ior};
+        DERMIS_TRY_ASSIGN(const auto roughness, number_or_map("specular_roughness", 0, 1));
+        DERMIS_TRY_ASSIGN(const auto ior, number_or_map("specular_ior", 1, 3));
+        return MtlxSurface{roughness, ior};
     }
 
     Result<void> set(const char* key, const std::vector<double>& values) {
@@ -196,15 +192,14 @@ class SurfaceReader {
     }
 
     Result<void> read_color() {
-        const auto read = numbers(kColor);
-        if (!read) return read.error();
+        DERMIS_TRY_ASSIGN(const auto read, numbers(kColor));
         Rgb color = settings_.values[0];  // OpenPBR's default
-        if (!*read) {
+        if (!read) {
             notes_.push_back(std::string(kColor) + " is not in the file: " + to_text(color[0]));
             return {};
         }
-        if ((*read)->size() != 3) return set(kColor, **read);
-        std::ranges::copy(**read, color.begin());
+        if (read->size() != 3) return set(kColor, *read);
+        std::ranges::copy(*read, color.begin());
         if (const std::string_view name = inherited(input(kColor), "colorspace"); name.empty()) {
             notes_.push_back(std::string(kColor) + " names no colour space: taken as linear Rec. 709");
         } else {
@@ -220,8 +215,7 @@ class SurfaceReader {
     }
 
     Result<void> read_lengths() {
-        const auto radius = scalar(kRadius, settings_.values[1][0], 1e-9, 1e9);
-        if (!radius) return radius.error();
+        DERMIS_TRY_ASSIGN(const auto radius, scalar(kRadius, settings_.values[1][0], 1e-9, 1e9));
         double cm = 1;
         if (const std::string_view name = inherited(input(kRadius), "unit"); !name.empty()) {
             const auto unit = row_named(std::span<const Unit>(kUnits), "unit of length", name);
@@ -231,23 +225,21 @@ class SurfaceReader {
             notes_.push_back(std::string(kRadius) + " has no unit: taken as cm");
         }
         notes_.push_back(std::string(kRadius) + " is the mean free path, as OpenPBR 1.1 defines it");
-        const auto scale = numbers(kScale);
-        if (!scale) return scale.error();
-        if (*scale)
-            if (const auto done = set(kScale, **scale); !done) return done;
-        return set(kRadius, {*radius * cm});
+        DERMIS_TRY_ASSIGN(const auto scale, numbers(kScale));
+        if (scale)
+            if (const auto done = set(kScale, *scale); !done) return done;
+        return set(kRadius, {radius * cm});
     }
 
     // Burley's d is that of isotropic scattering with the same reduced mean free path 1 / sigma_t', which is
     // the mean free path over 1 - alpha g.
     Result<void> apply_anisotropy() {
-        const Result<double> g = scalar(kAnisotropy, 0, -0.99, 0.99);
-        if (!g) return g.error();
-        if (*g == 0) return {};
-        notes_.push_back(std::string(kAnisotropy) + " " + to_text(*g) +
+        DERMIS_TRY_ASSIGN(const double g, scalar(kAnisotropy, 0, -0.99, 0.99));
+        if (g == 0) return {};
+        notes_.push_back(std::string(kAnisotropy) + " " + to_text(g) +
                          " is replaced by isotropic scattering of the same reduced mean free path");
         for (size_t c = 0; c < 3; ++c)
-            settings_.values[2][c] /= 1 - single_scatter_albedo_of(settings_.values[0][c], *g) * *g;
+            settings_.values[2][c] /= 1 - single_scatter_albedo_of(settings_.values[0][c], g) * g;
         return {};
     }
 
@@ -304,15 +296,13 @@ Result<Profile> parse_mtlx(std::string_view text, std::string_view place) {
 }
 
 Result<Profile> read_mtlx(const std::filesystem::path& path) {
-    const Result<std::string> text = read_text_file(path);
-    if (!text) return text.error();
-    return parse_mtlx(*text, path.string());
+    DERMIS_TRY_ASSIGN(const std::string text, read_text_file(path));
+    return parse_mtlx(text, path.string());
 }
 
 Result<MtlxSurface> read_mtlx_surface(const std::filesystem::path& path) {
-    const Result<std::string> text = read_text_file(path);
-    if (!text) return text.error();
-    return SurfaceReader(*text, path.string()).read_surface();
+    DERMIS_TRY_ASSIGN(const std::string text, read_text_file(path));
+    return SurfaceReader(text, path.string()).read_surface();
 }
 
 std::string mtlx_text(const Profile& profile) {
@@ -363,4 +353,4 @@ std::vector<std::string> mtlx_notes(const Profile& profile, const Profile& writt
     return notes;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

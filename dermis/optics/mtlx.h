@@ -16,7 +16,7 @@
 #include "dermis/base/result.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// A Burley profile. `place` names the text in errors: "skin.mtlx:3: ...". What was assumed, converted or not
 /// read follows the file's name in `source`, separated by semicolons.
@@ -41,4 +41,4 @@ struct MtlxSurface {
 /// sentence each.
 [[nodiscard]] std::vector<std::string> mtlx_notes(const Profile& profile, const Profile& written);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

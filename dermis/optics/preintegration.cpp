@@ -7,7 +7,7 @@
 #include "dermis/optics/preintegration/quadrature.h"
 #include "dermis/optics/preintegration/row.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace pre = preintegration;
 namespace {
 
@@ -107,4 +107,4 @@ std::array<Rgb, 3> preintegrated_zonal_harmonics(const GaussianSum& profile, dou
     return zonal;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

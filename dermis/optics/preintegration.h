@@ -29,7 +29,7 @@
 #include "dermis/base/result.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// What surrounds the shaded point.
 enum class Construction {
@@ -118,4 +118,4 @@ struct RadialProfile {
 [[nodiscard]] std::array<Rgb, 3> preintegrated_zonal_harmonics(const RadialProfile& profile,
                                                                double radius_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -10,7 +10,7 @@
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/preintegration/quadrature.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 using std::numbers::pi;
@@ -125,4 +125,4 @@ std::array<Rgb, 3> preintegrated_zonal_harmonics(const RadialProfile& profile, d
     return zonal;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

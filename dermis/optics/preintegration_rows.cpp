@@ -6,7 +6,7 @@
 
 #include "dermis/optics/preintegration/row.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace pre = preintegration;
 namespace {
 
@@ -78,4 +78,4 @@ void DiffuseRows::evaluate(const GaussianSum& profile, double radius_mm, std::sp
     evaluate_into(profile, radius_mm, rgb);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

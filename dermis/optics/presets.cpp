@@ -12,7 +12,7 @@
 #include "dermis/optics/primaries.h"
 #include "dermis/optics/profile_file.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 Profile gpu_gems_3() {
@@ -135,7 +135,7 @@ Result<Profile> burley_from_lengths(std::string_view name) {
         burley.d_mm[c] = *d;
     }
     const Profile profile{std::string(name), "Christensen, Burley 2015, with d as given", burley};
-    if (const auto checked = check(profile); !checked) return checked.error();
+    DERMIS_TRY(check(profile));
     return profile;
 }
 
@@ -177,4 +177,4 @@ Result<Profile> find_profile(std::string_view name) {
                  ", or a .csv, .mtlx, .glb or .gltf file, or burley:d_mm"};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

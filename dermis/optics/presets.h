@@ -8,7 +8,7 @@
 #include "dermis/base/result.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// In the order of the tables in docs/profiles.md.
 [[nodiscard]] std::vector<std::string> profile_names();
@@ -21,4 +21,4 @@ namespace dermis {
 /// Whether find_profile takes the name for a file's path.
 [[nodiscard]] bool is_profile_file(std::string_view name);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -3,7 +3,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// From ACEScg (AP1, white D60), Bradford-adapted.
 [[nodiscard]] inline Rgb rec709_from_acescg(const Rgb& c) {
@@ -12,4 +12,4 @@ namespace dermis {
             -0.02400 * c[0] - 0.12897 * c[1] + 1.15297 * c[2]};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -12,7 +12,7 @@
 #include "dermis/optics/check_value.h"
 #include "dermis/optics/fresnel.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 using std::numbers::pi;
@@ -134,7 +134,7 @@ Dipole dipole_of(const DipoleProfile& profile, int channel) {
 }
 
 Result<void> check_model(const DipoleProfile& profile) {
-    if (const auto checked = check(profile.medium); !checked) return checked.error();
+    DERMIS_TRY(check(profile.medium));
     double largest = 0;
     for (int c = 0; c < 3; ++c) {
         const double sigma_a = profile.medium.sigma_a_per_mm[size_t(c)];
@@ -317,4 +317,4 @@ Vec3 profile_transfer(const GaussianSum& profile, double x) {
     return {share(0), share(1), share(2)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -23,7 +23,7 @@
 #include "dermis/optics/medium.h"
 #include "dermis/optics/tabulated_profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 inline constexpr int kRed = 0, kGreen = 1, kBlue = 2;
 
@@ -105,4 +105,4 @@ struct Profile {
 /// All lengths times `factor` (> 0): R(r) becomes R(r / factor) / factor^2.
 [[nodiscard]] Profile scaled(const Profile& profile, double factor);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

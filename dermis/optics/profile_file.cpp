@@ -6,7 +6,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 constexpr std::string_view kTableHeader = "r_mm,r,g,b", kSumHeader = "variance_mm2,r,g,b";
@@ -57,12 +57,11 @@ Result<Rows> parse_rows(std::string_view text, std::string_view place) {
             has_header = true;
             continue;
         }
-        const auto row = parse_row(line, here);
-        if (!row) return row.error();
+        DERMIS_TRY_ASSIGN(const auto row, parse_row(line, here));
         if (rows.first.size() == kMaxProfileRows)
             return Error{here + ": more than " + std::to_string(kMaxProfileRows) + " rows"};
-        rows.first.push_back((*row)[0]);
-        rows.rgb.push_back({(*row)[1], (*row)[2], (*row)[3]});
+        rows.first.push_back(row[0]);
+        rows.rgb.push_back({row[1], row[2], row[3]});
     }
     if (!has_header)
         return Error{std::string(place) + ": empty; its first line must be '" + std::string(kTableHeader) +
@@ -81,9 +80,8 @@ Result<Profile> parse_profile_csv(std::string_view text, std::string_view place)
     if (!rows) return rows.error();
     const std::string name = utf8_path(place).stem().string(), source(place);
     if (!rows->is_sum) {
-        Result<TabulatedProfile> table = TabulatedProfile::make(rows->first, rows->rgb, place);
-        if (!table) return table.error();
-        return Profile{name, source, *std::move(table)};
+        DERMIS_TRY_ASSIGN(TabulatedProfile table, TabulatedProfile::make(rows->first, rows->rgb, place));
+        return Profile{name, source, std::move(table)};
     }
     GaussianSum sum{.name = name};
     for (size_t i = 0; i < rows->first.size(); ++i) sum.terms.push_back({rows->first[i], rows->rgb[i]});
@@ -94,9 +92,8 @@ Result<Profile> parse_profile_csv(std::string_view text, std::string_view place)
 }
 
 Result<Profile> read_profile_csv(const std::filesystem::path& path) {
-    const Result<std::string> text = read_text_file(path);
-    if (!text) return text.error();
-    return parse_profile_csv(*text, path.string());
+    DERMIS_TRY_ASSIGN(const std::string text, read_text_file(path));
+    return parse_profile_csv(text, path.string());
 }
 
 std::string profile_csv(const Profile& profile, std::span<const double> radii_mm) {
@@ -115,4 +112,4 @@ std::string profile_csv(const Profile& profile, std::span<const double> radii_mm
     return out;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -12,7 +12,7 @@
 #include "dermis/base/result.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// `place` names the text in errors: "skin.csv:3: ...". The profile's name is the file's stem.
 [[nodiscard]] Result<Profile> parse_profile_csv(std::string_view text, std::string_view place);
@@ -21,4 +21,4 @@ namespace dermis {
 /// The same format; sums of Gaussians as such, every other model as a table over `radii_mm`.
 [[nodiscard]] std::string profile_csv(const Profile& profile, std::span<const double> radii_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

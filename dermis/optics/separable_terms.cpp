@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 Eigen::VectorXd weights_of(const GaussianSum& profile, size_t channel) {
@@ -53,4 +53,4 @@ SeparableTerms separable_terms(const GaussianSum& profile, int count) {
     return fit;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -13,7 +13,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 inline constexpr double kSeenMm = 0.2;
 
@@ -33,4 +33,4 @@ struct SeparableTerms {
 /// count is at least 1. A channel without reflectance keeps its light at the point.
 [[nodiscard]] SeparableTerms separable_terms(const GaussianSum& profile, int count);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

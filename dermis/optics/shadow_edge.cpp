@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dermis {
+namespace dermis::inline optics {
 
 double normal_cdf(double z) {
     return 0.5 * std::erfc(-z / std::numbers::sqrt2);
@@ -24,4 +24,4 @@ double disk_offset(double share) {
     return 0.5 * (low + high);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -1,7 +1,7 @@
 #pragma once
 // What of a straight edge's shadow both the bakers of its scattering and the unit scenes' exact answers need.
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// Share of a normal distribution below `z` standard deviations: a step that a Gaussian blurs.
 [[nodiscard]] double normal_cdf(double z);
@@ -13,4 +13,4 @@ namespace dermis {
 /// Its inverse: within 1e-9, and -1 or 1 past 0 and 1.
 [[nodiscard]] double disk_offset(double share);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

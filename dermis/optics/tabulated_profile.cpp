@@ -6,7 +6,7 @@
 
 #include "dermis/optics/check_value.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 // 2 pi times the integral of R(r) r^(1 + power) over [from, to], R linear between its values at both ends.
@@ -105,4 +105,4 @@ TabulatedProfile TabulatedProfile::scaled(double factor) const {
     return {std::move(r_mm), std::move(values)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

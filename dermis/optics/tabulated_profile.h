@@ -11,7 +11,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 inline constexpr size_t kMaxProfileRows = 100'000;
 
@@ -42,4 +42,4 @@ class TabulatedProfile {
     std::vector<std::array<std::array<double, 3>, 3>> moments_;  // [row][power][channel], up to that row
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -11,7 +11,7 @@
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace {
 
 using std::numbers::pi;
@@ -324,4 +324,4 @@ const std::vector<ToolRow>& tool_rows() {
     return kRows;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -6,7 +6,7 @@
 
 #include "dermis/optics/conversions.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// In the order of the convention's keys; scalars in element 0.
 using ToolValues = std::vector<std::array<double, 3>>;
@@ -19,4 +19,4 @@ struct ToolRow {
 
 [[nodiscard]] const std::vector<ToolRow>& tool_rows();
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

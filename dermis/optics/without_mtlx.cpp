@@ -4,10 +4,10 @@
 #include "dermis/base/not_built_in.h"
 #include "dermis/optics/mtlx.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 Result<Profile> read_mtlx(const std::filesystem::path& path) {
     return not_built_in("MaterialX", "DERMIS_WITH_MATERIALX").within(path.string());
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

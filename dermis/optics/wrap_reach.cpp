@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline optics {
 
 WrapReach wrap_reach(const GaussianSum& profile) {
     constexpr double kSharpest = 0.25;  // (1/2 per mm)^2
@@ -24,4 +24,4 @@ WrapReach wrap_reach(const GaussianSum& profile) {
     return reach;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

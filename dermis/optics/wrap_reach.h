@@ -3,7 +3,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis {
+namespace dermis::inline optics {
 
 /// The reach at mean curvature k is second_moment k^2 / (1 + bend k^2), times a scale that the shader has
 /// (shaders/include/skin/wrap.glsl): red, green, blue. No reflectance in a channel: 0.
@@ -16,4 +16,4 @@ struct WrapReach {
 /// is also right at 1/2 per mm.
 [[nodiscard]] WrapReach wrap_reach(const GaussianSum& profile);
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

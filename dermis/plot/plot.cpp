@@ -13,7 +13,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/plot/svg/axes.h"
 
-namespace dermis {
+namespace dermis::inline plot {
 namespace {
 
 // Dark enough for thin lines on white, alternating in lightness so that neighbours differ in a grey print.
@@ -247,4 +247,4 @@ Result<void> write_plot(const std::filesystem::path& path, const Plot& plot) {
     return write_text_file(path, plot_svg(plot));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline plot

@@ -17,7 +17,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline plot {
 
 inline constexpr std::string_view kPlotRed = "#c92a2a";
 inline constexpr std::string_view kPlotGreen = "#2b8a3e";
@@ -68,4 +68,4 @@ struct Plot {
 /// Errors: an extension other than .svg, a file that cannot be written.
 [[nodiscard]] Result<void> write_plot(const std::filesystem::path& path, const Plot& plot);
 
-}  // namespace dermis
+}  // namespace dermis::inline plot

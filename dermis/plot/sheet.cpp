@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace dermis {
+namespace dermis::inline plot {
 namespace {
 
 constexpr int kMargin = 12, kGap = 8, kSmallestWidth = 360;
@@ -93,4 +93,4 @@ Image compose_sheet(const Sheet& sheet, const Font& font) {
     return image;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline plot

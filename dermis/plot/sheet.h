@@ -7,7 +7,7 @@
 #include "dermis/image/image.h"
 #include "dermis/image/label.h"
 
-namespace dermis {
+namespace dermis::inline plot {
 
 /// One cell: words above, picture, words beneath; both are wrapped to its width. The picture is u8 and
 /// sRGB-encoded with three channels; empty leaves its place free.
@@ -31,4 +31,4 @@ struct Sheet {
 /// Cells of a row are as wide as the widest picture; rows are as high as they need. u8, sRGB, three channels.
 [[nodiscard]] Image compose_sheet(const Sheet& sheet, const Font& font);
 
-}  // namespace dermis
+}  // namespace dermis::inline plot

@@ -15,7 +15,7 @@
 #include "dermis/rays/uv_raster.h"
 #include "dermis/rays/vertex_occlusion.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 namespace {
 
 constexpr float kMostKernelSize = 254.0f / 255;
@@ -248,10 +248,10 @@ float kernel_size_of_thickness(float spread_mm, float thickness_mm) {
 
 Result<BakedMap> bake_map(std::span<const SceneObject> objects, const BakeMapSettings& settings,
                           const std::function<void(double)>& progress) {
-    if (Result<void> good = check_settings(settings); !good) return good.error();
+    DERMIS_TRY(check_settings(settings));
     const UvRaster raster = rasterise_uv(objects, settings.size, settings.size, filter_of(settings));
     BakedMap map{.kind = settings.kind, .coverage = coverage_mask(raster)};
-    if (Result<void> good = check_raster(objects, raster, settings, map); !good) return good.error();
+    DERMIS_TRY(check_raster(objects, raster, settings, map));
     switch (settings.kind) {
         case MapKind::curvature:
             map.values = curvature_values(objects, raster, settings.smoothing_mm);
@@ -279,4 +279,4 @@ Result<BakedMap> bake_map(std::span<const SceneObject> objects, const BakeMapSet
     return map;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

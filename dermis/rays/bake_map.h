@@ -18,7 +18,7 @@
 #include "dermis/optics/profile.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 enum class MapKind {
     curvature,    ///< signed mean curvature in 1/mm, positive where convex (mesh/curvature.h)
@@ -72,4 +72,4 @@ struct BakedMap {
 [[nodiscard]] Result<BakedMap> bake_map(std::span<const SceneObject> objects, const BakeMapSettings& settings,
                                         const std::function<void(double done)>& progress = {});
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -3,7 +3,7 @@
 
 #include "dermis/rays/ray_scene.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// m * p, divided by w.
 [[nodiscard]] inline Vec3 project(const Mat4& m, Vec3 p) {
@@ -21,4 +21,4 @@ namespace dermis {
         .origin_mm = near_mm, .direction = normalize(far_mm - near_mm), .max_mm = length(far_mm - near_mm)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -2,18 +2,17 @@
 
 #include "dermis/scene/image_source.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 Result<std::unique_ptr<CutOut>> CutOut::load(const SceneObject& object, uint32_t number) {
     const Material& material = object.mesh.materials[number];
     const bool may_be = number < object.classes.size() && object.classes[number] == MaterialClass::other;
     const float cutoff = may_be ? cutoff_of_map(material) : 0;
     if (cutoff == 0 && !(may_be && is_blended(material))) return std::unique_ptr<CutOut>();
-    const Result<Image> alpha = load_alpha(cutoff > 0 ? material : Material{});
-    if (!alpha) return alpha.error();
+    DERMIS_TRY_ASSIGN(const Image alpha, load_alpha(cutoff > 0 ? material : Material{}));
     const ImageSource& source = material.alpha_map.present() ? material.alpha_map : material.base_color_map;
     return std::unique_ptr<CutOut>(
-        new CutOut(object.mesh, cutoff, is_blended(material), Texture(*alpha, source.wrap_u, source.wrap_v)));
+        new CutOut(object.mesh, cutoff, is_blended(material), Texture(alpha, source.wrap_u, source.wrap_v)));
 }
 
 float CutOut::alpha(uint32_t triangle, float u, float v) const {
@@ -28,4 +27,4 @@ float CutOut::alpha(uint32_t triangle, float u, float v) const {
     return alpha * alpha_.sample(uv).x;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -11,7 +11,7 @@
 #include "dermis/rays/texture.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// The alpha of one material on its mesh, which must outlive it.
 class CutOut {
@@ -39,4 +39,4 @@ class CutOut {
     Texture alpha_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -8,7 +8,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-namespace dermis {
+namespace dermis::inline rays {
 
 #if RTC_VERSION_MAJOR >= 4
 
@@ -60,4 +60,4 @@ inline void embree_occluded(RTCScene scene, EmbreeContext* context, RTCRay* quer
 
 #endif
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

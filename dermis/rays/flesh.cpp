@@ -15,7 +15,7 @@
 #include "dermis/rays/rays_version.h"
 #include "dermis/rays/sampling.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 namespace {
 
 constexpr int kRays = 256;
@@ -235,10 +235,9 @@ Result<Flesh> make_flesh(const SceneObject& object, Cavities cavities) {
     Triangles triangles = measure(object);
     Flesh flesh{.faces = std::vector<SkinFace>(triangles.count(), SkinFace::visible)};
     if (cavities == Cavities::flesh && std::ranges::count(triangles.skin, 1) > 0) {
-        Result<RayScene> rays = RayScene::build(std::span(&object, 1));
-        if (!rays) return rays.error();
-        hide(object.mesh, triangles, *rays);
-        flesh.faces = faces_of(triangles, *rays);
+        DERMIS_TRY_ASSIGN(RayScene rays, RayScene::build(std::span(&object, 1)));
+        hide(object.mesh, triangles, rays);
+        flesh.faces = faces_of(triangles, rays);
     }
     finish(object.mesh, triangles, flesh);
     return flesh;
@@ -303,14 +302,13 @@ Result<std::vector<Flesh>> find_flesh(std::span<const SceneObject> objects, Cavi
         if (const auto bytes = cache_load("flesh", hash))
             stored = unpack(*bytes, object.mesh.triangle_count());
         if (!stored) {
-            Result<Flesh> made = make_flesh(object, cavities);
-            if (!made) return made.error();
-            cache_store("flesh", hash, pack(*made));
-            stored = std::move(*made);
+            DERMIS_TRY_ASSIGN(Flesh made, make_flesh(object, cavities));
+            cache_store("flesh", hash, pack(made));
+            stored = std::move(made);
         }
         all.push_back(std::move(*stored));
     }
     return all;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

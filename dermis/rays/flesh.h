@@ -18,7 +18,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// A face of skin: seen by the outside; the inner side of a cavity; or inside another part's flesh.
 enum class SkinFace : uint8_t { visible, cavity, buried };
@@ -41,4 +41,4 @@ enum class Cavities { flesh, open };
 [[nodiscard]] Result<std::vector<Flesh>> find_flesh(std::span<const SceneObject> objects,
                                                     Cavities cavities = Cavities::flesh);
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -8,7 +8,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 namespace {
 
 constexpr Vec3 kBackground = {0.02f, 0.02f, 0.02f};
@@ -144,4 +144,4 @@ Result<void> write_map(const std::filesystem::path& path, const BakedMap& map, c
     return write_files(files);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

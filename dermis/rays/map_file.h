@@ -8,7 +8,7 @@
 #include "dermis/image/image.h"
 #include "dermis/rays/bake_map.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// What the sidecar says beyond the map itself.
 struct MapOrigin {
@@ -33,4 +33,4 @@ struct MapOrigin {
 [[nodiscard]] std::filesystem::path map_sidecar_path(const std::filesystem::path& path);
 [[nodiscard]] std::filesystem::path map_preview_path(const std::filesystem::path& path);
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

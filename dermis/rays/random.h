@@ -8,7 +8,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// Two multiply-xorshift rounds; every input bit reaches every output bit (Ellis 2018, "lowbias32").
 [[nodiscard]] constexpr uint32_t hash_u32(uint32_t x) {
@@ -119,4 +119,4 @@ class OwenSequence {
     uint32_t pair_ = 0;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

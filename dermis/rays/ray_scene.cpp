@@ -9,7 +9,7 @@
 #include <cstring>
 #include <numeric>
 
-namespace dermis {
+namespace dermis::inline rays {
 namespace {
 
 struct DeviceRelease {
@@ -199,9 +199,8 @@ struct RayScene::Impl {
         for (const SceneObject& object : objects) {
             auto& of_object = cut_outs.emplace_back();
             for (uint32_t i = 0; i < object.mesh.materials.size(); ++i) {
-                Result<std::unique_ptr<CutOut>> loaded = CutOut::load(object, i);
-                if (!loaded) return loaded.error();
-                of_object.push_back(std::move(*loaded));
+                DERMIS_TRY_ASSIGN(std::unique_ptr<CutOut> loaded, CutOut::load(object, i));
+                of_object.push_back(std::move(loaded));
             }
         }
         return {};
@@ -290,8 +289,8 @@ Result<RayScene> RayScene::build(std::span<const SceneObject> objects, std::span
         impl->meshes.push_back(&object.mesh);
         classes.push_back(object.classes);
     }
-    if (Result<void> loaded = impl->load_cut_outs(objects); !loaded) return loaded.error();
-    if (Result<void> built = impl->build(classes, flesh); !built) return built.error();
+    DERMIS_TRY(impl->load_cut_outs(objects));
+    DERMIS_TRY(impl->build(classes, flesh));
     return RayScene(std::move(impl));
 }
 
@@ -299,7 +298,7 @@ Result<RayScene> RayScene::build(const Mesh& mesh) {
     auto impl = std::make_unique<Impl>();
     impl->meshes.push_back(&mesh);
     const std::span<const MaterialClass> all_skin;
-    if (Result<void> built = impl->build(std::span(&all_skin, 1), {}); !built) return built.error();
+    DERMIS_TRY(impl->build(std::span(&all_skin, 1), {}));
     return RayScene(std::move(impl));
 }
 
@@ -355,4 +354,4 @@ float RayScene::epsilon_mm() const {
     return impl_->epsilon_mm;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

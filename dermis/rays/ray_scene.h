@@ -18,7 +18,7 @@
 #include "dermis/rays/texture.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// Skin and other | skin that is not hidden | translucent | what bounds the flesh: skin but the inner faces
 /// of cavities, and all caps | the same with the caps of cavities alone, as a sheet of skin is no body.
@@ -118,4 +118,4 @@ class RayScene {
 /// Of `triangle` of the mesh.
 [[nodiscard]] uint32_t material_of_triangle(const Mesh& mesh, uint32_t triangle);
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -4,7 +4,7 @@
 
 #include "dermis/rays/ray_scene.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 SurfaceAttributes RayScene::surface_at(const RayHit& hit) const {
     const Mesh& mesh = this->mesh(hit.object);
@@ -65,4 +65,4 @@ uint32_t material_of_triangle(const Mesh& mesh, uint32_t triangle) {
     return after == mesh.submeshes.begin() ? 0 : std::prev(after)->material;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -4,10 +4,10 @@
 
 #include <string_view>
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// Changes with every change, but of a comment, to base, mesh or rays. Made by the build
 /// (cmake/SourceVersion.cmake).
 [[nodiscard]] std::string_view rays_version();
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

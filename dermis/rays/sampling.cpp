@@ -5,7 +5,7 @@
 
 #include "dermis/base/angle.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 namespace {
 
 Vec3 from_cosine(float cosine, float azimuth_rad) {
@@ -90,4 +90,4 @@ float ggx_visible_normal_density(Vec3 half_vector, Vec3 to_eye, float alpha) {
     return masking * std::max(0.0f, dot(half_vector, to_eye)) * distribution / to_eye.z;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

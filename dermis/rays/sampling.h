@@ -4,7 +4,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// Two unit vectors that make a right-handed base with the unit vector n. Duff et al. 2017, Building an
 /// Orthonormal Basis, Revisited.
@@ -43,4 +43,4 @@ struct LocalFrame {
 /// Its density per steradian of the half vector.
 [[nodiscard]] float ggx_visible_normal_density(Vec3 half_vector, Vec3 to_eye, float alpha);
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

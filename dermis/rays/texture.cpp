@@ -5,7 +5,7 @@
 
 #include "dermis/image/colour.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 namespace {
 
 // The channel of the image that is read as red, green, blue or alpha; -1: none, the value is 1.
@@ -147,4 +147,4 @@ Vec4 Texture::sample(Vec2 uv, const UvFootprint& footprint) const {
     return {mix(fine.x, coarse.x), mix(fine.y, coarse.y), mix(fine.z, coarse.z), mix(fine.w, coarse.w)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -10,7 +10,7 @@
 #include "dermis/image/image.h"
 #include "dermis/mesh/material.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 /// How far uv moves from a pixel to its right and lower neighbour; zero: as sharp as the map is.
 struct UvFootprint {
@@ -51,4 +51,4 @@ class Texture {
     std::array<float, 256> decoded_{};
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

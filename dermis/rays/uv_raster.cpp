@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline rays {
 namespace {
 
 bool within_unit(Vec2 uv) {
@@ -98,4 +98,4 @@ Vec3 face_normal(const Mesh& mesh, uint32_t triangle) {
     return normalize(cross(mesh.positions_mm[corner[1]] - a, mesh.positions_mm[corner[2]] - a));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -10,7 +10,7 @@
 #include "dermis/rays/ray_scene.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 inline constexpr uint32_t kNoTriangle = ~0u;
 
@@ -48,4 +48,4 @@ using MaterialFilter = std::function<bool(const SceneObject& object, uint32_t ma
 /// Geometric normal by winding; zero for a degenerate triangle.
 [[nodiscard]] Vec3 face_normal(const Mesh& mesh, uint32_t triangle);
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -12,7 +12,7 @@
 #include "dermis/rays/rays_version.h"
 #include "dermis/rays/sampling.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 namespace {
 
 template <class T>
@@ -113,24 +113,22 @@ Result<std::vector<std::vector<float>>> compute_vertex_occlusion(std::span<const
     if (use_cache)
         if (const auto stored = cache_load("occlusion", hash))
             if (auto values = unpack(*stored, objects)) return std::move(*values);
-    Result<RayScene> scene = RayScene::build(objects);
-    if (!scene) return scene.error();
+    DERMIS_TRY_ASSIGN(RayScene scene, RayScene::build(objects));
     size_t vertices = 0;
     for (const SceneObject& object : objects) vertices += object.mesh.positions_mm.size();
     Progress progress("occlusion at the vertices", vertices);
     std::vector<std::vector<float>> values;
     for (const SceneObject& object : objects)
-        values.push_back(mesh_occlusion(*scene, object.mesh, settings, progress));
+        values.push_back(mesh_occlusion(scene, object.mesh, settings, progress));
     if (use_cache) cache_store("occlusion", hash, pack(values));
     return values;
 }
 
 Result<std::vector<float>> compute_vertex_occlusion(const Mesh& mesh, const OcclusionSettings& settings) {
     const SceneObject object{.name = {}, .mesh = mesh, .classes = {}};
-    Result<std::vector<std::vector<float>>> values =
-        compute_vertex_occlusion(std::span(&object, 1), settings);
-    if (!values) return values.error();
-    return std::move((*values)[0]);
+    DERMIS_TRY_ASSIGN(std::vector<std::vector<float>> values,
+                      compute_vertex_occlusion(std::span(&object, 1), settings));
+    return std::move(values[0]);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

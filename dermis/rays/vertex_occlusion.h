@@ -9,7 +9,7 @@
 #include "dermis/rays/ray_scene.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline rays {
 
 struct OcclusionSettings {
     int rays = 64;          ///< a vertex, 1..65536; the error is about 0.3 / rays^0.75 (0.013 at 64)
@@ -32,4 +32,4 @@ struct OcclusionSettings {
 [[nodiscard]] float point_occlusion(const RayScene& scene, Vec3 p_mm, Vec3 n, uint32_t seed,
                                     const OcclusionSettings& settings);
 
-}  // namespace dermis
+}  // namespace dermis::inline rays

@@ -7,7 +7,7 @@
 #include "dermis/image/colour.h"
 #include "dermis/scene/panorama.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 // Solid angle per unit of the uv square at this height: 2 pi wide, pi high, times the sine of the
@@ -23,9 +23,8 @@ Result<EnvironmentSampler> EnvironmentSampler::load(const Environment& environme
     sampler.intensity_ = environment.intensity;
     sampler.turn_ = {std::cos(environment.yaw_rad), std::sin(environment.yaw_rad)};
     if (environment.kind == EnvironmentKind::none || environment.intensity <= 0) return sampler;
-    Result<Image> panorama = load_panorama(environment);
-    if (!panorama) return panorama.error();
-    sampler.panorama_ = std::move(*panorama);
+    DERMIS_TRY_ASSIGN(Image panorama, load_panorama(environment));
+    sampler.panorama_ = std::move(panorama);
     sampler.sh_ = project_radiance(sampler.panorama_);
     const Image& image = sampler.panorama_;
     const std::span<const float> texels = image.floats();
@@ -92,4 +91,4 @@ float EnvironmentSampler::density_at(Vec2 place) const {
     return float(cumulative_[texel] - below) * float(panorama_.pixel_count()) / uv_solid_angle(place.y);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -10,7 +10,7 @@
 #include "dermis/scene/environment.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 class EnvironmentSampler {
   public:
@@ -46,4 +46,4 @@ class EnvironmentSampler {
     EnvironmentTurn turn_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

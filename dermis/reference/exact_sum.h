@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace dermis {
+namespace dermis::inline reference {
 
 class ExactSum {
   public:
@@ -45,4 +45,4 @@ class ExactSum {
     Units units_ = 0;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace dermis {
+namespace dermis::inline reference {
 
 class GuideTable {
   public:
@@ -38,4 +38,4 @@ class GuideTable {
     std::vector<uint32_t> first_;  // not below step / steps
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -5,7 +5,7 @@
 
 #include "dermis/base/angle.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 // Of 0.5, 0.75, 0.9 and 0.97 on a half-space and on the head scan, jensen_skin1: 0.9 takes a quarter less
@@ -90,4 +90,4 @@ GuidedWeight after_step(const WalkMedium& medium, const WalkGuide& guide, const 
             .led_by = weight.led_by * drawn * (1 / density)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

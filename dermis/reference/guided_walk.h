@@ -13,7 +13,7 @@
 
 #include "dermis/reference/random_walk.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 struct WalkGuide {
     Vec3 diffusion_length;  ///< nu of each channel, in mean free paths, > 1
@@ -86,4 +86,4 @@ template <class Boundary>
     return absorbed;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -10,7 +10,7 @@
 #include "dermis/rays/sampling.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 constexpr size_t kMostTranslucentLayers = 16;
@@ -216,4 +216,4 @@ Vec3 Lighting::specular_radiance(const ShadingPoint& given, Vec3 to_eye, const L
     return sum * mix({1, 1, 1}, given.albedo_linear, given.metallic);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

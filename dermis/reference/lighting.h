@@ -12,7 +12,7 @@
 #include "dermis/reference/split_sum.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 /// Which lights cast shadows: those with a shadow map in the renderer (Scene::shadow_maps), or every one.
 enum class ShadowCasters { scene, all };
@@ -125,4 +125,4 @@ struct LightArrival {
 [[nodiscard]] float specular_response(SpecularReflection model, Vec3 n, Vec3 to_eye, Vec3 to_light,
                                       float roughness, float f0);
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -8,7 +8,7 @@
 #include "dermis/rays/uv_raster.h"
 #include "dermis/scene/image_source.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 // The renderer's minimum of the roughness too: at 0 a highlight would be a point.
@@ -48,9 +48,8 @@ Result<const Texture*> MaterialSet::texture_of(const ImageSource& source, ImageU
                                 .hex();
     std::unique_ptr<Texture>& texture = textures_[key];
     if (!texture) {
-        Result<Image> loaded = load_image_source(source, use);
-        if (!loaded) return loaded.error();
-        Image& image = *loaded;
+        DERMIS_TRY_ASSIGN(Image loaded, load_image_source(source, use));
+        Image& image = loaded;
         const auto every = [](const SceneObject&, uint32_t) { return true; };
         if (gutter > 0)
             dilate(image,
@@ -85,10 +84,9 @@ Result<MaterialSet> MaterialSet::load(const Scene& scene) {
             Entry entry{.material = &object.mesh.materials[i]};
             if (i < object.classes.size()) entry.material_class = object.classes[i];
             for (const Slot& slot : kSlots) {
-                Result<const Texture*> texture =
-                    set.texture_of(entry.material->*slot.source, slot.use, object, *entry.material);
-                if (!texture) return texture.error();
-                entry.maps.*slot.map = *texture;
+                DERMIS_TRY_ASSIGN(const Texture* texture, set.texture_of(entry.material->*slot.source,
+                                                                         slot.use, object, *entry.material));
+                entry.maps.*slot.map = texture;
             }
             entries.push_back(entry);
         }
@@ -176,4 +174,4 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
     return point;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

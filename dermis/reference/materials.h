@@ -13,7 +13,7 @@
 #include "dermis/rays/texture.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 struct ShadingPoint {
     Vec3 p_mm, p_smooth_mm;  ///< on the triangle; lifted for shadow rays, see SurfaceAttributes
@@ -79,4 +79,4 @@ class MaterialSet {
     std::map<std::string, std::unique_ptr<Texture>> textures_;  // stable addresses
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -10,7 +10,7 @@
 #include "dermis/reference/picture_sums.h"
 #include "dermis/reference/pixel_sampler.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 constexpr int kPassesBeforeResting = 16;
@@ -112,22 +112,20 @@ double share_done(const ReferenceSettings& settings, int pass, double error) {
 }  // namespace
 
 Result<ScatteringMedium> medium_of_scene(const Scene& scene) {
-    Result<Profile> profile = find_profile(scene.skin.profile);
-    if (!profile) return profile.error();
-    return walk_medium_of(*profile);
+    DERMIS_TRY_ASSIGN(Profile profile, find_profile(scene.skin.profile));
+    return walk_medium_of(profile);
 }
 
 Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSettings& settings,
                                           const ReferenceProgress& progress, const std::atomic<bool>* stop) {
-    if (Result<void> good = check_settings(settings); !good) return good.error();
+    DERMIS_TRY(check_settings(settings));
     const auto start = std::chrono::steady_clock::now();
-    Result<std::unique_ptr<PixelSampler>> sampler = PixelSampler::create(scene, settings);
-    if (!sampler) return sampler.error();
+    DERMIS_TRY_ASSIGN(std::unique_ptr<PixelSampler> sampler, PixelSampler::create(scene, settings));
     Canvas canvas = empty_canvas(settings);
     double error = 0;
     int pass = 0;
     while (pass < settings.samples) {
-        if (!run_pass(**sampler, pass, canvas, stop)) break;
+        if (!run_pass(*sampler, pass, canvas, stop)) break;
         ++pass;
         if (settings.noise && pass >= 2) {
             const std::vector<float> errors = relative_errors(canvas.sums);
@@ -167,13 +165,12 @@ Result<void> check_range(const ReferenceSettings& settings, SampleRange range) {
 
 Result<PictureSums> sum_samples(const Scene& scene, const ReferenceSettings& settings, SampleRange range,
                                 const ReferenceProgress& progress, const std::atomic<bool>* stop) {
-    if (Result<void> good = check_settings(settings); !good) return good.error();
-    if (Result<void> good = check_range(settings, range); !good) return good.error();
-    Result<std::unique_ptr<PixelSampler>> sampler = PixelSampler::create(scene, settings);
-    if (!sampler) return sampler.error();
+    DERMIS_TRY(check_settings(settings));
+    DERMIS_TRY(check_range(settings, range));
+    DERMIS_TRY_ASSIGN(std::unique_ptr<PixelSampler> sampler, PixelSampler::create(scene, settings));
     Canvas canvas = empty_canvas(settings);
     for (int pass = range.begin; pass < range.end; ++pass) {
-        if (!run_pass(**sampler, pass, canvas, stop))
+        if (!run_pass(*sampler, pass, canvas, stop))
             return Error{"stopped after " + std::to_string(pass - range.begin) + " of " +
                          std::to_string(range.end - range.begin) +
                          " samples a pixel: nothing is written; run the same command again"};
@@ -182,4 +179,4 @@ Result<PictureSums> sum_samples(const Scene& scene, const ReferenceSettings& set
     return std::move(canvas.sums);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

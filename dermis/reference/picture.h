@@ -19,7 +19,7 @@
 #include "dermis/reference/surface_integrator.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 /// lambert: light leaves where it entered, the limit of `surface` at width 0.
 enum class Integrator { surface, walk, lambert };
@@ -76,4 +76,4 @@ using ReferenceProgress = std::function<void(double done)>;
 /// The medium that `walk` takes when none is given. Errors: the scene's profile is not known.
 [[nodiscard]] Result<ScatteringMedium> medium_of_scene(const Scene& scene);
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

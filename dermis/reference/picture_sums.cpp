@@ -6,7 +6,7 @@
 #include "dermis/image/colour.h"
 #include "dermis/reference/pixel_sampler.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 constexpr float kDarkShare = 0.05f;
@@ -207,4 +207,4 @@ ReferencePicture picture_of(const PictureSums& sums) {
     return picture;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

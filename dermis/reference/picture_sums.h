@@ -11,7 +11,7 @@
 #include "dermis/reference/exact_sum.h"
 #include "dermis/reference/picture.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 struct PixelSample;
 
@@ -103,4 +103,4 @@ struct SampleRange {
 [[nodiscard]] std::vector<float> relative_errors(const PictureSums& sums);
 [[nodiscard]] double root_mean_square(const std::vector<float>& errors);
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -10,7 +10,7 @@
 #include "dermis/rays/random.h"
 #include "dermis/reference/random_walk.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 constexpr int kMostLayers = 16;
@@ -68,47 +68,42 @@ void PixelSampler::use_medium(const ScatteringMedium& medium) {
 
 Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
                                                            const ReferenceSettings& settings) {
-    Result<std::vector<Flesh>> flesh = find_flesh(scene.objects, settings.cavities);
-    if (!flesh) return flesh.error();
-    Result<RayScene> rays = RayScene::build(scene.objects, *flesh);
-    if (!rays) return rays.error();
-    Result<MaterialSet> materials = MaterialSet::load(scene);
-    if (!materials) return materials.error();
+    DERMIS_TRY_ASSIGN(std::vector<Flesh> flesh, find_flesh(scene.objects, settings.cavities));
+    DERMIS_TRY_ASSIGN(RayScene rays, RayScene::build(scene.objects, flesh));
+    DERMIS_TRY_ASSIGN(MaterialSet materials, MaterialSet::load(scene));
     Result<EnvironmentSampler> environment = EnvironmentSampler::load(scene.environment);
     if (!environment) return environment.error();
     LightingSettings lighting = settings.lighting;
     const bool approximate =
         lighting.ambient == AmbientModel::renderer && lighting.specular != SpecularReflection::none;
-    Result<SplitSumReflection> reflection = SplitSumReflection::load(
-        approximate ? scene.environment : Environment{.kind = EnvironmentKind::none});
-    if (!reflection) return reflection.error();
+    DERMIS_TRY_ASSIGN(SplitSumReflection reflection,
+                      SplitSumReflection::load(approximate ? scene.environment
+                                                           : Environment{.kind = EnvironmentKind::none}));
     std::optional<BrdfTable> brdf;
     if (scene.skin.specular_reduces_diffuse) {
-        Result<BrdfTable> loaded = BrdfTable::load();
-        if (!loaded) return loaded.error();
-        brdf = std::move(*loaded);
+        DERMIS_TRY_ASSIGN(BrdfTable loaded, BrdfTable::load());
+        brdf = std::move(loaded);
     }
     const bool walks = settings.integrator == Integrator::walk;
     ScatteringMedium medium;
     if (walks) {
-        Result<ScatteringMedium> found = settings.medium ? *settings.medium : medium_of_scene(scene);
-        if (!found) return found.error();
-        if (Result<void> good = check(*found); !good) return good.error();
-        medium = *found;
+        DERMIS_TRY_ASSIGN(ScatteringMedium found,
+                          settings.medium ? *settings.medium : medium_of_scene(scene));
+        DERMIS_TRY(check(found));
+        medium = found;
         lighting.entry_eta = medium.eta;
         for (size_t c = 0; c < 3 && settings.width_scale > 0; ++c) {
             medium.sigma_s_per_mm[c] /= settings.width_scale;
             medium.sigma_a_per_mm[c] /= settings.width_scale;
         }
     }
-    std::unique_ptr<PixelSampler> sampler(
-        new PixelSampler(scene, settings, std::move(*rays), std::move(*materials), std::move(*environment),
-                         std::move(*reflection), std::move(brdf), lighting));
+    std::unique_ptr<PixelSampler> sampler(new PixelSampler(scene, settings, std::move(rays),
+                                                           std::move(materials), std::move(*environment),
+                                                           std::move(reflection), std::move(brdf), lighting));
     if (walks && settings.width_scale > 0) sampler->use_medium(medium);
     if (settings.integrator == Integrator::surface && settings.width_scale > 0) {
-        Result<Profile> profile = find_profile(scene.skin.profile);
-        if (!profile) return profile.error();
-        sampler->use_profile(*profile);
+        DERMIS_TRY_ASSIGN(Profile profile, find_profile(scene.skin.profile));
+        sampler->use_profile(profile);
     }
     return sampler;
 }
@@ -231,4 +226,4 @@ PixelSample PixelSampler::sample(int x, int y, uint32_t index) const {
     return result;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -6,7 +6,7 @@
 #include "dermis/reference/picture.h"
 #include "dermis/reference/walk_integrator.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 struct PixelSample {
     Vec3 diffuse, specular, background;
@@ -61,4 +61,4 @@ class PixelSampler {
     std::optional<WalkIntegrator> walk_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

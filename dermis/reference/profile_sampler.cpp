@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 constexpr int kCells = 2048;
@@ -82,4 +82,4 @@ float ProfileSampler::density_per_mm2(float r_mm) const {
     return density_[std::min(size_t(std::ceil(cell_position(r_mm))), size_t(kCells - 1))];
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

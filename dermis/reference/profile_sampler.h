@@ -8,7 +8,7 @@
 #include "dermis/optics/profile.h"
 #include "dermis/reference/guide_table.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 /// Radii are cells of equal ratio. Sampling picks a cell by the exact CDF, then a point evenly in its ring,
 /// so that the density is known exactly; the reflectance is interpolated (as r * R(r), linear in log r;
@@ -38,4 +38,4 @@ class ProfileSampler {
     std::vector<Vec3> radius_reflectance_;  // r R(r) at every outer radius
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

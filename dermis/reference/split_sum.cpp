@@ -7,7 +7,7 @@
 #include "dermis/image/half.h"
 #include "dermis/scene/cube_map.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 Vec3 blend(Vec3 a, Vec3 b, float t) {
@@ -24,12 +24,10 @@ float specular_occlusion(float n_dot_v, float occlusion, float roughness) {
 Result<SplitSumReflection> SplitSumReflection::load(const Environment& environment) {
     SplitSumReflection reflection;
     if (environment.kind == EnvironmentKind::none || environment.intensity <= 0) return reflection;
-    Result<EnvironmentLight> light = prepare_environment(environment);
-    if (!light) return light.error();
-    Result<BrdfTable> brdf = BrdfTable::load();
-    if (!brdf) return brdf.error();
-    reflection.light_ = std::move(*light);
-    reflection.brdf_ = std::move(*brdf);
+    DERMIS_TRY_ASSIGN(EnvironmentLight light, prepare_environment(environment));
+    DERMIS_TRY_ASSIGN(BrdfTable brdf, BrdfTable::load());
+    reflection.light_ = std::move(light);
+    reflection.brdf_ = std::move(brdf);
     reflection.intensity_ = environment.intensity;
     reflection.yaw_rad_ = environment.yaw_rad;
     size_t start = 0;
@@ -84,4 +82,4 @@ Vec3 SplitSumReflection::radiance(Vec3 n, Vec3 to_eye, float roughness, float f0
            (intensity_ * (f0 * brdf.x + brdf.y) * specular_occlusion(n_dot_v, occlusion, roughness));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

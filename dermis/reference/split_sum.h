@@ -7,7 +7,7 @@
 #include "dermis/scene/brdf_table.h"
 #include "dermis/scene/environment.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 class SplitSumReflection {
   public:
@@ -32,4 +32,4 @@ class SplitSumReflection {
 /// PBR".
 [[nodiscard]] float specular_occlusion(float n_dot_v, float occlusion, float roughness);
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -8,7 +8,7 @@
 #include "dermis/rays/sampling.h"
 #include "dermis/reference/way_through_flesh.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 // Probabilities of the disk's axis: the normal, and two tangents for surfaces nearly parallel to the normal.
@@ -134,4 +134,4 @@ Estimate estimate_exitance(const SurfaceIntegrator& integrator, const DiffusePoi
     return result;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -17,7 +17,7 @@
 #include "dermis/reference/lighting.h"
 #include "dermis/reference/profile_sampler.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 enum class Normalisation { by_area, none };
 
@@ -66,4 +66,4 @@ struct Estimate {
 [[nodiscard]] Estimate estimate_exitance(const SurfaceIntegrator& integrator, const DiffusePoint& point,
                                          int estimates, uint32_t seed);
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -4,7 +4,7 @@
 
 #include "dermis/rays/sampling.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 // The triangles that bound the flesh. Parts that overlap (lids that cross, a nose set into a face) count as
@@ -78,4 +78,4 @@ WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, uint3
     return result;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -5,7 +5,7 @@
 #include "dermis/reference/lighting.h"
 #include "dermis/reference/surface_integrator.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 struct WalkIntegratorSettings {
     int walks = 32;  ///< a visible point, 1..65536
@@ -39,4 +39,4 @@ class WalkIntegrator {
     WalkIntegratorSettings settings_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

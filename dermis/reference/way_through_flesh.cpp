@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dermis {
+namespace dermis::inline reference {
 namespace {
 
 constexpr size_t kMostCrossings = 32;
@@ -100,4 +100,4 @@ float way_through_flesh_mm(const RayScene& rays, const SkinPoint& from, const Sk
     return FleshWays(rays, longest_mm).length_mm(from, to, kMoves, 0);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -8,7 +8,7 @@
 
 #include "dermis/rays/ray_scene.h"
 
-namespace dermis {
+namespace dermis::inline reference {
 
 struct SkinPoint {
     Vec3 p_mm, n_face;
@@ -21,4 +21,4 @@ struct SkinPoint {
 [[nodiscard]] float way_through_flesh_mm(const RayScene& rays, const SkinPoint& from, const SkinPoint& to,
                                          float longest_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline reference

@@ -6,7 +6,7 @@
 #include "dermis/base/text.h"
 #include "dermis/mesh/uv_report.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 constexpr int kFirstTile = 1001;
@@ -131,4 +131,4 @@ bool has_skin_outside_atlas(const Scene& scene) {
     return false;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

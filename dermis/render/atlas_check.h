@@ -8,7 +8,7 @@
 #include "dermis/base/result.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// Warnings, one line each, naming materials: UVs in other UDIM tiles or outside 0..1 (lit without
 /// scattering), UVs that overlap by more than 0.1 % (places that share texels share light). Error: skin
@@ -23,4 +23,4 @@ namespace dermis {
 /// Some of the skin has UVs below 0 or above 1.
 [[nodiscard]] bool has_skin_outside_atlas(const Scene& scene);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

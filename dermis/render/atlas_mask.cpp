@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 // Rows of the triangle's box, each from the first to the last covered centre by the three edges.
@@ -46,4 +46,4 @@ Image atlas_mask(const Mesh& mesh, int width, int height) {
     return mask;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

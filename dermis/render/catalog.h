@@ -8,7 +8,7 @@
 #include "dermis/scene/subject.h"
 #include "dermis/technique/technique.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// Everything in it must outlive whatever it is given to.
 struct Catalog {
@@ -17,4 +17,4 @@ struct Catalog {
     std::span<const gpu::EmbeddedShader> shaders;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline render

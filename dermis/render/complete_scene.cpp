@@ -11,7 +11,7 @@
 #include "dermis/rays/vertex_occlusion.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 std::string curvature_hash(const Mesh& mesh) {
@@ -25,16 +25,15 @@ std::string curvature_hash(const Mesh& mesh) {
 
 Result<std::vector<CurvatureTensor>> cached_curvature(const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
-    const Result<std::vector<std::byte>> bytes =
-        cached("curvature", curvature_hash(mesh), count * sizeof(CurvatureTensor),
-               [&]() -> Result<std::vector<std::byte>> {
-                   const auto tensors = compute_curvature_tensors(mesh, kCurvatureSmoothingMm);
-                   const auto view = std::as_bytes(std::span(tensors));
-                   return std::vector<std::byte>(view.begin(), view.end());
-               });
-    if (!bytes) return bytes.error();
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes,
+                      cached("curvature", curvature_hash(mesh), count * sizeof(CurvatureTensor),
+                             [&]() -> Result<std::vector<std::byte>> {
+                                 const auto tensors = compute_curvature_tensors(mesh, kCurvatureSmoothingMm);
+                                 const auto view = std::as_bytes(std::span(tensors));
+                                 return std::vector<std::byte>(view.begin(), view.end());
+                             }));
     std::vector<CurvatureTensor> tensors(count);
-    std::memcpy(tensors.data(), bytes->data(), bytes->size());
+    std::memcpy(tensors.data(), bytes.data(), bytes.size());
     return tensors;
 }
 
@@ -49,12 +48,11 @@ Result<void> complete_scene(Scene& scene) {
     for (SceneObject& object : scene.objects) {
         progress.advance();
         if (object.mesh.curvatures_per_mm.size() == object.mesh.positions_mm.size()) continue;
-        Result<std::vector<CurvatureTensor>> tensors = cached_curvature(object.mesh);
-        if (!tensors) return tensors.error();
+        DERMIS_TRY_ASSIGN(std::vector<CurvatureTensor> tensors, cached_curvature(object.mesh));
         object.mesh.curvatures_per_mm.clear();
-        for (const CurvatureTensor& tensor : *tensors)
+        for (const CurvatureTensor& tensor : tensors)
             object.mesh.curvatures_per_mm.push_back(mean_curvature(tensor));
-        object.mesh.curvature_tensors_per_mm = std::move(*tensors);
+        object.mesh.curvature_tensors_per_mm = std::move(tensors);
     }
     if (std::ranges::all_of(scene.objects, has_occlusion)) return {};
     Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(scene.objects);
@@ -76,11 +74,10 @@ Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh) {
                                                      {&Vec3::y, kOcclusionVariance1Mm2},
                                                      {&Vec3::z, kOcclusionVariance2Mm2}};
     for (const auto& [member, variance_mm2] : blurs) {
-        const Result<std::vector<float>> values = blur_over_surface(mesh, occlusions, variance_mm2);
-        if (!values) return values.error();
-        for (size_t i = 0; i < blurred.size(); ++i) blurred[i].*member = (*values)[i];
+        DERMIS_TRY_ASSIGN(const std::vector<float> values, blur_over_surface(mesh, occlusions, variance_mm2));
+        for (size_t i = 0; i < blurred.size(); ++i) blurred[i].*member = values[i];
     }
     return blurred;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

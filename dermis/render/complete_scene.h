@@ -5,7 +5,7 @@
 #include "dermis/base/result.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// Fills Mesh::curvatures_per_mm with its tensors, averaged over kCurvatureSmoothingMm, and Mesh::occlusions
 /// of every object that lacks them, occluded by all opaque ones; cached by content, so that a second start
@@ -16,4 +16,4 @@ namespace dermis {
 /// following); 1 where the mesh has none. Errors as blur_over_surface().
 [[nodiscard]] Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -18,7 +18,7 @@
 #include "dermis/image/dilate.h"
 #include "dermis/render/skin_points.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 constexpr int kProfileSteps = 2048;
@@ -395,9 +395,8 @@ Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
             hasher.add(material.normal_space).add(material.normal_scale).add(material.dilate_texels);
             hasher.add(map.wrap_u).add(map.wrap_v).add(std::span(map.encoded)).add(std::span(map.pixels));
             if (!map.encoded.empty() || !map.pixels.empty() || map.name.empty()) continue;
-            const Result<std::vector<std::byte>> file = read_file(map.name);
-            if (!file) return file.error();
-            hasher.add(std::span(*file));
+            DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(map.name));
+            hasher.add(std::span(file));
         }
     }
     return hasher.hex();
@@ -407,27 +406,24 @@ Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
 
 Result<DiffusedNormals> bake_diffused_normals(const Scene& scene, const GaussianSum& profile,
                                               const DiffusedNormalsRequest& request) {
-    const Result<std::string> hash = content_hash(scene, profile, request);
-    if (!hash) return hash.error();
+    DERMIS_TRY_ASSIGN(const std::string hash, content_hash(scene, profile, request));
     const size_t texels = size_t(request.size) * size_t(request.size);
     const size_t bytes = texels * sizeof(DiffusedNormals::Texel);
-    const Result<std::vector<std::byte>> stored =
-        cached("diffused_normals", *hash, 2 * bytes, [&]() -> Result<std::vector<std::byte>> {
-            const Result<SkinTexelReader> reader = SkinTexelReader::create(scene);
-            if (!reader) return reader.error();
-            const DiffusedNormals made = bake(*reader, profile, request);
-            std::vector<std::byte> both(2 * bytes);
-            std::memcpy(both.data(), made.red.data(), bytes);
-            std::memcpy(both.data() + bytes, made.green.data(), bytes);
-            return both;
-        });
-    if (!stored) return stored.error();
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> stored,
+                      cached("diffused_normals", hash, 2 * bytes, [&]() -> Result<std::vector<std::byte>> {
+                          DERMIS_TRY_ASSIGN(const SkinTexelReader reader, SkinTexelReader::create(scene));
+                          const DiffusedNormals made = bake(reader, profile, request);
+                          std::vector<std::byte> both(2 * bytes);
+                          std::memcpy(both.data(), made.red.data(), bytes);
+                          std::memcpy(both.data() + bytes, made.green.data(), bytes);
+                          return both;
+                      }));
     DiffusedNormals normals{.size = request.size,
                             .red = std::vector<DiffusedNormals::Texel>(texels),
                             .green = std::vector<DiffusedNormals::Texel>(texels)};
-    std::memcpy(normals.red.data(), stored->data(), bytes);
-    std::memcpy(normals.green.data(), stored->data() + bytes, bytes);
+    std::memcpy(normals.red.data(), stored.data(), bytes);
+    std::memcpy(normals.green.data(), stored.data() + bytes, bytes);
     return normals;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -19,7 +19,7 @@
 #include "dermis/render/skin_texels.h"
 #include "dermis/technique/pass_list.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// Texels by which each chart is grown.
 inline constexpr int kDiffusedNormalsGutter = 16;
@@ -39,4 +39,4 @@ struct DiffusedNormals {
 [[nodiscard]] Result<DiffusedNormals> bake_diffused_normals(const Scene& scene, const GaussianSum& profile,
                                                             const DiffusedNormalsRequest& request);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -9,7 +9,7 @@
 #include "dermis/image/io.h"
 #include "dermis/technique/diffused_normals.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 std::string sidecar_text(const DiffusedNormals& normals, const DiffusedNormalsOrigin& origin, bool green,
@@ -92,4 +92,4 @@ Result<void> write_diffused_normals(const std::filesystem::path& path, const Dif
     return write_files(files);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -7,7 +7,7 @@
 
 #include "dermis/render/diffused_normals.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// What the sidecar says beyond the maps themselves.
 struct DiffusedNormalsOrigin {
@@ -31,4 +31,4 @@ struct DiffusedNormalsOrigin {
                                                   const DiffusedNormals& normals,
                                                   const DiffusedNormalsOrigin& origin);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -8,7 +8,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/technique/diffused_normals.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 // A texel of one level: the means of red and green, and how unevenly red's normals spread. All 0: no skin.
@@ -126,4 +126,4 @@ std::vector<gpu::TextureData> diffused_normals_textures(const DiffusedNormals& n
     }
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -6,7 +6,7 @@
 #include "dermis/gpu/device.h"
 #include "dermis/render/diffused_normals.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// The textures of kDiffusedNormalsTextures (technique/diffused_normals.h) with all mip levels. A mean is
 /// kept as its direction and sqrt(1 - its length), since the length of a vector of 8 or 10 bits would say
@@ -15,4 +15,4 @@ namespace dermis {
 /// each part of red's direction, .004 sqrt(x) of what green's differs from it, x, .002 of sqrt(1 - length).
 [[nodiscard]] std::vector<gpu::TextureData> diffused_normals_textures(const DiffusedNormals& normals);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

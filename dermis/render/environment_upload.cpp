@@ -2,21 +2,21 @@
 #include "dermis/scene/brdf_table.h"
 #include "dermis/scene/environment.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 Result<void> SceneOnDevice::replace_environment(gpu::Device& device, const Scene& scene) {
     Result<EnvironmentLight> environment = prepare_environment(scene.environment);
     if (!environment) return environment.error();
-    Result<gpu::Texture> cube = gpu::Texture::upload(device, {.name = "environment",
-                                                              .format = ImageFormat::rgba16f,
-                                                              .width = environment->base_size,
-                                                              .height = environment->base_size,
-                                                              .layers = 6,
-                                                              .mips = environment->mips,
-                                                              .cube = true,
-                                                              .bytes = std::move(environment->cube)});
-    if (!cube) return cube.error();
-    environment_cube_ = std::make_unique<gpu::Texture>(std::move(*cube));
+    DERMIS_TRY_ASSIGN(gpu::Texture cube,
+                      gpu::Texture::upload(device, {.name = "environment",
+                                                    .format = ImageFormat::rgba16f,
+                                                    .width = environment->base_size,
+                                                    .height = environment->base_size,
+                                                    .layers = 6,
+                                                    .mips = environment->mips,
+                                                    .cube = true,
+                                                    .bytes = std::move(environment->cube)}));
+    environment_cube_ = std::make_unique<gpu::Texture>(std::move(cube));
     environment_mip_count_ = environment->mips;
     environment_sh_ = environment->radiance_sh;
     return {};
@@ -24,16 +24,14 @@ Result<void> SceneOnDevice::replace_environment(gpu::Device& device, const Scene
 
 Result<void> SceneOnDevice::upload_environment(gpu::Device& device, const Scene& scene) {
     if (Result<void> replaced = replace_environment(device, scene); !replaced) return replaced;
-    Result<std::vector<std::byte>> table = stored_brdf_table();
-    if (!table) return table.error();
-    Result<gpu::Texture> brdf = gpu::Texture::upload(device, {.name = "environment_brdf",
-                                                              .format = ImageFormat::rgba16f,
-                                                              .width = kBrdfTableSize,
-                                                              .height = kBrdfLobes * kBrdfTableSize,
-                                                              .bytes = std::move(*table)});
-    if (!brdf) return brdf.error();
-    environment_brdf_ = std::make_unique<gpu::Texture>(std::move(*brdf));
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> table, stored_brdf_table());
+    DERMIS_TRY_ASSIGN(gpu::Texture brdf, gpu::Texture::upload(device, {.name = "environment_brdf",
+                                                                       .format = ImageFormat::rgba16f,
+                                                                       .width = kBrdfTableSize,
+                                                                       .height = kBrdfLobes * kBrdfTableSize,
+                                                                       .bytes = std::move(table)}));
+    environment_brdf_ = std::make_unique<gpu::Texture>(std::move(brdf));
     return {};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

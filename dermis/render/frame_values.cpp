@@ -6,7 +6,7 @@
 #include "dermis/scene/projection.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 // Any direction that is not along `d`.
@@ -159,4 +159,4 @@ gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings)
     return values;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -4,7 +4,7 @@
 #include "dermis/gpu/executor.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 struct FrameValueSettings {
     int width = 1024, height = 1024;
@@ -31,4 +31,4 @@ struct FrameValueSettings {
 /// texel of the shadow map is wasted (parallel for a directional light, perspective otherwise).
 [[nodiscard]] Mat4 light_matrix(const Light& light, Vec3 center_mm, float radius_mm);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

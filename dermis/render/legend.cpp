@@ -6,7 +6,7 @@
 #include "dermis/image/label.h"
 #include "shaders/renderer/constants.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 constexpr int kTickTop = kLegendBarBottom, kTickBottom = kTickTop + 6;
@@ -35,17 +35,16 @@ Result<Image> make_legend(std::string_view view) {
     Image ink(kLegendWidth, kLegendHeight, 1, PixelFormat::u8);
     const Scale* scale = scale_of(view);
     if (!scale) return ink;
-    const Result<Font> font = Font::load();
-    if (!font) return font.error();
+    DERMIS_TRY_ASSIGN(const Font font, Font::load());
     const TextStyle style = {.size_px = kTextPx, .color = {1, 1, 1}};
     for (int i = 0; i < 5; ++i) {
         const int x = kLegendBarLeft + (kLegendBarRight - kLegendBarLeft) * i / 4;
         const std::string label = to_text(scale->full * (i - 2) / 2);
         for (int y = kTickTop; y < kTickBottom; ++y) ink.set(x, y, 0, 1);
-        font->draw(ink, x - font->width_px(label, kTextPx) / 2, kTickBottom + 2, label, style);
+        font.draw(ink, x - font.width_px(label, kTextPx) / 2, kTickBottom + 2, label, style);
     }
-    font->draw(ink, kLegendBarRight + 12, 3, scale->unit, style);
+    font.draw(ink, kLegendBarRight + 12, 3, scale->unit, style);
     return ink;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

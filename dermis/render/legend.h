@@ -6,7 +6,7 @@
 
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 inline constexpr int kLegendWidth = 320, kLegendHeight = 44;
 
@@ -18,4 +18,4 @@ inline constexpr int kLegendWidth = 320, kLegendHeight = 44;
 /// (image/label.h).
 [[nodiscard]] Result<Image> make_legend(std::string_view view);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -8,7 +8,7 @@
 #include "dermis/render/normal_map_check.h"
 #include "dermis/scene/image_source.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 // 8-bit images keep their bits (a copy, four channels); anything deeper becomes half floats.
@@ -139,11 +139,11 @@ gpu::TextureData neutral_map(const MaterialMap& map) {
 Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& material, const Mesh& mesh) {
     const ImageSource& source = *map_source(map, material);
     const int channel = &source == &(material.*map.source) ? map.preferred_channel : map.packed_channel;
-    Result<Image> decoded = map.source == &Material::alpha_map
-                                ? load_alpha(material)
-                                : load_image_source(source, map.is_color ? ImageUse::color : ImageUse::data);
-    if (!decoded) return decoded.error();
-    Image& image = *decoded;
+    DERMIS_TRY_ASSIGN(Image decoded,
+                      map.source == &Material::alpha_map
+                          ? load_alpha(material)
+                          : load_image_source(source, map.is_color ? ImageUse::color : ImageUse::data));
+    Image& image = decoded;
     std::string warning;
     if (map.source == &Material::normal_map)
         if (const auto doubt = doubt_of_normal_map(image, material.normal_space))
@@ -171,4 +171,4 @@ Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& mate
     return LoadedMap{std::move(data), std::move(warning)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -6,7 +6,7 @@
 #include "dermis/mesh/mesh.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// One texture of shaders/include/surface.glsl: where a material names its image, and the texel that replaces
 /// a missing one.
@@ -40,4 +40,4 @@ struct LoadedMap {
 /// A texture of 1 x 1 texels in its place.
 [[nodiscard]] gpu::TextureData neutral_map(const MaterialMap& map);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

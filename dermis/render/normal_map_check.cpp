@@ -5,7 +5,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 struct NormalCount {
@@ -56,4 +56,4 @@ std::optional<std::string> doubt_of_normal_map(const Image& image, NormalSpace s
     return std::nullopt;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

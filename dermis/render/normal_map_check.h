@@ -7,7 +7,7 @@
 #include "dermis/image/image.h"
 #include "dermis/mesh/material.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// What looks wrong and the mend, in one line without the file's name: an object-space map given as a
 /// tangent-space one, a tangent-space map given as an object-space one, or an image that is no normal map. A
@@ -15,4 +15,4 @@ namespace dermis {
 /// object space in all directions. Texels of black or white between the charts do not count.
 [[nodiscard]] std::optional<std::string> doubt_of_normal_map(const Image& image, NormalSpace space);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -5,7 +5,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 Image channels_of(const Image& image, int first, int count) {
@@ -46,14 +46,13 @@ Result<std::vector<ImageLayer>> collect_layers(Renderer& renderer, const Techniq
     draw.gbuffer = true;
     for (const char* view : {"final", "diffuse", "specular"}) {
         draw.view = view;
-        if (const auto drawn = renderer.draw(technique, values, draw); !drawn) return drawn.error();
+        DERMIS_TRY(renderer.draw(technique, values, draw));
         const bool beauty = draw.view == "final";
-        if (const auto added = add(beauty ? "" : view, renderer.radiance()); !added) return added.error();
+        DERMIS_TRY(add(beauty ? "" : view, renderer.radiance()));
     }
     for (const GbufferLayer& layer : kGbufferLayers) {
-        const Result<Image> image = renderer.read(layer.image);
-        if (!image) return image.error();
-        layers.push_back({layer.layer, channels_of(*image, layer.first, layer.count)});
+        DERMIS_TRY_ASSIGN(const Image image, renderer.read(layer.image));
+        layers.push_back({layer.layer, channels_of(image, layer.first, layer.count)});
     }
     return layers;
 }
@@ -64,9 +63,8 @@ Result<Image> linear_picture(Renderer& renderer, const std::string& view) {
     // Views of the G-buffer have no radiance: their numbers are what is written.
     const auto layer = std::ranges::find(kGbufferLayers, std::string_view(view), &GbufferLayer::view);
     if (layer == std::end(kGbufferLayers)) return renderer.radiance();
-    const Result<Image> image = renderer.read(layer->image);
-    if (!image) return image.error();
-    Image part = channels_of(*image, layer->first, layer->count);
+    DERMIS_TRY_ASSIGN(const Image image, renderer.read(layer->image));
+    Image part = channels_of(image, layer->first, layer->count);
     if (layer->count != 2) return part;
     Image padded(part.width, part.height, 3, PixelFormat::f32);  // an EXR of two channels is grey and alpha
     for (size_t i = 0; i < part.pixel_count(); ++i)
@@ -104,9 +102,9 @@ Result<void> write_output(Renderer& renderer, const Technique& technique, const 
                           const OutputSettings& settings) {
     const ImageText text = picture_text(settings);
     if (settings.layers) {
-        const Result<std::vector<ImageLayer>> layers = collect_layers(renderer, technique, values, draw);
-        if (!layers) return layers.error();
-        return write_layered_exr(path, *layers, text);
+        DERMIS_TRY_ASSIGN(const std::vector<ImageLayer> layers,
+                          collect_layers(renderer, technique, values, draw));
+        return write_layered_exr(path, layers, text);
     }
     if (to_lower(path.extension().string()) == ".exr") {
         const Result<Image> picture = linear_picture(renderer, draw.view);
@@ -116,4 +114,4 @@ Result<void> write_output(Renderer& renderer, const Technique& technique, const 
     return picture ? write_image(path, *picture, text) : picture.error();
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -7,7 +7,7 @@
 #include "dermis/image/io.h"
 #include "dermis/render/renderer.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 struct OutputSettings {
     int png_bits = 8;     ///< 8 or 16
@@ -31,4 +31,4 @@ struct OutputSettings {
                                         const ParameterValues& values, const DrawSettings& draw,
                                         const std::filesystem::path& path, const OutputSettings& settings);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

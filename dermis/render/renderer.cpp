@@ -14,7 +14,7 @@
 #include "dermis/render/material_maps.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 // A technique's parameters as the block Params has them: choices and toggles are integers.
@@ -83,21 +83,18 @@ Renderer::Renderer(gpu::Device& device, gpu::Executor executor, const Scene& sce
     : device_(&device), executor_(std::move(executor)), scene_(&scene) {}
 
 Result<Renderer> Renderer::create(gpu::Device& device, gpu::ShaderSource shaders, const Scene& scene) {
-    Result<SceneOnDevice> uploaded = SceneOnDevice::upload(device, scene);
-    if (!uploaded) return uploaded.error();
-    Result<gpu::Executor> executor = gpu::Executor::create(device, std::move(shaders));
-    if (!executor) return executor.error();
-    Renderer renderer(device, std::move(*executor), scene);
-    renderer.owned_ = std::make_unique<SceneOnDevice>(std::move(*uploaded));
+    DERMIS_TRY_ASSIGN(SceneOnDevice uploaded, SceneOnDevice::upload(device, scene));
+    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(device, std::move(shaders)));
+    Renderer renderer(device, std::move(executor), scene);
+    renderer.owned_ = std::make_unique<SceneOnDevice>(std::move(uploaded));
     renderer.uploaded_ = renderer.owned_.get();
     renderer.warnings_ = renderer.uploaded_->warnings();
     return renderer;
 }
 
 Result<Renderer> Renderer::sibling(gpu::ShaderSource shaders) {
-    Result<gpu::Executor> executor = gpu::Executor::create(*device_, std::move(shaders));
-    if (!executor) return executor.error();
-    Renderer renderer(*device_, std::move(*executor), *scene_);
+    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(*device_, std::move(shaders)));
+    Renderer renderer(*device_, std::move(executor), *scene_);
     renderer.uploaded_ = uploaded_;
     return renderer;
 }
@@ -112,26 +109,26 @@ Result<void> Renderer::prepare_tables(const Technique& technique, const Paramete
         tables_key_.clear();
         return {};
     }
-    const Result<const SkinContext*> skin = skin_context();
-    if (!skin) return skin.error();
-    const std::string key = settings_key(technique, values, **skin);
+    DERMIS_TRY_ASSIGN(const SkinContext* skin, skin_context());
+    const std::string key = settings_key(technique, values, *skin);
     if (key == tables_key_) return {};
-    Result<std::vector<TableImage>> tables = std::vector<TableImage>{};
-    if (technique.tables) tables = technique.tables(values, **skin);
-    if (!tables) return tables.error();
-    Result<std::vector<NamedValue>> skin_values = std::vector<NamedValue>{};
-    if (technique.skin_values) skin_values = technique.skin_values(values, **skin);
-    if (!skin_values) return skin_values.error();
-    skin_values_ = gpu::Values(skin_values->begin(), skin_values->end());
+    std::vector<TableImage> tables;
+    if (technique.tables) {
+        DERMIS_TRY_ASSIGN(tables, technique.tables(values, *skin));
+    }
+    skin_values_.clear();
+    if (technique.skin_values) {
+        DERMIS_TRY_ASSIGN(const std::vector<NamedValue> made, technique.skin_values(values, *skin));
+        skin_values_ = gpu::Values(made.begin(), made.end());
+    }
     tables_.clear();
-    for (const TableImage& table : *tables) {
-        Result<gpu::Texture> texture = gpu::Texture::upload(*device_, {.name = table.name,
-                                                                       .format = table.format,
-                                                                       .width = table.width,
-                                                                       .height = table.height,
-                                                                       .bytes = table.bytes});
-        if (!texture) return texture.error();
-        tables_.emplace(table.name, std::move(*texture));
+    for (const TableImage& table : tables) {
+        DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(*device_, {.name = table.name,
+                                                                                .format = table.format,
+                                                                                .width = table.width,
+                                                                                .height = table.height,
+                                                                                .bytes = table.bytes}));
+        tables_.emplace(table.name, std::move(texture));
     }
     tables_key_ = key;
     return {};
@@ -142,13 +139,12 @@ Result<void> Renderer::prepare_legend(const std::string& view) {
     if (legend_ && (!has_legend(view) || view == legend_view_)) return {};
     const Result<Image> ink = make_legend(view);
     if (!ink) return ink.error().within("view " + view);
-    Result<gpu::Texture> texture = gpu::Texture::upload(*device_, {.name = "view_legend",
-                                                                   .format = ImageFormat::r8,
-                                                                   .width = ink->width,
-                                                                   .height = ink->height,
-                                                                   .bytes = ink->bytes});
-    if (!texture) return texture.error();
-    legend_ = std::make_unique<gpu::Texture>(std::move(*texture));
+    DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(*device_, {.name = "view_legend",
+                                                                            .format = ImageFormat::r8,
+                                                                            .width = ink->width,
+                                                                            .height = ink->height,
+                                                                            .bytes = ink->bytes}));
+    legend_ = std::make_unique<gpu::Texture>(std::move(texture));
     legend_view_ = view;
     return {};
 }
@@ -186,9 +182,8 @@ PassList Renderer::passes_of(const Technique& technique, const ParameterValues& 
 Result<void> Renderer::check_atlas() {
     const auto draws_atlas = [](const Pass& pass) { return pass.kind == PassKind::geometry_uv_atlas; };
     if (atlas_checked_ || std::ranges::none_of(list_.passes, draws_atlas)) return {};
-    Result<std::vector<std::string>> checked = check_skin_atlas(*scene_);
-    if (!checked) return checked.error();
-    warnings_.insert(warnings_.end(), checked->begin(), checked->end());
+    DERMIS_TRY_ASSIGN(std::vector<std::string> checked, check_skin_atlas(*scene_));
+    warnings_.insert(warnings_.end(), checked.begin(), checked.end());
     atlas_checked_ = true;
     return {};
 }
@@ -203,9 +198,8 @@ void Renderer::check_maps() {
 
 Result<void> Renderer::prepare_seams() {
     if (!list_.seams || (seams_ && seams_->request == *list_.seams)) return {};
-    Result<SeamTextures> made = make_seam_textures(*device_, *scene_, *list_.seams);
-    if (!made) return made.error();
-    seams_ = std::move(*made);
+    DERMIS_TRY_ASSIGN(SeamTextures made, make_seam_textures(*device_, *scene_, *list_.seams));
+    seams_ = std::move(made);
     return {};
 }
 
@@ -213,12 +207,11 @@ Result<void> Renderer::prepare_diffused_normals(const GaussianSum& profile) {
     if (!list_.diffused_normals) return {};
     std::string key = scene_->skin.profile + std::to_string(list_.diffused_normals->size);
     if (key == diffused_normals_key_) return {};
-    const Result<DiffusedNormals> baked = bake_diffused_normals(*scene_, profile, *list_.diffused_normals);
-    if (!baked) return baked.error();
-    for (const gpu::TextureData& data : diffused_normals_textures(*baked)) {
-        Result<gpu::Texture> texture = gpu::Texture::upload(*device_, data);
-        if (!texture) return texture.error();
-        diffused_normals_.insert_or_assign(data.name, std::move(*texture));
+    DERMIS_TRY_ASSIGN(const DiffusedNormals baked,
+                      bake_diffused_normals(*scene_, profile, *list_.diffused_normals));
+    for (const gpu::TextureData& data : diffused_normals_textures(baked)) {
+        DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(*device_, data));
+        diffused_normals_.insert_or_assign(data.name, std::move(texture));
     }
     diffused_normals_key_ = std::move(key);
     return {};
@@ -259,8 +252,8 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     const std::vector<std::string> views = view_names(technique);
     if (std::ranges::find(views, settings.view) == views.end())
         return Error{unknown_name("view", settings.view, views)};
-    if (Result<void> ready = prepare_tables(technique, values); !ready) return ready.error();
-    if (Result<void> ready = prepare_legend(settings.view); !ready) return ready.error();
+    DERMIS_TRY(prepare_tables(technique, values));
+    DERMIS_TRY(prepare_legend(settings.view));
 
     const Result<const SkinContext*> skin = skin_context();
     if (!skin) return skin.error();
@@ -309,10 +302,10 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
                                      return light.kind == LightKind::directional;
                                  }));
     radiance_name_ = radiance_image(shared);
-    if (Result<void> good = check_atlas(); !good) return good.error();
+    DERMIS_TRY(check_atlas());
     check_maps();
-    if (Result<void> ready = prepare_seams(); !ready) return ready.error();
-    if (Result<void> ready = prepare_diffused_normals((*skin)->gaussians); !ready) return ready.error();
+    DERMIS_TRY(prepare_seams());
+    DERMIS_TRY(prepare_diffused_normals((*skin)->gaussians));
     history_key_ = key;
     frames_key_ = series;
     history_distance_mm_ = frame.camera_distance_mm;
@@ -321,7 +314,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
 
 Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const ParameterValues& values,
                                         const DrawSettings& settings) {
-    if (Result<void> ready = prepare(technique, values, settings); !ready) return ready.error();
+    DERMIS_TRY(prepare(technique, values, settings));
     Result<gpu::FrameResult> drawn = executor_.run(list_, inputs(values, settings));
     if (!drawn) forget_history();
     return drawn;
@@ -329,7 +322,7 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
 
 Result<uint64_t> Renderer::submit(const Technique& technique, const ParameterValues& values,
                                   const DrawSettings& settings) {
-    if (Result<void> ready = prepare(technique, values, settings); !ready) return ready.error();
+    DERMIS_TRY(prepare(technique, values, settings));
     const Result<uint64_t> frame = executor_.submit(list_, inputs(values, settings));
     if (!frame) forget_history();
     return frame;
@@ -345,4 +338,4 @@ Result<Image> Renderer::read(std::string_view image) {
     return executor_.read(image);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -11,7 +11,7 @@
 #include "dermis/scene/scene.h"
 #include "dermis/technique/technique.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 struct DrawSettings {
     int width = 1024, height = 1024;
@@ -111,4 +111,4 @@ class Renderer {
     std::optional<SkinContext> skin_;  ///< of the profile that the scene named last
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline render

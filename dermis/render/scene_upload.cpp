@@ -12,7 +12,7 @@
 #include "dermis/scene/object_checks.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 // One texture for each image and use, even if several materials name it.
@@ -158,14 +158,14 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
         if (!*job.data) return job.data->error();
         const LoadedMap loaded = std::move(**job.data);
         if (!loaded.warning.empty()) warnings_.push_back(loaded.warning);
-        Result<gpu::Texture> texture = gpu::Texture::upload(device, loaded.texture);
-        if (!texture) return texture.error();
-        textures_.emplace(job.key, std::move(*texture));
+        DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(device, loaded.texture));
+        textures_.emplace(job.key, std::move(texture));
     }
-    Result<gpu::Texture> blank = gpu::Texture::upload(
-        device, {.name = "no image", .format = ImageFormat::rgba8, .bytes = std::vector(4, std::byte{255})});
-    if (!blank) return blank.error();
-    no_image_ = std::make_unique<gpu::Texture>(std::move(*blank));
+    DERMIS_TRY_ASSIGN(gpu::Texture blank,
+                      gpu::Texture::upload(device, {.name = "no image",
+                                                    .format = ImageFormat::rgba8,
+                                                    .bytes = std::vector(4, std::byte{255})}));
+    no_image_ = std::make_unique<gpu::Texture>(std::move(blank));
     return {};
 }
 
@@ -206,10 +206,10 @@ void SceneOnDevice::update_materials(const Scene& scene) {
 Result<SceneOnDevice> SceneOnDevice::upload(gpu::Device& device, const Scene& scene) {
     SceneOnDevice uploaded;
     uploaded.uv_density_ = dermis::uv_density(scene);
-    if (Result<void> done = uploaded.upload_maps(device, scene); !done) return done.error();
-    if (Result<void> done = uploaded.upload_objects(device, scene); !done) return done.error();
-    if (Result<void> done = uploaded.upload_environment(device, scene); !done) return done.error();
+    DERMIS_TRY(uploaded.upload_maps(device, scene));
+    DERMIS_TRY(uploaded.upload_objects(device, scene));
+    DERMIS_TRY(uploaded.upload_environment(device, scene));
     return uploaded;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

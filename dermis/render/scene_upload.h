@@ -8,7 +8,7 @@
 #include "dermis/render/seam_textures.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// Owns what was uploaded; draws() point into it.
 class SceneOnDevice {
@@ -56,4 +56,4 @@ class SceneOnDevice {
     std::vector<std::string> warnings_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline render

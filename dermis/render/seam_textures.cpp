@@ -8,7 +8,7 @@
 #include "dermis/mesh/stretch.h"
 #include "dermis/mesh/uv_seams.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 std::vector<AtlasPart> skin_parts(const Scene& scene) {
@@ -63,20 +63,19 @@ float quantile(std::vector<AreaSample>& samples, double share) {
 
 Result<SeamTextures> make_seam_textures(gpu::Device& device, const Scene& scene, const SeamRequest& request) {
     const SeamMap map = make_seam_map(skin_parts(scene), request.size, request.width_texels);
-    Result<gpu::Texture> seams = gpu::Texture::upload(device, {.name = "seam_map",
-                                                               .format = ImageFormat::rgba16f,
-                                                               .width = map.size,
-                                                               .height = map.size,
-                                                               .bytes = packed(map.carried)});
-    if (!seams) return seams.error();
+    DERMIS_TRY_ASSIGN(gpu::Texture seams, gpu::Texture::upload(device, {.name = "seam_map",
+                                                                        .format = ImageFormat::rgba16f,
+                                                                        .width = map.size,
+                                                                        .height = map.size,
+                                                                        .bytes = packed(map.carried)}));
     const auto charts = std::as_bytes(std::span(map.chart));
-    Result<gpu::Texture> chart = gpu::Texture::upload(device, {.name = "chart_map",
-                                                               .format = ImageFormat::r8,
-                                                               .width = map.size,
-                                                               .height = map.size,
-                                                               .bytes = {charts.begin(), charts.end()}});
-    if (!chart) return chart.error();
-    return SeamTextures{request, std::move(*seams), std::move(*chart)};
+    DERMIS_TRY_ASSIGN(gpu::Texture chart,
+                      gpu::Texture::upload(device, {.name = "chart_map",
+                                                    .format = ImageFormat::r8,
+                                                    .width = map.size,
+                                                    .height = map.size,
+                                                    .bytes = {charts.begin(), charts.end()}}));
+    return SeamTextures{request, std::move(seams), std::move(chart)};
 }
 
 UvDensity uv_density(const Scene& scene) {
@@ -97,4 +96,4 @@ UvDensity uv_density(const Scene& scene) {
     return {quantile(densest, 0.99), quantile(typical, 0.5)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

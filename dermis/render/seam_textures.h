@@ -5,7 +5,7 @@
 #include "dermis/scene/scene.h"
 #include "dermis/technique/pass_list.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 struct SeamTextures {
     SeamRequest request;
@@ -23,4 +23,4 @@ struct UvDensity {
 };
 [[nodiscard]] UvDensity uv_density(const Scene& scene);
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -5,7 +5,7 @@
 #include "dermis/technique/forward.h"
 #include "shaders/renderer/constants.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 // `light`: index into Scene::lights, -1 for the key light.
@@ -240,4 +240,4 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
     return list;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

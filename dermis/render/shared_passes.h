@@ -4,7 +4,7 @@
 #include "dermis/scene/scene.h"
 #include "dermis/technique/technique.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 struct SharedPassSettings {
     int samples = 1;
@@ -40,4 +40,4 @@ struct SharedPassSettings {
 /// "no_image" is one white texel, for textures that a shader has but, by its constants, never reads.
 [[nodiscard]] std::vector<std::string> shared_inputs();
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -5,7 +5,7 @@
 
 #include "dermis/base/parallel.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 using Cube = std::array<int, 3>;
@@ -161,4 +161,4 @@ void SkinPoints::for_each_cube(const SkinPoints& others, float reach_mm, size_t 
     });
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

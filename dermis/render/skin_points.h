@@ -10,7 +10,7 @@
 
 #include "dermis/render/skin_texels.h"
 
-namespace dermis {
+namespace dermis::inline render {
 
 /// One texel, or all of a small cube that face about the same way: their mass centre, and means by area.
 struct SkinPoint {
@@ -72,4 +72,4 @@ class SkinPoints {
     std::unordered_map<uint64_t, size_t> index_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline render

@@ -11,7 +11,7 @@
 #include "dermis/render/atlas_mask.h"
 #include "dermis/scene/image_source.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 // As mean_normal_world() of shaders/include/surface.glsl.
@@ -66,26 +66,23 @@ SkinTexelReader::~SkinTexelReader() = default;
 SkinTexelReader::SkinTexelReader(SkinTexelReader&&) noexcept = default;
 
 Result<SkinTexelReader> SkinTexelReader::create(const Scene& scene) {
-    Result<std::vector<Flesh>> flesh = find_flesh(scene.objects);
-    if (!flesh) return flesh.error();
-    Result<RayScene> rays = RayScene::build(scene.objects);
-    if (!rays) return rays.error();
+    DERMIS_TRY_ASSIGN(std::vector<Flesh> flesh, find_flesh(scene.objects));
+    DERMIS_TRY_ASSIGN(RayScene rays, RayScene::build(scene.objects));
     std::vector<std::vector<Texture>> maps;
     for (const SceneObject& object : scene.objects) {
         auto& of_object = maps.emplace_back(object.mesh.materials.size());
         for (size_t i = 0; i < of_object.size(); ++i) {
             const Material& material = object.mesh.materials[i];
             if (object.classes[i] != MaterialClass::skin || !material.normal_map.present()) continue;
-            Result<Image> image = load_image_source(material.normal_map, ImageUse::data);
-            if (!image) return image.error();
+            DERMIS_TRY_ASSIGN(Image image, load_image_source(material.normal_map, ImageUse::data));
             if (material.dilate_texels > 0)
-                dilate(*image, atlas_mask(object.mesh, image->width, image->height), material.dilate_texels);
-            make_unit(*image);
-            of_object[i] = Texture(*image, material.normal_map.wrap_u, material.normal_map.wrap_v);
+                dilate(image, atlas_mask(object.mesh, image.width, image.height), material.dilate_texels);
+            make_unit(image);
+            of_object[i] = Texture(image, material.normal_map.wrap_u, material.normal_map.wrap_v);
         }
     }
     return SkinTexelReader(
-        std::make_unique<Impl>(Impl{&scene, std::move(*flesh), std::move(*rays), std::move(maps)}));
+        std::make_unique<Impl>(Impl{&scene, std::move(flesh), std::move(rays), std::move(maps)}));
 }
 
 SkinTexels SkinTexelReader::read(int size) const {
@@ -120,4 +117,4 @@ float typical_texel_mm(const SkinTexels& skin) {
     return 0;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

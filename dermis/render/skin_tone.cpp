@@ -6,7 +6,7 @@
 #include "dermis/image/colour.h"
 #include "dermis/scene/image_source.h"
 
-namespace dermis {
+namespace dermis::inline render {
 namespace {
 
 constexpr float kMaxTint = 4;  // what a scene file allows
@@ -32,9 +32,8 @@ Result<void> add_submesh(const Mesh& mesh, const Submesh& submesh, Mean& mean) {
     const Material& material = mesh.materials[submesh.material];
     Image map;
     if (material.base_color_map.present() && mesh.uvs.size() == mesh.positions_mm.size()) {
-        Result<Image> decoded = load_image_source(material.base_color_map, ImageUse::color);
-        if (!decoded) return decoded.error();
-        map = std::move(*decoded);
+        DERMIS_TRY_ASSIGN(Image decoded, load_image_source(material.base_color_map, ImageUse::color));
+        map = std::move(decoded);
     }
     for (uint32_t i = 0; i < submesh.index_count; ++i) {
         const uint32_t vertex = mesh.indices[submesh.first_index + i];
@@ -52,8 +51,7 @@ Result<Vec3> mean_skin_albedo(const Scene& scene) {
     for (const SceneObject& object : scene.objects)
         for (const Submesh& submesh : object.mesh.submeshes)
             if (object.classes[submesh.material] == MaterialClass::skin)
-                if (const Result<void> added = add_submesh(object.mesh, submesh, mean); !added)
-                    return added.error();
+                DERMIS_TRY(add_submesh(object.mesh, submesh, mean));
     if (mean.count == 0) return Error{scene.name + " has no skin to give a tone"};
     return mean.sum * (1.0f / float(mean.count));
 }
@@ -66,4 +64,4 @@ Vec3 tint_towards(Vec3 albedo_linear, Vec3 mean_linear) {
             ratio(albedo_linear.z, mean_linear.z)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline render

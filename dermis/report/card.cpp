@@ -4,7 +4,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline report {
 
 // RDNA has two SIMDs a compute unit, GCN four (AMD, "RDNA Architecture" white paper, 2019, page 8).
 std::span<const Card> cards() {
@@ -46,4 +46,4 @@ Result<const Card*> find_card(std::string_view chip) {
     return Error{unknown_name("chip", chip, known)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline report

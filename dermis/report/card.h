@@ -6,7 +6,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline report {
 
 struct Card {
     std::string_view chip;  ///< as RADV_FORCE_FAMILY has it since Mesa 23
@@ -28,4 +28,4 @@ struct Card {
 /// Error: an unknown chip, with the known ones.
 [[nodiscard]] Result<const Card*> find_card(std::string_view chip);
 
-}  // namespace dermis
+}  // namespace dermis::inline report

@@ -14,7 +14,7 @@
 #include "dermis/scene/scene_paths.h"
 #include "dermis/scene/scene_words.h"
 
-namespace dermis {
+namespace dermis::inline report {
 namespace {
 
 constexpr size_t kStages = 3;
@@ -122,18 +122,16 @@ Result<Image> table_image(const Technique& technique, const ParameterValues& val
 }
 
 Result<CellPicture> computed_picture(const FigureCell& cell, const SkinContext& skin, CellSize size) {
-    const Result<FigurePicture> made = cell.compute(skin, size.width, size.height);
-    if (!made) return made.error();
-    Image image(made->width, made->height, 3);
-    std::ranges::copy(made->rgb_linear, image.floats().begin());
+    DERMIS_TRY_ASSIGN(const FigurePicture made, cell.compute(skin, size.width, size.height));
+    Image image(made.width, made.height, 3);
+    std::ranges::copy(made.rgb_linear, image.floats().begin());
     return picture_of(image, cell.encoding, size);
 }
 
 // An image of the frame, as the cell wants it shown; light as the radiance of white skin.
 Result<CellPicture> frame_image(Renderer& renderer, const FigureCell& cell, CellSize size) {
-    const Result<Image> read = renderer.read(cell.image);
-    if (!read) return read.error();
-    const Image linear = to_linear_float(*read);
+    DERMIS_TRY_ASSIGN(const Image read, renderer.read(cell.image));
+    const Image linear = to_linear_float(read);
     Image shown(linear.width, linear.height, 3);
     for (int y = 0; y < shown.height; ++y)
         for (int x = 0; x < shown.width; ++x)
@@ -174,11 +172,11 @@ Result<CellRenderer::Stage*> CellRenderer::stage(const Figure& figure, const Fig
     Result<Scene> scene =
         load_figure_scene(name, {.subjects = catalog_.subjects, .words = options_.loading_words});
     if (!scene) return scene.error();
-    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    DERMIS_TRY(complete_scene(*scene));
     if (cell.albedo == CellAlbedo::white) make_white(*scene);
     const ChosenEnvironment chosen = choose_environment(scene->environment, cell);
     scene->environment = chosen.environment;
-    if (Result<void> set = set_words(*scene, options_.words); !set) return set.error();
+    DERMIS_TRY(set_words(*scene, options_.words));
     auto made = std::make_unique<Stage>(Stage{.scene = std::move(*scene), .remark = chosen.remark});
     Result<Renderer> renderer =
         Renderer::create(*device_, gpu::embedded_shaders(catalog_.shaders), made->scene);
@@ -252,4 +250,4 @@ Result<CellPicture> CellRenderer::draw(const Figure& figure, const FigureCell& c
     return picture;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline report

@@ -9,7 +9,7 @@
 #include "dermis/render/renderer.h"
 #include "dermis/technique/figure.h"
 
-namespace dermis {
+namespace dermis::inline report {
 
 struct CellPicture {
     Image display;  ///< sRGB-encoded, u8, three channels: what the sheet shows
@@ -53,4 +53,4 @@ class CellRenderer {
     std::map<std::string, std::unique_ptr<Stage>> stages_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline report

@@ -10,7 +10,7 @@
 #include "dermis/image/metrics.h"
 #include "dermis/plot/sheet.h"
 
-namespace dermis {
+namespace dermis::inline report {
 namespace {
 
 struct DrawnCell {
@@ -76,8 +76,7 @@ Result<void> compare(const FigureCell& cell, const CellPicture& picture, const D
 
 Result<CellDifference> compare_cells(const CellPicture& a, const CellPicture& b) {
     const Image mask = covered_by_both(a.radiance, b.radiance);
-    const Result<Image> map = abs_difference_map(a.radiance, b.radiance);
-    if (!map) return map.error();
+    DERMIS_TRY_ASSIGN(const Image map, abs_difference_map(a.radiance, b.radiance));
     const Result<double> max_abs = max_abs_error(a.radiance, b.radiance, mask);
     if (!max_abs) return max_abs.error();
     const Result<double> flip = mean_flip(a.display, b.display, mask);
@@ -143,4 +142,4 @@ Result<FigureResult> draw_figure(CellRenderer& renderer, const Font& font, const
     return result;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline report

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "dermis/report/cell_renderer.h"
 #include "dermis/image/label.h"
+#include "dermis/report/cell_renderer.h"
 #include "dermis/technique/technique.h"
 
-namespace dermis {
+namespace dermis::inline report {
 
 /// How far one cell is from another, over what both cover whole.
 struct CellDifference {
@@ -41,4 +41,4 @@ struct FigureResult {
 /// Errors: different sizes, nothing covered by both.
 [[nodiscard]] Result<CellDifference> compare_cells(const CellPicture& a, const CellPicture& b);
 
-}  // namespace dermis
+}  // namespace dermis::inline report

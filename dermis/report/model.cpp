@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-namespace dermis {
+namespace dermis::inline report {
 namespace {
 
 // The compiler's inverse throughput is of 64 threads, whatever the size of a subgroup.
@@ -114,13 +114,11 @@ FrameCost model_frame(const FrameWork& work, const std::vector<gpu::PassStatisti
 
 Result<std::vector<FrameCost>> model_frames(const std::vector<FrameWork>& frames, const Card& card,
                                             const gpu::ShaderSource& shaders) {
-    Result<gpu::NullDevice> device = gpu::NullDevice::open(card.chip, shaders);
-    if (!device) return device.error();
+    DERMIS_TRY_ASSIGN(gpu::NullDevice device, gpu::NullDevice::open(card.chip, shaders));
     std::vector<FrameCost> costs;
     for (const FrameWork& frame : frames) {
-        const auto statistics = device->compile(frame.list);
-        if (!statistics) return statistics.error();
-        costs.push_back(model_frame(frame, *statistics, card));
+        DERMIS_TRY_ASSIGN(const auto statistics, device.compile(frame.list));
+        costs.push_back(model_frame(frame, statistics, card));
     }
     return costs;
 }
@@ -131,4 +129,4 @@ double FrameCost::model_ms() const {
     return sum;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline report

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "dermis/gpu/statistics.h"
 #include "dermis/report/card.h"
 #include "dermis/report/work.h"
-#include "dermis/gpu/statistics.h"
 
-namespace dermis {
+namespace dermis::inline report {
 
 struct ShaderCost {
     gpu::ShaderStatistics statistics;
@@ -47,4 +47,4 @@ struct FrameCost {
 /// texel for each fragment and at most once each, vertices and indices once each.
 [[nodiscard]] uint64_t bytes_moved(const FrameWork& work, size_t pass, const gpu::PassStatistics& statistics);
 
-}  // namespace dermis
+}  // namespace dermis::inline report

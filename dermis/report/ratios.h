@@ -4,11 +4,11 @@
 #include <string_view>
 #include <vector>
 
-#include "dermis/report/model.h"
 #include "dermis/judge/scores.h"
 #include "dermis/render/catalog.h"
+#include "dermis/report/model.h"
 
-namespace dermis {
+namespace dermis::inline report {
 
 /// Costs are stated as a multiple of this technique's with its defaults.
 inline constexpr std::string_view kCostBase = "lambert";
@@ -36,4 +36,4 @@ inline constexpr std::string_view kCostBase = "lambert";
                                             std::span<ScoreRow> rows, int width, int height,
                                             const Card& card);
 
-}  // namespace dermis
+}  // namespace dermis::inline report

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-namespace dermis {
+namespace dermis::inline report {
 namespace {
 
 constexpr int kSmaller = 4;
@@ -76,4 +76,4 @@ Result<FrameWork> count_work(Renderer& renderer, const Contestant& contestant, i
     return work;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline report

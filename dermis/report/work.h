@@ -9,7 +9,7 @@
 #include "dermis/judge/technique_list.h"
 #include "dermis/render/renderer.h"
 
-namespace dermis {
+namespace dermis::inline report {
 
 struct TextureBytes {
     uint64_t bytes = 0;
@@ -37,4 +37,4 @@ struct FrameWork {
 [[nodiscard]] Result<FrameWork> count_work(Renderer& renderer, const Contestant& contestant, int width,
                                            int height);
 
-}  // namespace dermis
+}  // namespace dermis::inline report

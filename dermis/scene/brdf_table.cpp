@@ -13,7 +13,7 @@
 #include "dermis/image/half.h"
 #include "dermis/scene/hammersley.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 namespace {
 
@@ -123,10 +123,9 @@ Result<std::vector<std::byte>> stored_brdf_table() {
 }
 
 Result<BrdfTable> BrdfTable::load() {
-    Result<std::vector<std::byte>> texels = stored_brdf_table();
-    if (!texels) return texels.error();
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> texels, stored_brdf_table());
     BrdfTable table;
-    table.texels_ = std::move(*texels);
+    table.texels_ = std::move(texels);
     return table;
 }
 
@@ -150,4 +149,4 @@ Vec4 BrdfTable::at(int lobe, float roughness, float cosine) const {
                 lerp(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx), y - float(y0));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

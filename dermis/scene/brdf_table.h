@@ -13,7 +13,7 @@
 #include "dermis/base/vec.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// {scale, bias} for perceptual roughness (alpha = roughness^2) and n.v, both in 0..1. The default agrees
 /// with dense quadrature to 0.002.
@@ -46,4 +46,4 @@ class BrdfTable {
     std::vector<std::byte> texels_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

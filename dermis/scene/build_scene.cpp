@@ -22,7 +22,7 @@
 #include "dermis/scene/scene_paths.h"
 #include "dermis/scene/scene_views.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace fs = std::filesystem;
 namespace {
 
@@ -33,19 +33,18 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
         if (!made) return error_at(description, mesh.file, made.error().message);
         return made;
     }
-    const Result<fs::path> path = resolve_file(description, mesh.file);
-    if (!path) return path.error();
+    DERMIS_TRY_ASSIGN(const fs::path path, resolve_file(description, mesh.file));
     Result<LoadedMesh> loaded =
-        read_mesh(*path, {.unit_mm = mesh.unit_mm,
-                          .scale_after = mesh.scale,
-                          .subdivision_level = mesh.subdivision,
-                          .ignore_missing_materials = description.maps.albedo.given()});
+        read_mesh(path, {.unit_mm = mesh.unit_mm,
+                         .scale_after = mesh.scale,
+                         .subdivision_level = mesh.subdivision,
+                         .ignore_missing_materials = description.maps.albedo.given()});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());
     SubjectScene made;
     made.objects.push_back(
-        {.name = mesh.name.empty() ? path->stem().string() : mesh.name, .mesh = std::move(loaded->mesh)});
+        {.name = mesh.name.empty() ? path.stem().string() : mesh.name, .mesh = std::move(loaded->mesh)});
     return made;
 }
 
@@ -98,11 +97,10 @@ Result<void> apply_maps(const SceneDescription& description, const MapsDescripti
     for (const MapRow& row : kMapRows) {
         const NamedFile& file = maps.*row.from;
         if (!file.given()) continue;
-        const Result<fs::path> path = resolve_file(description, file);
-        if (!path) return path.error();
+        DERMIS_TRY_ASSIGN(const fs::path path, resolve_file(description, file));
         if (row.from == &MapsDescription::curvature)
-            if (Result<void> known = check_curvature_unit(description, maps, *path); !known) return known;
-        material.*row.to = {.name = path->string(), .encoded = {}};
+            if (Result<void> known = check_curvature_unit(description, maps, path); !known) return known;
+        material.*row.to = {.name = path.string(), .encoded = {}};
     }
     // A map multiplies the constant beside it; the grey that mesh files write there is not meant as a tint.
     if (maps.albedo.given()) material.base_color_linear = {1, 1, 1};
@@ -169,8 +167,7 @@ Result<SubjectScene> add_objects(const SceneDescription& description, const Mesh
                 !applied)
                 return applied.error();
         }
-        if (const Result<void> displaced = apply_displacement(object.mesh); !displaced)
-            return displaced.error();
+        DERMIS_TRY(apply_displacement(object.mesh));
         if (!subject_name(mesh.file.text))
             std::ranges::move(object_warnings(object), std::back_inserter(scene.warnings));
         hide_materials(object.mesh, hidden);
@@ -216,17 +213,15 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     SubjectScene stated;
     Progress progress("loading meshes", description.meshes.size());
     for (const MeshDescription& mesh : description.meshes) {
-        Result<SubjectScene> added = add_objects(description, mesh, subjects, scene);
-        if (!added) return added.error();
-        if (added->states_anything()) stated = std::move(*added);
+        DERMIS_TRY_ASSIGN(SubjectScene added, add_objects(description, mesh, subjects, scene));
+        if (added.states_anything()) stated = std::move(added);
         progress.advance();
     }
-    if (const Result<void> checked = check_material_names(description, scene); !checked)
-        return checked.error();
+    DERMIS_TRY(check_material_names(description, scene));
 
     std::ranges::move(keys_without_effect(description, scene), std::back_inserter(scene.warnings));
     compute_bounds(scene);
-    if (const Result<void> placed = place_views(description, scene); !placed) return placed.error();
+    DERMIS_TRY(place_views(description, scene));
     if (description.camera.line > 0) stated.camera.reset();
     if (!description.lights.empty()) stated.lights.clear();
     if (description.environment) stated.environment.reset();
@@ -247,4 +242,4 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     return scene;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -6,7 +6,7 @@
 #include "dermis/scene/projection.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 // Where the view is along `up`, the roll is undefined: then the world axis farthest from the view replaces
@@ -55,4 +55,4 @@ YawPitch yaw_pitch_of(Vec3 direction) {
             .pitch_rad = std::atan2(direction.y, std::hypot(direction.x, direction.z))};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

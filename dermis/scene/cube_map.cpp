@@ -7,7 +7,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/scene/panorama.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 Vec3 mix(Vec3 a, Vec3 b, float t) {
@@ -156,4 +156,4 @@ Vec3 CubePyramid::texel(int level, int face, int x, int y) const {
     return levels_[size_t(level)].at(face, x, y);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

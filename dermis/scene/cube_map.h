@@ -6,7 +6,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Direction (not unit) of a point of a face, s to the right and t down in 0..1; faces +X -X +Y -Y +Z -Z as
 /// Vulkan has them (specification, "Cube Map Face Selection").
@@ -54,4 +54,4 @@ class CubePyramid {
     std::vector<Level> levels_;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

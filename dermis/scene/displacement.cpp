@@ -6,7 +6,7 @@
 #include "dermis/image/resample.h"
 #include "dermis/mesh/subdivide.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 Result<void> apply_displacement(Mesh& mesh) {
     const auto displaced = [](const Material& m) {
@@ -21,14 +21,13 @@ Result<void> apply_displacement(Mesh& mesh) {
                      " materials; only a mesh of one can be displaced without tearing"};
     if (mesh.uvs.size() != mesh.positions_mm.size())
         return Error{source.name + ": displaces a mesh that has no UVs"};
-    const Result<LoadedImage> loaded = source.encoded.empty()
-                                           ? read_image(source.name, ImageUse::data)
-                                           : decode_image(source.encoded, source.name, ImageUse::data);
-    if (!loaded) return loaded.error();
-    const Image heights = to_linear_float(loaded->image);
+    DERMIS_TRY_ASSIGN(const LoadedImage loaded,
+                      source.encoded.empty() ? read_image(source.name, ImageUse::data)
+                                             : decode_image(source.encoded, source.name, ImageUse::data));
+    const Image heights = to_linear_float(loaded.image);
     displace(mesh, [&](Vec2 uv) { return sample_bilinear(heights, inside_image(source, uv)).x; },
              {.mid = material.displacement_mid, .amplitude_mm = material.displacement_amplitude_mm});
     return {};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

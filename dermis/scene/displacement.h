@@ -4,7 +4,7 @@
 #include "dermis/base/result.h"
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Reads the displacement map of the mesh's material (red channel, bilinear) and moves every vertex along its
 /// normal by (height - displacement_mid) * displacement_amplitude_mm; normals and tangents are computed
@@ -12,4 +12,4 @@ namespace dermis {
 /// would tear it; no UVs.
 [[nodiscard]] Result<void> apply_displacement(Mesh& mesh);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -13,7 +13,7 @@
 #include "dermis/scene/prefilter.h"
 #include "dermis/scene/studio.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 // Raise with every change to the studio, the prefilter or the layout of what is cached.
@@ -22,9 +22,8 @@ constexpr int kPanoramaWidth = 1024;
 constexpr int kStudioWidth = 512;  // enough: its lights have soft edges
 
 Result<Image> decode_panorama(std::span<const std::byte> bytes, const std::filesystem::path& file) {
-    const Result<LoadedImage> loaded = decode_image(bytes, file.string(), ImageUse::data);
-    if (!loaded) return loaded.error();
-    const Image& image = loaded->image;
+    DERMIS_TRY_ASSIGN(const LoadedImage loaded, decode_image(bytes, file.string(), ImageUse::data));
+    const Image& image = loaded.image;
     if (image.width != 2 * image.height)
         return Error{file.string() + ": " + std::to_string(image.width) + " x " +
                      std::to_string(image.height) +
@@ -63,9 +62,8 @@ Vec3 to_environment(Vec3 d_world, float yaw_rad) {
 Result<Image> load_panorama(const Environment& environment) {
     if (environment.kind == EnvironmentKind::none) return Image(1, 1, 3);
     if (environment.kind == EnvironmentKind::studio) return make_studio_panorama(kStudioWidth);
-    const Result<std::vector<std::byte>> bytes = read_file(environment.file);
-    if (!bytes) return bytes.error();
-    return decode_panorama(*bytes, environment.file);
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(environment.file));
+    return decode_panorama(bytes, environment.file);
 }
 
 EnvironmentLight bake_environment(const Image& panorama, int base_size, int mips) {
@@ -84,21 +82,19 @@ Result<EnvironmentLight> prepare_environment(const Environment& environment) {
     hasher.add(kVersion).add(environment.kind).add(kEnvironmentBaseSize).add(kEnvironmentMips);
     std::vector<std::byte> file;
     if (environment.kind == EnvironmentKind::file) {
-        Result<std::vector<std::byte>> read = read_file(environment.file);
-        if (!read) return read.error();
-        file = std::move(*read);
+        DERMIS_TRY_ASSIGN(std::vector<std::byte> read, read_file(environment.file));
+        file = std::move(read);
         hasher.add(file);
     }
     const std::string hash = hasher.hex();
     if (const auto stored = cache_load("environment", hash))
         if (std::optional<EnvironmentLight> light = from_bytes(*stored)) return std::move(*light);
-    Result<Image> panorama = environment.kind == EnvironmentKind::file
-                                 ? decode_panorama(file, environment.file)
-                                 : Result<Image>(make_studio_panorama(kStudioWidth));
-    if (!panorama) return panorama.error();
-    EnvironmentLight light = bake_environment(*panorama);
+    DERMIS_TRY_ASSIGN(Image panorama, environment.kind == EnvironmentKind::file
+                                          ? decode_panorama(file, environment.file)
+                                          : Result<Image>(make_studio_panorama(kStudioWidth)));
+    EnvironmentLight light = bake_environment(panorama);
     cache_store("environment", hash, to_bytes(light));
     return light;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -12,7 +12,7 @@
 #include "dermis/scene/scene.h"
 #include "dermis/scene/spherical_harmonics.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Perceptual roughness r (alpha = r^2) lives at mip level r * (mips - 1).
 struct EnvironmentLight {
@@ -49,4 +49,4 @@ struct EnvironmentTurn {
 [[nodiscard]] EnvironmentLight bake_environment(const Image& panorama, int base_size = kEnvironmentBaseSize,
                                                 int mips = kEnvironmentMips);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -7,7 +7,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Point i of n in the unit square: (i / n, bits of i mirrored at the binary point).
 [[nodiscard]] inline Vec2 hammersley(uint32_t i, uint32_t n) {
@@ -28,4 +28,4 @@ namespace dermis {
     return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

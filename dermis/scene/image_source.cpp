@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace dermis {
+namespace dermis::inline scene {
 
 Result<Image> load_image_source(const ImageSource& source, ImageUse use) {
     if (!source.pixels.empty()) {
@@ -32,12 +32,11 @@ Result<Image> load_alpha(const Material& material) {
     Image one(1, 1, 1, PixelFormat::u8);
     one.set(0, 0, 0, 1);
     if (!own && !material.base_color_map.present()) return one;
-    Result<Image> image =
-        load_image_source(own ? material.alpha_map : material.base_color_map, ImageUse::data);
-    if (!image) return image.error();
-    const int alpha = alpha_channel(*image);
+    DERMIS_TRY_ASSIGN(Image image,
+                      load_image_source(own ? material.alpha_map : material.base_color_map, ImageUse::data));
+    const int alpha = alpha_channel(image);
     if (alpha < 0 && !own) return one;
-    return single_channel(*image, std::max(alpha, 0));
+    return single_channel(image, std::max(alpha, 0));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

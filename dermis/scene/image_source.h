@@ -5,7 +5,7 @@
 #include "dermis/image/io.h"
 #include "dermis/mesh/material.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Pixels made by code are sRGB-encoded when used as a colour. Errors as read_image and decode_image.
 [[nodiscard]] Result<Image> load_image_source(const ImageSource& source, ImageUse use);
@@ -13,4 +13,4 @@ namespace dermis {
 /// What cuts a material out: one channel, 1 where the material's maps have no alpha.
 [[nodiscard]] Result<Image> load_alpha(const Material& material);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -13,24 +13,21 @@
 #include "dermis/scene/scene_paths.h"
 #include "dermis/scene/scene_words.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace fs = std::filesystem;
 namespace {
 
 Result<Scene> load_subject(std::string_view name, std::span<const Subject> subjects) {
-    Result<SubjectScene> made = make_subject(subjects, name);
-    if (!made) return made.error();
-    return scene_of(std::string(name), std::move(*made));
+    DERMIS_TRY_ASSIGN(SubjectScene made, make_subject(subjects, name));
+    return scene_of(std::string(name), std::move(made));
 }
 
 Result<SceneDescription> read_description(const fs::path& path, const SceneOptions& options) {
-    const Result<std::string> text = read_text_file(path);
-    if (!text) return text.error();
-    Result<SceneDescription> description = parse_scene(*text, path, options.subjects);
+    DERMIS_TRY_ASSIGN(const std::string text, read_text_file(path));
+    Result<SceneDescription> description = parse_scene(text, path, options.subjects);
     if (!description || options.words.empty()) return description;
-    for (const SceneWord& word : options.words)
-        if (Result<void> set = set_word(*description, word, options.subjects); !set) return set.error();
-    if (Result<void> checked = check_scene(*description); !checked) return checked.error();
+    for (const SceneWord& word : options.words) DERMIS_TRY(set_word(*description, word, options.subjects));
+    DERMIS_TRY(check_scene(*description));
     return description;
 }
 
@@ -44,19 +41,18 @@ Result<void> refuse_words(const std::string& name, const SceneOptions& options) 
 }
 
 Result<Scene> load_scene_file(const fs::path& path, const SceneOptions& options) {
-    const Result<SceneDescription> description = read_description(path, options);
-    if (!description) return description.error();
-    Result<Scene> scene = build_scene(*description, options.subjects);
+    DERMIS_TRY_ASSIGN(const SceneDescription description, read_description(path, options));
+    Result<Scene> scene = build_scene(description, options.subjects);
     if (scene) scene->files.push_back(path);
-    if (scene || description->head.without_assets.empty() || !lacks_asset(*description)) return scene;
+    if (scene || description.head.without_assets.empty() || !lacks_asset(description)) return scene;
 
     const Result<SceneDescription> other =
-        read_description(path.parent_path() / (description->head.without_assets + ".toml"), options);
+        read_description(path.parent_path() / (description.head.without_assets + ".toml"), options);
     Result<Scene> instead = other ? build_scene(*other, options.subjects) : other.error();
     if (!instead) return scene;
     instead->files.push_back(path);
     instead->warnings.insert(instead->warnings.begin(), scene.error().message + "; drawing scene '" +
-                                                            description->head.without_assets + "' instead");
+                                                            description.head.without_assets + "' instead");
     return instead;
 }
 
@@ -82,12 +78,11 @@ std::vector<MaterialClass> classes_of(const Mesh& mesh) {
 }
 
 Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) {
-    Result<LoadedMesh> loaded = read_mesh(path, {.unit_mm = options.mesh_unit_mm});
-    if (!loaded) return loaded.error();
+    DERMIS_TRY_ASSIGN(LoadedMesh loaded, read_mesh(path, {.unit_mm = options.mesh_unit_mm}));
     Scene scene{.name = path.stem().string(),
-                .warnings = std::move(loaded->warnings),
-                .files = std::move(loaded->files)};
-    scene.objects.push_back({.name = scene.name, .mesh = std::move(loaded->mesh)});
+                .warnings = std::move(loaded.warnings),
+                .files = std::move(loaded.files)};
+    scene.objects.push_back({.name = scene.name, .mesh = std::move(loaded.mesh)});
     SceneObject& object = scene.objects.back();
     object.classes = classes_of(object.mesh);
     std::ranges::move(object_warnings(object), std::back_inserter(scene.warnings));
@@ -115,8 +110,7 @@ bool looks_like_a_name(std::string_view text) {
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
     const bool is_mesh = is_mesh_file(path_or_name);
     const auto subject = subject_name(path_or_name);
-    if (subject || is_mesh)
-        if (Result<void> refused = refuse_words(path_or_name, options); !refused) return refused.error();
+    if (subject || is_mesh) DERMIS_TRY(refuse_words(path_or_name, options));
     if (subject) return load_subject(*subject, options.subjects);
     const fs::path path = path_or_name;
     std::error_code ec;
@@ -131,4 +125,4 @@ Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& op
     return Error{path_or_name + ": neither a scene (.toml) nor a mesh (.obj, .gltf, .glb)"};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -8,7 +8,7 @@
 
 #include "dermis/scene/subject.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 struct SceneOptions {
     std::span<const Subject> subjects = {};  ///< what "builtin:NAME" may be
@@ -20,4 +20,4 @@ struct SceneOptions {
 /// ("head_scan"). Errors name file, line and key; see docs/scene_file.md.
 [[nodiscard]] Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -7,7 +7,7 @@
 #include "dermis/mesh/weld.h"
 #include "dermis/scene/toml_values.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 void warn_of_materials(const SceneObject& object, std::vector<std::string>& warnings) {
@@ -115,4 +115,4 @@ std::vector<std::string> object_warnings(const SceneObject& object) {
     return warnings;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -6,7 +6,7 @@
 
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Cards of hair and lashes: a material that alpha cuts out, of a mesh that has whole materials too. It is no
 /// skin unless a scene file says so. (Exporters mark whole heads as cut out; those stay skin.)
@@ -16,4 +16,4 @@ namespace dermis {
 /// out, nothing is blended); a head that does not face +Z; double-sided sheets as skin.
 [[nodiscard]] std::vector<std::string> object_warnings(const SceneObject& object);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

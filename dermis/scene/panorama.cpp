@@ -7,7 +7,7 @@
 #include "dermis/base/angle.h"
 #include "dermis/image/half.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 float clean(float value) {
@@ -76,4 +76,4 @@ Image clean_panorama(const Image& linear_float, int max_width) {
     return result;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

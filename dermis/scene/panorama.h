@@ -5,7 +5,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Unit direction of a point of the picture; u and v in 0..1, v from the top.
 [[nodiscard]] Vec3 panorama_direction(float u, float v);
@@ -24,4 +24,4 @@ namespace dermis {
 /// until at most max_width wide.
 [[nodiscard]] Image clean_panorama(const Image& linear_float, int max_width);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 // Columns are the images of the axes.
@@ -62,4 +62,4 @@ void hide_materials(Mesh& mesh, const std::vector<bool>& hidden) {
     mesh.submeshes = std::move(submeshes);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

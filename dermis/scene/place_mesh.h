@@ -3,7 +3,7 @@
 
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// p' = translation + Rz Ry Rx (scale * p): turned about X first, each rotation counter-clockwise seen from
 /// its axis's tip.
@@ -19,4 +19,4 @@ void place_mesh(Mesh& mesh, const Placement& placement);
 /// entry a material.
 void hide_materials(Mesh& mesh, const std::vector<bool>& hidden);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

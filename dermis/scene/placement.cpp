@@ -9,7 +9,7 @@
 #include "dermis/optics/mtlx.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 // Nothing where the profile is no MaterialX document; what is wrong with one is said when the profile is
@@ -100,4 +100,4 @@ std::vector<int> Scene::shadow_maps() const {
     return maps;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -3,7 +3,7 @@
 
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// The largest index of refraction of skin that a scene takes.
 inline constexpr float kMostSkinIor = 2;
@@ -27,4 +27,4 @@ void light_in_studio(Scene& scene);
 /// The smallest sphere around the box of all positions, into the scene's bounds.
 void compute_bounds(Scene& scene);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -9,7 +9,7 @@
 #include "dermis/image/half.h"
 #include "dermis/scene/hammersley.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 // Rough levels have few texels and wide lobes: more samples there cost little and keep each sample's
@@ -92,4 +92,4 @@ std::vector<std::byte> prefilter_ggx(const CubePyramid& environment, int base_si
     return bytes;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

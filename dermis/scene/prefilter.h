@@ -12,7 +12,7 @@
 
 #include "dermis/scene/cube_map.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// All levels as EnvironmentLight::cube has them. Level m has roughness m / (mips - 1); level 0 is the
 /// mirror. The weights of a level sum to 1, so a constant environment stays exactly constant. Deterministic.
@@ -21,4 +21,4 @@ namespace dermis {
 /// Bytes of such a cube.
 [[nodiscard]] size_t prefiltered_bytes(int base_size, int mips);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -1,6 +1,6 @@
 #include "dermis/scene/projection.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 Mat4 operator*(const Mat4& a, const Mat4& b) {
     Mat4 product;
@@ -56,4 +56,4 @@ Mat4 inverse_perspective(const Mat4& projection) {
              0, 0, -1, a / b}};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

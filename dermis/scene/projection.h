@@ -4,7 +4,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 [[nodiscard]] Mat4 operator*(const Mat4& a, const Mat4& b);
 
@@ -22,4 +22,4 @@ namespace dermis {
 /// Of perspective(), also with y turned down.
 [[nodiscard]] Mat4 inverse_perspective(const Mat4& projection);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -13,7 +13,7 @@
 #include "dermis/image/tone_map.h"
 #include "dermis/mesh/mesh.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 enum class LightKind { directional, point, spot };
 
@@ -122,4 +122,4 @@ struct SceneWord {
     friend bool operator==(const SceneWord&, const SceneWord&) = default;
 };
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

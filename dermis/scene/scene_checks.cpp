@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 Error error_at(const SceneDescription& scene, int line, std::string message) {
@@ -175,4 +175,4 @@ Result<void> check_views(SceneDescription& scene) {
     return checked;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

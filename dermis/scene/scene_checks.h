@@ -3,7 +3,7 @@
 
 #include "dermis/scene/scene_description.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Also makes a single light the key light.
 [[nodiscard]] Result<void> check_scene(SceneDescription& scene);
@@ -16,4 +16,4 @@ namespace dermis {
 [[nodiscard]] std::vector<std::string> keys_without_effect(const SceneDescription& description,
                                                            const Scene& scene);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -10,7 +10,7 @@
 
 #include "dermis/scene/subject.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// A path as the file has it, and its place there; `key` is its full name ("maps.albedo").
 struct NamedFile {
@@ -122,4 +122,4 @@ inline constexpr size_t kMaxSceneBytes = size_t{1} << 20;
 /// The manual page of the scene file, in Markdown, out of the tables that parse it.
 [[nodiscard]] std::string scene_file_manual(std::span<const Subject> subjects);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

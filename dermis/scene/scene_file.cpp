@@ -9,7 +9,7 @@
 #include "dermis/scene/toml_document.h"
 #include "dermis/scene/toml_values.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 // Sets the keys of the section's table; `nested` are tables inside it that are read elsewhere.
@@ -133,12 +133,11 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::filesyste
                                      std::span<const Subject> subjects) {
     const TomlPlace place{file.string()};
     if (text.size() > kMaxSceneBytes) return place.error("larger than 1 MB, so no scene file");
-    const Result<TomlNode> root = parse_toml(text, place.file);
-    if (!root) return root.error();
+    DERMIS_TRY_ASSIGN(const TomlNode root, parse_toml(text, place.file));
     SceneDescription scene{.file = file};
-    if (const Result<void> read = read_root(*root, scene, subjects, place); !read) return read.error();
-    if (const Result<void> checked = check_scene(scene); !checked) return checked.error();
+    DERMIS_TRY(read_root(root, scene, subjects, place));
+    DERMIS_TRY(check_scene(scene));
     return scene;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

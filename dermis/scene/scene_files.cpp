@@ -5,7 +5,7 @@
 #include "dermis/optics/presets.h"
 #include "dermis/scene/scene_paths.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace fs = std::filesystem;
 namespace {
 
@@ -77,4 +77,4 @@ std::vector<fs::path> paths_of(const SceneDescription& description) {
     return paths;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -6,7 +6,7 @@
 
 #include "dermis/scene/scene_description.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// The scene file, its meshes with what they name (MTL, buffers), every map that is read from disk, the
 /// panorama, the diffuse table. Sorted, each once. Baked and cached files are not among them.
@@ -24,4 +24,4 @@ namespace dermis {
 /// Where these files are or would have to be; missing assets and built-ins are left out.
 [[nodiscard]] std::vector<std::filesystem::path> paths_of(const SceneDescription& description);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

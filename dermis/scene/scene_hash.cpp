@@ -6,7 +6,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/optics/presets.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 void add(Hasher& hasher, Vec3 v) {
@@ -26,9 +26,8 @@ Result<void> add(Hasher& hasher, const ImageSource& source) {
     hasher.add(std::span(source.encoded)).add(std::span(source.pixels));
     hasher.add(source.wrap_u).add(source.wrap_v);
     if (!source.encoded.empty() || !source.pixels.empty()) return {};
-    const Result<std::vector<std::byte>> file = read_file(source.name);
-    if (!file) return file.error();
-    hasher.add(std::span(*file));
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(source.name));
+    hasher.add(std::span(file));
     return {};
 }
 
@@ -109,18 +108,16 @@ std::string hash_of_views(const Scene& scene) {
 
 Result<std::string> hash_of(const Scene& scene) {
     Hasher hasher;
-    for (const SceneObject& object : scene.objects)
-        if (Result<void> added = add(hasher, object); !added) return added.error();
+    for (const SceneObject& object : scene.objects) DERMIS_TRY(add(hasher, object));
     add_views(hasher, scene);
     std::vector<std::filesystem::path> files;
     if (scene.environment.kind == EnvironmentKind::file) files.push_back(scene.environment.file);
     if (is_profile_file(scene.skin.profile)) files.emplace_back(scene.skin.profile);
     for (const std::filesystem::path& path : files) {
-        const Result<std::vector<std::byte>> file = read_file(path);
-        if (!file) return file.error();
-        hasher.add(std::span(*file));
+        DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(path));
+        hasher.add(std::span(file));
     }
     return hasher.hex();
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

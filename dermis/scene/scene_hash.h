@@ -4,7 +4,7 @@
 
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Objects with the bytes of their maps, lights, camera, environment with the bytes of its panorama,
 /// background, profile and tint. Errors: a file that cannot be read.
@@ -14,4 +14,4 @@ namespace dermis {
 /// scene whose files have not changed since.
 [[nodiscard]] std::string hash_of_views(const Scene& scene);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -10,7 +10,7 @@
 
 #include "dermis/scene/scene_description.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 enum class KeyKind { number, integer, toggle, text, file, choice, vector, color };
 
@@ -163,4 +163,4 @@ class KeyTable {
 /// "[maps], [skin]": the sections that have a key of this name; empty where none has it.
 [[nodiscard]] std::string sections_with_key(std::string_view name);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

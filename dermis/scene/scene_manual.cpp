@@ -3,7 +3,7 @@
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_keys.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 std::string value_column(const KeyInfo& info) {
@@ -133,4 +133,4 @@ lists them with unit, range and default; `--set name=value` wins over the file.
     return text;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -6,7 +6,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace fs = std::filesystem;
 namespace {
 
@@ -101,4 +101,4 @@ fs::path find_scene(std::string_view name) {
     return {};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

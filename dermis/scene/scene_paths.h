@@ -8,7 +8,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Directories that "assets:NAME" is looked for in, in order: $DERMIS_ASSETS; ../shared/assets beside the
 /// source tree; dermis below $XDG_DATA_HOME (~/.local/share), where tools/get_head puts its files.
@@ -35,4 +35,4 @@ namespace dermis {
 /// The file of a name; empty when there is none.
 [[nodiscard]] std::filesystem::path find_scene(std::string_view name);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

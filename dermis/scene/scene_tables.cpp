@@ -7,7 +7,7 @@
 #include "dermis/scene/scene_keys.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 const std::vector<std::string> kMaterialClasses = {"skin", "other", "translucent"};
@@ -372,4 +372,4 @@ std::string sections_with_key(std::string_view name) {
     return join(sections, ", ");
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -5,7 +5,7 @@
 #include "dermis/scene/scene_files.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 Result<Environment> place_environment(const SceneDescription& description,
@@ -15,10 +15,9 @@ Result<Environment> place_environment(const SceneDescription& description,
                             .yaw_rad = given.yaw_deg * kRadiansPerDegree,
                             .visible = given.visible};
     if (!given.file.given()) return environment;
-    const Result<std::filesystem::path> path = resolve_file(description, given.file);
-    if (!path) return path.error();
+    DERMIS_TRY_ASSIGN(const std::filesystem::path path, resolve_file(description, given.file));
     environment.kind = EnvironmentKind::file;
-    environment.file = *path;
+    environment.file = path;
     return environment;
 }
 
@@ -165,4 +164,4 @@ Scene without_objects(const Scene& scene) {
             .bounds_radius_mm = scene.bounds_radius_mm};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

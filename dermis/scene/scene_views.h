@@ -4,7 +4,7 @@
 
 #include "dermis/scene/scene_description.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Lights, camera, environment, skin and the keys of the root, into a scene whose objects and bounds are
 /// there. Without any light or environment the studio's are taken. Errors: a panorama or a table that is not
@@ -21,4 +21,4 @@ namespace dermis {
 [[nodiscard]] LightDescription describe(const Light& light, Vec3 center_mm);
 [[nodiscard]] CameraDescription describe(const Camera& camera);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

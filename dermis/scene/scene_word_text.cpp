@@ -9,7 +9,7 @@
 #include "dermis/scene/scene_words.h"
 #include "dermis/scene/toml_values.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 // The keys of a light's short form; the window changes no others.
@@ -133,4 +133,4 @@ std::string light_text(const Light& light, Vec3 target_mm) {
     return text_of(light_keys(), described(light, target_mm), kLightKeys);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

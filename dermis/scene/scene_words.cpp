@@ -10,7 +10,7 @@
 #include "dermis/scene/scene_views.h"
 #include "dermis/scene/toml_values.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 constexpr std::string_view kSections[] = {"mesh",  "maps",        "material", "skin",
@@ -80,10 +80,9 @@ Result<Target*> choose(std::vector<Target>& targets, const Address& address) {
 
 Result<void> set_mesh(SceneDescription& scene, const Address& address, const std::string& text,
                       std::span<const Subject> subjects) {
-    const Result<MeshDescription*> mesh = choose(scene.meshes, address);
-    if (!mesh) return mesh.error();
+    DERMIS_TRY_ASSIGN(MeshDescription* const mesh, choose(scene.meshes, address));
     TomlNode node;
-    return set_mesh_key(**mesh, address.key, subjects, {},
+    return set_mesh_key(*mesh, address.key, subjects, {},
                         [&](const KeyInfo& info) -> const TomlNode& { return node = word_node(text, info); });
 }
 
@@ -250,4 +249,4 @@ Result<void> set_section(Scene& scene, std::string_view section, std::string_vie
     return words ? set_words(scene, *words) : words.error();
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -15,7 +15,7 @@
 
 #include "dermis/scene/scene_keys.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// "KEY=VALUE". Errors: it has no '='.
 [[nodiscard]] Result<SceneWord> parse_scene_word(std::string_view text);
@@ -62,4 +62,4 @@ struct SceneKey {
 /// distance_mm.
 [[nodiscard]] std::string light_text(const Light& light, Vec3 target_mm = {});
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -3,7 +3,7 @@
 #include "dermis/base/angle.h"
 #include "dermis/scene/panorama.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 std::array<float, 9> sh_basis(Vec3 d) {
     return {0.28209479f,
@@ -45,4 +45,4 @@ Vec3 sh_irradiance(const RadianceSh& sh, Vec3 n) {
     return sum;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -11,7 +11,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Linear red, green, blue of each coefficient.
 using RadianceSh = std::array<Vec3, 9>;
@@ -28,4 +28,4 @@ using RadianceSh = std::array<Vec3, 9>;
 /// be slightly negative opposite a single small light.
 [[nodiscard]] Vec3 sh_irradiance(const RadianceSh& sh, Vec3 n);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -8,7 +8,7 @@
 #include "dermis/scene/panorama.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 // A rectangle that faces the scene; angles as of lights and cameras.
@@ -78,4 +78,4 @@ Image make_studio_panorama(int width) {
     return image;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -4,7 +4,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/image.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// Linear radiance from a unit direction. A large warm box at the upper left (yaw -50, pitch 35, where the
 /// default key light stands), a large cool one at the right, two strips behind, one box overhead, and a room
@@ -14,4 +14,4 @@ namespace dermis {
 /// The function as a panorama, 4 samples a texel.
 [[nodiscard]] Image make_studio_panorama(int width);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

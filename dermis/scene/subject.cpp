@@ -3,7 +3,7 @@
 #include "dermis/base/text.h"
 #include "dermis/scene/placement.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 std::optional<std::string_view> subject_name(std::string_view path_or_name) {
     constexpr std::string_view kBuiltin = "builtin:";
@@ -22,13 +22,12 @@ Result<const Subject*> find_subject(std::span<const Subject> subjects, std::stri
 
 Result<SubjectScene> make_subject(std::span<const Subject> subjects, std::string_view name,
                                   const std::map<std::string, std::string>& parameters) {
-    const Result<const Subject*> subject = find_subject(subjects, name);
-    if (!subject) return subject.error();
-    ParameterValues values((*subject)->parameters);
+    DERMIS_TRY_ASSIGN(const Subject* subject, find_subject(subjects, name));
+    ParameterValues values(subject->parameters);
     for (const auto& [parameter, text] : parameters)
         if (const Result<void> set = values.set(parameter, text); !set)
-            return Error{(*subject)->name + ": " + set.error().message};
-    return (*subject)->make(values);
+            return Error{subject->name + ": " + set.error().message};
+    return subject->make(values);
 }
 
 Scene scene_of(std::string name, SubjectScene made) {
@@ -44,11 +43,11 @@ Result<std::vector<SubjectCase>> make_cases(const Subject& subject) {
     const Parameter* choice = subject.parameters.find(subject.cases);
     if (!choice) return Error{subject.name + ": is one scene, not a set of test scenes"};
     for (const std::string& value : choice->choices) {
-        Result<SubjectScene> made = make_subject({&subject, 1}, subject.name, {{subject.cases, value}});
-        if (!made) return made.error();
-        ExactExitance exact = made->exact;
+        DERMIS_TRY_ASSIGN(SubjectScene made,
+                          make_subject({&subject, 1}, subject.name, {{subject.cases, value}}));
+        ExactExitance exact = made.exact;
         const std::string name = subject.name + "/" + value;
-        cases.push_back({.name = name, .scene = scene_of(name, std::move(*made)), .exact = std::move(exact)});
+        cases.push_back({.name = name, .scene = scene_of(name, std::move(made)), .exact = std::move(exact)});
     }
     return cases;
 }
@@ -62,4 +61,4 @@ void apply_statements(const SubjectScene& made, Scene& scene) {
     if (made.environment) scene.environment = *made.environment;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -16,7 +16,7 @@
 #include "dermis/optics/profile.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// A point of skin under the key light alone, whose irradiance on a surface that faces it is 1.
 struct ExactPoint {
@@ -82,4 +82,4 @@ struct SubjectCase {
 /// depth range is fitted to the scene's bounds.
 void apply_statements(const SubjectScene& made, Scene& scene);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

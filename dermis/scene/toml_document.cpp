@@ -21,7 +21,7 @@ struct TomlAssertion {};
 #define TOML_ASSERT(expr) ((expr) ? void(0) : throw_toml_assertion())
 #include <toml++/toml.h>
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 constexpr char kEscape = '~';
@@ -187,4 +187,4 @@ Result<TomlNode> parse_toml(std::string_view text, const std::string& file) {
     }
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

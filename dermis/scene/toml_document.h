@@ -8,7 +8,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 enum class TomlKind { table, array, string, integer, number, boolean, date };
 
@@ -47,4 +47,4 @@ struct TomlPlace {
 /// The root table. Errors: "FILE:LINE: not TOML: ...", also for bytes that are not UTF-8.
 [[nodiscard]] Result<TomlNode> parse_toml(std::string_view text, const std::string& file);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -5,7 +5,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 namespace {
 
 std::string range_text(const KeyInfo& info) {
@@ -171,4 +171,4 @@ Result<void> set_mesh_key(MeshDescription& mesh, const std::string& name, std::s
     return {};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -9,7 +9,7 @@
 #include "dermis/scene/scene_keys.h"
 #include "dermis/scene/toml_document.h"
 
-namespace dermis {
+namespace dermis::inline scene {
 
 /// "a table", "an integer", ...
 [[nodiscard]] std::string toml_kind(const TomlNode& node);
@@ -62,4 +62,4 @@ template <class Target, class NodeOf>
                                         std::span<const Subject> subjects, const TomlPlace& place,
                                         const std::function<const TomlNode&(const KeyInfo&)>& node_of);
 
-}  // namespace dermis
+}  // namespace dermis::inline scene

@@ -21,7 +21,7 @@ class Lexer {
         while (skip_space()) {
             const size_t start = at_;
             Token token{.line = line_, .first_on_line = at_line_start_, .blank_line_before = newlines_ > 1};
-            if (const Result<void> read = read_token(token); !read) return read.error();
+            DERMIS_TRY(read_token(token));
             if (token.text.empty() && token.kind != Token::Kind::comment)
                 token.text = std::string(text_.substr(start, at_ - start));
             tokens_.push_back(std::move(token));

@@ -198,9 +198,8 @@ void parse_directive(Cursor& cursor, Unit& unit) {
 }  // namespace
 
 Result<Unit> parse(const std::string& path, std::string_view text) {
-    Result<std::vector<Token>> tokens = tokenize(path, text);
-    if (!tokens) return tokens.error();
-    Cursor cursor(path, std::move(*tokens));
+    DERMIS_TRY_ASSIGN(std::vector<Token> tokens, tokenize(path, text));
+    Cursor cursor(path, std::move(tokens));
     Unit unit{.path = path};
     // A comment with a blank line or a directive behind it is the file's; else it is of what follows.
     size_t lines = 0;

@@ -16,8 +16,7 @@ class Order {
     explicit Order(std::vector<Unit>& units) : units_(units), visits_(units.size(), Visit::none) {}
 
     Result<std::vector<Unit>> run() {
-        for (size_t i = 0; i < units_.size(); ++i)
-            if (const Result<void> visited = visit(i); !visited) return visited.error();
+        for (size_t i = 0; i < units_.size(); ++i) DERMIS_TRY(visit(i));
         return std::move(ordered_);
     }
 
@@ -50,13 +49,12 @@ class Order {
 Result<std::vector<Unit>> read_sources(std::span<const Source> sources) {
     std::vector<Unit> units;
     for (const Source& source : sources) {
-        Result<Unit> unit = parse(source.path, source.text);
-        if (!unit) return unit.error();
-        units.push_back(std::move(*unit));
+        DERMIS_TRY_ASSIGN(Unit unit, parse(source.path, source.text));
+        units.push_back(std::move(unit));
     }
     Result<std::vector<Unit>> ordered = Order(units).run();
     if (!ordered) return ordered.error();
-    if (const Result<void> good = check(*ordered); !good) return good.error();
+    DERMIS_TRY(check(*ordered));
     return ordered;
 }
 

@@ -6,7 +6,7 @@
 
 #include "shaders/atlas/constants.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 namespace {
 
 int in_tiles(float texels) {
@@ -120,4 +120,4 @@ void keep_unculled(Pass& pass, const AtlasCullSettings& settings) {
         if (color.load == LoadOp::discard) color.load = LoadOp::clear;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -11,7 +11,7 @@
 
 #include "dermis/technique/technique.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 /// Texels within `radius` of (u, v) are never culled; radius 0: none.
 struct UvCircle {
@@ -37,4 +37,4 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings);
 /// Makes a pass over the atlas work on kept texels only; targets it would overwrite whole are cleared first.
 void keep_unculled(Pass& pass, const AtlasCullSettings& settings);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dermis {
+namespace dermis::inline technique {
 namespace {
 
 // Alpha of texels that were never written: 1 for blurs in texels, 0 for blurs in mm.
@@ -141,4 +141,4 @@ void read_atlas_walk(Pass& pass, const std::string& source, const AtlasLightSett
     pass.constants.emplace_back("pieces", int32_t(std::clamp(pieces, 1.0f, kMostPieces)));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

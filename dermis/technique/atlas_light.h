@@ -10,7 +10,7 @@
 #include "dermis/technique/shadow_channels.h"
 #include "dermis/technique/transmission.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 /// What is too small for the light map's texels: lost, or lit at the pixel.
 enum class AtlasDetail : int32_t { map = kDetailMap, pixel = kDetailPixel };
@@ -78,4 +78,4 @@ void read_atlas_metric(Pass& pass, const std::string& source, const AtlasLightSe
 void read_atlas_walk(Pass& pass, const std::string& source, const AtlasLightSettings& settings,
                      float longest_way);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

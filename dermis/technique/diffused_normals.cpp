@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace dermis {
+namespace dermis::inline technique {
 namespace {
 
 // Of each channel: weight, and weight times variance, of all Gaussians and of those that are stored.
@@ -44,4 +44,4 @@ float green_spread(const GaussianSum& profile, const DiffusedNormalsRequest& req
     return float(sum.wide_spread_mm2[1] / sum.wide[1] / (sum.wide_spread_mm2[0] / sum.wide[0]));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -8,7 +8,7 @@
 #include "dermis/optics/profile.h"
 #include "dermis/technique/pass_list.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 /// Red's mean normal: its direction, n * .5 + .5, in rgb; of length 0 where there is no skin. Green's
 /// direction less red's: of each part the root with its sign, from -1 at 1 / 255 to 1, in rgb; in alpha
@@ -28,4 +28,4 @@ inline constexpr std::array<const char*, 3> kDiffusedNormalsTextures = {
 /// large against the profile: the ratio of what the stored Gaussians spread. 0 where green has none.
 [[nodiscard]] float green_spread(const GaussianSum& profile, const DiffusedNormalsRequest& request);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -2,7 +2,7 @@
 
 #include <set>
 
-namespace dermis {
+namespace dermis::inline technique {
 namespace {
 
 std::vector<std::string> cell_problems(const FigureCell& cell, const std::set<std::string>& known) {
@@ -37,4 +37,4 @@ std::vector<std::string> problems(const Figure& figure) {
     return all;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -16,7 +16,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 struct SkinContext;
 
@@ -95,4 +95,4 @@ struct Figure {
 /// there, cells without what their kind needs.
 [[nodiscard]] std::vector<std::string> problems(const Figure& figure);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

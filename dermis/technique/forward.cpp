@@ -1,6 +1,6 @@
 #include "dermis/technique/forward.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 namespace {
 
 int32_t view_constant(std::string_view view, std::string_view own_view) {
@@ -52,4 +52,4 @@ Pass forward_skin_pass(std::string shader, SpecularModel specular, const FrameCo
     return pass;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -6,7 +6,7 @@
 #include "dermis/technique/technique.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 enum class SpecularModel : int32_t {
     none = kSpecularNone,
@@ -33,4 +33,4 @@ void reduce_diffuse(Pass& pass, SpecularModel specular, const FrameContext& fram
 [[nodiscard]] Pass forward_skin_pass(std::string shader, SpecularModel specular, const FrameContext& frame,
                                      std::string_view own_view = {});
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

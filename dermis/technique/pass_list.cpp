@@ -7,7 +7,7 @@
 #include "dermis/base/text.h"
 #include "dermis/technique/diffused_normals.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 namespace {
 
 std::string_view kind_name(PassKind kind) {
@@ -198,4 +198,4 @@ std::string describe(const PassList& list) {
     return text;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

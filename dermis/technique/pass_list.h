@@ -20,7 +20,7 @@
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 enum class ImageFormat { r8, rg8, rgba8, rgb10a2, rgba16, r16f, rg16f, rgba16f, r32f, rgba32f, depth32f };
 [[nodiscard]] std::string_view format_name(ImageFormat format);
@@ -165,4 +165,4 @@ struct PassList {
 /// As text: one line an image, one a pass.
 [[nodiscard]] std::string describe(const PassList& list);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -1,6 +1,6 @@
 #include "dermis/technique/screen_light.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 void add_screen_light(PassList& list, SpecularModel specular, const FrameContext& frame) {
     list.images.push_back({.name = "skin_light", .format = ImageFormat::rgba16f});
@@ -28,4 +28,4 @@ void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel s
     list.passes.push_back(std::move(skin));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -8,7 +8,7 @@
 #include "dermis/technique/technique.h"
 #include "dermis/technique/transmission.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 /// Declares and fills, one sample a pixel: "skin_light", exitance over albedo with alpha 1 on skin, else 0;
 /// "skin_z", the distance in mm along the camera's axis, 0 where there is no skin; and "skin_key_visibility",
@@ -20,4 +20,4 @@ void add_screen_light(PassList& list, SpecularModel specular, const FrameContext
 void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular,
                      Transmission transmission, const FrameContext& frame, std::string_view own_view);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -2,7 +2,7 @@
 
 #include "dermis/technique/forward.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 namespace {
 
 constexpr uint32_t kRedBit = 1, kGreenBit = 2, kBlueBit = 4, kAlphaBit = 8;
@@ -81,4 +81,4 @@ void read_shadow_channels(Pass& pass, const ShadowChannelSettings& settings, con
     pass.constants.emplace_back("shadow_lookup", int32_t(settings.lookup));
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -5,7 +5,7 @@
 #include "dermis/technique/technique.h"
 #include "shaders/atlas/constants.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 enum class ShadowChannels : int32_t {
     none = kChannelsNone,
@@ -35,4 +35,4 @@ void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, 
 /// For a pass whose shader includes shaders/atlas/shadow_channels.glsl: its reads and constants.
 void read_shadow_channels(Pass& pass, const ShadowChannelSettings& settings, const FrameContext& frame);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -2,7 +2,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 Result<const Technique*> find_technique(std::span<const Technique> techniques, std::string_view id) {
     std::vector<std::string> ids;
@@ -13,4 +13,4 @@ Result<const Technique*> find_technique(std::span<const Technique> techniques, s
     return Error{unknown_name("technique", id, ids)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

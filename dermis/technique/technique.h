@@ -17,7 +17,7 @@
 #include "dermis/technique/figure.h"
 #include "dermis/technique/pass_list.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 /// The values of the frame that build() may use.
 struct FrameContext {
@@ -95,4 +95,4 @@ struct Technique {
 [[nodiscard]] Result<const Technique*> find_technique(std::span<const Technique> techniques,
                                                       std::string_view id);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -5,7 +5,7 @@
 
 #include "dermis/technique/forward.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 namespace {
 
 constexpr const char* kTable = "skin_transmission";
@@ -61,4 +61,4 @@ std::vector<TableImage> transmission_tables(Transmission transmission, const Ski
     return {transmission_table(skin)};
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

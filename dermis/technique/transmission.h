@@ -8,7 +8,7 @@
 #include "dermis/technique/technique.h"
 #include "shaders/include/constants.h"
 
-namespace dermis {
+namespace dermis::inline technique {
 
 enum class Transmission : int32_t { none = kTransmissionNone, shadow_map = kTransmissionShadowMap };
 
@@ -38,4 +38,4 @@ inline constexpr double kTransmissionNearest = 0.03;
 /// Beyond it leaves a ten thousandth of the light, in the widest channel.
 [[nodiscard]] double transmission_reach_mm(const Profile& profile);
 
-}  // namespace dermis
+}  // namespace dermis::inline technique

@@ -142,7 +142,7 @@ Result<Interface> Interface::create(gpu::Device& device, Clipboard clipboard) {
     };
     io.ClipboardUserData = state.get();
     Interface made(std::move(state));
-    if (Result<void> scaled = made.set_scale(1); !scaled) return scaled.error();
+    DERMIS_TRY(made.set_scale(1));
     return made;
 }
 
@@ -169,9 +169,8 @@ Result<void> Interface::set_scale(float scale) {
     gpu::TextureData data{.name = "glyphs", .width = width, .height = height};
     data.bytes.resize(size_t(width) * size_t(height) * 4);
     std::memcpy(data.bytes.data(), texels, data.bytes.size());
-    Result<gpu::Texture> texture = gpu::Texture::upload(state_->device, data);
-    if (!texture) return texture.error();
-    state_->glyphs.emplace(std::move(*texture));
+    DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(state_->device, data));
+    state_->glyphs.emplace(std::move(texture));
     io.Fonts->ClearTexData();
     set_style(scale);
     state_->scale = scale;

@@ -16,7 +16,7 @@ Result<Start> load_start(const std::string& path, std::span<const Subject> subje
                          const std::vector<SceneWord>& words) {
     Result<Scene> scene = load_scene(path, {.subjects = subjects, .words = words});
     if (!scene) return scene.error();
-    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    DERMIS_TRY(complete_scene(*scene));
     return Start{.scene = std::move(*scene), .loading_words = words};
 }
 

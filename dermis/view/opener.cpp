@@ -80,12 +80,11 @@ Result<void> Opener::show(Start start, bool first) {
             put_look(*model.scene, *scene);
         loader_.follow_too(files_of(*scene));  // even if it cannot be drawn
     }
-    Result<Stage> stage =
-        Stage::create(to_.device, to_.pictures.shaders(), std::move(scene), options_.samples);
-    if (!stage) return stage.error();
+    DERMIS_TRY_ASSIGN(Stage stage,
+                      Stage::create(to_.device, to_.pictures.shaders(), std::move(scene), options_.samples));
     if (first) take_start(start);
     if (!first) take_technique(file);
-    shown.put(std::move(*stage), std::move(file), model);
+    shown.put(std::move(stage), std::move(file), model);
     model.scene_path = loader_.path();
     model.loading_words = std::move(start.loading_words);
     const bool same_tone = model.scene->skin.profile == tone_profile(model.tone);

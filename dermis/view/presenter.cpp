@@ -11,21 +11,20 @@ namespace dermis::view {
 Result<Presenter> Presenter::create(gpu::Device& device, const Window& window, gpu::ShaderSource shaders) {
     Presenter presenter(device, window);
     presenter.size_ = window.framebuffer();
-    if (Result<void> made = presenter.make_swapchain(); !made) return made.error();
-    Result<gpu::Executor> executor = gpu::Executor::create(device, std::move(shaders));
-    if (!executor) return executor.error();
-    presenter.executor_.emplace(std::move(*executor));
+    DERMIS_TRY(presenter.make_swapchain());
+    DERMIS_TRY_ASSIGN(gpu::Executor executor, gpu::Executor::create(device, std::move(shaders)));
+    presenter.executor_.emplace(std::move(executor));
     return presenter;
 }
 
 Result<void> Presenter::make_swapchain() {
-    Result<gpu::Swapchain> swapchain =
+    DERMIS_TRY_ASSIGN(
+        gpu::Swapchain swapchain,
         gpu::Swapchain::create(*device_, window_->surface_maker(),
                                {.width = size_.width,
                                 .height = size_.height,
-                                .pacing = vsync_ ? gpu::Pacing::vsync : gpu::Pacing::immediate});
-    if (!swapchain) return swapchain.error();
-    swapchain_.emplace(std::move(*swapchain));
+                                .pacing = vsync_ ? gpu::Pacing::vsync : gpu::Pacing::immediate}));
+    swapchain_.emplace(std::move(swapchain));
     return {};
 }
 
@@ -40,7 +39,7 @@ Result<bool> Presenter::show(const InterfaceDraws& draws, const ShownPictures& p
     if (model.vsync != vsync_) {
         vsync_ = model.vsync;
         swapchain_.reset();
-        if (Result<void> made = make_swapchain(); !made) return made.error();
+        DERMIS_TRY(make_swapchain());
     }
     const bool two = model.compares() && (pictures.b || pictures.truth);
     gpu::FrameInputs inputs = {.width = size_.width, .height = size_.height, .draws = draws.draws};
@@ -62,20 +61,17 @@ Result<bool> Presenter::show(const InterfaceDraws& draws, const ShownPictures& p
                                          .split = model.split,
                                          .line_px = std::max(1.0f, std::round(scale)),
                                          .has_interface = !draws.draws.empty()});
-    if (const auto frame = executor_->submit(list, inputs); !frame) return frame.error();
-    const Result<gpu::Presented> presented = swapchain_->present(*executor_, "window");
-    if (!presented) return presented.error();
-    if (*presented != gpu::Presented::resize) return true;
-    if (Result<void> resized = swapchain_->resize(size_.width, size_.height); !resized)
-        return resized.error();
+    DERMIS_TRY(executor_->submit(list, inputs));
+    DERMIS_TRY_ASSIGN(const gpu::Presented presented, swapchain_->present(*executor_, "window"));
+    if (presented != gpu::Presented::resize) return true;
+    DERMIS_TRY(swapchain_->resize(size_.width, size_.height));
     return false;
 }
 
 Result<void> Presenter::capture(const std::string& path) {
-    Result<Image> shown = executor_->read("window");
-    if (!shown) return shown.error();
-    shown->encoding = Encoding::srgb;
-    return write_image(path, *shown);
+    DERMIS_TRY_ASSIGN(Image shown, executor_->read("window"));
+    shown.encoding = Encoding::srgb;
+    return write_image(path, shown);
 }
 
 }  // namespace dermis::view

@@ -24,9 +24,8 @@ constexpr float kMaxThicknessMm = 400;
 }  // namespace
 
 Result<Probe> Probe::create(const Scene& scene) {
-    Result<RayScene> rays = RayScene::build(scene.objects);
-    if (!rays) return rays.error();
-    return Probe(std::move(*rays), scene);
+    DERMIS_TRY_ASSIGN(RayScene rays, RayScene::build(scene.objects));
+    return Probe(std::move(rays), scene);
 }
 
 float Probe::curvature_at(const RayHit& hit) const {

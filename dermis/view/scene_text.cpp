@@ -108,13 +108,12 @@ Result<std::string> scene_text(Model& model, const fs::path& directory) {
     if (file.empty()) {
         text = new_scene(model);
     } else {
-        const Result<std::string> old = read_text_file(file);
-        if (!old) return old.error();
-        const Result<SceneDescription> scene = parse_scene(*old, file, model.catalog.subjects);
+        DERMIS_TRY_ASSIGN(const std::string old, read_text_file(file));
+        const Result<SceneDescription> scene = parse_scene(old, file, model.catalog.subjects);
         if (!scene) return scene.error();
         std::error_code ec;
         const bool same_place = fs::equivalent(fs::absolute(file).parent_path(), directory, ec);
-        text = same_place ? *old : with_absolute_paths(*old, *scene);
+        text = same_place ? old : with_absolute_paths(old, *scene);
         lights_in_file = !scene->lights.empty();
         if (!lights_in_file) text += empty_lights(*model.scene);  // the studio's
     }

@@ -69,9 +69,8 @@ Result<void> take_word(ScriptCommand& command, char want, const std::string& wor
         if (!chord) return chord.error();
         command.chord = *chord;
     } else {
-        const Result<KeyChord> chord = parse_key_chord(word + "+A");
-        if (!chord) return chord.error();
-        command.modifiers = chord->modifiers;
+        DERMIS_TRY_ASSIGN(const KeyChord chord, parse_key_chord(word + "+A"));
+        command.modifiers = chord.modifiers;
     }
     return {};
 }

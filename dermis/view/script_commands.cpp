@@ -64,9 +64,9 @@ Result<void> open_scene(Parts& p, Command command) {
 }
 
 Result<void> use_technique(Parts& p, Command command) {
-    const Result<const Technique*> technique = find_technique(p.model.catalog.techniques, command.words[0]);
-    if (!technique) return technique.error();
-    p.model.choices[0].choose(**technique);
+    DERMIS_TRY_ASSIGN(const Technique* technique,
+                      find_technique(p.model.catalog.techniques, command.words[0]));
+    p.model.choices[0].choose(*technique);
     return {};
 }
 

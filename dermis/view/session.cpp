@@ -9,15 +9,14 @@ Session::Session(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
 }
 
 Result<Session> Session::open(const ViewerOptions& options) {
-    Result<std::unique_ptr<Parts>> parts = Parts::open(options);
-    if (!parts) return parts.error();
-    return Session(std::move(*parts));
+    DERMIS_TRY_ASSIGN(std::unique_ptr<Parts> parts, Parts::open(options));
+    return Session(std::move(parts));
 }
 
 Result<ViewerReport> Session::run() {
     Parts& p = *parts_;
     while (!p.quit && !p.window.should_close()) {
-        if (Result<void> ran = frame(); !ran) return ran.error();
+        DERMIS_TRY(frame());
         p.clock.end_frame();
         if (p.options.frames > 0 && p.clock.frames() >= p.options.frames) break;
     }

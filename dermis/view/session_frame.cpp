@@ -105,9 +105,8 @@ Result<void> Session::frame() {
 
 Result<void> Session::take_scene() {
     Parts& p = *parts_;
-    const Result<bool> taken = p.opener.take();
-    if (!taken) return taken.error();
-    if (!*taken) return {};
+    DERMIS_TRY_ASSIGN(const bool taken, p.opener.take());
+    if (!taken) return {};
     remember(state_, p.model.scene_path);
     p.model.recent = state_.recent;
     p.window.set_title(p.model.scene->name + " - Dermis");
@@ -131,9 +130,8 @@ Result<PanelRequests> Session::show_interface(const std::vector<Event>& events, 
     PanelRequests requests;
     p.widgets.clear();
     show_panels(p.model, panel_facts(p), requests, p.widgets);
-    Result<InterfaceDraws> made = p.interface->end();
-    if (!made) return made.error();
-    draws = std::move(*made);
+    DERMIS_TRY_ASSIGN(InterfaceDraws made, p.interface->end());
+    draws = std::move(made);
     return requests;
 }
 
@@ -142,9 +140,8 @@ Result<void> Session::show_pictures(const InterfaceDraws& draws) {
     if (Result<void> made = p.truth.refresh(p.device, p.model); !made) return made;
     p.pictures.refresh(p.model, p.truth.texture(), p.picture_size(), p.clock.now_s());
     const ShownPictures pictures = p.pictures.shown(p.model, p.truth.texture());
-    const Result<bool> shown = p.presenter->show(draws, pictures, p.model, p.interface->scale());
-    if (!shown) return shown.error();
-    if (!*shown || !pictures.a || report_.first_picture_s) return {};
+    DERMIS_TRY_ASSIGN(const bool shown, p.presenter->show(draws, pictures, p.model, p.interface->scale()));
+    if (!shown || !pictures.a || report_.first_picture_s) return {};
     const Result<void> done = p.device.finish();
     report_.first_picture_s = p.clock.elapsed_s();
     return done;

@@ -22,9 +22,8 @@ Result<Stage> Stage::create(gpu::Device& device, const gpu::ShaderSource& shader
     stage.shaders_ = shaders;
     stage.scene_ = std::move(scene);
     stage.limits_.samples = std::ranges::count(device.info().sample_counts, samples) ? samples : 1;
-    Result<Renderer> first = Renderer::create(device, shaders, *stage.scene_);
-    if (!first) return first.error();
-    stage.sides_[0].renderer.emplace(std::move(*first));
+    DERMIS_TRY_ASSIGN(Renderer first, Renderer::create(device, shaders, *stage.scene_));
+    stage.sides_[0].renderer.emplace(std::move(first));
     for (Side& side : stage.sides_)
         side.ladder.emplace(device.info().is_cpu ? kProcessorMsPerMegapixel : kCardMsPerMegapixel);
     return stage;
@@ -33,9 +32,8 @@ Result<Stage> Stage::create(gpu::Device& device, const gpu::ShaderSource& shader
 Result<Renderer*> Stage::renderer(size_t choice) {
     Side& side = sides_[choice];
     if (!side.renderer) {
-        Result<Renderer> second = sides_[0].renderer->sibling(shaders_);
-        if (!second) return second.error();
-        side.renderer.emplace(std::move(*second));
+        DERMIS_TRY_ASSIGN(Renderer second, sides_[0].renderer->sibling(shaders_));
+        side.renderer.emplace(std::move(second));
     }
     return &*side.renderer;
 }
@@ -64,15 +62,14 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
         side.ladder->due(changed, now_s - side.changed_s, megapixels(size), limits_);
     if (!quality && !side.renderer->is_settled()) quality = side.picture.quality;
     if (!quality) return false;
-    const Result<Renderer*> drawer = renderer(choice);
-    if (!drawer) return drawer.error();
+    DERMIS_TRY_ASSIGN(Renderer* const drawer, renderer(choice));
     const DrawSettings draw = settings(model, size, *quality);
     fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
     const Technique& technique = model.choices[choice].technique();
     const ParameterValues& chosen = model.choices[choice].values();
     const bool coarse = quality->scale < 1 && technique.coarse;
     const Result<uint64_t> frame =
-        (*drawer)->submit(technique, coarse ? technique.coarse(chosen, quality->scale) : chosen, draw);
+        drawer->submit(technique, coarse ? technique.coarse(chosen, quality->scale) : chosen, draw);
     side.failed = !frame;
     if (!frame) return frame.error();
     side.ladder->drawn(*quality);
@@ -80,7 +77,7 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
     side.picture.quality = *quality;
     side.picture.width = draw.width;
     side.picture.height = draw.height;
-    side.picture.passes = (*drawer)->list().passes.size();
+    side.picture.passes = drawer->list().passes.size();
     return true;
 }
 
@@ -117,15 +114,13 @@ bool Stage::is_final(size_t choice) const {
 Result<void> Stage::write(Model& model, size_t choice, PictureSize size, const std::filesystem::path& path) {
     const OutputSettings output = {.credit = scene_->credit,
                                    .description = scene_->name + ", " + model.choices[choice].technique().id};
-    if (Result<void> good = check_output(path, output); !good) return good.error();
-    const Result<Renderer*> drawer = renderer(choice);
-    if (!drawer) return drawer.error();
+    DERMIS_TRY(check_output(path, output));
+    DERMIS_TRY_ASSIGN(Renderer* const drawer, renderer(choice));
     const DrawSettings draw = settings(model, size, {.samples = limits_.samples});
     TechniqueChoice& chosen = model.choices[choice];
     fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
-    if (const auto drawn = (*drawer)->draw(chosen.technique(), chosen.values(), draw); !drawn)
-        return drawn.error();
-    return write_output(**drawer, chosen.technique(), chosen.values(), draw, path, output);
+    DERMIS_TRY(drawer->draw(chosen.technique(), chosen.values(), draw));
+    return write_output(*drawer, chosen.technique(), chosen.values(), draw, path, output);
 }
 
 void Stage::skin_changed() {

@@ -90,10 +90,9 @@ Result<void> Truth::refresh(gpu::Device& device, Model& model) {
     const std::string key =
         model.truth_path + to_text(model.scene->exposure_ev) + std::to_string(int(model.scene->tone_map));
     if (texture_ && key == texture_key_) return {};
-    Result<gpu::Texture> texture =
-        gpu::Texture::upload(device, texture_data(for_display(picture_, *model.scene)));
-    if (!texture) return texture.error();
-    texture_.emplace(std::move(*texture));
+    DERMIS_TRY_ASSIGN(gpu::Texture texture,
+                      gpu::Texture::upload(device, texture_data(for_display(picture_, *model.scene))));
+    texture_.emplace(std::move(texture));
     texture_key_ = key;
     return {};
 }

@@ -60,22 +60,19 @@ struct Wanted {
     Result<void> take(std::string_view option, const std::string& value) {
         anything = true;
         if (option == "-t" || option == "--technique") {
-            const Result<const Technique*> technique = find_technique(techniques, value);
-            if (!technique) return technique.error();
-            choice.choose(**technique);
+            DERMIS_TRY_ASSIGN(const Technique* technique, find_technique(techniques, value));
+            choice.choose(*technique);
         } else if (option == "--set") {
             const size_t equals = value.find('=');
             if (equals == value.npos) return Error{"--set '" + value + "': write name=value"};
             return choice.values().set(value.substr(0, equals), value.substr(equals + 1));
         } else if (option == "--scene") {
-            Result<SceneWord> word = parse_scene_word(value);
-            if (!word) return word.error();
-            words.push_back(std::move(*word));
+            DERMIS_TRY_ASSIGN(SceneWord word, parse_scene_word(value));
+            words.push_back(std::move(word));
         } else if (option == "--camera" || option == "--light") {
-            Result<std::vector<SceneWord>> some =
-                parse_section_words(option == "--camera" ? "camera" : "light.key", value);
-            if (!some) return some.error();
-            words.insert(words.end(), some->begin(), some->end());
+            DERMIS_TRY_ASSIGN(std::vector<SceneWord> some,
+                              parse_section_words(option == "--camera" ? "camera" : "light.key", value));
+            words.insert(words.end(), some.begin(), some.end());
         } else {
             view = value;
         }

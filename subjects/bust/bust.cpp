@@ -166,7 +166,7 @@ std::string cache_key(const BustParams& params) {
 }  // namespace
 
 Result<Bust> build_bust(const BustParams& params, int map_side) {
-    if (Result<void> checked = check_bust_params(params); !checked) return checked.error();
+    DERMIS_TRY(check_bust_params(params));
     const BustField field(params);
     const Atlas atlas = make_atlas(make_head_surface(field), field);
     SkinMaps maps = paint_maps(atlas, field, params, map_side);
@@ -179,7 +179,7 @@ Result<Bust> build_bust(const BustParams& params, int map_side) {
 }
 
 Result<Bust> make_bust(const BustParams& params) {
-    if (Result<void> checked = check_bust_params(params); !checked) return checked.error();
+    DERMIS_TRY(check_bust_params(params));
     const std::string key = cache_key(params);
     if (const auto stored = cache_load("bust", key))
         if (std::optional<Bust> bust = unpack(*stored)) return std::move(*bust);

@@ -105,11 +105,10 @@ Result<std::vector<MadeFile>> mesh_files(const std::filesystem::path& path, cons
         const ObjTexts texts = obj_texts(path, bust.mesh);
         return std::vector{text_file(mtl_path(path), texts.mtl), text_file(path, texts.obj)};
     }
-    Result<Mesh> mesh = with_embedded_maps(bust);
-    if (!mesh) return mesh.error();
-    mesh->materials[0].scattering = body_of(profile, bust);
+    DERMIS_TRY_ASSIGN(Mesh mesh, with_embedded_maps(bust));
+    mesh.materials[0].scattering = body_of(profile, bust);
     const std::string extras[] = {gltf_extras(profile)};
-    Result<std::vector<std::byte>> bytes = glb_bytes(*mesh, {}, extras);
+    Result<std::vector<std::byte>> bytes = glb_bytes(mesh, {}, extras);
     if (!bytes) return bytes.error().within(path.string());
     return std::vector{MadeFile{path, std::move(*bytes)}};
 }
@@ -137,12 +136,11 @@ Result<void> check_bust_path(const std::filesystem::path& path) {
 Result<void> write_bust(const std::filesystem::path& path, const Bust& bust, const Profile& profile,
                         const std::filesystem::path& maps_folder) {
     if (Result<void> good = check_bust_path(path); !good) return good;
-    Result<std::vector<MadeFile>> files = mesh_files(path, bust, profile);
-    if (!files) return files.error();
+    DERMIS_TRY_ASSIGN(std::vector<MadeFile> files, mesh_files(path, bust, profile));
     if (!maps_folder.empty())
-        if (Result<void> added = add_maps(*files, maps_folder, bust); !added) return added;
+        if (Result<void> added = add_maps(files, maps_folder, bust); !added) return added;
     std::vector<FileContent> contents;
-    for (const MadeFile& file : *files) contents.push_back({file.path, file.bytes});
+    for (const MadeFile& file : files) contents.push_back({file.path, file.bytes});
     return write_files(contents);
 }
 

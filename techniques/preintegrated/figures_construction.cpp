@@ -1,5 +1,6 @@
 // The construction plots of Yeung 2015: which curves the red channel is put together from, over N.L.
 
+#include <algorithm>
 #include <cmath>
 
 #include "dermis/optics/curve_2015.h"

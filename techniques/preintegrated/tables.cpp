@@ -1,5 +1,6 @@
 #include "techniques/preintegrated/tables.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

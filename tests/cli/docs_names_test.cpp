@@ -73,7 +73,7 @@ const std::vector<std::string>& source_files() {
     static const std::vector<std::string> kFiles = [] {
         std::vector<std::string> files;
         for (const char* tree : {"apps", "bench", "catalog", "cmake", "dermis", "scenes", "shaders",
-                                 "subjects", "techniques", "tests", "tools", "packages"})
+                                 "subjects", "techniques", "tests", "tools", "engines"})
             for (const auto& entry : fs::recursive_directory_iterator(kRoot / tree))
                 if (entry.is_regular_file())
                     files.push_back("/" + fs::relative(entry.path(), kRoot).string());

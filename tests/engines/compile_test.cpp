@@ -168,9 +168,9 @@ class GodotShader : public testing::Test {
         const TemporaryDirectory directory;
         const fs::path shader = directory.path / "skin.gdshader", log = directory.path / "log.txt";
         EXPECT_TRUE(write_text_file(shader, text));
-        const int status = run_program({"node", DERMIS_SOURCE_DIR "/tests/engines/godot_compile.mjs",
-                                        folder_.string(), shader.string()},
-                                       log);
+        const int status = run_program(
+            {"node", DERMIS_SOURCE_DIR "/tests/engines/godot_compile.mjs", folder_.string(), shader.string()},
+            log);
         if (status != 0) log_ = read_text_file(log) ? *read_text_file(log) : "no log";
         return status;
     }

@@ -10,8 +10,8 @@
 
 #include "cli/run_program.h"
 #include "dermis/base/file.h"
-#include "dermis/image/io.h"
 #include "dermis/engines/web/binary.h"
+#include "dermis/image/io.h"
 #include "support/sphere_pictures.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
@@ -217,12 +217,12 @@ TEST_F(WebPageFolder, in_a_browser_a_sphere_of_8_mm_is_the_renderers_own) {
     const fs::path folder = write_page(DERMIS_SOURCE_DIR "/tests/engines/web_sphere_8mm.toml");
     const fs::path ours = directory_.path / "ours.png", theirs = directory_.path / "theirs.png";
     const std::string size = std::to_string(kSide) + "x" + std::to_string(kSide);
-    const ProgramResult drawn =
-        run_dermis("render " DERMIS_SOURCE_DIR
-                   "/tests/engines/web_sphere_8mm.toml --technique preintegrated --set specular=two_lobe_ggx --set "
-                   "transmission=none --size " +
-                       size + " -o " + ours.string(),
-                   directory_.path);
+    const ProgramResult drawn = run_dermis(
+        "render " DERMIS_SOURCE_DIR
+        "/tests/engines/web_sphere_8mm.toml --technique preintegrated --set specular=two_lobe_ggx --set "
+        "transmission=none --size " +
+            size + " -o " + ours.string(),
+        directory_.path);
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const ProgramResult shot =
         run_script("shot " + folder.string() + " " + theirs.string() + " " + std::to_string(kSide));

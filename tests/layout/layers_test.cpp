@@ -136,6 +136,17 @@ TEST(Layout, the_page_on_architecture_has_the_declared_dependencies) {
     EXPECT_GT(rows, 10u);
 }
 
+// Two folders may use the same name for different things.
+TEST(Layout, each_folder_has_a_namespace_of_its_own) {
+    static const std::regex opened(R"re((?:^|\n)namespace dermis(?:::(?:inline )?([a-z_]+))?)re");
+    for (const fs::path& path : files_under("dermis", is_source)) {
+        const std::string folder = fs::relative(path, kRoot / "dermis").begin()->string();
+        const std::string text = read(path);
+        for (std::sregex_iterator it(text.begin(), text.end(), opened), end; it != end; ++it)
+            EXPECT_EQ((*it)[1], folder) << path;
+    }
+}
+
 TEST(Layout, no_folder_depends_on_itself_through_others) {
     const Layers layers = declared_layers();
     for (const auto& [folder, declared] : layers)

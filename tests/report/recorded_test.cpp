@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <map>
 
-#include "report/null_device.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "report/null_device.h"
 #include "test_paths.h"
 
 using namespace dermis;

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "report/null_device.h"
 #include "dermis/report/model.h"
+#include "report/null_device.h"
 #include "support/built_in.h"
 
 using namespace dermis;

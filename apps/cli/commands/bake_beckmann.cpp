@@ -13,22 +13,20 @@ struct BakeBeckmannOptions {
 };
 
 Result<int> run(const BakeBeckmannOptions& options) {
-    const Result<Size> size = parse_size(options.size);
-    if (!size) return size.error();
-    BeckmannOptions beckmann{.width = size->width, .height = size->height};
+    DERMIS_TRY_ASSIGN(const Size size, parse_size(options.size));
+    BeckmannOptions beckmann{.width = size.width, .height = size.height};
     if (options.layout == "gems")
         beckmann.layout = BeckmannLayout::gems_8_bit;
     else if (options.layout != "linear")
         return Error{unknown_name("layout", options.layout, std::vector<std::string>{"linear", "gems"})};
     const bool linear = beckmann.layout == BeckmannLayout::linear;
-    const Result<TableStorage> storage =
-        options.output.chosen_storage(linear ? TableStorage::automatic : TableStorage::u8);
-    if (!storage) return storage.error();
-    if (linear && (*storage == TableStorage::u8 || *storage == TableStorage::u16))
+    DERMIS_TRY_ASSIGN(const TableStorage storage,
+                      options.output.chosen_storage(linear ? TableStorage::automatic : TableStorage::u8));
+    if (linear && (storage == TableStorage::u8 || storage == TableStorage::u16))
         return Error{options.output.path + ": Beckmann's values exceed 1; write .exr, or --layout gems"};
     Result<Table> table = bake_beckmann(beckmann);
     if (!table) return table.error();
-    return deliver({.table = std::move(*table), .profile = {}}, options.output, *storage);
+    return deliver({.table = std::move(*table), .profile = {}}, options.output, storage);
 }
 
 }  // namespace

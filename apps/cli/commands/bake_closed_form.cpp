@@ -41,29 +41,26 @@ std::vector<double> plotted_radii(double least_mm) {
 }
 
 Result<int> run(const BakeClosedFormOptions& options) {
-    const Result<Profile> profile = find_profile(options.profile);
-    if (!profile) return profile.error();
+    DERMIS_TRY_ASSIGN(const Profile profile, find_profile(options.profile));
     const Result<Construction> construction = find_construction(options.construction);
     if (!construction) return construction.error();
-    const GaussianSum gaussians = to_gaussian_sum(*profile).sum;
-    const Result<ClosedForm> form = fit_closed_form(gaussians, options.max_curvature_per_mm, options.rows,
-                                                    {.construction = *construction});
-    if (!form) return form.error();
+    const GaussianSum gaussians = to_gaussian_sum(profile).sum;
+    DERMIS_TRY_ASSIGN(const ClosedForm form, fit_closed_form(gaussians, options.max_curvature_per_mm,
+                                                             options.rows, {.construction = *construction}));
     if (!options.output.empty()) {
-        if (Result<void> written = write_text_file(options.output, coefficients_csv(*form)); !written)
-            return written.error();
+        DERMIS_TRY(write_text_file(options.output, coefficients_csv(form)));
         print_path(options.output);
     }
     std::printf("%s, %s: largest error of the fit at its own %zu curvatures %.5f (%.2f of an 8-bit code)\n\n",
-                profile->name.c_str(), options.construction.c_str(), form->rows.size(), form->max_error,
-                form->max_error * 255);
+                profile.name.c_str(), options.construction.c_str(), form.rows.size(), form.max_error,
+                form.max_error * 255);
     if (*construction != Construction::sphere) return 0;
     const double radii[] = {1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 100};
-    std::printf("%s", fit_error_table(measure_fit_errors(*form, gaussians, radii)).c_str());
+    std::printf("%s", fit_error_table(measure_fit_errors(form, gaussians, radii)).c_str());
     if (options.plot.empty()) return 0;
     const std::vector<double> all = plotted_radii(1 / options.max_curvature_per_mm);
-    const Plot plot = fit_error_plot(measure_fit_errors(*form, gaussians, all), profile->name);
-    if (Result<void> written = write_plot(options.plot, plot); !written) return written.error();
+    const Plot plot = fit_error_plot(measure_fit_errors(form, gaussians, all), profile.name);
+    DERMIS_TRY(write_plot(options.plot, plot));
     return 0;
 }
 

@@ -11,13 +11,10 @@ struct BakeLutOptions {
 };
 
 Result<int> run(const BakeLutOptions& options) {
-    Result<LutOptions> lut = options.lut.options();
-    if (!lut) return lut.error();
-    const Result<TableStorage> storage = options.output.chosen_storage(lut->storage);
-    if (!storage) return storage.error();
-    Result<MadeTable> made = make_table(std::move(*lut));
-    if (!made) return made.error();
-    return deliver(std::move(*made), options.output, *storage);
+    DERMIS_TRY_ASSIGN(LutOptions lut, options.lut.options());
+    DERMIS_TRY_ASSIGN(const TableStorage storage, options.output.chosen_storage(lut.storage));
+    DERMIS_TRY_ASSIGN(MadeTable made, make_table(std::move(lut)));
+    return deliver(std::move(made), options.output, storage);
 }
 
 }  // namespace

@@ -21,29 +21,27 @@ struct BakeMapsOptions {
 
 Result<FileUse> files_of(const BakeMapsOptions& options) {
     const std::filesystem::path path = options.output;
-    if (Result<void> good = check_map_path(path, options.map.settings); !good) return good.error();
+    DERMIS_TRY(check_map_path(path, options.map.settings));
     return FileUse{.outputs = {path, map_sidecar_path(path), map_preview_path(path)},
                    .inputs = {options.map.mesh, options.map.profile}};
 }
 
 Result<int> run(const BakeMapsOptions& options) {
-    const Result<MapRequest> request = options.map.request();
-    if (!request) return request.error();
-    if (Result<void> good = keep_scene_files(request->scene, files_of(options)); !good) return good.error();
-    const BakeMapSettings& settings = request->settings;
+    DERMIS_TRY_ASSIGN(const MapRequest request, options.map.request());
+    DERMIS_TRY(keep_scene_files(request.scene, files_of(options)));
+    const BakeMapSettings& settings = request.settings;
     const Result<BakedMap> map = [&] {
         constexpr double kSteps = 1000;
         Progress line(std::string(map_kind_name(settings.kind)), size_t(kSteps));
         std::atomic<size_t> shown = 0;
-        return bake_map(request->scene.objects, settings, [&](double done) {
+        return bake_map(request.scene.objects, settings, [&](double done) {
             const auto now = size_t(done * kSteps);
             const size_t before = shown.exchange(now);
             if (now > before) line.advance(now - before);
         });
     }();
     if (!map) return map.error();
-    if (Result<void> written = write_map(options.output, *map, {options.map.mesh, settings}); !written)
-        return written.error();
+    DERMIS_TRY(write_map(options.output, *map, {options.map.mesh, settings}));
     print_warnings(map->warnings);
     std::printf("%s: %s, %dx%d, %s to %s %s\n", printable_line(options.output).c_str(),
                 std::string(map_kind_name(settings.kind)).c_str(), map->values.width, map->values.height,

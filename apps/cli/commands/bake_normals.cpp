@@ -26,7 +26,7 @@ struct BakeNormalsOptions {
 Result<FileUse> files_of(const BakeNormalsOptions& options) {
     FileUse files = {.inputs = {options.mesh, options.profile}};
     for (const auto& path : diffused_normals_paths(options.output)) {
-        if (Result<void> good = check_diffused_normals_path(path); !good) return good.error();
+        DERMIS_TRY(check_diffused_normals_path(path));
         files.outputs.insert(files.outputs.end(), {path, path.string() + ".json"});
     }
     return files;
@@ -38,23 +38,20 @@ Result<int> run(const BakeNormalsOptions& options) {
         return Error{"--unit-mm is for mesh files; " + options.mesh +
                      " states the unit of each of its meshes"};
     if (options.unit_mm > 0) how.mesh_unit_mm = options.unit_mm;
-    const Result<Scene> scene = load_scene(options.mesh, how);
-    if (!scene) return scene.error();
-    if (Result<void> good = keep_scene_files(*scene, files_of(options)); !good) return good.error();
-    const std::string profile_name = options.profile.empty() ? scene->skin.profile : options.profile;
+    DERMIS_TRY_ASSIGN(const Scene scene, load_scene(options.mesh, how));
+    DERMIS_TRY(keep_scene_files(scene, files_of(options)));
+    const std::string profile_name = options.profile.empty() ? scene.skin.profile : options.profile;
     const Result<Profile> profile = find_profile(profile_name);
     if (!profile) return profile.error();
-    const Result<std::vector<std::string>> warnings = check_skin_atlas(*scene);
-    if (!warnings) return warnings.error();
+    DERMIS_TRY_ASSIGN(const std::vector<std::string> warnings, check_skin_atlas(scene));
     const DiffusedNormalsOrigin origin = {.mesh = options.mesh,
                                           .profile_name = profile_name,
                                           .profile = to_gaussian_sum(*profile).sum,
                                           .request = {.size = options.size}};
-    const Result<DiffusedNormals> normals = bake_diffused_normals(*scene, origin.profile, origin.request);
-    if (!normals) return normals.error();
-    if (Result<void> written = write_diffused_normals(options.output, *normals, origin); !written)
-        return written.error();
-    print_warnings(*warnings);
+    DERMIS_TRY_ASSIGN(const DiffusedNormals normals,
+                      bake_diffused_normals(scene, origin.profile, origin.request));
+    DERMIS_TRY(write_diffused_normals(options.output, normals, origin));
+    print_warnings(warnings);
     for (const auto& path : diffused_normals_paths(options.output)) print_path(path);
     return 0;
 }

@@ -11,13 +11,10 @@ struct BakeShadowOptions {
 };
 
 Result<int> run(const BakeShadowOptions& options) {
-    const Result<ShadowOptions> shadow = options.shadow.options();
-    if (!shadow) return shadow.error();
-    const Result<TableStorage> storage = options.output.chosen_storage();
-    if (!storage) return storage.error();
-    Result<MadeTable> made = make_table(*shadow);
-    if (!made) return made.error();
-    return deliver(std::move(*made), options.output, *storage);
+    DERMIS_TRY_ASSIGN(const ShadowOptions shadow, options.shadow.options());
+    DERMIS_TRY_ASSIGN(const TableStorage storage, options.output.chosen_storage());
+    DERMIS_TRY_ASSIGN(MadeTable made, make_table(shadow));
+    return deliver(std::move(made), options.output, storage);
 }
 
 }  // namespace

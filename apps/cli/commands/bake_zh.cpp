@@ -11,15 +11,12 @@ struct BakeZhOptions {
 };
 
 Result<int> run(const BakeZhOptions& options) {
-    Result<ZonalOptions> zonal = options.zh.options();
-    if (!zonal) return zonal.error();
-    const Result<TableStorage> storage = options.output.chosen_storage(preferred_storage(zonal->layout));
-    if (!storage) return storage.error();
-    if (Result<void> good = check_zonal_storage(options.output.path, zonal->layout, *storage); !good)
-        return good.error();
-    Result<MadeTable> made = make_table(std::move(*zonal));
-    if (!made) return made.error();
-    return deliver(std::move(*made), options.output, *storage);
+    DERMIS_TRY_ASSIGN(ZonalOptions zonal, options.zh.options());
+    DERMIS_TRY_ASSIGN(const TableStorage storage,
+                      options.output.chosen_storage(preferred_storage(zonal.layout)));
+    DERMIS_TRY(check_zonal_storage(options.output.path, zonal.layout, storage));
+    DERMIS_TRY_ASSIGN(MadeTable made, make_table(std::move(zonal)));
+    return deliver(std::move(made), options.output, storage);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ Result<ComparedScenes> scenes_of(const CompareOptions& options) {
     for (const SubjectCase& one : scenes->all) {
         Result<FileUse> files = files_of(options);
         if (files && scenes->is_set) files->outputs.push_back(report_path(options, *scenes, one));
-        if (Result<void> kept = keep_scene_files(one.scene, files); !kept) return kept.error();
+        DERMIS_TRY(keep_scene_files(one.scene, files));
     }
     return scenes;
 }
@@ -77,20 +77,17 @@ Result<ComparedScenes> scenes_of(const CompareOptions& options) {
 Result<std::vector<Comparison>> compare_all(const CompareOptions& options, const ComparedScenes& scenes,
                                             const std::vector<Contestant>& contestants,
                                             ComparisonSettings settings) {
-    Result<gpu::Device> device = gpu::Device::create({.name_contains = options.choice.device});
-    if (!device) return device.error();
+    DERMIS_TRY_ASSIGN(gpu::Device device, gpu::Device::create({.name_contains = options.choice.device}));
     std::vector<Comparison> comparisons;
     for (const SubjectCase& one : scenes.all) {
         const std::string prefix = scenes.is_set ? one.name + ": " : "";
         print_warnings(one.scene.warnings, prefix);
         settings.exact = one.exact;
-        Result<Comparison> comparison = compare(*device, one, prefix, contestants, settings);
+        Result<Comparison> comparison = compare(device, one, prefix, contestants, settings);
         if (!comparison) return Error{prefix + comparison.error().message};
         print_warnings(warnings_of(*comparison, settings), prefix);
-        const Result<std::string> page = report_html(one.scene, *comparison, settings);
-        if (!page) return page.error();
-        if (Result<void> written = write_text_file(report_path(options, scenes, one), *page); !written)
-            return written.error();
+        DERMIS_TRY_ASSIGN(const std::string page, report_html(one.scene, *comparison, settings));
+        DERMIS_TRY(write_text_file(report_path(options, scenes, one), page));
         comparisons.push_back(std::move(*comparison));
     }
     return comparisons;
@@ -136,17 +133,13 @@ void print_results(const CompareOptions& options, const ComparedScenes& scenes,
 }
 
 Result<int> run(const CompareOptions& options) {
-    const Result<ComparisonSettings> settings = options.choice.settings();
-    if (!settings) return settings.error();
-    const Result<std::vector<Contestant>> contestants = options.choice.contestants();
-    if (!contestants) return contestants.error();
-    const Result<ComparedScenes> scenes = scenes_of(options);
-    if (!scenes) return scenes.error();
-    const Result<std::vector<Comparison>> comparisons =
-        compare_all(options, *scenes, *contestants, *settings);
-    if (!comparisons) return comparisons.error();
-    if (Result<void> written = write_tables(options, *scenes, *comparisons); !written) return written.error();
-    print_results(options, *scenes, *comparisons);
+    DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
+    DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, options.choice.contestants());
+    DERMIS_TRY_ASSIGN(const ComparedScenes scenes, scenes_of(options));
+    DERMIS_TRY_ASSIGN(const std::vector<Comparison> comparisons,
+                      compare_all(options, scenes, contestants, settings));
+    DERMIS_TRY(write_tables(options, scenes, comparisons));
+    print_results(options, scenes, comparisons);
     return 0;
 }
 
@@ -154,11 +147,10 @@ Result<int> run(const CompareOptions& options) {
 Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::string>& words) {
     if (const Result<ComparisonSettings> settings = options.choice.settings(); !settings)
         return settings.error();
-    if (const auto contestants = options.choice.contestants(); !contestants) return contestants.error();
-    const Result<ComparedScenes> scenes = scenes_of(options);
-    if (!scenes) return scenes.error();
+    DERMIS_TRY(options.choice.contestants());
+    DERMIS_TRY_ASSIGN(const ComparedScenes scenes, scenes_of(options));
     std::vector<const Scene*> all;
-    for (const SubjectCase& one : scenes->all) all.push_back(&one.scene);
+    for (const SubjectCase& one : scenes.all) all.push_back(&one.scene);
     const Result<std::string> hash = hash_of_job(all, words);
     if (!hash) return hash.error();
     return JobPlan{.work = {{.name = options.output,

@@ -42,19 +42,17 @@ Result<Counted> count(const CostOptions& options) {
     counted.contestants = std::move(*contestants);
     Result<Scene> scene = options.scene.load();
     if (!scene) return scene.error();
-    if (Result<void> completed = complete_scene(*scene); !completed) return completed.error();
+    DERMIS_TRY(complete_scene(*scene));
     counted.scene = scene->name, counted.credit = scene->credit;
 
     Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
     if (!device) return device.error();
     counted.device = device->info().name;
-    Result<Renderer> renderer =
-        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), *scene);
-    if (!renderer) return renderer.error();
+    DERMIS_TRY_ASSIGN(Renderer renderer,
+                      Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), *scene));
     for (const Contestant& contestant : counted.contestants) {
-        Result<FrameWork> work = count_work(*renderer, contestant, size->width, size->height);
-        if (!work) return work.error();
-        counted.frames.push_back(std::move(*work));
+        DERMIS_TRY_ASSIGN(FrameWork work, count_work(renderer, contestant, size->width, size->height));
+        counted.frames.push_back(std::move(work));
     }
     return counted;
 }
@@ -67,13 +65,13 @@ Result<int> print_costs(const CostOptions& options) {
         {"width", counted->size.width},  {"height", counted->size.height},
         {"counted_on", counted->device}, {"gpus", nlohmann::ordered_json::array()}};
     for (const Card* card : counted->cards) {
-        const Result<std::vector<FrameCost>> costs =
-            model_frames(counted->frames, *card, gpu::embedded_shaders(built_in_catalog().shaders));
-        if (!costs) return costs.error();
+        DERMIS_TRY_ASSIGN(
+            const std::vector<FrameCost> costs,
+            model_frames(counted->frames, *card, gpu::embedded_shaders(built_in_catalog().shaders)));
         if (options.json)
-            json["gpus"].push_back(to_json(*counted, *card, *costs));
+            json["gpus"].push_back(to_json(*counted, *card, costs));
         else
-            print_card(*counted, *card, *costs);
+            print_card(*counted, *card, costs);
     }
     if (options.json) std::printf("%s\n", json.dump(2).c_str());
     if (!options.json)

@@ -8,9 +8,9 @@
 #include "command.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/engines/package.h"
 #include "dermis/engines/profile_source.h"
 #include "dermis/optics/presets.h"
-#include "dermis/engines/package.h"
 #include "scene_choice.h"
 #include "web_export.h"
 
@@ -43,8 +43,8 @@ Result<std::vector<shading::Language>> chosen_languages(const std::string& name)
 Result<int> deliver_files(std::span<const FileContent> files, std::vector<std::filesystem::path> inputs) {
     FileUse use = {.outputs = {}, .inputs = std::move(inputs)};
     for (const FileContent& file : files) use.outputs.push_back(file.path);
-    if (Result<void> good = check_outputs(use); !good) return good.error();
-    if (const Result<void> written = write_files(files); !written) return written.error();
+    DERMIS_TRY(check_outputs(use));
+    DERMIS_TRY(write_files(files));
     for (const FileContent& file : files) print_path(file.path);
     return 0;
 }
@@ -57,38 +57,35 @@ std::filesystem::path text_path(const ExportOptions& options, shading::Language 
 }
 
 Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
-    const Result<std::vector<shading::Language>> languages = chosen_languages(options.language);
-    if (!languages) return languages.error();
+    DERMIS_TRY_ASSIGN(const std::vector<shading::Language> languages, chosen_languages(options.language));
     std::vector<std::string> texts;
-    for (const shading::Language language : *languages) {
-        Result<std::string> text = skin_text(profile, built_in_skin_sources(), language);
-        if (!text) return text.error();
-        texts.push_back(std::move(*text));
+    for (const shading::Language language : languages) {
+        DERMIS_TRY_ASSIGN(std::string text, skin_text(profile, built_in_skin_sources(), language));
+        texts.push_back(std::move(text));
     }
     std::vector<FileContent> files;
     for (size_t i = 0; i < texts.size(); ++i)
-        files.push_back({text_path(options, (*languages)[i]), as_bytes(texts[i])});
+        files.push_back({text_path(options, languages[i]), as_bytes(texts[i])});
     return deliver_files(files, {options.profile});
 }
 
 Result<int> export_package(const ExportOptions& options, const Profile& profile) {
     const std::filesystem::path folder = options.output;
-    const Result<std::vector<PackageFile>> package =
-        make_package(options.engine, {profile, built_in_skin_sources(), built_in_package_templates()});
-    if (!package) return package.error();
+    DERMIS_TRY_ASSIGN(
+        const std::vector<PackageFile> package,
+        make_package(options.engine, {profile, built_in_skin_sources(), built_in_package_templates()}));
     std::vector<FileContent> files;
-    for (const PackageFile& file : *package) files.push_back({folder / file.path, file.bytes});
+    for (const PackageFile& file : package) files.push_back({folder / file.path, file.bytes});
     return deliver_files(files, {options.profile});
 }
 
 Result<int> export_web(const ExportOptions& options) {
     const std::filesystem::path folder = options.output;
     std::vector<std::filesystem::path> inputs;
-    const Result<WebPage> page = make_web_page(options.scene, options.profile, inputs);
-    if (!page) return page.error();
-    print_warnings(page->warnings);
+    DERMIS_TRY_ASSIGN(const WebPage page, make_web_page(options.scene, options.profile, inputs));
+    print_warnings(page.warnings);
     std::vector<FileContent> files;
-    for (const WebFile& file : page->files) files.push_back({folder / file.path, file.bytes});
+    for (const WebFile& file : page.files) files.push_back({folder / file.path, file.bytes});
     return deliver_files(files, std::move(inputs));
 }
 
@@ -106,21 +103,20 @@ Result<FileUse> files_of(const ExportOptions& options) {
     if (scene.name != kDefaultScene || !scene.words.empty() || !scene.camera.empty() || !scene.light.empty())
         return Error{"a scene and --scene, --camera, --light are for --web"};
     if (!options.engine.empty()) {
-        if (const Result<void> known = check_engine(options.engine); !known) return known.error();
+        DERMIS_TRY(check_engine(options.engine));
         files.outputs = {output / "README.md"};
         return files;
     }
-    const Result<std::vector<shading::Language>> languages = chosen_languages(options.language);
-    if (!languages) return languages.error();
-    for (const shading::Language language : *languages) files.outputs.push_back(text_path(options, language));
+    DERMIS_TRY_ASSIGN(const std::vector<shading::Language> languages, chosen_languages(options.language));
+    for (const shading::Language language : languages) files.outputs.push_back(text_path(options, language));
     return files;
 }
 
 Result<int> run(const ExportOptions& options) {
     if (options.web) return export_web(options);
-    const Result<Profile> profile = find_profile(options.profile.empty() ? kDefaultProfile : options.profile);
-    if (!profile) return profile.error();
-    return options.engine.empty() ? export_texts(options, *profile) : export_package(options, *profile);
+    DERMIS_TRY_ASSIGN(const Profile profile,
+                      find_profile(options.profile.empty() ? kDefaultProfile : options.profile));
+    return options.engine.empty() ? export_texts(options, profile) : export_package(options, profile);
 }
 
 }  // namespace

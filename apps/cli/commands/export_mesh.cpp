@@ -22,7 +22,7 @@ struct ExportMeshOptions {
 
 Result<FileUse> files_of(const ExportMeshOptions& options) {
     const std::filesystem::path path = options.path;
-    if (Result<void> good = check_bust_path(path); !good) return good.error();
+    DERMIS_TRY(check_bust_path(path));
     FileUse files = {.outputs = {path}, .inputs = {options.profile}};
     if (to_lower(path.extension().string()) == ".obj") files.outputs.push_back(mtl_path(path));
     if (!options.maps.empty())
@@ -36,15 +36,12 @@ Result<int> run(const ExportMeshOptions& options) {
     if (name != "bust") return Error{unknown_name("built-in mesh", name, std::vector<std::string>{"bust"})};
     ParameterValues values(bust_parameters());
     for (const auto& [parameter, text] : options.parameters)
-        if (text)
-            if (const Result<void> set = values.set(parameter, *text); !set) return set.error();
+        if (text) DERMIS_TRY(values.set(parameter, *text));
     const Result<Profile> profile = find_profile(options.profile);
     if (!profile) return Error{"--profile: " + profile.error().message};
-    const Result<Bust> bust = make_bust(values.as<BustParams>());
-    if (!bust) return bust.error();
-    if (const auto written = write_bust(options.path, *bust, *profile, options.maps); !written)
-        return written.error();
-    std::printf("%s: %zu triangles\n", printable_line(options.path).c_str(), bust->mesh.triangle_count());
+    DERMIS_TRY_ASSIGN(const Bust bust, make_bust(values.as<BustParams>()));
+    DERMIS_TRY(write_bust(options.path, bust, *profile, options.maps));
+    std::printf("%s: %zu triangles\n", printable_line(options.path).c_str(), bust.mesh.triangle_count());
     const bool is_obj = to_lower(options.path).ends_with(".obj");
     std::printf("  %s\n", is_obj ? "OBJ has no place for the profile and for maps of specular and kernel size"
                                  : gltf_note(*profile).c_str());

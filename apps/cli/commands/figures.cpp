@@ -6,8 +6,8 @@
 #include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/progress.h"
-#include "dermis/report/figures.h"
 #include "dermis/image/io.h"
+#include "dermis/report/figures.h"
 #include "render_options.h"
 
 namespace dermis::cli {
@@ -29,10 +29,9 @@ void print(const std::string& path, const FigureResult& result) {
 }
 
 Result<std::vector<Figure>> chosen_figures(const FiguresOptions& options) {
-    const Result<const Technique*> technique =
-        find_technique(built_in_catalog().techniques, options.technique);
-    if (!technique) return technique.error();
-    return figures_of(**technique, options.only);
+    DERMIS_TRY_ASSIGN(const Technique* technique,
+                      find_technique(built_in_catalog().techniques, options.technique));
+    return figures_of(*technique, options.only);
 }
 
 std::string sheet_path(const FiguresOptions& options, const Figure& figure) {
@@ -40,47 +39,42 @@ std::string sheet_path(const FiguresOptions& options, const Figure& figure) {
 }
 
 Result<FileUse> files_of(const FiguresOptions& options) {
-    const Result<std::vector<Figure>> figures = chosen_figures(options);
-    if (!figures) return figures.error();
+    DERMIS_TRY_ASSIGN(const std::vector<Figure> figures, chosen_figures(options));
     FileUse files = {.outputs = {}, .inputs = {options.scene.name}};
-    for (const Figure& figure : *figures) files.outputs.emplace_back(sheet_path(options, figure));
+    for (const Figure& figure : figures) files.outputs.emplace_back(sheet_path(options, figure));
     return files;
 }
 
 Result<int> make_figures(const FiguresOptions& options) {
-    if (Result<void> good = check_samples(options.samples); !good) return good.error();
+    DERMIS_TRY(check_samples(options.samples));
     const Result<std::vector<Figure>> figures = chosen_figures(options);
     if (!figures) return figures.error();
     if (!options.scene.name.empty()) {
-        const Result<Scene> scene = options.scene.load();
-        if (!scene) return scene.error();
-        if (Result<void> kept = keep_scene_files(*scene, files_of(options)); !kept) return kept.error();
+        DERMIS_TRY_ASSIGN(const Scene scene, options.scene.load());
+        DERMIS_TRY(keep_scene_files(scene, files_of(options)));
     }
     const Result<std::vector<SceneWord>> words = options.scene.all_words();
     if (!words) return words.error();
-    const Result<Font> font = Font::load();
-    if (!font) return font.error();
-    Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
-    if (!device) return device.error();
+    DERMIS_TRY_ASSIGN(const Font font, Font::load());
+    DERMIS_TRY_ASSIGN(gpu::Device device, gpu::Device::create({.name_contains = options.device}));
 
     size_t cells = 0;
     for (const Figure& figure : *figures)
         for (const FigureRow& row : figure.rows) cells += row.cells.size();
     Progress progress("figures", cells);
-    CellRenderer renderer(*device, built_in_catalog(),
+    CellRenderer renderer(device, built_in_catalog(),
                           {.scene = options.scene.name,
                            .samples = options.samples,
                            .loading_words = words_for(*words, true),
                            .words = words_for(*words, false)});
     for (const Figure& figure : *figures) {
-        const Result<FigureResult> result =
-            draw_figure(renderer, *font, figure, options.size, [&] { progress.advance(); });
-        if (!result) return result.error();
+        DERMIS_TRY_ASSIGN(const FigureResult result,
+                          draw_figure(renderer, font, figure, options.size, [&] { progress.advance(); }));
         ImageText text = {{"Software", "dermis"}, {"Description", figure.title + " (" + figure.source + ")"}};
-        for (const std::string& credit : result->credits) text["Copyright"] = credit;
+        for (const std::string& credit : result.credits) text["Copyright"] = credit;
         const std::string path = sheet_path(options, figure);
-        if (Result<void> written = write_image(path, result->sheet, text); !written) return written.error();
-        print(path, *result);
+        DERMIS_TRY(write_image(path, result.sheet, text));
+        print(path, result);
     }
     return 0;
 }

@@ -180,18 +180,16 @@ Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
     if (is_mesh_file(arguments.mesh)) {
         MeshOptions options;
         if (arguments.unit_mm > 0) options.unit_mm = arguments.unit_mm;
-        Result<LoadedMesh> loaded = read_mesh(arguments.mesh, options);
-        if (!loaded) return loaded.error();
-        meshes.push_back({arguments.mesh, std::move(*loaded)});
+        DERMIS_TRY_ASSIGN(LoadedMesh loaded, read_mesh(arguments.mesh, options));
+        meshes.push_back({arguments.mesh, std::move(loaded)});
         return meshes;
     }
     if (arguments.unit_mm > 0)
         return Error{"--unit-mm is for mesh files; " + arguments.mesh +
                      " states the unit of each of its meshes"};
-    Result<Scene> scene = load_scene(arguments.mesh, {.subjects = built_in_catalog().subjects});
-    if (!scene) return scene.error();
-    for (SceneObject& object : scene->objects) meshes.push_back({object.name, {std::move(object.mesh), {}}});
-    if (!meshes.empty()) meshes.front().loaded.warnings = scene->warnings;
+    DERMIS_TRY_ASSIGN(Scene scene, load_scene(arguments.mesh, {.subjects = built_in_catalog().subjects}));
+    for (SceneObject& object : scene.objects) meshes.push_back({object.name, {std::move(object.mesh), {}}});
+    if (!meshes.empty()) meshes.front().loaded.warnings = scene.warnings;
     return meshes;
 }
 
@@ -204,12 +202,10 @@ Result<void> add_flesh(NamedMesh& mesh) {
 }
 
 Result<int> run_info(const InfoArguments& arguments) {
-    Result<std::vector<NamedMesh>> meshes = load_meshes(arguments);
-    if (!meshes) return meshes.error();
-    for (NamedMesh& mesh : *meshes)
-        if (Result<void> added = add_flesh(mesh); !added) return added.error();
+    DERMIS_TRY_ASSIGN(std::vector<NamedMesh> meshes, load_meshes(arguments));
+    for (NamedMesh& mesh : meshes) DERMIS_TRY(add_flesh(mesh));
     Json list = Json::array();
-    for (const NamedMesh& mesh : *meshes)
+    for (const NamedMesh& mesh : meshes)
         if (arguments.json)
             list.push_back(to_json(mesh.loaded, mesh.flesh));
         else

@@ -29,24 +29,22 @@ Result<JobPlan> plan_of(const JobsOptions& options, std::vector<std::string> wor
     if (words[0] == "dermis" || words[0] == "./run") words.erase(words.begin());
     CommandLine line("", "", "");
     add_all_commands(line);
-    if (Result<void> parsed = line.parse_words(std::move(words)); !parsed) return parsed.error();
+    DERMIS_TRY(line.parse_words(std::move(words)));
     if (!line.plan)
         return Error{"'" + line.words[0] + "' is not split into jobs: write reference, compare or render"};
-    const Result<FileUse> files = line.files();
-    if (!files) return files.error();
-    all.outputs.insert(all.outputs.end(), files->outputs.begin(), files->outputs.end());
-    all.inputs.insert(all.inputs.end(), files->inputs.begin(), files->inputs.end());
-    if (Result<void> good = check_outputs(all); !good) return good.error();
+    DERMIS_TRY_ASSIGN(const FileUse files, line.files());
+    all.outputs.insert(all.outputs.end(), files.outputs.begin(), files.outputs.end());
+    all.inputs.insert(all.inputs.end(), files.inputs.begin(), files.inputs.end());
+    DERMIS_TRY(check_outputs(all));
     return line.plan(options.parts, options.folder);
 }
 
 Result<std::vector<JobPlan>> plans_of(const JobsOptions& options) {
-    const Result<std::string> text = read_text_file(options.commands);
-    if (!text) return text.error();
+    DERMIS_TRY_ASSIGN(const std::string text, read_text_file(options.commands));
     std::vector<JobPlan> plans;
     FileUse all = {.outputs = {}, .inputs = {options.commands}};
     int number = 0;
-    for (const std::string_view line : split(without_byte_order_mark(*text), '\n')) {
+    for (const std::string_view line : split(without_byte_order_mark(text), '\n')) {
         const std::string place = options.commands + ":" + std::to_string(++number) + ": ";
         Result<std::vector<std::string>> words = shell_words(line);
         if (!words) return Error{place + words.error().message};
@@ -128,11 +126,10 @@ Result<int> run(const JobsOptions& options) {
     const std::vector<std::string> runners = {"list", "local", "slurm"};
     if (std::ranges::find(runners, options.runner) == runners.end())
         return Error{unknown_name("runner", options.runner, runners)};
-    const Result<std::vector<JobPlan>> plans = plans_of(options);
-    if (!plans) return plans.error();
+    DERMIS_TRY_ASSIGN(const std::vector<JobPlan> plans, plans_of(options));
     const JobLists lists =
-        job_lists(*plans, options.program.empty() ? this_program() : options.program, options.folder);
-    if (Result<void> written = write_job_lists(lists, options.folder); !written) return written.error();
+        job_lists(plans, options.program.empty() ? this_program() : options.program, options.folder);
+    DERMIS_TRY(write_job_lists(lists, options.folder));
     if (options.runner == "local") return run_local(options, lists);
     if (options.runner == "slurm") return run_slurm(options, lists);
     const std::string work = shell_word(options.folder + "/work.txt"),

@@ -15,17 +15,15 @@ struct LintOptions {
 
 Result<int> run(const LintOptions& options) {
     const std::string& path = options.path;
-    const Result<LintReport> report = lint_file(path);
-    if (!report) return report.error();
+    DERMIS_TRY_ASSIGN(const LintReport report, lint_file(path));
     print_path(path);
-    for (const std::string& line : report->findings) std::printf("  %s\n", line.c_str());
-    for (const std::string& line : report->advice) std::printf("  -> %s\n", line.c_str());
+    for (const std::string& line : report.findings) std::printf("  %s\n", line.c_str());
+    for (const std::string& line : report.advice) std::printf("  -> %s\n", line.c_str());
     if (options.write_sidecar) {
-        const auto sidecar = write_sidecar(path, *report);
-        if (!sidecar) return sidecar.error();
-        print_path(*sidecar);
+        DERMIS_TRY_ASSIGN(const auto sidecar, write_sidecar(path, report));
+        print_path(sidecar);
     }
-    return report->explained ? 0 : 1;
+    return report.explained ? 0 : 1;
 }
 
 }  // namespace

@@ -45,23 +45,19 @@ Result<FileUse> files_of(const MergeOptions& options) {
 Result<int> run(const MergeOptions& options) {
     if (options.check) return check_parts(options);
     const auto start = std::chrono::steady_clock::now();
-    Result<MergedPicture> merged = [&] {
+    DERMIS_TRY_ASSIGN(MergedPicture merged, [&] {
         Progress line("merge", 0);
         return merge_parts(std::vector<std::filesystem::path>(options.parts.begin(), options.parts.end()),
                            [&](double done) { line.set(done); });
-    }();
-    if (!merged) return merged.error();
-    const PictureFacts& facts = merged->facts.picture;
-    const std::string text = described(facts, merged->picture, false);
-    if (Result<void> written = write_picture_file(options.output, facts, merged->picture, text); !written)
-        return written.error();
-    if (!options.preview.empty())
-        if (Result<void> written = write_preview_file(options.preview, facts, merged->picture); !written)
-            return written.error();
-    merged->picture.time_ms =
+    }());
+    const PictureFacts& facts = merged.facts.picture;
+    const std::string text = described(facts, merged.picture, false);
+    DERMIS_TRY(write_picture_file(options.output, facts, merged.picture, text));
+    if (!options.preview.empty()) DERMIS_TRY(write_preview_file(options.preview, facts, merged.picture));
+    merged.picture.time_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     print_picture({.output = options.output, .text = text, .credit = facts.credit, .json = options.json},
-                  merged->picture);
+                  merged.picture);
     return 0;
 }
 

@@ -19,15 +19,13 @@ struct PassesOptions {
 };
 
 Result<int> print_passes(const PassesOptions& options) {
-    const Result<const Technique*> technique =
-        find_technique(built_in_catalog().techniques, options.technique);
-    if (!technique) return technique.error();
-    ParameterValues values((*technique)->parameters);
-    for (const std::string& setting : options.settings)
-        if (Result<void> set = apply_setting(values, setting); !set) return set.error();
-    if (Result<void> good = check_view(**technique, options.view); !good) return good.error();
-    if (Result<void> good = check_samples(options.samples); !good) return good.error();
-    const PassList own = (*technique)->build(values, {.view = options.view});
+    DERMIS_TRY_ASSIGN(const Technique* technique,
+                      find_technique(built_in_catalog().techniques, options.technique));
+    ParameterValues values(technique->parameters);
+    for (const std::string& setting : options.settings) DERMIS_TRY(apply_setting(values, setting));
+    DERMIS_TRY(check_view(*technique, options.view));
+    DERMIS_TRY(check_samples(options.samples));
+    const PassList own = technique->build(values, {.view = options.view});
     std::printf("%s",
                 describe(frame_passes(own, {.samples = options.samples, .view = options.view})).c_str());
     return 0;

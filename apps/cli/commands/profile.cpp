@@ -54,9 +54,7 @@ Result<int> list(const ProfileOptions& options) {
                         profile.source.c_str());
     }
     if (options.json) print(all.dump(2) + "\n");
-    if (!options.plot.empty())
-        if (const auto written = write_plot(options.plot, comparison_plot(profiles)); !written)
-            return written.error();
+    if (!options.plot.empty()) DERMIS_TRY(write_plot(options.plot, comparison_plot(profiles)));
     return 0;
 }
 
@@ -90,18 +88,14 @@ void print_profile(const Profile& profile, const GaussianFit& fit) {
 }
 
 Result<int> show(const ProfileOptions& options) {
-    const Result<Profile> profile = find_profile(options.name);
-    if (!profile) return profile.error();
-    const Result<GaussianFit> fitted = fit_gaussians(*profile, options.terms);
-    if (!fitted) return fitted.error();
-    const GaussianFit& fit = *fitted;
+    DERMIS_TRY_ASSIGN(const Profile profile, find_profile(options.name));
+    DERMIS_TRY_ASSIGN(const GaussianFit fitted, fit_gaussians(profile, options.terms));
+    const GaussianFit& fit = fitted;
     if (options.json)
-        print(profile_json(*profile, fit).dump(2) + "\n");
+        print(profile_json(profile, fit).dump(2) + "\n");
     else
-        print_profile(*profile, fit);
-    if (!options.plot.empty())
-        if (const auto written = write_plot(options.plot, profile_plot(*profile, fit)); !written)
-            return written.error();
+        print_profile(profile, fit);
+    if (!options.plot.empty()) DERMIS_TRY(write_plot(options.plot, profile_plot(profile, fit)));
     return 0;
 }
 
@@ -139,13 +133,11 @@ Result<int> write_converted(const ProfileOptions& options) {
     if (!profile) return profile.error();
     ConversionChoice as_it_was = options.conversion;
     as_it_was.albedo.clear();
-    const Result<Profile> original = as_it_was.source_profile();
-    if (!original) return original.error();
-    if (const auto written = write_text_file(options.output, mtlx_text(*profile)); !written)
-        return written.error();
+    DERMIS_TRY_ASSIGN(const Profile original, as_it_was.source_profile());
+    DERMIS_TRY(write_text_file(options.output, mtlx_text(*profile)));
     print(printable_line(options.output) + ": " + profile->name + "\n");
     if (!profile->source.empty()) print("  from " + profile->source + "\n");
-    for (const std::string& note : mtlx_notes(*original, *profile)) print("  " + note + "\n");
+    for (const std::string& note : mtlx_notes(original, *profile)) print("  " + note + "\n");
     return 0;
 }
 

@@ -89,42 +89,34 @@ Result<int> run_part(const ReferenceOptions& options, const ReferenceSettings& s
 
 Result<int> run_picture(const ReferenceOptions& options, const ReferenceSettings& settings,
                         const Scene& scene) {
-    const Result<ReferencePicture> picture = with_progress([&](const ReferenceProgress& progress) {
-        return render_reference(scene, settings, progress, &stop_requested());
-    });
-    if (!picture) return picture.error();
+    DERMIS_TRY_ASSIGN(const ReferencePicture picture, with_progress([&](const ReferenceProgress& progress) {
+                          return render_reference(scene, settings, progress, &stop_requested());
+                      }));
     const PictureFacts facts = options.facts(settings, scene);
-    const std::string text = described(facts, *picture, stop_requested());
-    if (Result<void> written = write_picture_file(options.output, facts, *picture, text); !written)
-        return written.error();
-    if (!options.preview.empty())
-        if (Result<void> written = write_preview_file(options.preview, facts, *picture); !written)
-            return written.error();
+    const std::string text = described(facts, picture, stop_requested());
+    DERMIS_TRY(write_picture_file(options.output, facts, picture, text));
+    if (!options.preview.empty()) DERMIS_TRY(write_preview_file(options.preview, facts, picture));
     print_picture({.output = options.output,
                    .text = text,
                    .credit = scene.credit,
                    .json = options.json,
                    .stopped = stop_requested()},
-                  *picture);
+                  picture);
     if (stop_requested()) return stopped_exit_code();
-    if (picture->reached_noise) return 0;
+    if (picture.reached_noise) return 0;
     std::fprintf(stderr,
                  "dermis: the relative error is %.4f after %d samples a pixel, not the %g of --noise: raise "
                  "--samples\n",
-                 picture->relative_error, picture->passes, options.noise);
+                 picture.relative_error, picture.passes, options.noise);
     return kNoiseMissed;
 }
 
 Result<int> run(const ReferenceOptions& options, const std::vector<std::string>& words) {
-    const Result<ReferenceSettings> settings = options.settings();
-    if (!settings) return settings.error();
-    const Result<std::optional<SampleRange>> range = options.range(*settings);
-    if (!range) return range.error();
-    const Result<Scene> scene = options.load_scene();
-    if (!scene) return scene.error();
+    DERMIS_TRY_ASSIGN(const ReferenceSettings settings, options.settings());
+    DERMIS_TRY_ASSIGN(const std::optional<SampleRange> range, options.range(settings));
+    DERMIS_TRY_ASSIGN(const Scene scene, options.load_scene());
     const StopOnSignals stop;  // until the files are written
-    return *range ? run_part(options, *settings, *scene, **range, words)
-                  : run_picture(options, *settings, *scene);
+    return range ? run_part(options, settings, scene, *range, words) : run_picture(options, settings, scene);
 }
 
 // Ranges of whole blocks, as equal as they can be.
@@ -139,19 +131,16 @@ std::vector<SampleRange> split_samples(int samples, int parts) {
 
 Result<JobPlan> plan(const ReferenceOptions& options, const std::vector<std::string>& words, int parts,
                      const std::string& folder) {
-    const Result<ReferenceSettings> settings = options.settings();
-    if (!settings) return settings.error();
+    DERMIS_TRY_ASSIGN(const ReferenceSettings settings, options.settings());
     if (!options.sample_range.empty())
         return Error{"--sample-range: dermis jobs chooses the ranges; leave it out"};
-    if (Result<void> good = check_range(*settings, {0, settings->samples}); !good) return good.error();
-    const Result<Scene> scene = options.load_scene();
-    if (!scene) return scene.error();
-    const Result<std::string> content = content_hash(*scene, *settings);
-    if (!content) return content.error();
-    const PictureFacts facts = options.facts(*settings, *scene);
+    DERMIS_TRY(check_range(settings, {0, settings.samples}));
+    DERMIS_TRY_ASSIGN(const Scene scene, options.load_scene());
+    DERMIS_TRY_ASSIGN(const std::string content, content_hash(scene, settings));
+    const PictureFacts facts = options.facts(settings, scene);
     const std::string hash = Hasher()
-                                 .add(*content)
-                                 .add(settings->samples)
+                                 .add(content)
+                                 .add(settings.samples)
                                  .add(facts.description)
                                  .add(facts.tone_map)
                                  .add(facts.exposure_ev)
@@ -159,7 +148,7 @@ Result<JobPlan> plan(const ReferenceOptions& options, const std::vector<std::str
                                  .hex();
     JobPlan plan;
     Job merge{.name = options.output, .hash = hash, .words = {"merge"}, .results = {options.output}};
-    for (const SampleRange range : split_samples(settings->samples, parts)) {
+    for (const SampleRange range : split_samples(settings.samples, parts)) {
         const std::string text = std::to_string(range.begin) + ":" + std::to_string(range.end);
         const std::string file = folder + "/parts/" + hash + "_" + std::to_string(range.begin) + "_" +
                                  std::to_string(range.end) + ".exr";

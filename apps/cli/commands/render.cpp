@@ -45,10 +45,9 @@ Result<IndexRange> frames_of(const Options& options) {
 }
 
 Result<FileUse> files_of(const Options& options) {
-    if (Result<void> good = check_output(options.output, options.file); !good) return good.error();
-    const Result<IndexRange> range = frames_of(options);
-    if (!range) return range.error();
-    return FileUse{.outputs = frame_files(options.output, *range), .inputs = {options.render.scene.name}};
+    DERMIS_TRY(check_output(options.output, options.file));
+    DERMIS_TRY_ASSIGN(const IndexRange range, frames_of(options));
+    return FileUse{.outputs = frame_files(options.output, range), .inputs = {options.render.scene.name}};
 }
 
 // Medians over the frames after the first, which compiles pipelines.
@@ -128,10 +127,9 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     }
     std::vector<gpu::FrameResult> results;
     for (int frame = first; frame < range.end; ++frame) {
-        Result<gpu::FrameResult> drawn = draw(frame);
-        if (!drawn) return drawn.error();
+        DERMIS_TRY_ASSIGN(gpu::FrameResult drawn, draw(frame));
         if (frame < range.begin) continue;
-        results.push_back(std::move(*drawn));
+        results.push_back(std::move(drawn));
         if (!numbered && frame + 1 < frames) continue;
         if (numbered && frame >= options.frames) continue;
         if (Result<void> written =
@@ -144,28 +142,27 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
 }
 
 Result<int> render(Options options) {
-    const Result<IndexRange> range = frames_of(options);
-    if (!range) return range.error();
+    DERMIS_TRY_ASSIGN(const IndexRange range, frames_of(options));
     Result<Prepared> prepared = prepare(options.render);
     if (!prepared) return prepared.error();
-    if (Result<void> kept = keep_scene_files(prepared->scene, files_of(options)); !kept) return kept.error();
+    DERMIS_TRY(keep_scene_files(prepared->scene, files_of(options)));
     print_warnings(prepared->scene.warnings);
     Result<gpu::Device> device = gpu::Device::create({.validation = options.render.validation,
                                                       .on_message = print_message,
                                                       .name_contains = options.render.device});
     if (!device) return device.error();
-    Result<Renderer> renderer =
-        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene);
-    if (!renderer) return renderer.error();
+    DERMIS_TRY_ASSIGN(
+        Renderer renderer,
+        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene));
 
     prepared->draw.deep = options.file.png_bits == 16;
     options.file.credit = prepared->scene.credit;
     options.file.description = prepared->scene.name + ", " + prepared->technique->id;
-    const Result<std::vector<gpu::FrameResult>> frames = draw_frames(*renderer, *prepared, options, *range);
-    if (!frames) return frames.error();
+    DERMIS_TRY_ASSIGN(const std::vector<gpu::FrameResult> frames,
+                      draw_frames(renderer, *prepared, options, range));
 
-    print_warnings(renderer->warnings());
-    const gpu::FrameResult timings = median_timings(*frames);
+    print_warnings(renderer.warnings());
+    const gpu::FrameResult timings = median_timings(frames);
     if (options.json) {
         std::printf("%s\n", to_json(*prepared, options, *device, timings).dump(2).c_str());
     } else {
@@ -181,10 +178,9 @@ Result<int> render(Options options) {
 Result<JobPlan> plan(const Options& options, const std::vector<std::string>& words, int parts) {
     if (!options.frame_range.empty())
         return Error{"--frame-range: dermis jobs chooses the ranges; leave it out"};
-    const Result<Prepared> prepared = prepare(options.render);
-    if (!prepared) return prepared.error();
-    if (Result<void> kept = keep_scene_files(prepared->scene, files_of(options)); !kept) return kept.error();
-    const Result<std::string> hash = hash_of_job({&prepared->scene}, words);
+    DERMIS_TRY_ASSIGN(const Prepared prepared, prepare(options.render));
+    DERMIS_TRY(keep_scene_files(prepared.scene, files_of(options)));
+    const Result<std::string> hash = hash_of_job({&prepared.scene}, words);
     if (!hash) return hash.error();
     const bool numbered = frame_path(options.output, 0) != options.output;
     const int count = numbered ? std::min(parts, options.frames) : 1;

@@ -21,9 +21,7 @@ nlohmann::json to_json(const Technique& technique) {
 
 Result<int> list_techniques(const std::string& only, bool json) {
     nlohmann::json all = nlohmann::json::array();
-    if (!only.empty())
-        if (const auto known = find_technique(built_in_catalog().techniques, only); !known)
-            return known.error();
+    if (!only.empty()) DERMIS_TRY(find_technique(built_in_catalog().techniques, only));
     for (const Technique& technique : built_in_catalog().techniques) {
         if (!only.empty() && technique.id != only) continue;
         if (json) {

@@ -44,15 +44,14 @@ Result<FileUse> files_of(const ViewOptions& options) {
 // Keeps the scene of the files apart from the changes by --scene, --camera and --light, which stay when the
 // files change.
 Result<view::Start> first_scene(const RenderOptions& options) {
-    Result<Prepared> prepared = prepare(options);
-    if (!prepared) return prepared.error();
+    DERMIS_TRY_ASSIGN(Prepared prepared, prepare(options));
     const Result<std::vector<SceneWord>> words = options.scene.all_words();
-    return view::Start{.scene = std::move(prepared->scene),
+    return view::Start{.scene = std::move(prepared.scene),
                        .loading_words = words_for(*words, true),
-                       .technique = prepared->technique,
-                       .values = std::move(prepared->values),
-                       .view = prepared->draw.view,
-                       .file_look = std::move(prepared->as_filed)};
+                       .technique = prepared.technique,
+                       .values = std::move(prepared.values),
+                       .view = prepared.draw.view,
+                       .file_look = std::move(prepared.as_filed)};
 }
 
 std::string first_picture_text(const view::ViewerReport& report) {
@@ -88,17 +87,15 @@ Result<int> view_scene(ViewOptions options) {
         if (const Result<LoadedImage> picture = read_image(options.truth, ImageUse::color); !picture)
             return picture.error().within("--truth");
     if (!options.script.empty()) {
-        const Result<std::string> text = read_text_file(options.script);
-        if (!text) return text.error();
-        Result<std::vector<view::ScriptCommand>> script = view::parse_script(*text, options.script);
+        DERMIS_TRY_ASSIGN(const std::string text, read_text_file(options.script));
+        Result<std::vector<view::ScriptCommand>> script = view::parse_script(text, options.script);
         if (!script) return script.error();
         viewer.script = std::move(*script);
     }
-    const Result<view::ViewerReport> report = view::run_viewer(viewer);
-    if (!report) return report.error();
+    DERMIS_TRY_ASSIGN(const view::ViewerReport report, view::run_viewer(viewer));
     if (options.frames > 0 || !options.script.empty())
-        std::printf("%d frames, %s on %s\n", report->frames, first_picture_text(*report).c_str(),
-                    report->device.c_str());
+        std::printf("%d frames, %s on %s\n", report.frames, first_picture_text(report).c_str(),
+                    report.device.c_str());
     return 0;
 }
 

@@ -1,6 +1,6 @@
 #include "dermis/base/system/command_line.h"
 
-namespace dermis {
+namespace dermis::inline base {
 
 // Windows reads backslashes literally unless a quote follows them. Before a quote each backslash is doubled,
 // and one more escapes the quote.
@@ -25,4 +25,4 @@ std::string command_line(const std::vector<std::string>& arguments) {
     return line;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace dermis {
+namespace dermis::inline base {
 
 /// The line that CommandLineToArgvW() and the C library split into these arguments again.
 [[nodiscard]] std::string command_line(const std::vector<std::string>& arguments);
 
-}  // namespace dermis
+}  // namespace dermis::inline base

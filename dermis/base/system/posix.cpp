@@ -11,7 +11,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/system/system.h"
 
-namespace dermis::system {
+namespace dermis::inline base::system {
 namespace fs = std::filesystem;
 namespace {
 
@@ -111,7 +111,7 @@ bool stderr_is_terminal() {
     return ::isatty(STDERR_FILENO) == 1;
 }
 
-}  // namespace dermis::system
+}  // namespace dermis::inline base::system
 
 std::filesystem::path dermis::utf8_path(std::string_view name) {
     return name;

@@ -7,7 +7,7 @@
 
 extern char** environ;
 
-namespace dermis {
+namespace dermis::inline base {
 
 int run_program(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
     std::vector<char*> argv;
@@ -27,4 +27,4 @@ int run_program(const std::vector<std::string>& arguments, const std::filesystem
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

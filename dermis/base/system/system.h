@@ -10,7 +10,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis::system {
+namespace dermis::inline base::system {
 
 /// A regular file that is open for reading. Others may replace or remove the file meanwhile.
 class InputFile {
@@ -57,4 +57,4 @@ void before_the_end(void (*clean_up)() noexcept);
 /// Whether standard error is a terminal that erases a line on an escape sequence.
 [[nodiscard]] bool stderr_is_terminal();
 
-}  // namespace dermis::system
+}  // namespace dermis::inline base::system

@@ -7,7 +7,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/system/system.h"
 
-namespace dermis::system {
+namespace dermis::inline base::system {
 namespace fs = std::filesystem;
 namespace {
 
@@ -132,7 +132,7 @@ bool stderr_is_terminal() {
     return ::GetConsoleMode(console, &mode) && ::SetConsoleMode(console, mode | kEscapeSequences);
 }
 
-}  // namespace dermis::system
+}  // namespace dermis::inline base::system
 
 std::filesystem::path dermis::utf8_path(std::string_view name) {
     const int bytes = int(std::min<size_t>(name.size(), 1 << 20));  // no path is longer

@@ -4,7 +4,7 @@
 #include "dermis/base/process.h"
 #include "dermis/base/system/command_line.h"
 
-namespace dermis {
+namespace dermis::inline base {
 namespace {
 
 HANDLE open_inherited(const wchar_t* path, DWORD access, DWORD creation) {
@@ -42,4 +42,4 @@ int run_program(const std::vector<std::string>& arguments, const std::filesystem
     return status > kMostOfAProgram ? -1 : int(status);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline base

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dermis::web {
+namespace dermis::inline engines::web {
 
 // EXT_texture_shared_exponent, section "Encoding of shared-exponent": bias 15, mantissas without a leading 1.
 uint32_t shared_exponent(Vec3 color_linear) {
@@ -20,4 +20,4 @@ uint32_t shared_exponent(Vec3 color_linear) {
     return mantissa(r) | mantissa(g) << 9 | mantissa(b) << 18 | uint32_t(exponent) << 27;
 }
 
-}  // namespace dermis::web
+}  // namespace dermis::inline engines::web

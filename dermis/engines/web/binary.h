@@ -10,7 +10,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis::web {
+namespace dermis::inline engines::web {
 
 /// Little-endian values, one behind the other.
 class Binary {
@@ -36,4 +36,4 @@ class Binary {
 /// most 0.2 % of the largest channel; negative channels count as 0.
 [[nodiscard]] uint32_t shared_exponent(Vec3 color_linear);
 
-}  // namespace dermis::web
+}  // namespace dermis::inline engines::web

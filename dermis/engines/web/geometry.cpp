@@ -12,12 +12,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dermis/engines/web/tables.h"
 #include "dermis/image/half.h"
 #include "dermis/mesh/simplify.h"
 #include "dermis/render/complete_scene.h"
-#include "dermis/engines/web/tables.h"
 
-namespace dermis::web {
+namespace dermis::inline engines::web {
 namespace {
 
 struct Range {
@@ -99,10 +99,9 @@ nlohmann::json ranges(std::span<const Range> all) {
 }  // namespace
 
 Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangle_count) {
-    Result<std::vector<Vec3>> blurred = blurred_occlusions(mesh);
-    if (!blurred) return blurred.error();
+    DERMIS_TRY_ASSIGN(std::vector<Vec3> blurred, blurred_occlusions(mesh));
     const Packer packer = {.mesh = mesh,
-                           .blurred_occlusions = std::move(*blurred),
+                           .blurred_occlusions = std::move(blurred),
                            .box = {range_of(mesh.positions_mm, [](Vec3 p) { return p.x; }),
                                    range_of(mesh.positions_mm, [](Vec3 p) { return p.y; }),
                                    range_of(mesh.positions_mm, [](Vec3 p) { return p.z; })},
@@ -136,4 +135,4 @@ Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangl
     return made;
 }
 
-}  // namespace dermis::web
+}  // namespace dermis::inline engines::web

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "dermis/base/result.h"
-#include "dermis/mesh/mesh.h"
 #include "dermis/engines/web/binary.h"
+#include "dermis/mesh/mesh.h"
 
-namespace dermis::web {
+namespace dermis::inline engines::web {
 
 /// Vertices and indices into `binary`; where they are, and the ranges of what is stored as whole numbers, as
 /// JSON. `mesh` has curvature and occlusion. "parts" is the caller's: one a submesh, with "first" and
@@ -17,4 +17,4 @@ namespace dermis::web {
 /// Of one vertex.
 inline constexpr int kVertexBytes = 36;
 
-}  // namespace dermis::web
+}  // namespace dermis::inline engines::web

@@ -9,7 +9,7 @@
 #include "dermis/render/material_maps.h"
 #include "dermis/scene/image_source.h"
 
-namespace dermis::web {
+namespace dermis::inline engines::web {
 namespace {
 
 constexpr int kQuality = 82;
@@ -109,36 +109,30 @@ Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& mat
     nlohmann::json made = {{"maps", nlohmann::json::object()}};
     const auto add = [&](const std::string& name, const Image& image,
                          std::span<const std::string_view> textures) -> Result<void> {
-        const Result<nlohmann::json> wrap = wrap_of(material, textures);
-        if (!wrap) return wrap.error();
-        if (*wrap != nlohmann::json{"repeat", "repeat"}) made["wraps"][name] = *wrap;
-        Result<std::vector<std::byte>> jpeg = encode_jpeg(image, kQuality);
-        if (!jpeg) return jpeg.error();
+        DERMIS_TRY_ASSIGN(const nlohmann::json wrap, wrap_of(material, textures));
+        if (wrap != nlohmann::json{"repeat", "repeat"}) made["wraps"][name] = wrap;
+        DERMIS_TRY_ASSIGN(std::vector<std::byte> jpeg, encode_jpeg(image, kQuality));
         const std::string path = "maps/" + prefix + "_" + name + ".jpg";
         made["maps"][name] = path;
-        files.push_back({path, std::move(*jpeg)});
+        files.push_back({path, std::move(jpeg)});
         return {};
     };
     for (const std::string name : {"albedo", "normal"}) {
         const std::string texture = name + "_map";
-        const Result<Image> image = maps.load(texture);
-        if (!image) return image.error();
-        if (image->empty()) continue;
+        DERMIS_TRY_ASSIGN(const Image image, maps.load(texture));
+        if (image.empty()) continue;
         const std::string_view textures[] = {texture};
-        if (const Result<void> added = add(name, three_channels(*image), textures); !added)
-            return added.error();
+        DERMIS_TRY(add(name, three_channels(image), textures));
     }
     std::array<Image, 3> singles;
     constexpr std::string_view kTextures[] = {"roughness_map", "specular_map", "occlusion_map"};
     for (size_t i = 0; i < singles.size(); ++i) {
-        Result<Image> image = maps.load(kTextures[i]);
-        if (!image) return image.error();
-        singles[i] = std::move(*image);
+        DERMIS_TRY_ASSIGN(Image image, maps.load(kTextures[i]));
+        singles[i] = std::move(image);
     }
     if (std::ranges::any_of(singles, [](const Image& image) { return !image.empty(); }))
-        if (const Result<void> added = add("surface", packed(singles), kTextures); !added)
-            return added.error();
+        DERMIS_TRY(add("surface", packed(singles), kTextures));
     return made;
 }
 
-}  // namespace dermis::web
+}  // namespace dermis::inline engines::web

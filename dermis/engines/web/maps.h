@@ -5,7 +5,7 @@
 
 #include "dermis/engines/web.h"
 
-namespace dermis::web {
+namespace dermis::inline engines::web {
 
 /// Adds the maps of `material` to `files` as "maps/N_albedo.jpg", "_normal.jpg" and "_surface.jpg"
 /// (roughness, factor on the reflectance, occlusion). JSON: "maps" has the paths of those that there are,
@@ -14,4 +14,4 @@ namespace dermis::web {
 [[nodiscard]] Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& material,
                                               const Mesh& mesh, const std::string& prefix, int map_side);
 
-}  // namespace dermis::web
+}  // namespace dermis::inline engines::web

@@ -9,7 +9,7 @@
 #include "dermis/scene/brdf_table.h"
 #include "dermis/scene/environment.h"
 
-namespace dermis::web {
+namespace dermis::inline engines::web {
 namespace {
 
 // The renderer's table goes further; more than this a head has in a few creases only.
@@ -66,42 +66,39 @@ Result<nlohmann::json> add_tables(Binary& binary, std::span<const WebTone> tones
                        {"height", kTableHeight},
                        {"max_curvature_per_mm", kPageCurvaturePerMm}};
     for (const WebTone& tone : tones) {
-        const Result<Image> table = image_of(tone.diffuse_table);
-        if (!table) return table.error();
-        put_diffuse(binary, *table, baked_curvature_per_mm);
+        DERMIS_TRY_ASSIGN(const Image table, image_of(tone.diffuse_table));
+        put_diffuse(binary, table, baked_curvature_per_mm);
     }
     nlohmann::json& rows = made["rows"];
     rows = {{"offset", binary.begin_block()}, {"width", kRowWidth}, {"height", 0}};
     for (const WebTone& tone : tones) {
-        const Result<Image> table = image_of(tone.rows_table);
-        if (!table) return table.error();
-        rows["height"] = table->height;
-        for (int y = 0; y < table->height; ++y) put_row(binary, *table, y);
+        DERMIS_TRY_ASSIGN(const Image table, image_of(tone.rows_table));
+        rows["height"] = table.height;
+        for (int y = 0; y < table.height; ++y) put_row(binary, table, y);
     }
     return made;
 }
 
 Result<nlohmann::json> add_environment(Binary& binary, const Environment& environment) {
-    const Result<EnvironmentLight> light = prepare_environment(environment);
-    if (!light) return light.error();
+    DERMIS_TRY_ASSIGN(const EnvironmentLight light, prepare_environment(environment));
     const Result<std::vector<std::byte>> brdf = stored_brdf_table();
     if (!brdf) return brdf.error();
     nlohmann::json made = {
         {"intensity", to_json(environment.kind == EnvironmentKind::none ? 0.0f : environment.intensity)},
         {"yaw_rad", to_json(environment.yaw_rad)},
         {"radiance_sh", nlohmann::json::array()}};
-    for (const Vec3& coefficient : light->radiance_sh) made["radiance_sh"].push_back(to_json(coefficient));
+    for (const Vec3& coefficient : light.radiance_sh) made["radiance_sh"].push_back(to_json(coefficient));
 
-    const int first = std::min(kFirstLevel, light->mips - 1);
+    const int first = std::min(kFirstLevel, light.mips - 1);
     made["cube"] = {{"offset", binary.begin_block()},
-                    {"side", light->base_size >> first},
-                    {"levels", light->mips - first},
+                    {"side", light.base_size >> first},
+                    {"levels", light.mips - first},
                     {"first_level", first}};
     size_t skipped = 0;
     for (int level = 0; level < first; ++level)
-        skipped += 6 * size_t(light->base_size >> level) * size_t(light->base_size >> level);
+        skipped += 6 * size_t(light.base_size >> level) * size_t(light.base_size >> level);
     const auto halves =
-        std::span(reinterpret_cast<const uint16_t*>(light->cube.data()), light->cube.size() / 2);
+        std::span(reinterpret_cast<const uint16_t*>(light.cube.data()), light.cube.size() / 2);
     for (size_t i = 4 * skipped; i + 3 < halves.size(); i += 4)
         binary.put(
             shared_exponent({from_half(halves[i]), from_half(halves[i + 1]), from_half(halves[i + 2])}));
@@ -113,4 +110,4 @@ Result<nlohmann::json> add_environment(Binary& binary, const Environment& enviro
     return made;
 }
 
-}  // namespace dermis::web
+}  // namespace dermis::inline engines::web

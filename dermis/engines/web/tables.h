@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "dermis/engines/web/binary.h"
 #include "dermis/engines/web.h"
+#include "dermis/engines/web/binary.h"
 
-namespace dermis::web {
+namespace dermis::inline engines::web {
 
 /// The diffuse tables of all tones as layers of one texture of shared exponents; their other
 /// functions as rows of another, of halves. Sizes and offsets as JSON. `baked_curvature_per_mm`: where the
@@ -21,4 +21,4 @@ namespace dermis::web {
 [[nodiscard]] nlohmann::json to_json(float value);
 [[nodiscard]] nlohmann::json to_json(Vec3 v);
 
-}  // namespace dermis::web
+}  // namespace dermis::inline engines::web

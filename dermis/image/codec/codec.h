@@ -12,7 +12,7 @@
 
 #include "dermis/image/io.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 
 using Bytes = std::span<const std::byte>;
 using Buffer = std::vector<std::byte>;
@@ -117,4 +117,4 @@ class ByteWriter {
 
 static_assert(std::endian::native == std::endian::little, "the codecs copy little-endian numbers");
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

@@ -8,7 +8,7 @@
 #include "dermis/image/codec/codec.h"
 #include "dermis/image/codec/texel_format.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 constexpr uint32_t kMagic = 0x20534444;  // "DDS "
@@ -129,20 +129,18 @@ bool is_dds(Bytes file) {
 
 Result<LoadedImage> decode_dds(Bytes file, ImageUse use) {
     ByteReader in(file);
-    Result<Header> header = read_header(in, use);
-    if (!header) return header.error();
-    const TexelFormat& format = header->format;
-    if (Result<void> size = check_image_size(header->width, header->height, format.channels); !size)
-        return size.error();
-    const uint64_t count = uint64_t(header->width) * header->height * uint64_t(format.channels) *
-                           bytes_per_channel(format.format);
+    DERMIS_TRY_ASSIGN(Header header, read_header(in, use));
+    const TexelFormat& format = header.format;
+    DERMIS_TRY(check_image_size(header.width, header.height, format.channels));
+    const uint64_t count =
+        uint64_t(header.width) * header.height * uint64_t(format.channels) * bytes_per_channel(format.format);
     const Bytes texels = in.take(count);
     if (!in.ok()) return Error{"corrupt DDS: the file ends early"};
-    Image stored(int(header->width), int(header->height), format.channels, format.format, format.encoding);
+    Image stored(int(header.width), int(header.height), format.channels, format.format, format.encoding);
     std::memcpy(stored.bytes.data(), texels.data(), texels.size());
-    Result<Image> image = apply_swizzle(std::move(stored), header->swizzle);
+    Result<Image> image = apply_swizzle(std::move(stored), header.swizzle);
     if (!image) return Error{"DDS: " + image.error().message};
-    image->encoding = header->encoding;
+    image->encoding = header.encoding;
     return LoadedImage{*std::move(image), {}};
 }
 
@@ -166,4 +164,4 @@ Buffer encode_dds(const Image& image) {
     return out.finish();
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

@@ -5,7 +5,7 @@
 
 #include "dermis/image/codec/codec.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 
 /// Looks through the header by ourselves, because OpenEXR allocates by what a header says before anybody can
 /// object: sizes, tiles, number of channels and the length of the chunk table must be such as this file can
@@ -39,4 +39,4 @@ class ExrOutput final : public Imf::OStream {
     uint64_t at_ = 0;
 };
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

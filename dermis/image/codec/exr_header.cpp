@@ -6,7 +6,7 @@
 
 #include "dermis/image/codec/exr.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 constexpr uint32_t kDeepFlag = 0x800, kMultiPartFlag = 0x1000;
@@ -48,9 +48,8 @@ Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
         (data ? part.height : part.display_height) = y1 - y0 + 1;
     } else if (name == "compression") {
         const uint8_t compression = in.read<uint8_t>();
-        Result<int64_t> lines = lines_of(compression);
-        if (!lines) return lines.error();
-        part.lines_per_chunk = *lines;
+        DERMIS_TRY_ASSIGN(int64_t lines, lines_of(compression));
+        part.lines_per_chunk = lines;
         part.bounded = ratio_is_bounded(compression);
     } else if (name == "tiles") {
         part.tile_width = in.u32();
@@ -134,7 +133,7 @@ Result<Part> read_part(ByteReader& in, std::string_view first_name) {
             return Error{"corrupt EXR: the attribute '" + std::string(name.substr(0, 40)) +
                          "' is there twice"};
         seen.emplace_back(name);
-        if (Result<void> read = read_attribute(name, value, part); !read) return read.error();
+        DERMIS_TRY(read_attribute(name, value, part));
     }
     if (!in.ok()) return Error{"corrupt EXR: the file ends in the header"};
     return part;
@@ -180,12 +179,11 @@ Result<void> check_exr_header(Bytes file) {
         const std::string_view first_name = in.text();
         if (!in.ok()) return Error{"corrupt EXR: the file ends in the header"};
         if (first_name.empty()) break;
-        Result<Part> part = read_part(in, first_name);
-        if (!part) return part.error();
-        if (Result<void> fine = check_part(*part, file.size()); !fine) return fine;
+        DERMIS_TRY_ASSIGN(Part part, read_part(in, first_name));
+        if (Result<void> fine = check_part(part, file.size()); !fine) return fine;
         more = (version & kMultiPartFlag) != 0;
     }
     return {};
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

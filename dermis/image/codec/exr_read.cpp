@@ -17,7 +17,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/codec/exr.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 struct Channel {
@@ -106,8 +106,7 @@ Result<Target> make_target(std::vector<Channel> channels, int width, int height)
     const bool half = std::ranges::all_of(channels, [](const Channel& c) { return c.type == Imf::HALF; });
     const PixelFormat format = half ? PixelFormat::f16 : PixelFormat::f32;
     const int count = int(channels.size());
-    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), count); !size)
-        return size.error();
+    DERMIS_TRY(check_image_size(uint64_t(width), uint64_t(height), count));
     return Target{Image(width, height, count, format, Encoding::linear), std::move(channels)};
 }
 
@@ -127,8 +126,7 @@ Result<Image> in_display_window(Image data, const Imath::Box2i& window, const Im
     const int y0 = std::max(window.min.y, display.min.y), y1 = std::min(window.max.y, display.max.y);
     if (x0 > x1 || y0 > y1) return Error{"EXR whose data window lies outside of its display window"};
     const int width = display.max.x - display.min.x + 1, height = display.max.y - display.min.y + 1;
-    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), data.channels); !size)
-        return size.error();
+    DERMIS_TRY(check_image_size(uint64_t(width), uint64_t(height), data.channels));
     Image picture(width, height, data.channels, data.format, data.encoding);
     const size_t texel = bytes_per_channel(data.format) * size_t(data.channels);
     for (int y = y0; y <= y1; ++y) {
@@ -161,22 +159,20 @@ Result<LayeredImage> read_layers(Bytes bytes, Pick pick) {
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     Result<Layers> layers = collect_layers(part.header().channels());
     if (!layers) return layers.error();
-    Result<Layers> picked = pick(*layers);
-    if (!picked) return picked.error();
+    DERMIS_TRY_ASSIGN(Layers picked, pick(*layers));
 
     std::vector<Target> targets;
     Imf::FrameBuffer buffer;
     uint64_t total = 0;
     const Result<uint64_t> limit = max_image_bytes();
     if (!limit) return limit.error();
-    for (auto& [name, channels] : *picked) {
-        Result<Target> target = make_target(std::move(channels), width, height);
-        if (!target) return target.error();
-        total += target->image.bytes.size();
+    for (auto& [name, channels] : picked) {
+        DERMIS_TRY_ASSIGN(Target target, make_target(std::move(channels), width, height));
+        total += target.image.bytes.size();
         if (total > *limit)
             return Error{"EXR whose layers take more than " + std::to_string(*limit >> 20) +
                          " MiB, the limit (DERMIS_MAX_IMAGE_MIB)"};
-        targets.push_back(*std::move(target));
+        targets.push_back(std::move(target));
         add_slices(buffer, targets.back(), window);
     }
     part.setFrameBuffer(buffer);
@@ -185,11 +181,10 @@ Result<LayeredImage> read_layers(Bytes bytes, Pick pick) {
     LayeredImage out;
     out.text = read_text(part.header());
     size_t index = 0;
-    for (const auto& [name, channels] : *picked) {
-        Result<Image> picture =
-            in_display_window(std::move(targets[index++].image), window, part.header().displayWindow());
-        if (!picture) return picture.error();
-        out.layers.push_back({name, *std::move(picture)});
+    for (const auto& [name, channels] : picked) {
+        DERMIS_TRY_ASSIGN(Image picture, in_display_window(std::move(targets[index++].image), window,
+                                                           part.header().displayWindow()));
+        out.layers.push_back({name, std::move(picture)});
     }
     return out;
 }
@@ -197,7 +192,7 @@ Result<LayeredImage> read_layers(Bytes bytes, Pick pick) {
 // OpenEXR reports errors, and failed allocations, by exceptions; none leaves this function.
 template <class Pick>
 Result<LayeredImage> read_guarded(Bytes file, Pick pick) {
-    if (Result<void> fine = check_exr_header(file); !fine) return fine.error();
+    DERMIS_TRY(check_exr_header(file));
     try {
         return read_layers(file, pick);
     } catch (const std::exception& e) {
@@ -216,17 +211,15 @@ bool ExrInput::read(char to[], int count) {
 }
 
 Result<LoadedImage> decode_exr(Bytes file, ImageUse use) {
-    Result<LayeredImage> read = read_guarded(file, [use](const Layers& layers) -> Result<Layers> {
-        Result<std::vector<Channel>> plain = plain_channels(layers, use);
-        if (!plain) return plain.error();
-        return Layers{{"", *std::move(plain)}};
-    });
-    if (!read) return read.error();
-    return LoadedImage{std::move(read->layers.front().image), std::move(read->text)};
+    DERMIS_TRY_ASSIGN(LayeredImage read, read_guarded(file, [use](const Layers& layers) -> Result<Layers> {
+                          DERMIS_TRY_ASSIGN(std::vector<Channel> plain, plain_channels(layers, use));
+                          return Layers{{"", std::move(plain)}};
+                      }));
+    return LoadedImage{std::move(read.layers.front().image), std::move(read.text)};
 }
 
 Result<LayeredImage> decode_layered_exr(Bytes file) {
     return read_guarded(file, [](const Layers& layers) -> Result<Layers> { return layers; });
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

@@ -11,7 +11,7 @@
 
 #include "dermis/image/codec/exr.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 std::string channel_name(const std::string& layer, int channels, int channel) {
@@ -46,7 +46,7 @@ Result<Buffer> write_layers(std::span<const ImageLayer> layers, const ImageText&
     const int width = layers[0].image.width, height = layers[0].image.height;
     Imf::Header header(width, height);
     header.compression() = Imf::ZIP_COMPRESSION;
-    if (Result<void> added = add_text(header, text); !added) return added.error();
+    DERMIS_TRY(add_text(header, text));
 
     Imf::FrameBuffer buffer;
     for (const auto& [name, image] : layers) {
@@ -79,7 +79,7 @@ void ExrOutput::write(const char from[], int count) {
 }
 
 Result<Buffer> encode_exr(std::span<const ImageLayer> layers, const ImageText& text) {
-    if (Result<void> fine = check_layers(layers); !fine) return fine.error();
+    DERMIS_TRY(check_layers(layers));
     try {
         return write_layers(layers, text);
     } catch (const std::exception& e) {
@@ -87,4 +87,4 @@ Result<Buffer> encode_exr(std::span<const ImageLayer> layers, const ImageText& t
     }
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

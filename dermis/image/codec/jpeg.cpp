@@ -4,7 +4,7 @@
 
 #include "dermis/image/codec/codec.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 // A flat 4:2:0 picture spends at least one bit on each of the six blocks of 768 decoded bytes: 1024:1. Twice
@@ -53,10 +53,9 @@ Result<LoadedImage> decode_jpeg(Bytes file, ImageUse use) {
 
     const int channels = color_space == TJCS_GRAY ? 1 : 3;
     if (width <= 0 || height <= 0) return Error{"corrupt JPEG: no texels"};
-    if (Result<void> size = check_image_size(uint64_t(width), uint64_t(height), channels); !size)
-        return size.error();
+    DERMIS_TRY(check_image_size(uint64_t(width), uint64_t(height), channels));
     const uint64_t decoded = uint64_t(width) * uint64_t(height) * uint64_t(channels);
-    if (Result<void> ratio = check_ratio(decoded, file.size(), kMostJpegRatio); !ratio) return ratio.error();
+    DERMIS_TRY(check_ratio(decoded, file.size(), kMostJpegRatio));
 
     LoadedImage loaded;
     loaded.image = Image(width, height, channels, PixelFormat::u8,
@@ -68,9 +67,9 @@ Result<LoadedImage> decode_jpeg(Bytes file, ImageUse use) {
     return loaded;
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec
 
-namespace dermis {
+namespace dermis::inline image {
 
 Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality) {
     if (image.format != PixelFormat::u8 || (image.channels != 1 && image.channels != 3) || image.empty())
@@ -87,4 +86,4 @@ Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality) {
     return std::vector(bytes, bytes + size);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

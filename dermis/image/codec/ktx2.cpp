@@ -8,7 +8,7 @@
 #include "dermis/image/codec/codec.h"
 #include "dermis/image/codec/texel_format.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 constexpr std::array<uint8_t, 12> kIdentifier = {0xab, 'K',  'T',  'X',  ' ',  '2',
@@ -146,24 +146,21 @@ bool is_ktx2(Bytes file) {
 }
 
 Result<LoadedImage> decode_ktx2(Bytes file, ImageUse) {
-    Result<Ktx2Header> header = read_header(file);
-    if (!header) return header.error();
-    const TexelFormat* format = find_vulkan(header->format);
-    if (!format) return unread_vulkan_format(header->format);
-    if (Result<void> size = check_image_size(header->width, header->height, format->channels); !size)
-        return size.error();
-    const uint64_t count = uint64_t(header->width) * header->height * uint64_t(format->channels) *
+    DERMIS_TRY_ASSIGN(Ktx2Header header, read_header(file));
+    const TexelFormat* format = find_vulkan(header.format);
+    if (!format) return unread_vulkan_format(header.format);
+    DERMIS_TRY(check_image_size(header.width, header.height, format->channels));
+    const uint64_t count = uint64_t(header.width) * header.height * uint64_t(format->channels) *
                            bytes_per_channel(format->format);
-    if (header->level_bytes != count) return Error{"corrupt KTX2: the level has not the size of its texels"};
-    ByteReader level(file, size_t(header->level_offset)), pairs(file, header->text_offset);
-    const Bytes texels = level.take(count), text = pairs.take(header->text_bytes);
+    if (header.level_bytes != count) return Error{"corrupt KTX2: the level has not the size of its texels"};
+    ByteReader level(file, size_t(header.level_offset)), pairs(file, header.text_offset);
+    const Bytes texels = level.take(count), text = pairs.take(header.text_bytes);
     if (!level.ok() || !pairs.ok()) return Error{"corrupt KTX2: the file ends early"};
 
     LoadedImage loaded;
-    Result<ImageText> read = read_key_values(text);
-    if (!read) return read.error();
-    loaded.text = *std::move(read);
-    Image stored(int(header->width), int(header->height), format->channels, format->format, format->encoding);
+    DERMIS_TRY_ASSIGN(ImageText read, read_key_values(text));
+    loaded.text = std::move(read);
+    Image stored(int(header.width), int(header.height), format->channels, format->format, format->encoding);
     std::memcpy(stored.bytes.data(), texels.data(), texels.size());
     Result<Image> image = as_oriented(std::move(stored), *format, loaded.text);
     if (!image) return image.error();
@@ -196,4 +193,4 @@ Buffer encode_ktx2(const Image& image, const ImageText& text) {
     return out.finish();
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

@@ -9,7 +9,7 @@
 
 #include "dermis/image/codec/codec.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 // Deflate reaches 1032:1 (a match of 258 bytes in two bits), and a 1-bit palette with transparency expands to
@@ -117,7 +117,7 @@ Error corrupt(const Reader& r) {
 }  // namespace
 
 Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
-    if (Result<void> whole = check_chunks(file); !whole) return whole.error();
+    DERMIS_TRY(check_chunks(file));
     Reader r;
     r.source.rest = file;
     r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r.source, on_read_error, on_read_warning);
@@ -128,10 +128,9 @@ Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
     const uint32_t width = png_get_image_width(r.png, r.info), height = png_get_image_height(r.png, r.info);
     const int channels = png_get_channels(r.png, r.info);
     const PixelFormat format = png_get_bit_depth(r.png, r.info) == 16 ? PixelFormat::u16 : PixelFormat::u8;
-    if (Result<void> size = check_image_size(width, height, channels); !size) return size.error();
+    DERMIS_TRY(check_image_size(width, height, channels));
     const uint64_t stored_row = png_get_rowbytes(r.png, r.info);
-    if (Result<void> ratio = check_ratio(stored_row * height, file.size(), kMostPngRatio); !ratio)
-        return ratio.error();
+    DERMIS_TRY(check_ratio(stored_row * height, file.size(), kMostPngRatio));
 
     LoadedImage loaded;
     loaded.image =
@@ -144,4 +143,4 @@ Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
     return loaded;
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

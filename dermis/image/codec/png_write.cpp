@@ -6,7 +6,7 @@
 
 #include "dermis/image/codec/codec.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 // Level 4 writes a 2048x2048 picture about three times as fast as the default 6, for files a few per cent
@@ -96,4 +96,4 @@ Result<Buffer> encode_png(const Image& image, const ImageText& text) {
     return std::move(w.target.bytes);
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

@@ -10,7 +10,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/codec/codec.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 // New-style scanlines: a marker of four bytes, then the four components, each run-length coded by itself.
@@ -49,7 +49,7 @@ Result<RadianceHeader> parse_resolution(std::string_view line) {
         *width != std::floor(*width))
         return wrong;
     const auto side = [](double value) { return uint64_t(std::min(value, 1e9)); };
-    if (Result<void> size = check_image_size(side(*width), side(*height), 3); !size) return size.error();
+    DERMIS_TRY(check_image_size(side(*width), side(*height), 3));
     return RadianceHeader{int(*width), int(*height), words[0][0] == '+', words[2][0] == '-'};
 }
 
@@ -178,11 +178,10 @@ bool is_radiance(Bytes file) {
 
 Result<LoadedImage> decode_radiance(Bytes file, ImageUse) {
     Bytes rest = file;
-    Result<RadianceHeader> header = parse_header(rest);
-    if (!header) return header.error();
-    const auto [width, height, bottom_up, right_to_left] = *header;
+    DERMIS_TRY_ASSIGN(RadianceHeader header, parse_header(rest));
+    const auto [width, height, bottom_up, right_to_left] = header;
     const uint64_t decoded = uint64_t(width) * uint64_t(height) * 12;
-    if (Result<void> ratio = check_ratio(decoded, rest.size(), kMostRunRatio); !ratio) return ratio.error();
+    DERMIS_TRY(check_ratio(decoded, rest.size(), kMostRunRatio));
 
     LoadedImage loaded;
     loaded.image = Image(width, height, 3, PixelFormat::f32, Encoding::linear);
@@ -221,4 +220,4 @@ Buffer encode_radiance(const Image& image) {
     return out.finish();
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

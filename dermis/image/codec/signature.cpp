@@ -2,7 +2,7 @@
 
 #include "dermis/image/codec/codec.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 bool starts_with_bytes(Bytes file, std::string_view signature) {
@@ -22,4 +22,4 @@ bool is_exr(Bytes file) {
     return starts_with_bytes(file, "\x76\x2f\x31\x01");
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

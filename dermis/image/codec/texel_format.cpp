@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 namespace {
 
 constexpr std::string_view kNames = "rgba";
@@ -78,4 +78,4 @@ Image mirror_rows(const Image& image) {
     return mirrored;
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

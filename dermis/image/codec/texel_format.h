@@ -7,7 +7,7 @@
 
 #include "dermis/image/image.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 
 struct TexelFormat {
     uint32_t dxgi;    // DXGI_FORMAT, 0: none
@@ -73,4 +73,4 @@ inline const TexelFormat* find_vulkan(uint32_t vulkan) {
 [[nodiscard]] Image mirror_columns(const Image& image);
 [[nodiscard]] Image mirror_rows(const Image& image);
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

@@ -3,7 +3,7 @@
 #include "dermis/base/not_built_in.h"
 #include "dermis/image/codec/codec.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 
 Result<LoadedImage> decode_exr(Bytes, ImageUse) {
     return not_built_in("EXR", "DERMIS_WITH_EXR");
@@ -15,4 +15,4 @@ Result<Buffer> encode_exr(std::span<const ImageLayer>, const ImageText&) {
     return not_built_in("EXR", "DERMIS_WITH_EXR");
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

@@ -3,7 +3,7 @@
 #include "dermis/base/not_built_in.h"
 #include "dermis/image/codec/codec.h"
 
-namespace dermis {
+namespace dermis::inline image {
 
 Result<LoadedImage> codec::decode_jpeg(Bytes, ImageUse) {
     return not_built_in("JPEG", "DERMIS_WITH_JPEG");
@@ -12,4 +12,4 @@ Result<std::vector<std::byte>> encode_jpeg(const Image&, int) {
     return not_built_in("JPEG", "DERMIS_WITH_JPEG");
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

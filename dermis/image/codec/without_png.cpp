@@ -3,7 +3,7 @@
 #include "dermis/base/not_built_in.h"
 #include "dermis/image/codec/codec.h"
 
-namespace dermis::codec {
+namespace dermis::inline image::codec {
 
 Result<LoadedImage> decode_png(Bytes, ImageUse) {
     return not_built_in("PNG", "DERMIS_WITH_PNG");
@@ -12,4 +12,4 @@ Result<Buffer> encode_png(const Image&, const ImageText&) {
     return not_built_in("PNG", "DERMIS_WITH_PNG");
 }
 
-}  // namespace dermis::codec
+}  // namespace dermis::inline image::codec

@@ -8,7 +8,7 @@
 #include "dermis/image/metrics.h"
 #include "dermis/image/metrics/metric_input.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -73,9 +73,8 @@ double ciede2000(Vec3 lab_a, Vec3 lab_b) {
 }
 
 Result<Image> ciede2000_map(const Image& image, const Image& reference) {
-    const Result<metrics::Pair> pair = metrics::checked_pair(image, reference);
-    if (!pair) return pair.error();
-    const auto a = metrics::display_planes(pair->image), b = metrics::display_planes(pair->reference);
+    DERMIS_TRY_ASSIGN(const metrics::Pair pair, metrics::checked_pair(image, reference));
+    const auto a = metrics::display_planes(pair.image), b = metrics::display_planes(pair.reference);
     const auto lab = [](const std::array<metrics::Plane, 3>& rgb, size_t i) {
         return lab_from_linear({rgb[0].values[i], rgb[1].values[i], rgb[2].values[i]});
     };
@@ -87,9 +86,8 @@ Result<Image> ciede2000_map(const Image& image, const Image& reference) {
 }
 
 Result<double> mean_ciede2000(const Image& image, const Image& reference, const Image& mask) {
-    const Result<Image> map = ciede2000_map(image, reference);
-    if (!map) return map.error();
-    return mean_of(*map, mask);
+    DERMIS_TRY_ASSIGN(const Image map, ciede2000_map(image, reference));
+    return mean_of(map, mask);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -14,7 +14,7 @@
 #include "dermis/image/metrics.h"
 #include "dermis/image/metrics/metric_input.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 using metrics::Plane;
@@ -176,11 +176,10 @@ Seen look_at(const Image& linear, double pixels_per_degree) {
 }  // namespace
 
 Result<Image> flip_map(const Image& image, const Image& reference, double pixels_per_degree) {
-    const Result<metrics::Pair> pair = metrics::checked_pair(image, reference);
-    if (!pair) return pair.error();
+    DERMIS_TRY_ASSIGN(const metrics::Pair pair, metrics::checked_pair(image, reference));
     if (!(pixels_per_degree > 0 && pixels_per_degree <= 1000))
         return Error{"pixels per degree must be above 0 and at most 1000"};
-    const Seen a = look_at(pair->image, pixels_per_degree), b = look_at(pair->reference, pixels_per_degree);
+    const Seen a = look_at(pair.image, pixels_per_degree), b = look_at(pair.reference, pixels_per_degree);
     Image map(image.width, image.height, 1);
     parallel_for(map.pixel_count(), 4096, [&](size_t begin, size_t end) {
         const auto colour = [](const Seen& s, size_t i) {
@@ -199,9 +198,8 @@ Result<Image> flip_map(const Image& image, const Image& reference, double pixels
 
 Result<double> mean_flip(const Image& image, const Image& reference, const Image& mask,
                          double pixels_per_degree) {
-    const Result<Image> map = flip_map(image, reference, pixels_per_degree);
-    if (!map) return map.error();
-    return mean_of(*map, mask);
+    DERMIS_TRY_ASSIGN(const Image map, flip_map(image, reference, pixels_per_degree));
+    return mean_of(map, mask);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -7,7 +7,7 @@
 
 #include "dermis/base/parallel.h"
 
-namespace dermis::metrics {
+namespace dermis::inline image::metrics {
 namespace {
 
 std::string shape(const Image& image) {
@@ -39,8 +39,8 @@ Result<Pair> checked_pair(const Image& image, const Image& reference) {
         return Error{"the image is " + shape(image) + ", the reference " + shape(reference) +
                      "; they must be of one size"};
     Pair pair{to_linear_float(image), to_linear_float(reference)};
-    if (Result<void> finite = check_finite(pair.image, "image"); !finite) return finite.error();
-    if (Result<void> finite = check_finite(pair.reference, "reference"); !finite) return finite.error();
+    DERMIS_TRY(check_finite(pair.image, "image"));
+    DERMIS_TRY(check_finite(pair.reference, "reference"));
     return pair;
 }
 
@@ -112,4 +112,4 @@ Image to_image(Plane plane) {
     return image;
 }
 
-}  // namespace dermis::metrics
+}  // namespace dermis::inline image::metrics

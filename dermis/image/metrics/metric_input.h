@@ -7,7 +7,7 @@
 
 #include "dermis/image/image.h"
 
-namespace dermis::metrics {
+namespace dermis::inline image::metrics {
 
 /// One channel of a picture, row by row.
 struct Plane {
@@ -42,4 +42,4 @@ struct Pair {
 
 [[nodiscard]] Image to_image(Plane plane);
 
-}  // namespace dermis::metrics
+}  // namespace dermis::inline image::metrics

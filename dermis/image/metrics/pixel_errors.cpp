@@ -9,7 +9,7 @@
 #include "dermis/image/metrics.h"
 #include "dermis/image/metrics/metric_input.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 using metrics::compared_channels;
@@ -50,14 +50,13 @@ Sum sum_over(int width, int height, const Image& mask, Body body) {
 // Sums error(a, b) over the compared channels of every texel in the mask.
 template <class ErrorOf>
 Result<Sum> sum_errors(const Image& image, const Image& reference, const Image& mask, ErrorOf error_of) {
-    const Result<metrics::Pair> pair = metrics::checked_pair(image, reference);
-    if (!pair) return pair.error();
-    if (Result<void> fine = metrics::check_mask(mask, image.width, image.height); !fine) return fine.error();
+    DERMIS_TRY_ASSIGN(const metrics::Pair pair, metrics::checked_pair(image, reference));
+    DERMIS_TRY(metrics::check_mask(mask, image.width, image.height));
     const int compared = compared_channels(image);
     return sum_over(image.width, image.height, mask, [&](int x, int y) {
         Sum sum;
         for (int c = 0; c < compared; ++c) {
-            const double error = error_of(pair->image.at(x, y, c), pair->reference.at(x, y, c));
+            const double error = error_of(pair.image.at(x, y, c), pair.reference.at(x, y, c));
             sum.total += error;
             sum.largest = std::max(sum.largest, error);
             ++sum.count;
@@ -87,45 +86,42 @@ bool assign(double& to, const Result<Value>& from, Error& error) {
 }  // namespace
 
 Result<double> max_abs_error(const Image& image, const Image& reference, const Image& mask) {
-    const Result<Sum> sum =
-        sum_errors(image, reference, mask, [](double a, double b) { return std::abs(a - b); });
-    if (!sum) return sum.error();
-    return sum->largest;
+    DERMIS_TRY_ASSIGN(const Sum sum,
+                      sum_errors(image, reference, mask, [](double a, double b) { return std::abs(a - b); }));
+    return sum.largest;
 }
 
 Result<double> rmse(const Image& image, const Image& reference, const Image& mask) {
-    const Result<Sum> sum =
-        sum_errors(image, reference, mask, [](double a, double b) { return square(a - b); });
-    if (!sum) return sum.error();
-    return std::sqrt(mean(*sum));
+    DERMIS_TRY_ASSIGN(const Sum sum,
+                      sum_errors(image, reference, mask, [](double a, double b) { return square(a - b); }));
+    return std::sqrt(mean(sum));
 }
 
 Result<double> rel_mse(const Image& image, const Image& reference, const Image& mask) {
     constexpr double kEpsilon = 0.01;
-    const Result<Sum> sum = sum_errors(
-        image, reference, mask, [](double a, double b) { return square(a - b) / (square(b) + kEpsilon); });
-    if (!sum) return sum.error();
-    return mean(*sum);
+    DERMIS_TRY_ASSIGN(const Sum sum, sum_errors(image, reference, mask, [](double a, double b) {
+                          return square(a - b) / (square(b) + kEpsilon);
+                      }));
+    return mean(sum);
 }
 
 Result<double> psnr_db(const Image& image, const Image& reference, const Image& mask) {
     const auto shown = [](double v) { return double(srgb_encode(float(std::clamp(v, 0.0, 1.0)))); };
-    const Result<Sum> sum =
-        sum_errors(image, reference, mask, [&](double a, double b) { return square(shown(a) - shown(b)); });
-    if (!sum) return sum.error();
-    if (sum->total == 0) return std::numeric_limits<double>::infinity();
-    return -10.0 * std::log10(mean(*sum));
+    DERMIS_TRY_ASSIGN(const Sum sum, sum_errors(image, reference, mask, [&](double a, double b) {
+                          return square(shown(a) - shown(b));
+                      }));
+    if (sum.total == 0) return std::numeric_limits<double>::infinity();
+    return -10.0 * std::log10(mean(sum));
 }
 
 Result<Image> abs_difference_map(const Image& image, const Image& reference) {
-    const Result<metrics::Pair> pair = metrics::checked_pair(image, reference);
-    if (!pair) return pair.error();
+    DERMIS_TRY_ASSIGN(const metrics::Pair pair, metrics::checked_pair(image, reference));
     Image map(image.width, image.height, 1);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             float largest = 0;
             for (int c = 0; c < compared_channels(image); ++c)
-                largest = std::max(largest, std::abs(pair->image.at(x, y, c) - pair->reference.at(x, y, c)));
+                largest = std::max(largest, std::abs(pair.image.at(x, y, c) - pair.reference.at(x, y, c)));
             map.set(x, y, 0, largest);
         }
     return map;
@@ -133,7 +129,7 @@ Result<Image> abs_difference_map(const Image& image, const Image& reference) {
 
 Result<double> mean_of(const Image& map, const Image& mask) {
     if (map.empty() || map.channels != 1) return Error{"a map of errors has one channel"};
-    if (Result<void> fine = metrics::check_mask(mask, map.width, map.height); !fine) return fine.error();
+    DERMIS_TRY(metrics::check_mask(mask, map.width, map.height));
     const Image linear = to_linear_float(map);
     return mean(sum_over(map.width, map.height, mask, [&](int x, int y) {
         return Sum{linear.at(x, y, 0), 0, 1};
@@ -155,4 +151,4 @@ Result<ErrorReport> compare_images(const Image& image, const Image& reference, c
     return report;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -9,7 +9,7 @@
 #include "dermis/image/metrics.h"
 #include "dermis/image/metrics/metric_input.h"
 
-namespace dermis {
+namespace dermis::inline image {
 namespace {
 
 using metrics::Plane;
@@ -56,12 +56,11 @@ Plane product(const Plane& a, const Plane& b) {
 }  // namespace
 
 Result<Image> ssim_map(const Image& image, const Image& reference) {
-    const Result<metrics::Pair> pair = metrics::checked_pair(image, reference);
-    if (!pair) return pair.error();
+    DERMIS_TRY_ASSIGN(const metrics::Pair pair, metrics::checked_pair(image, reference));
     const std::vector<float> kernel = window();
     const auto mean = [&](const Plane& p) { return filter_columns(filter_rows(p, kernel), kernel); };
     // A shift does not change variances, but it reduces rounding: E[x^2] - E[x]^2 is most exact around 0.
-    const Plane x = shifted(luma(pair->image)), y = shifted(luma(pair->reference));
+    const Plane x = shifted(luma(pair.image)), y = shifted(luma(pair.reference));
     const Plane mu_x = mean(x), mu_y = mean(y);
     const Plane xx = mean(product(x, x)), yy = mean(product(y, y)), xy = mean(product(x, y));
     Image map(image.width, image.height, 1);
@@ -77,9 +76,8 @@ Result<Image> ssim_map(const Image& image, const Image& reference) {
 }
 
 Result<double> ssim(const Image& image, const Image& reference, const Image& mask) {
-    const Result<Image> map = ssim_map(image, reference);
-    if (!map) return map.error();
-    if (Result<void> fine = metrics::check_mask(mask, image.width, image.height); !fine) return fine.error();
+    DERMIS_TRY_ASSIGN(const Image map, ssim_map(image, reference));
+    DERMIS_TRY(metrics::check_mask(mask, image.width, image.height));
     // The border, where the window leaves the image, is taken out of the mask.
     const int border = image.width > 2 * kReach && image.height > 2 * kReach ? kReach : 0;
     Image inner(image.width, image.height, 1);
@@ -87,7 +85,7 @@ Result<double> ssim(const Image& image, const Image& reference, const Image& mas
         for (int x = border; x < image.width - border; ++x)
             inner.set(x, y, 0, mask.empty() || mask.at(x, y, 0) > 0.0f ? 1.0f : 0.0f);
     // A mask inside the border only is measured on the repeated border.
-    return metrics::check_mask(inner, image.width, image.height) ? mean_of(*map, inner) : mean_of(*map, mask);
+    return metrics::check_mask(inner, image.width, image.height) ? mean_of(map, inner) : mean_of(map, mask);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline image

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 enum ComponentType : uint64_t { kI8 = 5120, kU8 = 5121, kI16 = 5122, kU16 = 5123, kU32 = 5125, kF32 = 5126 };
@@ -181,4 +181,4 @@ std::vector<uint32_t> read_indices(Document& document, uint64_t index) {
     return accessor.failed() ? std::vector<uint32_t>{} : values;
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -6,7 +6,7 @@
 
 #include "dermis/mesh/gltf/document.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 /// Elements of `components` (1 to 4, or 16) floats each; interleaved, normalised integer and sparse ones too.
 /// Empty after an error.
@@ -18,4 +18,4 @@ inline constexpr uint32_t kRestart = ~0u;
 /// Unsigned scalars of 8, 16 or 32 bits, with kRestart for the largest. Empty after an error.
 [[nodiscard]] std::vector<uint32_t> read_indices(Document& document, uint64_t accessor);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -10,7 +10,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 constexpr uint32_t kGlbMagic = 0x46546C67;  // "glTF"
@@ -235,4 +235,4 @@ std::string decode_percent(std::string_view uri) {
     return path;
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -10,7 +10,7 @@
 #include "dermis/mesh/gltf/json_view.h"
 #include "dermis/mesh/read_mesh.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 struct Document {
     nlohmann::json root;
@@ -35,4 +35,4 @@ void open_document(std::span<const std::byte> bytes, const std::filesystem::path
 [[nodiscard]] std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 [[nodiscard]] std::string decode_percent(std::string_view uri);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

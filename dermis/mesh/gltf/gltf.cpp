@@ -15,7 +15,7 @@
 #include "dermis/mesh/gltf/texture.h"
 #include "dermis/mesh/gltf/transform.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 // Where a mesh is drawn.
@@ -238,4 +238,4 @@ Result<LoadedMesh> parse_gltf(std::span<const std::byte> bytes, const std::files
     return loaded;
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

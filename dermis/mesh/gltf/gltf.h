@@ -8,7 +8,7 @@
 #include "dermis/base/result.h"
 #include "dermis/mesh/read_mesh.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 /// The default scene in millimetres, skins posed as its nodes are. Primitives that lack normals or tangents
 /// have zero vectors there if another primitive has some; UVs likewise (0, 0), colours (1, 1, 1, 1).
@@ -16,4 +16,4 @@ namespace dermis::gltf {
                                             const std::filesystem::path& name,
                                             const ReadSibling& read_sibling, const MeshOptions& options);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

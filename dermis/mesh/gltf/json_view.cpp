@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 void Messages::fail(const std::string& place, const std::string& text) {
     if (!error) error = Error{file + ": " + (place.empty() ? "" : place + ": ") + text};
@@ -68,4 +68,4 @@ bool JsonView::boolean(bool fallback) const {
     return value_->get<bool>();
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -10,7 +10,7 @@
 
 #include "dermis/base/result.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 /// The errors and warnings of reading so far. Reading goes on after an error with harmless values; the caller
 /// asks at the end of each step.
@@ -60,4 +60,4 @@ class JsonView {
     Messages* messages_;
 };
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -11,7 +11,7 @@
 #include "dermis/base/text.h"
 #include "dermis/mesh/gltf/texture.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 // Embedded images are copied into every material that uses them; a small file must not fill the memory that
@@ -256,4 +256,4 @@ std::vector<Material> read_materials(Document& document, double mm_per_unit,
     return materials;
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 class TreeReader {
@@ -84,4 +84,4 @@ NodeTree read_nodes(Document& document, const Affine& to_mm) {
     return TreeReader(document, to_mm).run();
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

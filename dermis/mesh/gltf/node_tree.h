@@ -7,7 +7,7 @@
 #include "dermis/mesh/gltf/document.h"
 #include "dermis/mesh/gltf/transform.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 struct NodeTree {
     std::vector<Affine> world;  ///< of every node, also of those outside of the default scene (joints may be)
@@ -17,4 +17,4 @@ struct NodeTree {
 /// `to_mm` comes after every root. Errors (a node reached twice, too many of them) are left in messages.
 [[nodiscard]] NodeTree read_nodes(Document& document, const Affine& to_mm);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

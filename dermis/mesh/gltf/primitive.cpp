@@ -5,7 +5,7 @@
 
 #include "dermis/mesh/gltf/accessor.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 enum PrimitiveMode : uint64_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
@@ -162,4 +162,4 @@ bool read_primitive(Document& document, const JsonView& source, const PrimitiveO
     return PrimitiveReader(document, source, options, primitive).run();
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -9,7 +9,7 @@
 #include "dermis/mesh/gltf/skin.h"
 #include "dermis/mesh/gltf/texture.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 /// Numbers a vertex: 3 of a position and a normal, 4 of a tangent and a colour, 2 of a UV; empty where the
 /// file has none.
@@ -29,4 +29,4 @@ struct PrimitiveOptions {
 [[nodiscard]] bool read_primitive(Document& document, const JsonView& source, const PrimitiveOptions& options,
                                   Primitive& primitive);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -7,7 +7,7 @@
 
 #include "dermis/mesh/gltf/accessor.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 constexpr size_t kMaxInfluenceSets = 16;
@@ -120,4 +120,4 @@ Affine blend(std::span<const Affine> joints, const Influences& influences, size_
     return any ? sum : unskinned;
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -8,7 +8,7 @@
 #include "dermis/mesh/gltf/document.h"
 #include "dermis/mesh/gltf/transform.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 /// Every joint's matrix: from the mesh's own space, in which the skin was bound, to where the joint is now.
 /// `world` has every node's transform. Empty after an error.
@@ -30,4 +30,4 @@ struct Influences {
 [[nodiscard]] Affine blend(std::span<const Affine> joints, const Influences& influences, size_t vertex,
                            const Affine& unskinned);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

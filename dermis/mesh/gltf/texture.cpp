@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 Vec2 UvMapping::apply(Vec2 uv) const {
     // Exact where nothing changes.
@@ -48,4 +48,4 @@ UvMapping uv_mapping_of_material(Document& document, const JsonView& material) {
     return {};
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -9,7 +9,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/mesh/gltf/document.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 /// A UV set and KHR_texture_transform's change of it: scaled, turned, moved.
 struct UvMapping {
@@ -35,4 +35,4 @@ struct UvMapping {
 /// by the reader of materials.
 [[nodiscard]] UvMapping uv_mapping_of_material(Document& document, const JsonView& material);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

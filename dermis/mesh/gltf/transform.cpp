@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 std::array<double, 9> cofactors(const std::array<double, 9>& m) {
@@ -63,4 +63,4 @@ Affine affine_of_trs(const std::array<double, 3>& translation, std::array<double
     return affine;
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -6,7 +6,7 @@
 
 #include "dermis/base/vec.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 /// p_out = linear * p_in + offset; linear is row-major.
 struct Affine {
@@ -35,4 +35,4 @@ struct Affine {
 [[nodiscard]] Affine affine_of_trs(const std::array<double, 3>& translation,
                                    std::array<double, 4> rotation_xyzw, const std::array<double, 3>& scale);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

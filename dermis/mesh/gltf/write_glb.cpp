@@ -8,7 +8,7 @@
 #include "dermis/mesh/gltf/write_material.h"
 #include "dermis/mesh/write_mesh.h"
 
-namespace dermis {
+namespace dermis::inline mesh {
 namespace {
 
 using gltf::array_of;
@@ -111,7 +111,7 @@ Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh, std::span<const Named
                 {"scene", 0},
                 {"scenes", Json::array({{{"nodes", {0}}}})},
                 {"nodes", Json::array({{{"mesh", 0}}})}};
-    if (Result<void> added = gltf::add_materials(glb, mesh.materials, images); !added) return added.error();
+    DERMIS_TRY(gltf::add_materials(glb, mesh.materials, images));
     for (size_t i = 0; i < std::min(extras.size(), mesh.materials.size()); ++i) {
         if (extras[i].empty()) continue;
         glb.root["materials"][i]["extras"] = Json::parse(extras[i], nullptr, false);
@@ -129,4 +129,4 @@ Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
     return bytes ? write_file(path, *bytes) : bytes.error().within(path.string());
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline mesh

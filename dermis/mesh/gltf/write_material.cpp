@@ -8,7 +8,7 @@
 
 #include "dermis/base/file.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 namespace {
 
 // By the first bytes; empty for anything else.
@@ -143,4 +143,4 @@ Result<void> add_materials(GlbContent& glb, std::span<const Material> materials,
     return MaterialWriter(glb, images).run(materials);
 }
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -9,7 +9,7 @@
 #include "dermis/base/result.h"
 #include "dermis/mesh/write_mesh.h"
 
-namespace dermis::gltf {
+namespace dermis::inline mesh::gltf {
 
 using Json = nlohmann::ordered_json;
 
@@ -29,4 +29,4 @@ struct GlbContent {
 [[nodiscard]] Result<void> add_materials(GlbContent& glb, std::span<const Material> materials,
                                          std::span<const NamedImage> images);
 
-}  // namespace dermis::gltf
+}  // namespace dermis::inline mesh::gltf

@@ -6,7 +6,7 @@
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis::preintegration {
+namespace dermis::inline optics::preintegration {
 
 /// Below this concentration the Legendre or Fourier series is used (at most kMaxOrder of them), above it the
 /// expansion about the terminator. Both are good to 1e-9 here, and the seam is a test.
@@ -30,4 +30,4 @@ struct Lobe {
 /// Coefficient m of exp(-x) I_nu(x) = (2 pi x)^(-1/2) * sum_m c_m x^(-m) (DLMF 10.40.1).
 [[nodiscard]] double bessel_asymptotic_coefficient(double nu, int m);
 
-}  // namespace dermis::preintegration
+}  // namespace dermis::inline optics::preintegration

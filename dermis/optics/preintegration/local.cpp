@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace dermis::preintegration {
+namespace dermis::inline optics::preintegration {
 namespace {
 
 constexpr int kOrder = LocalTail::kOrder;
@@ -116,4 +116,4 @@ double LocalTail::operator()(double sine, double x) const {
            sine * half_mean_cosine_ * std::erfc(std::sqrt(exponent));
 }
 
-}  // namespace dermis::preintegration
+}  // namespace dermis::inline optics::preintegration

@@ -5,7 +5,7 @@
 
 #include "dermis/optics/preintegration/lobe.h"
 
-namespace dermis::preintegration {
+namespace dermis::inline optics::preintegration {
 
 /// x = (2 sin(b/2))^2 = 2 (1 - sqrt(1 - t^2)), the squared chord of the elevation b on the unit circle,
 /// without cancellation.
@@ -33,4 +33,4 @@ class LocalTail {
     std::array<double, kOrder> integral_;  // remainder of the partial integration, powers of x
 };
 
-}  // namespace dermis::preintegration
+}  // namespace dermis::inline optics::preintegration

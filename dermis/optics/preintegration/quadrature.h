@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace dermis::preintegration {
+namespace dermis::inline optics::preintegration {
 
 template <int Count>
 class GaussLegendre {
@@ -36,4 +36,4 @@ class GaussLegendre {
     std::array<double, Count> node_, weight_;
 };
 
-}  // namespace dermis::preintegration
+}  // namespace dermis::inline optics::preintegration

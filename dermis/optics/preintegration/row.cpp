@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dermis {
+namespace dermis::inline optics {
 namespace preintegration {
 namespace {
 
@@ -99,4 +99,4 @@ std::vector<Rgb> lobe_weights(const GaussianSum& profile, double radius_mm, cons
     return preintegration::weights_of(profile, preintegration::lobes_of(profile, radius_mm, how), how);
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline optics

@@ -9,7 +9,7 @@
 #include "dermis/optics/preintegration/local.h"
 #include "dermis/optics/preintegration/series.h"
 
-namespace dermis::preintegration {
+namespace dermis::inline optics::preintegration {
 
 struct NarrowLobe {
     LocalTail tail;
@@ -34,4 +34,4 @@ struct Row {
     [[nodiscard]] Rgb operator()(Construction construction, double n_dot_l) const;
 };
 
-}  // namespace dermis::preintegration
+}  // namespace dermis::inline optics::preintegration

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace dermis::preintegration {
+namespace dermis::inline optics::preintegration {
 namespace {
 
 using std::numbers::pi;
@@ -222,4 +222,4 @@ Lobe lobe(Construction construction, double concentration) {
     return {scaled[1] / scaled[0], pi * scaled[0]};
 }
 
-}  // namespace dermis::preintegration
+}  // namespace dermis::inline optics::preintegration

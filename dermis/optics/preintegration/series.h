@@ -6,7 +6,7 @@
 
 #include "dermis/optics/preintegration/lobe.h"
 
-namespace dermis::preintegration {
+namespace dermis::inline optics::preintegration {
 
 /// F(t, kappa) = mean_cosine * t / 2 + sum_k coefficient_k(kappa) basis_k(t), with the basis
 ///   sphere     P_0, P_2, P_4 ...                       (Legendre polynomials of t)
@@ -25,4 +25,4 @@ struct EvenSeries {
 enum class BesselOrders { whole, half };
 void bessel_ratios(BesselOrders orders, double concentration, std::span<double> values);
 
-}  // namespace dermis::preintegration
+}  // namespace dermis::inline optics::preintegration

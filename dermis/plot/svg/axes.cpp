@@ -5,7 +5,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis {
+namespace dermis::inline plot {
 namespace {
 
 constexpr double kMaxAutomaticDecades = 8;
@@ -99,4 +99,4 @@ PlotAxisScale resolve_axis(const PlotPanel& panel, const PlotAxis& axis,
     return scale;
 }
 
-}  // namespace dermis
+}  // namespace dermis::inline plot

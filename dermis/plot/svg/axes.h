@@ -7,7 +7,7 @@
 
 #include "dermis/plot/plot.h"
 
-namespace dermis {
+namespace dermis::inline plot {
 
 struct PlotTick {
     double value;
@@ -34,4 +34,4 @@ struct PlotAxisScale {
 
 [[nodiscard]] std::vector<PlotTick> axis_ticks(const PlotAxisScale& scale, double length_px);
 
-}  // namespace dermis
+}  // namespace dermis::inline plot
