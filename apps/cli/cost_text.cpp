@@ -6,10 +6,14 @@
 namespace dermis::cli {
 namespace {
 
-double base_ms(const Counted& counted, const std::vector<FrameCost>& costs) {
-    for (size_t i = 0; i < costs.size(); ++i)
-        if (counted.contestants[i].name() == kCostBase) return costs[i].model_ms();
-    return 0;
+struct Base {
+    std::string id;
+    double model_ms = 0;
+};
+
+Base base_of(const Counted& counted, const std::vector<FrameCost>& costs) {
+    const auto base = std::ranges::find_if(counted.contestants, is_cost_base);
+    return {base->technique->id, costs[size_t(base - counted.contestants.begin())].model_ms()};
 }
 
 std::string count_text(uint64_t count) {
@@ -88,10 +92,12 @@ void print_card(const Counted& counted, const Card& card, const std::vector<Fram
         for (const PassCost& pass : costs[i].passes) print_pass(pass);
         std::printf("%-93s %6.3f\n\n", "frame", costs[i].model_ms());
     }
-    std::printf("%-76s %10s %12s\n", (std::string(card.name) + ", model").c_str(), "frame ms", "x lambert");
+    const Base base = base_of(counted, costs);
+    std::printf("%-76s %10s %12s\n", (std::string(card.name) + ", model").c_str(), "frame ms",
+                ("x " + base.id).c_str());
     for (size_t i = 0; i < costs.size(); ++i)
         std::printf("%-76s %10.3f %12.2f\n", counted.contestants[i].name().c_str(), costs[i].model_ms(),
-                    costs[i].model_ms() / base_ms(counted, costs));
+                    costs[i].model_ms() / base.model_ms);
     std::printf("\n");
 }
 
@@ -103,6 +109,7 @@ nlohmann::ordered_json to_json(const Counted& counted) {
 
 nlohmann::ordered_json to_json(const Counted& counted, const Card& card,
                                const std::vector<FrameCost>& costs) {
+    const Base base = base_of(counted, costs);
     nlohmann::ordered_json techniques = nlohmann::ordered_json::array();
     for (size_t i = 0; i < costs.size(); ++i) {
         nlohmann::ordered_json passes = nlohmann::ordered_json::array();
@@ -110,7 +117,7 @@ nlohmann::ordered_json to_json(const Counted& counted, const Card& card,
         techniques.push_back({{"technique", counted.contestants[i].technique->id},
                               {"settings", counted.contestants[i].settings},
                               {"model_ms", costs[i].model_ms()},
-                              {"ratio_to_lambert", costs[i].model_ms() / base_ms(counted, costs)},
+                              {"ratio_to_" + base.id, costs[i].model_ms() / base.model_ms},
                               {"passes", passes}});
     }
     return {{"chip", card.chip},

@@ -12,7 +12,7 @@ namespace dermis::cli {
 
 /// What is asked for, and what a frame of each technique has to do.
 struct Counted {
-    std::vector<Contestant> contestants;  ///< kCostBase is among them
+    std::vector<Contestant> contestants;  ///< the cost base is among them
     std::vector<const Card*> cards;
     Size size;
     std::string scene, credit;

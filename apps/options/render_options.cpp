@@ -53,10 +53,10 @@ Result<Prepared> prepare(const RenderOptions& options) {
     DERMIS_TRY(complete_scene(*scene));
 
     const bool scenes_own = options.technique.empty() || options.technique == scene->technique;
-    const std::string id = !options.technique.empty()  ? options.technique
-                           : !scene->technique.empty() ? scene->technique
-                                                       : "lambert";
-    const Result<const Technique*> technique = find_technique(built_in_catalog().techniques, id);
+    const std::string& id = scenes_own ? scene->technique : options.technique;
+    const std::span<const Technique> techniques = built_in_catalog().techniques;
+    const Result<const Technique*> technique =
+        id.empty() ? find_baseline(techniques) : find_technique(techniques, id);
     if (!technique) return technique.error();
     ParameterValues values((*technique)->parameters);
     if (scenes_own)

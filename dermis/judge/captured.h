@@ -2,11 +2,11 @@
 // Captured share: how much of what scattering does to a picture a technique does too.
 //
 //     S = S_t - L_t     effect of scattering: the truth with the skin's profile less the truth of width 0
-//     T = T_r - L_r     effect of the technique: its picture less lambert's, by the same renderer
+//     T = T_r - L_r     effect of the technique: its picture less the baseline's, by the same renderer
 //     share = 1 - sqrt((<|T - S|^2> - n^2) / (<|S|^2> - n^2))
 //
-// <> is the mean over pixels and channels, n^2 the variance of S. lambert has 0, the truth 1, a technique
-// that does harm less than 0; what both renderers get wrong cancels in the differences.
+// <> is the mean over pixels and channels, n^2 the variance of S. the baseline has 0, the truth 1, a
+// technique that does harm less than 0; what both renderers get wrong cancels in the differences.
 //
 // The truth comes in two independent halves, S_a and S_b, of equal size. With S = (S_a + S_b) / 2 and n^2 =
 // <|S_a - S_b|^2> / 4 both brackets are exactly

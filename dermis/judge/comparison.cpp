@@ -83,13 +83,13 @@ struct TechniqueWork {
 };
 
 // A row as a technique has it, whose effect is the formula's.
-Result<void> add_exact(PictureMaker& maker, const Technique& lambert, const Scene& scene,
+Result<void> add_exact(PictureMaker& maker, const Technique& baseline, const Scene& scene,
                        const ComparisonSettings& settings, Comparison& comparison) {
     static const Technique kExact = {.id = std::string(kExactId), .summary = "the exact answer"};
     Result<Image> effect = exact_effect(scene, settings.exact, settings.width, settings.height, settings.grid,
                                         settings.reference.lighting.penumbra_mm);
     if (!effect) return effect.error();
-    DERMIS_TRY_ASSIGN(TechniquePictures base, maker.make({&lambert, ParameterValues(lambert.parameters)}));
+    DERMIS_TRY_ASSIGN(TechniquePictures base, maker.make({&baseline, ParameterValues(baseline.parameters)}));
     Image radiance = std::move(base.radiance);
     for (size_t i = 0; i < effect->pixel_count(); ++i)
         for (size_t c = 0; c < 3; ++c)
@@ -104,8 +104,8 @@ Result<void> add_exact(PictureMaker& maker, const Technique& lambert, const Scen
 Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const Scene& scene,
                              const std::vector<Contestant>& contestants, const ComparisonSettings& settings,
                              const ComparisonHooks& hooks, Comparison& comparison) {
-    DERMIS_TRY_ASSIGN(const Technique* lambert, find_technique(catalog.techniques, "lambert"));
-    PictureMaker maker(renderer, *lambert,
+    DERMIS_TRY_ASSIGN(const Technique* baseline, find_baseline(catalog.techniques));
+    PictureMaker maker(renderer, *baseline,
                        {.width = settings.width,
                         .height = settings.height,
                         .grid = settings.grid,
@@ -122,7 +122,7 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
                                    .effect = std::move(pictures.effect)});
     }
     if (settings.exact)
-        if (Result<void> added = add_exact(maker, *lambert, scene, settings, comparison); !added)
+        if (Result<void> added = add_exact(maker, *baseline, scene, settings, comparison); !added)
             return added;
     Result<SkinMasks> masks = maker.masks(comparison.truth.skin);
     if (!masks) return masks.error();

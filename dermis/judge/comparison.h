@@ -51,7 +51,7 @@ inline constexpr std::string_view kExactId = "exact";
 struct Compared {
     Contestant contestant;
     Image radiance;  ///< linear, RGBA; beyond the skin as drawn
-    Image effect;    ///< RGB: radiance less lambert's
+    Image effect;    ///< RGB: radiance less the baseline's
     Image flip,
         distance;  ///< one channel: FLIP of the tone-mapped pictures, largest difference of linear channels
     Captured captured;

@@ -9,7 +9,7 @@
 
 namespace dermis::inline judge {
 
-/// Every technique with its defaults, and the settings whose difference is worth knowing; lambert first.
+/// Every technique with its defaults, and the settings whose difference is worth knowing; the baseline first.
 [[nodiscard]] std::vector<Contestant> scoreboard_contestants(std::span<const Technique> techniques);
 
 /// Rows of scenes that `made` holds are replaced, all others stay.

@@ -57,9 +57,9 @@ struct ScoreRow {
     Scores scores;
     double time_ms = 0;
     size_t bytes = 0;
-    double time_ratio = 0;      ///< frame time over lambert's in the same rounds; 0: not known
+    double time_ratio = 0;      ///< frame time over the baseline's in the same rounds; 0: not known
     double reference_rmse = 0;  ///< noise of the ground truth that the raw errors are measured with
-    /// A frame over lambert's by the model of dermis/report; missing where it was not computed.
+    /// A frame over the baseline's by the model of dermis/report; missing where it was not computed.
     std::optional<double> model_ratio;
 };
 

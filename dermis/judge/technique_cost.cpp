@@ -54,13 +54,13 @@ Result<std::vector<TechniqueCost>> measure_costs(
             if (!drawn) return Error{contestant.name() + ": " + drawn.error().message};
             if (frame > 0) times[i].push_back(drawn->frame_ms);
         }
-    const auto lambert = std::ranges::find_if(
-        contestants, [](const Contestant& contestant) { return contestant.technique->id == "lambert"; });
+    const auto baseline = std::ranges::find_if(
+        contestants, [](const Contestant& contestant) { return contestant.technique->is_baseline; });
     for (size_t i = 0; i < costs.size(); ++i) {
         costs[i].time_ms = median(times[i]);
-        if (lambert == contestants.end()) continue;
+        if (baseline == contestants.end()) continue;
         std::vector<double> ratios;
-        const std::vector<double>& base = times[size_t(lambert - contestants.begin())];
+        const std::vector<double>& base = times[size_t(baseline - contestants.begin())];
         for (size_t frame = 0; frame < base.size(); ++frame) ratios.push_back(times[i][frame] / base[frame]);
         costs[i].time_ratio = median(ratios);
     }

@@ -13,7 +13,7 @@ namespace dermis::inline judge {
 
 struct TechniqueCost {
     double time_ms = 0;      ///< median of whole frames
-    double time_ratio = 0;   ///< median over frames of time / lambert's in the same round; 0 without lambert
+    double time_ratio = 0;   ///< median over frames of time / the baseline's in the same round; 0 without it
     size_t table_bytes = 0;  ///< tables baked for it
     size_t image_bytes = 0;  ///< images that only its own passes use
     [[nodiscard]] size_t bytes() const { return table_bytes + image_bytes; }

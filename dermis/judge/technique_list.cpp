@@ -96,7 +96,7 @@ std::vector<Contestant> default_contestants(std::span<const Technique> technique
     for (const Technique& technique : techniques)
         list.push_back({.technique = &technique, .values = ParameterValues(technique.parameters)});
     std::stable_partition(list.begin(), list.end(),
-                          [](const Contestant& c) { return c.technique->id == "lambert"; });
+                          [](const Contestant& c) { return c.technique->is_baseline; });
     return list;
 }
 

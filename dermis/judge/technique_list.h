@@ -27,7 +27,7 @@ struct Contestant {
 [[nodiscard]] Result<std::vector<Contestant>> parse_technique_list(std::span<const Technique> techniques,
                                                                    std::string_view text);
 
-/// Every technique with its defaults, lambert first.
+/// Every technique with its defaults, the baseline first.
 [[nodiscard]] std::vector<Contestant> default_contestants(std::span<const Technique> techniques);
 
 }  // namespace dermis::inline judge

@@ -18,31 +18,31 @@ Result<Image> PictureMaker::draw(const Technique& technique, const ParameterValu
     return resize(to_linear_float(radiance), settings_.width, settings_.height);
 }
 
-Result<const Image*> PictureMaker::lambert_beside(const Contestant& contestant) {
-    ParameterValues values(lambert_.parameters);
+Result<const Image*> PictureMaker::baseline_beside(const Contestant& contestant) {
+    ParameterValues values(baseline_.parameters);
     std::string key;
-    for (const Parameter& parameter : lambert_.parameters.parameters) {
+    for (const Parameter& parameter : baseline_.parameters.parameters) {
         const Parameter* same = contestant.values.table().find(parameter.name);
         if (!same) continue;
         const std::string text = contestant.values.text(*same);
         DERMIS_TRY(values.set(parameter.name, text));
         key += parameter.name + "=" + text + "\n";
     }
-    if (const auto found = lambert_pictures_.find(key); found != lambert_pictures_.end())
+    if (const auto found = baseline_pictures_.find(key); found != baseline_pictures_.end())
         return &found->second;
-    Result<Image> picture = draw(lambert_, values);
-    if (!picture) return Error{"lambert: " + picture.error().message};
-    return &lambert_pictures_.emplace(key, std::move(*picture)).first->second;
+    Result<Image> picture = draw(baseline_, values);
+    if (!picture) return Error{baseline_.id + ": " + picture.error().message};
+    return &baseline_pictures_.emplace(key, std::move(*picture)).first->second;
 }
 
 Result<TechniquePictures> PictureMaker::make(const Contestant& contestant) {
-    DERMIS_TRY_ASSIGN(const Image* lambert, lambert_beside(contestant));
-    // Lambert itself is drawn once, so that its effect is 0 and no rounding.
-    Result<Image> radiance = contestant.technique->id == lambert_.id
-                                 ? Result<Image>(*lambert)
+    DERMIS_TRY_ASSIGN(const Image* baseline, baseline_beside(contestant));
+    // The baseline itself is drawn once, so that its effect is 0 and no rounding.
+    Result<Image> radiance = contestant.technique->id == baseline_.id
+                                 ? Result<Image>(*baseline)
                                  : draw(*contestant.technique, contestant.values);
     if (!radiance) return Error{contestant.name() + ": " + radiance.error().message};
-    TechniquePictures pictures{.effect = difference(*radiance, *lambert)};
+    TechniquePictures pictures{.effect = difference(*radiance, *baseline)};
     pictures.radiance = std::move(*radiance);
     return pictures;
 }
@@ -53,7 +53,7 @@ Result<SkinMasks> PictureMaker::masks(const Image& skin) {
                             .gbuffer = true,
                             .shadow_map_size = settings_.shadow_map_size,
                             .penumbra_mm = kPenumbraBandMm};
-    DERMIS_TRY(renderer_.draw(lambert_, ParameterValues(lambert_.parameters), draw));
+    DERMIS_TRY(renderer_.draw(baseline_, ParameterValues(baseline_.parameters), draw));
     DERMIS_TRY_ASSIGN(const Image light, renderer_.read("gbuffer_light"),
                       position = renderer_.read("gbuffer_position"));
     if (!position) return position.error();

@@ -1,6 +1,6 @@
 #pragma once
-// A technique's pictures for the judge: drawn `grid` times the size and averaged, beside lambert's with all
-// else equal.
+// A technique's pictures for the judge: drawn `grid` times the size and averaged, beside the baseline's with
+// all else equal.
 
 #include <map>
 #include <string>
@@ -20,31 +20,31 @@ struct PictureSettings {
 
 struct TechniquePictures {
     Image radiance;  ///< linear, RGBA; beyond the skin as drawn
-    Image effect;    ///< RGB: radiance less lambert's
+    Image effect;    ///< RGB: radiance less the baseline's
 };
 
-/// Keeps the pictures of lambert that it was asked for; one a setting of the parameters that lambert shares
-/// with a technique (the specular model).
+/// Keeps the pictures of the baseline, one for each setting of the parameters that it shares with a technique
+/// (the specular model).
 class PictureMaker {
   public:
-    /// The renderer must outlive it; `lambert` is the technique without scattering.
-    PictureMaker(Renderer& renderer, const Technique& lambert, const PictureSettings& settings)
-        : renderer_(renderer), lambert_(lambert), settings_(settings) {}
+    /// The renderer must outlive it.
+    PictureMaker(Renderer& renderer, const Technique& baseline, const PictureSettings& settings)
+        : renderer_(renderer), baseline_(baseline), settings_(settings) {}
 
     /// Errors name the contestant.
     [[nodiscard]] Result<TechniquePictures> make(const Contestant& contestant);
 
-    /// The parts of the skin, from lambert's G-buffer and the truth's share of skin.
+    /// The parts of the skin, from the baseline's G-buffer and the truth's share of skin.
     [[nodiscard]] Result<SkinMasks> masks(const Image& skin);
 
   private:
     [[nodiscard]] Result<Image> draw(const Technique& technique, const ParameterValues& values);
-    [[nodiscard]] Result<const Image*> lambert_beside(const Contestant& contestant);
+    [[nodiscard]] Result<const Image*> baseline_beside(const Contestant& contestant);
 
     Renderer& renderer_;
-    const Technique& lambert_;
+    const Technique& baseline_;
     PictureSettings settings_;
-    std::map<std::string, Image> lambert_pictures_;
+    std::map<std::string, Image> baseline_pictures_;
 };
 
 }  // namespace dermis::inline judge

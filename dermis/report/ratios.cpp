@@ -6,12 +6,14 @@
 
 namespace dermis::inline report {
 
+bool is_cost_base(const Contestant& contestant) {
+    return contestant.technique->is_baseline && contestant.settings.empty();
+}
+
 Result<std::vector<Contestant>> with_cost_base(std::vector<Contestant> contestants,
                                                std::span<const Technique> techniques) {
-    const bool has_base =
-        std::ranges::any_of(contestants, [](const Contestant& one) { return one.name() == kCostBase; });
-    if (has_base) return contestants;
-    DERMIS_TRY_ASSIGN(const Technique* base, find_technique(techniques, kCostBase));
+    if (std::ranges::any_of(contestants, is_cost_base)) return contestants;
+    DERMIS_TRY_ASSIGN(const Technique* base, find_baseline(techniques));
     contestants.insert(contestants.begin(), {.technique = base, .values = ParameterValues(base->parameters)});
     return contestants;
 }
@@ -40,8 +42,7 @@ Result<std::vector<double>> model_ratios(gpu::Device& device, const Catalog& cat
     Result<std::vector<double>> ratios =
         model_times_ms(device, catalog, scene, with_base, width, height, card);
     if (!ratios) return ratios;
-    const auto base =
-        std::ranges::find_if(with_base, [](const Contestant& one) { return one.name() == kCostBase; });
+    const auto base = std::ranges::find_if(with_base, is_cost_base);
     const double base_ms = (*ratios)[size_t(base - with_base.begin())];
     for (double& value : *ratios) value /= base_ms;
     if (with_base.size() > contestants.size()) ratios->erase(ratios->begin());

@@ -1,7 +1,6 @@
 #pragma once
 // Modelled frames as multiples of the technique that all costs are stated in.
 
-#include <string_view>
 #include <vector>
 
 #include "dermis/judge/scores.h"
@@ -10,10 +9,10 @@
 
 namespace dermis::inline report {
 
-/// Costs are stated as a multiple of this technique's with its defaults.
-inline constexpr std::string_view kCostBase = "lambert";
+/// Costs are stated as a multiple of the baseline's with its defaults.
+[[nodiscard]] bool is_cost_base(const Contestant& contestant);
 
-/// The technique kCostBase with its defaults goes before the others where they have it not.
+/// Prepends the cost base if it is missing.
 [[nodiscard]] Result<std::vector<Contestant>> with_cost_base(std::vector<Contestant> contestants,
                                                              std::span<const Technique> techniques);
 

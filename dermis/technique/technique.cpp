@@ -1,5 +1,7 @@
 #include "dermis/technique/technique.h"
 
+#include <algorithm>
+
 #include "dermis/base/text.h"
 
 namespace dermis::inline technique {
@@ -11,6 +13,13 @@ Result<const Technique*> find_technique(std::span<const Technique> techniques, s
         ids.push_back(technique.id);
     }
     return Error{unknown_name("technique", id, ids)};
+}
+
+Result<const Technique*> find_baseline(std::span<const Technique> techniques) {
+    const auto baseline = std::ranges::find(techniques, true, &Technique::is_baseline);
+    if (baseline == techniques.end())
+        return Error{"no technique is the baseline: set is_baseline in techniques/<id>/technique.cpp"};
+    return &*baseline;
 }
 
 }  // namespace dermis::inline technique

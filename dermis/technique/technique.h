@@ -75,6 +75,8 @@ struct Technique {
     std::string id;
     std::string summary;  ///< one line
     std::string source;   ///< author, year, title
+    /// Scatters nothing: effects and costs of the others are stated against it. One technique of a catalog.
+    bool is_baseline = false;
     ParameterTable parameters;
     std::vector<std::string> views;  ///< debug views beyond final, diffuse, specular
     std::function<PassList(const ParameterValues&, const FrameContext&)> build;
@@ -94,5 +96,8 @@ struct Technique {
 /// Error: an unknown id, with the nearest and all known ones.
 [[nodiscard]] Result<const Technique*> find_technique(std::span<const Technique> techniques,
                                                       std::string_view id);
+
+/// Error: none of them is the baseline.
+[[nodiscard]] Result<const Technique*> find_baseline(std::span<const Technique> techniques);
 
 }  // namespace dermis::inline technique

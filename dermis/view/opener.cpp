@@ -15,7 +15,7 @@ constexpr double kLookEveryS = 0.3;
 
 // The baseline, or, for the baseline itself, the second technique.
 const Technique& compared_with(const Technique& technique, std::span<const Technique> all) {
-    const auto baseline = std::ranges::find(all, "lambert", &Technique::id);
+    const auto baseline = std::ranges::find(all, true, &Technique::is_baseline);
     if (baseline != all.end() && technique.id != baseline->id) return *baseline;
     return all[1 % all.size()];
 }

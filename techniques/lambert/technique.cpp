@@ -26,6 +26,7 @@ Technique make_lambert_technique() {
     return {.id = "lambert",
             .summary = "no scattering: the baseline",
             .source = "Lambert 1760, Photometria",
+            .is_baseline = true,
             .parameters = parameters(),
             .build = build};
 }

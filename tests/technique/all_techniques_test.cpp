@@ -50,6 +50,15 @@ TEST(AllTechniques, are_found_by_their_folders) {
               "unknown technique 'lambart'; did you mean 'lambert'?");
 }
 
+TEST(AllTechniques, have_one_baseline) {
+    const std::span<const Technique> all = built_in_catalog().techniques;
+    EXPECT_EQ(std::ranges::count(all, true, &Technique::is_baseline), 1);
+    ASSERT_TRUE(find_baseline(all));
+    EXPECT_EQ((*find_baseline(all))->id, "lambert");
+    EXPECT_EQ(find_baseline(all.first(0)).error().message,
+              "no technique is the baseline: set is_baseline in techniques/<id>/technique.cpp");
+}
+
 TEST(AllTechniques, say_what_they_are_and_document_every_parameter) {
     for (const Technique& technique : built_in_catalog().techniques) {
         EXPECT_FALSE(technique.summary.empty()) << technique.id;
