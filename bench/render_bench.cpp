@@ -53,7 +53,7 @@ Run run_of(const std::string& id, const std::string& parameter = "", const std::
 const std::string kDefaults = "defaults";
 
 // Lambert, then every technique (or one), those that have transmission without it too, and the settings of
-// preintegrated, screen_space_separable, spherical_gaussians and texture_space whose costs their READMEs
+// preintegrated, spherical_gaussians and texture_space whose costs their READMEs
 // state.
 std::vector<Run> runs(const std::string& only) {
     std::vector<Run> all = {run_of("lambert")};
@@ -67,7 +67,6 @@ std::vector<Run> runs(const std::string& only) {
         if (without.values.set("transmission", "none")) all.push_back(std::move(without));
         if (technique.id == "spherical_gaussians")
             for (const char* lobes : {"1", "6"}) all.push_back(run_of(technique.id, "lobes", lobes));
-        if (technique.id == "screen_space_separable") all.push_back(run_of(technique.id, "kernel", "rank_2"));
         if (technique.id == "texture_space") all.push_back(run_of(technique.id, "filter", "gaussian"));
         if (technique.id != "preintegrated") continue;
         all.push_back(run_of(technique.id, "diffuse", "closed_form"));

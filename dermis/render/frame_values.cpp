@@ -147,10 +147,7 @@ gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings)
         {"exposure", std::exp2(scene.exposure_ev)},
         {"second_light", int32_t(second)},
         {"second_light_view_projection", light_matrix_of(scene, second)},
-        {"pixel_per_distance", 2 * std::tan(scene.camera.vertical_fov_rad / 2) / float(settings.height)},
-        {"previous_view_projection",
-         settings.earlier_frames > 0 ? settings.previous_view_projection : camera.view_projection},
-        {"earlier_frames", int32_t(settings.earlier_frames)}};
+        {"pixel_per_distance", 2 * std::tan(scene.camera.vertical_fov_rad / 2) / float(settings.height)}};
     const std::array<Vec3, 9> terms = environment_terms(settings.environment_sh, yaw_rad);
     for (size_t i = 0; i < terms.size(); ++i)
         values["environment_terms[" + std::to_string(i) + "]"] = terms[i] * intensity;

@@ -12,8 +12,6 @@ struct FrameValueSettings {
     float penumbra_mm = 2;
     int environment_mip_count = 1;
     std::array<Vec3, 9> environment_sh = {};  ///< EnvironmentLight::radiance_sh
-    int earlier_frames = 0;
-    Mat4 previous_view_projection = {};  ///< unused while earlier_frames is 0
 };
 
 /// Coefficients of shaders/include/frame.glsl's environment_terms: radiance from the directions of the world

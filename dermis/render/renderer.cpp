@@ -59,13 +59,6 @@ std::string light_key(const Technique& technique, const ParameterValues& values,
     return hasher.hex();
 }
 
-// Everything that must be the same for a frame to take in the one before, while camera and lights may change.
-std::string frames_key(const Technique& technique, const ParameterValues& values,
-                       const DrawSettings& settings, const SkinContext& skin) {
-    return settings_key(technique, values, skin) + settings.view + std::to_string(settings.width) + 'x' +
-           std::to_string(settings.height);
-}
-
 // The light of each shadow map after the first.
 std::vector<int> lights_by_shadow_map(const Scene& scene) {
     const std::vector<int> maps = scene.shadow_maps();
@@ -236,9 +229,7 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
                                .shadow_map_size = settings.shadow_map_size,
                                .penumbra_mm = settings.penumbra_mm,
                                .environment_mip_count = uploaded_->environment_mip_count(),
-                               .environment_sh = uploaded_->environment_sh(),
-                               .earlier_frames = earlier_frames_,
-                               .previous_view_projection = previous_view_projection_});
+                               .environment_sh = uploaded_->environment_sh()});
     inputs.blocks["Params"] = inputs.blocks["AtlasParams"] = parameter_block(values);
     inputs.blocks["Skin"] = skin_values_;
     inputs.arrays["Lights"] = light_values(*scene_);
@@ -258,20 +249,11 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     const Result<const SkinContext*> skin = skin_context();
     if (!skin) return skin.error();
     const std::string key = light_key(technique, values, settings, *scene_);
-    const std::string series = frames_key(technique, values, settings, **skin);
-    earlier_frames_ = series == std::exchange(frames_key_, "") ? earlier_frames_ + 1 : 0;
-    previous_view_projection_ = view_projection_;
-    view_projection_ =
-        camera_matrices(scene_->camera, float(settings.width) / float(settings.height)).view_projection;
-    const bool still =
-        earlier_frames_ > 0 && key == history_key_ && view_projection_ == previous_view_projection_;
-    still_frames_ = still ? still_frames_ + 1 : 1;
     const std::vector<int> shadow_lights = lights_by_shadow_map(*scene_);
     const FrameContext frame = {
         .view = settings.view,
         .camera_distance_mm = length(scene_->camera.eye_mm - scene_->bounds_center_mm),
         .previous_camera_distance_mm = key == history_key_ ? history_distance_mm_ : 0,
-        .earlier_frames = earlier_frames_,
         .shadow_map_size = settings.shadow_map_size,
         .shadow_map_count = 1 + int(shadow_lights.size()),
         .has_other = uploaded_->has(gpu::DrawClass::other) || uploaded_->has(gpu::DrawClass::blended),
@@ -307,7 +289,6 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     DERMIS_TRY(prepare_seams());
     DERMIS_TRY(prepare_diffused_normals((*skin)->gaussians));
     history_key_ = key;
-    frames_key_ = series;
     history_distance_mm_ = frame.camera_distance_mm;
     return {};
 }
@@ -316,7 +297,7 @@ Result<gpu::FrameResult> Renderer::draw(const Technique& technique, const Parame
                                         const DrawSettings& settings) {
     DERMIS_TRY(prepare(technique, values, settings));
     Result<gpu::FrameResult> drawn = executor_.run(list_, inputs(values, settings));
-    if (!drawn) forget_history();
+    if (!drawn) history_key_.clear();
     return drawn;
 }
 
@@ -324,7 +305,7 @@ Result<uint64_t> Renderer::submit(const Technique& technique, const ParameterVal
                                   const DrawSettings& settings) {
     DERMIS_TRY(prepare(technique, values, settings));
     const Result<uint64_t> frame = executor_.submit(list_, inputs(values, settings));
-    if (!frame) forget_history();
+    if (!frame) history_key_.clear();
     return frame;
 }
 

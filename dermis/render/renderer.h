@@ -56,11 +56,6 @@ class Renderer {
     [[nodiscard]] Result<Image> display();
     [[nodiscard]] Result<Image> read(std::string_view image);
 
-    /// Whether another frame of the same scene would be the same picture.
-    [[nodiscard]] bool is_settled() const { return still_frames_ >= list_.frames_to_settle; }
-    /// The next frame takes in none of the frames before it.
-    void forget_history() { history_key_.clear(), frames_key_.clear(); }
-
     /// Warnings about wrong pictures, found when a technique first asked for it; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -93,10 +88,7 @@ class Renderer {
     std::string radiance_name_;
     std::string tables_key_;
     std::string history_key_;  ///< of the light in the persistent images; empty: none
-    std::string frames_key_;   ///< of the frame before; empty: there is none that a frame may take in
     float history_distance_mm_ = 0;
-    int earlier_frames_ = 0, still_frames_ = 0;  ///< still: since camera or lights moved, the last included
-    Mat4 view_projection_, previous_view_projection_;  ///< of the last frame, and of the one before
     std::map<std::string, gpu::Texture> tables_;
     gpu::Values skin_values_;
     std::string legend_view_;  ///< that legend_ is of

@@ -204,8 +204,7 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
 
     PassList list{.seams = technique.seams,
                   .diffused_normals = technique.diffused_normals,
-                  .needed_maps = technique.needed_maps,
-                  .frames_to_settle = technique.frames_to_settle};
+                  .needed_maps = technique.needed_maps};
     list.images = {{.name = "radiance", .format = radiance_format, .samples = settings.samples},
                    {.name = "depth", .format = ImageFormat::depth32f, .samples = settings.samples},
                    {.name = "display", .format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba8}};

@@ -149,9 +149,6 @@ struct PassList {
     /// Textures of material maps without which these settings show nothing; a skin material without one is a
     /// warning.
     std::vector<std::string> needed_maps;
-    /// The picture of a still scene changes with each of so many frames, as it takes in the frames before;
-    /// 0: a frame depends on no other.
-    int frames_to_settle = 0;
 
     [[nodiscard]] const ImageDeclaration* find_image(std::string_view name) const;
 };

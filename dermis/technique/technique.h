@@ -26,9 +26,6 @@ struct FrameContext {
     /// Where the camera stood in the frame before, if that had the same technique, settings and lights, so
     /// that persistent images hold what this frame would draw again; else 0.
     float previous_camera_distance_mm = 0;
-    /// How many frames were drawn before in a row with the same technique, settings, view and size, whatever
-    /// camera and lights did: persistent images hold what the frame before left in them, if it is not 0.
-    int earlier_frames = 0;
     int shadow_map_size = 2048;    ///< of the frame's shadow maps, which a pass may test against
     int shadow_map_count = 1;      ///< "shadow_map", "shadow_map_1" ...; the first is always there
     bool has_other = false;        ///< the scene has opaque surfaces that are not skin, which shade skin

@@ -58,9 +58,8 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
         side.failed = false;
     }
     if (side.failed) return false;
-    std::optional<Quality> quality =
+    const std::optional<Quality> quality =
         side.ladder->due(changed, now_s - side.changed_s, megapixels(size), limits_);
-    if (!quality && !side.renderer->is_settled()) quality = side.picture.quality;
     if (!quality) return false;
     DERMIS_TRY_ASSIGN(Renderer* const drawer, renderer(choice));
     const DrawSettings draw = settings(model, size, *quality);
@@ -107,8 +106,7 @@ std::optional<gpu::ForeignImage> Stage::image(size_t choice) const {
 
 bool Stage::is_final(size_t choice) const {
     const Side& side = sides_[choice];
-    return side.failed ||
-           (side.in_flight.empty() && side.ladder->is_final(limits_) && side.renderer->is_settled());
+    return side.failed || (side.in_flight.empty() && side.ladder->is_final(limits_));
 }
 
 Result<void> Stage::write(Model& model, size_t choice, PictureSize size, const std::filesystem::path& path) {

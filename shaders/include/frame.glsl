@@ -48,8 +48,6 @@ layout(scalar) uniform Frame {
     int second_light;            // the first light that is not the key, -1: none
     mat4 second_light_view_projection;
     float pixel_per_distance;    // side of a pixel over its distance along the view
-    mat4 previous_view_projection;  // of the frame before; where earlier_frames is 0, of this one
-    int earlier_frames;             // drawn in a row with the same technique, settings, view and size
     LightSource first_light;     // lights[0]
 };
 

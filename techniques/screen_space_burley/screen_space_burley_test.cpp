@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "dermis/optics/presets.h"
-#include "techniques/screen_space_burley/constants.h"
-#include "techniques/screen_space_burley/test_pictures.h"
+#include "render/render_test.h"
 
 using namespace dermis;
 using namespace dermis::screen_space_burley;
@@ -20,16 +19,26 @@ double radius_mm(double reach, int i) {
     return reach * x * x;
 }
 
-class ScreenSpaceBurley : public ScreenSpaceBurleyTest {
+// Decibels of red against many samples; the peak is the brightest pixel.
+double psnr_db(const Image& image, const Image& many) {
+    double squares = 0, peak = 0;
+    for (size_t i = 0; i < image.pixel_count(); ++i) {
+        const double difference = image.floats()[4 * i] - many.floats()[4 * i];
+        squares += difference * difference;
+        peak = std::max(peak, double(many.floats()[4 * i]));
+    }
+    return 10 * std::log10(peak * peak * double(image.pixel_count()) / squares);
+}
+
+class ScreenSpaceBurley : public RenderTest {
   protected:
-    // Of the pixels with skin.
-    static double mean_samples(Renderer& renderer, Settings settings, int most) {
-        settings.emplace_back("samples", std::to_string(most));
-        const Image counts = draw(renderer, settings, "sample_count");
-        double sum = 0, pixels = 0;
-        for (size_t i = 0; i < counts.pixel_count(); ++i)
-            if (counts.floats()[4 * i] > 0) sum += most * double(counts.floats()[4 * i]), ++pixels;
-        return sum / pixels;
+    static Image draw(Renderer& renderer, const std::string& samples) {
+        const Technique& technique = built_in_technique("screen_space_burley");
+        ParameterValues values(technique.parameters);
+        EXPECT_TRUE(values.set("samples", samples));
+        return radiance(
+            renderer, technique, values,
+            {.width = 128, .height = 128, .view = "diffuse", .deep = true, .shadow_map_size = 1024});
     }
 };
 
@@ -71,42 +80,13 @@ TEST(BurleyTables, the_radius_of_a_part_is_the_inverse_of_the_mean_part) {
 TEST_F(ScreenSpaceBurley, converges_over_its_samples) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Image many = draw(renderer, {{"samples", "2048"}});
+    const Image many = draw(renderer, "2048");
     double before_db = 0;
     for (const char* samples : {"8", "32", "128"}) {
-        const double db = psnr_db(draw(renderer, {{"samples", samples}}), many);
+        const double db = psnr_db(draw(renderer, samples), many);
         RecordProperty(std::string("psnr_db_") + samples, std::to_string(db));
         EXPECT_GT(db, before_db + 3) << samples;
         before_db = db;
     }
     EXPECT_GT(before_db, 40);
-}
-
-// The bust from near, where the profile is wider than a pixel. One sample of the pilot for each pixel counts
-// too.
-TEST_F(ScreenSpaceBurley, an_adaptive_count_is_nearer_with_fewer_samples) {
-    Scene scene = load("builtin:bust");
-    scene.background_linear = {};
-    scene.environment.visible = false;
-    scene.camera.vertical_fov_rad /= 3;
-    Renderer renderer = make_renderer(scene);
-    const Settings adaptive = {{"count", "adaptive"}, {"noise", "0.003"}, {"samples", "64"}};
-    const Image many = draw(renderer, {{"samples", "1024"}});
-    const double fixed_db = psnr_db(draw(renderer, {{"samples", "16"}}), many);
-    const double adaptive_db = psnr_db(draw(renderer, adaptive), many);
-    const double samples = mean_samples(renderer, adaptive, 64) + kPilotSamples / 4.0;
-    RecordProperty("samples", std::to_string(samples));
-    RecordProperty("psnr_db", std::to_string(adaptive_db) + ", fixed " + std::to_string(fixed_db));
-    EXPECT_LT(samples, 16);
-    EXPECT_GT(adaptive_db, fixed_db + 0.5);
-}
-
-TEST_F(ScreenSpaceBurley, an_adaptive_count_is_least_where_light_does_not_vary) {
-    Scene scene = evenly_lit_spheres();
-    scene.background_linear = {};
-    scene.environment.visible = false;
-    Renderer renderer = make_renderer(scene);
-    EXPECT_NEAR(mean_samples(renderer, {{"count", "adaptive"}}, 64), kFewestSamples, 0.1);
-    const Image fixed = draw(renderer, {}), adaptive = draw(renderer, {{"count", "adaptive"}});
-    EXPECT_LT(relative_difference(fixed, adaptive, 1), 1e-3) << "at silhouettes too";
 }

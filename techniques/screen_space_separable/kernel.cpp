@@ -42,42 +42,15 @@ float reach_mm(const GaussianSum& profile, float width) {
     return reach > 0 ? reach : 1;
 }
 
-namespace {
-
-double part_within(double variance_mm2, float width, double distance_mm) {
-    const double sigma_mm = width * std::sqrt(variance_mm2);
-    return sigma_mm > 0 ? std::erf(distance_mm / (std::sqrt(2.0) * sigma_mm)) : 1.0;
-}
-
-}  // namespace
-
 double share_within(const GaussianSum& profile, float width, int channel, double distance_mm) {
     double sum = 0, total = 0;
     for (const GaussianTerm& term : profile.terms) {
         const double weight = term.weight[size_t(channel)];
+        const double sigma_mm = width * std::sqrt(term.variance_mm2);
         total += weight;
-        sum += weight * part_within(term.variance_mm2, width, distance_mm);
+        sum += weight * (sigma_mm > 0 ? std::erf(distance_mm / (std::sqrt(2.0) * sigma_mm)) : 1.0);
     }
     return total > 0 ? sum / total : 1;
-}
-
-double light_within(const SeparableTerm& term, const GaussianSum& profile, float width, int channel,
-                    double distance_mm) {
-    double sum = 0;
-    for (size_t i = 0; i < profile.terms.size(); ++i)
-        sum += term.amplitude[i][size_t(channel)] *
-               part_within(profile.terms[i].variance_mm2, width, distance_mm);
-    return sum;
-}
-
-double light_at(const SeparableTerms& terms, const GaussianSum& profile, float width, int channel,
-                double distance_mm) {
-    double squares = 0;
-    for (const SeparableTerm& term : terms.terms) {
-        const double light = light_within(term, profile, width, channel, distance_mm);
-        squares += light * light;
-    }
-    return std::sqrt(squares);
 }
 
 }  // namespace dermis::screen_space_separable

@@ -3,7 +3,6 @@
 
 #include "dermis/base/vec.h"
 #include "dermis/optics/profile.h"
-#include "dermis/optics/separable_terms.h"
 
 namespace dermis::screen_space_separable {
 
@@ -36,14 +35,5 @@ struct Artistic {
 /// sum of w. Lengths of the profile are multiplied by `width`. Source: Jimenez et al. 2015, Separable
 /// Subsurface Scattering, section 4 (pre-integrated kernel).
 [[nodiscard]] double share_within(const GaussianSum& profile, float width, int channel, double distance_mm);
-
-/// A term's light within `distance_mm`, as above; negative where it takes back what another gives.
-[[nodiscard]] double light_within(const SeparableTerm& term, const GaussianSum& profile, float width,
-                                  int channel, double distance_mm);
-
-/// Of all terms the light within a square of this half side, as its root: the root of the sum of squares of
-/// light_within(). 0 for a channel without reflectance.
-[[nodiscard]] double light_at(const SeparableTerms& terms, const GaussianSum& profile, float width,
-                              int channel, double distance_mm);
 
 }  // namespace dermis::screen_space_separable

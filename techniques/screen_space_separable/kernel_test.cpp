@@ -61,21 +61,3 @@ TEST(SeparableKernel, of_an_artist_keeps_what_strength_leaves_and_is_narrower_wi
                 1e-4);
     EXPECT_GT(share_within(sum, 1, kBlue, 0.5), share_within(sum, 1, kRed, 0.5));
 }
-
-// The light of a square, from the products and from the profile itself.
-TEST(SeparableKernel, of_all_products_is_the_profile_in_two_dimensions) {
-    const GaussianSum sum = gpu_gems_3_skin();
-    const SeparableTerms all = separable_terms(sum, 6), two = separable_terms(sum, 2);
-    for (const int channel : {kRed, kGreen, kBlue})
-        for (const double half_mm : {0.1, 0.5, 2.0}) {
-            double exact = 0;
-            for (const GaussianTerm& term : sum.terms) {
-                const double along = std::erf(half_mm / std::sqrt(2 * term.variance_mm2));
-                exact += term.weight[size_t(channel)] * along * along;
-            }
-            const double of_all = light_at(all, sum, 1, channel, half_mm),
-                         of_two = light_at(two, sum, 1, channel, half_mm);
-            EXPECT_NEAR(of_all * of_all, exact, 2e-3) << channel << " " << half_mm;
-            EXPECT_NEAR(of_two * of_two, exact, 0.035) << channel << " " << half_mm;
-        }
-}

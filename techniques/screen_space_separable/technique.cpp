@@ -16,7 +16,7 @@ using namespace screen_space_separable;
 constexpr const char* kOwnView = "blurred_light";
 constexpr int kTexels = 256;
 
-enum class Kernel : int32_t { profile, two_gaussians, artistic, rank_1, rank_2 };
+enum class Kernel : int32_t { profile, two_gaussians, artistic };
 enum class Taps : int32_t { taps_7, taps_11, taps_17, taps_25 };
 enum class Follow : int32_t { none = kFollowNone, surface = kFollowSurface };
 
@@ -36,10 +36,8 @@ struct Params {
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
-        .choice(
-            &Params::kernel, "kernel", {"profile", "two_gaussians", "artistic", "rank_1", "rank_2"},
-            "the scene's profile along a line; two Gaussians or strength and falloff that an artist sets; "
-            "the profile in two dimensions as the nearest product of two kernels, or sum of two products")
+        .choice(&Params::kernel, "kernel", {"profile", "two_gaussians", "artistic"},
+                "the scene's profile along a line; two Gaussians, or strength and falloff, set by an artist")
         .number(&Params::width, "width", "", 0, 10, "scales the kernel's lengths")
         .number(&Params::near_mm, "near_mm", "mm", 0.01, 10, "kernel=two_gaussians: the narrower one")
         .number(&Params::far_mm, "far_mm", "mm", 0.01, 20, "kernel=two_gaussians: the wider one")
@@ -72,72 +70,38 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const float reach = reach_mm(kernel_of(params, frame.skin_gaussians), params.width);
     PassList list;
     add_screen_light(list, params.specular, frame);
-    const bool two = params.kernel == Kernel::rank_2;
-    std::vector<std::string> along_x = {"skin_light_x"};
-    if (two) along_x.push_back("skin_light_x_of_second");
-    // Two products may be far larger than their sum.
-    const ImageFormat format_x = two ? ImageFormat::rgba32f : ImageFormat::rgba16f;
-    for (const std::string& name : along_x) list.images.push_back({.name = name, .format = format_x});
-    list.images.push_back({.name = "skin_light_xy", .format = ImageFormat::rgba16f});
-    for (const bool along_v : {false, true}) {
-        Pass pass = {.name = along_v ? "blur along y" : "blur along x",
-                     .kind = PassKind::fullscreen,
-                     .shader = "screen_space_separable/blur.frag",
-                     .reads = {{"light", along_v ? along_x[0] : "skin_light"}, "skin_z", "skin_kernel"},
-                     .constants = {{"half_taps", half_taps(params.taps)},
-                                   {"along_v", int32_t(along_v)},
-                                   {"follow", int32_t(params.follow)}},
-                     .values = {{"reach_mm", reach}}};
-        if (two) {
-            pass.shader = std::string("screen_space_separable/blur_two_") + (along_v ? "y" : "x") + ".frag";
-            pass.reads.emplace_back("light_of_second", along_v ? along_x[1] : "skin_light");
-        }
-        for (const std::string& name : along_v ? std::vector<std::string>{"skin_light_xy"} : along_x)
-            pass.colors.push_back({.image = name, .load = LoadOp::discard});
-        list.passes.push_back(std::move(pass));
-    }
+    for (const char* name : {"skin_light_x", "skin_light_xy"})
+        list.images.push_back({.name = name, .format = ImageFormat::rgba16f});
+    for (const bool along_v : {false, true})
+        list.passes.push_back(
+            {.name = along_v ? "blur along y" : "blur along x",
+             .kind = PassKind::fullscreen,
+             .shader = "screen_space_separable/blur.frag",
+             .reads = {{"light", along_v ? "skin_light_x" : "skin_light"}, "skin_z", "skin_kernel"},
+             .colors = {{.image = along_v ? "skin_light_xy" : "skin_light_x", .load = LoadOp::discard}},
+             .constants = {{"half_taps", half_taps(params.taps)},
+                           {"along_v", int32_t(along_v)},
+                           {"follow", int32_t(params.follow)}},
+             .values = {{"reach_mm", reach}}});
     add_screen_skin(list, "skin_light_xy", params.specular, params.transmission, frame, kOwnView);
     return list;
 }
 
-// A row for each product, that the shader reads at sqrt(distance / reach), both ends included.
-template <class Light>
-void add_row(std::vector<float>& rgba, double reach, Light light) {
-    for (int i = 0; i < kTexels; ++i) {
-        const double x = double(i) / (kTexels - 1);
-        for (int c = 0; c < 3; ++c) rgba.push_back(float(light(c, reach * x * x)));
-        rgba.push_back(1);
-    }
-}
-
-// A channel without reflectance keeps its light where it is.
-std::vector<float> low_rank_rows(int rank, const GaussianSum& kernel, float width, double reach) {
-    const SeparableTerms fit = separable_terms(kernel, rank);
-    std::vector<float> rgba;
-    for (const SeparableTerm& term : fit.terms)
-        add_row(rgba, reach, [&](int c, double distance_mm) {
-            const double light = light_at(fit, kernel, width, c, reach);
-            if (light > 0) return light_within(term, kernel, width, c, distance_mm) / light;
-            return &term == &fit.terms[0] ? 1.0 : 0.0;
-        });
-    return rgba;
-}
-
+// The light within a distance at sqrt(distance / reach), both ends included.
 Result<std::vector<TableImage>> tables(const ParameterValues& values, const SkinContext& skin) {
     const auto params = values.as<Params>();
     const GaussianSum kernel = kernel_of(params, skin.gaussians);
     const double reach = reach_mm(kernel, params.width);
-    const int rank = params.kernel == Kernel::rank_2 ? 2 : 1;
     std::vector<float> rgba;
-    if (params.kernel == Kernel::rank_1 || rank == 2)
-        rgba = low_rank_rows(rank, kernel, params.width, reach);
-    else
-        add_row(rgba, reach, [&](int c, double distance_mm) {
-            return share_within(kernel, params.width, c, distance_mm) /
-                   share_within(kernel, params.width, c, reach);
-        });
+    for (int i = 0; i < kTexels; ++i) {
+        const double x = double(i) / (kTexels - 1);
+        for (int c = 0; c < 3; ++c)
+            rgba.push_back(float(share_within(kernel, params.width, c, reach * x * x) /
+                                 share_within(kernel, params.width, c, reach)));
+        rgba.push_back(1);
+    }
     std::vector<TableImage> images = transmission_tables(params.transmission, skin);
-    images.push_back(table_image("skin_kernel", rank, rgba));
+    images.push_back(table_image("skin_kernel", 1, rgba));
     return images;
 }
 

@@ -21,8 +21,6 @@ struct ScreenBlur {
     const char *technique, *parameter, *value;
 };
 constexpr ScreenBlur kBlurs[] = {{"screen_space_separable", "kernel", "profile"},
-                                 {"screen_space_separable", "kernel", "rank_1"},
-                                 {"screen_space_separable", "kernel", "rank_2"},
                                  {"screen_space_separable", "kernel", "artistic"},
                                  {"screen_space_burley", "rotate", "on"}};
 

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "dermis/image/metrics.h"
 #include "view/window_fixture.h"
 
 namespace dermis {
@@ -90,18 +89,6 @@ TEST_F(ViewWindow, on_a_slow_device_the_first_picture_is_coarse_and_the_last_has
     EXPECT_LT(first_width, 320);
     // Half of the blur's passes, and no resolve of the samples.
     EXPECT_LE(std::stoi(value_of(result, "passes")), std::stoi(last.substr(last.find("passes ") + 7)) - 5);
-}
-
-TEST_F(ViewWindow, a_still_picture_takes_in_the_samples_of_further_frames) {
-    const std::string burley = kSmall + "-t screen_space_burley --set samples=";
-    const auto picture = [&](const std::string& samples) {
-        const ProgramResult result = view(burley + samples, "settle\nscreenshot DIR/picture.png\nquit\n");
-        EXPECT_EQ(result.exit_code, 0) << result.err;
-        return image("picture.png");
-    };
-    const Image many = picture("1024");
-    const Image one = picture("4"), over_frames = picture("4 --set accumulate=frames");
-    EXPECT_LT(*rmse(over_frames, many), 0.6 * *rmse(one, many));
 }
 
 TEST_F(ViewWindow, a_lost_device_is_opened_again_with_what_was_seen) {

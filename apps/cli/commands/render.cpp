@@ -118,17 +118,9 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
         turn_camera(prepared.scene, start, turn_rad);
         return renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
     };
-    // Frames that take in those before them are the same in any range: all are drawn from the first.
-    int first = range.begin;
-    if (first > 0) {
-        if (Result<gpu::FrameResult> drawn = draw(first); !drawn) return drawn.error();
-        if (renderer.list().frames_to_settle > 0) first = 0;
-        renderer.forget_history();
-    }
     std::vector<gpu::FrameResult> results;
-    for (int frame = first; frame < range.end; ++frame) {
+    for (int frame = range.begin; frame < range.end; ++frame) {
         DERMIS_TRY_ASSIGN(gpu::FrameResult drawn, draw(frame));
-        if (frame < range.begin) continue;
         results.push_back(std::move(drawn));
         if (!numbered && frame + 1 < frames) continue;
         if (numbered && frame >= options.frames) continue;
