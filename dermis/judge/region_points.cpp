@@ -17,10 +17,11 @@ namespace {
 constexpr float kFacesLight = 0.1f;
 
 float curvature_at(const Mesh& mesh, const RayHit& hit) {
-    const std::vector<float>& values = mesh.curvatures_per_mm;
-    if (values.empty()) return 0;
-    const uint32_t* corner = &mesh.indices[3 * size_t(hit.triangle)];
-    return values[corner[0]] * (1 - hit.u - hit.v) + values[corner[1]] * hit.u + values[corner[2]] * hit.v;
+    if (mesh.curvatures_per_mm.empty()) return 0;
+    const auto corner = [&](size_t k) {
+        return mean_curvature(mesh.curvatures_per_mm[mesh.indices[3 * size_t(hit.triangle) + k]]);
+    };
+    return corner(0) * (1 - hit.u - hit.v) + corner(1) * hit.u + corner(2) * hit.v;
 }
 
 // Everything that a pixel's point is found with.

@@ -36,6 +36,13 @@ constexpr Vec3 operator*(const CurvatureTensor& s, Vec3 d) {
 constexpr float mean_curvature(const CurvatureTensor& s) {
     return 0.5f * (s.diagonal.x + s.diagonal.y + s.diagonal.z);
 }
+/// The tensor with these entries in the frame of two tangents: tt = t.S t, bb = b.S b, tb = t.S b.
+constexpr CurvatureTensor tangent_curvature(Vec3 t, Vec3 b, float tt_per_mm, float bb_per_mm,
+                                            float tb_per_mm = 0) {
+    const Vec3 of_t = t * tt_per_mm + b * tb_per_mm, of_b = t * tb_per_mm + b * bb_per_mm;  // S t, S b
+    return {of_t * t + of_b * b,
+            {of_t.y * t.z + of_b.y * b.z, of_t.x * t.z + of_b.x * b.z, of_t.x * t.y + of_b.x * b.y}};
+}
 /// Of a surface that bends alike in all directions.
 constexpr CurvatureTensor isotropic_curvature(float curvature_per_mm, Vec3 n) {
     return {curvature_per_mm * (Vec3{1, 1, 1} - n * n),
@@ -51,13 +58,12 @@ struct Mesh {
     std::vector<Vec4> tangents;  ///< unit xyz along +u; w = +1 or -1, bitangent = w * cross(normal, tangent)
                                  ///< points up in the texture image (towards smaller v), as glTF has it
     std::vector<Vec2> uvs;
-    std::vector<Vec4> colors_linear;                        ///< multiply base colour and opacity
-    std::vector<float> curvatures_per_mm;                   ///< signed mean curvature, positive where convex
-    std::vector<CurvatureTensor> curvature_tensors_per_mm;  ///< absent: alike in all directions
-    std::vector<float> occlusions;                          ///< ambient visibility, 0 closed in, 1 open
-    std::vector<uint32_t> indices;                          ///< three a triangle
-    std::vector<Submesh> submeshes;                         ///< cover all indices, in order
-    std::vector<Material> materials;                        ///< at least one
+    std::vector<Vec4> colors_linear;  ///< multiply base colour and opacity
+    std::vector<CurvatureTensor> curvatures_per_mm;
+    std::vector<float> occlusions;    ///< ambient visibility, 0 closed in, 1 open
+    std::vector<uint32_t> indices;    ///< three a triangle
+    std::vector<Submesh> submeshes;   ///< cover all indices, in order
+    std::vector<Material> materials;  ///< at least one
 
     [[nodiscard]] size_t triangle_count() const { return indices.size() / 3; }
 };

@@ -92,7 +92,6 @@ void compute_normals(Mesh& mesh, const NormalOptions& options) {
     mesh.normals.clear();
     mesh.tangents.clear();
     mesh.curvatures_per_mm.clear();
-    mesh.curvature_tensors_per_mm.clear();
     const CornerNormals corners = corner_normals(mesh, options);
     split_vertices(mesh, corners.group);
     mesh.normals.assign(mesh.positions_mm.size(), Vec3{0, 1, 0});

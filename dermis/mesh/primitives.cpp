@@ -14,7 +14,7 @@ constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 struct Point {
     Vec3 position_mm, normal, tangent;
-    float curvature_per_mm = 0;
+    float along_per_mm = 0, across_per_mm = 0;  // curvatures along the tangent and at right angles to it
 };
 
 Mesh with_one_material(Mesh mesh, const char* name) {
@@ -39,7 +39,8 @@ Mesh make_grid(const char* name, int columns, int rows, Poles poles,
             mesh.normals.push_back(point.normal);
             mesh.tangents.push_back({point.tangent.x, point.tangent.y, point.tangent.z, 1});
             mesh.uvs.push_back(uv);
-            mesh.curvatures_per_mm.push_back(point.curvature_per_mm);
+            mesh.curvatures_per_mm.push_back(tangent_curvature(
+                point.tangent, cross(point.normal, point.tangent), point.along_per_mm, point.across_per_mm));
         }
     const bool has_poles = poles == Poles::at_first_and_last_row;
     for (int row = 0; row < rows; ++row)
@@ -71,7 +72,7 @@ Mesh make_sphere(float radius_mm, int segments) {
         const Around around(u);
         const float ring = v <= 0 || v >= 1 ? 0 : std::sin(v * kTau / 2);
         const Vec3 n = {ring * around.x, std::cos(v * kTau / 2), ring * around.z};
-        return Point{n * radius_mm, n, around.tangent(), 1 / radius_mm};
+        return Point{n * radius_mm, n, around.tangent(), 1 / radius_mm, 1 / radius_mm};
     });
 }
 
@@ -83,9 +84,8 @@ Mesh make_torus(float major_mm, float minor_mm, int segments) {
         const float angle = v >= 1 ? 0 : v * kTau, out = -std::cos(angle), up = std::sin(angle);
         const Vec3 n = {out * around.x, up, out * around.z};
         const Vec3 centre = {major_mm * around.x, 0, major_mm * around.z};
-        // H = (R + 2 r cos) / (2 r (R + r cos)), from the two circles' curvatures.
-        const float h = (major_mm + 2 * minor_mm * out) / (2 * minor_mm * (major_mm + minor_mm * out));
-        return Point{centre + n * minor_mm, n, around.tangent(), h};
+        return Point{centre + n * minor_mm, n, around.tangent(), out / (major_mm + minor_mm * out),
+                     1 / minor_mm};
     });
 }
 
@@ -96,15 +96,14 @@ Mesh make_cylinder(float radius_mm, float height_mm, int segments) {
     return make_grid("cylinder", columns, rows, Poles::none, [&](float u, float v) {
         const Around around(u);
         const Vec3 n = {around.x, 0, around.z};
-        return Point{n * radius_mm + Vec3{0, (0.5f - v) * height_mm, 0}, n, around.tangent(),
-                     0.5f / radius_mm};
+        return Point{n * radius_mm + Vec3{0, (0.5f - v) * height_mm, 0}, n, around.tangent(), 1 / radius_mm};
     });
 }
 
 Mesh make_plane(float width_mm, float height_mm, int segments) {
     const int count = std::max(segments, 1);
     return make_grid("plane", count, count, Poles::none, [&](float u, float v) {
-        return Point{{(u - 0.5f) * width_mm, (0.5f - v) * height_mm, 0}, {0, 0, 1}, {1, 0, 0}, 0};
+        return Point{{(u - 0.5f) * width_mm, (0.5f - v) * height_mm, 0}, {0, 0, 1}, {1, 0, 0}};
     });
 }
 
@@ -126,7 +125,7 @@ Mesh make_box(Vec3 size_mm) {
             mesh.normals.push_back(n);
             mesh.tangents.push_back({right.x, right.y, right.z, 1});
             mesh.uvs.push_back({cell.x + corner.x / 3, cell.y + corner.y / 2});
-            mesh.curvatures_per_mm.push_back(0);
+            mesh.curvatures_per_mm.emplace_back();
         }
         const uint32_t a = 4 * f;
         mesh.indices.insert(mesh.indices.end(), {a, a + 3, a + 2, a, a + 2, a + 1});

@@ -49,7 +49,6 @@ void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
     gather(mesh.tangents, from);
     gather(mesh.uvs, from);
     gather(mesh.curvatures_per_mm, from);
-    gather(mesh.curvature_tensors_per_mm, from);
     gather(mesh.occlusions, from);
     gather(mesh.colors_linear, from);
 }

@@ -48,11 +48,7 @@ Result<void> complete_scene(Scene& scene) {
     for (SceneObject& object : scene.objects) {
         progress.advance();
         if (object.mesh.curvatures_per_mm.size() == object.mesh.positions_mm.size()) continue;
-        DERMIS_TRY_ASSIGN(std::vector<CurvatureTensor> tensors, cached_curvature(object.mesh));
-        object.mesh.curvatures_per_mm.clear();
-        for (const CurvatureTensor& tensor : tensors)
-            object.mesh.curvatures_per_mm.push_back(mean_curvature(tensor));
-        object.mesh.curvature_tensors_per_mm = std::move(tensors);
+        DERMIS_TRY_ASSIGN(object.mesh.curvatures_per_mm, cached_curvature(object.mesh));
     }
     if (std::ranges::all_of(scene.objects, has_occlusion)) return {};
     Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(scene.objects);

@@ -37,16 +37,6 @@ std::vector<T> filled(const std::vector<T>& attribute, size_t count, T neutral) 
     return attribute.size() == count ? attribute : std::vector<T>(count, neutral);
 }
 
-// A mesh without tensors has the same curvature in all directions.
-std::vector<CurvatureTensor> curvature_tensors(const Mesh& mesh, const std::vector<Vec3>& normals) {
-    if (mesh.curvature_tensors_per_mm.size() == normals.size()) return mesh.curvature_tensors_per_mm;
-    const auto curvatures = filled(mesh.curvatures_per_mm, normals.size(), 0.0f);
-    std::vector<CurvatureTensor> tensors;
-    for (size_t i = 0; i < normals.size(); ++i)
-        tensors.push_back(isotropic_curvature(curvatures[i], normals[i]));
-    return tensors;
-}
-
 Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
     const auto normals = filled(mesh.normals, count, Vec3{0, 0, 1});
@@ -54,7 +44,7 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
     const auto uvs = filled(mesh.uvs, count, Vec2{});
     const auto colors = filled(mesh.colors_linear, count, Vec4{1, 1, 1, 1});
     std::vector<Vec3> diagonals, mixed;
-    for (const CurvatureTensor& tensor : curvature_tensors(mesh, normals)) {
+    for (const CurvatureTensor& tensor : filled(mesh.curvatures_per_mm, count, CurvatureTensor{})) {
         diagonals.push_back(tensor.diagonal);
         mixed.push_back(tensor.mixed);
     }

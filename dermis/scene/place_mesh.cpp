@@ -40,8 +40,7 @@ void place_mesh(Mesh& mesh, const Placement& placement) {
         const Vec3 turned = rotate({t.x, t.y, t.z});
         t = {turned.x, turned.y, turned.z, t.w};
     }
-    for (float& curvature : mesh.curvatures_per_mm) curvature /= placement.scale;
-    for (CurvatureTensor& tensor : mesh.curvature_tensors_per_mm) {
+    for (CurvatureTensor& tensor : mesh.curvatures_per_mm) {
         tensor = rotate.tensor(tensor);
         tensor.diagonal *= 1 / placement.scale;
         tensor.mixed *= 1 / placement.scale;

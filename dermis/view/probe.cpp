@@ -32,7 +32,7 @@ float Probe::curvature_at(const RayHit& hit) const {
     const Mesh& mesh = scene_->objects[hit.object].mesh;
     if (mesh.curvatures_per_mm.size() != mesh.positions_mm.size()) return 0;
     const auto corner = [&](uint32_t k) {
-        return mesh.curvatures_per_mm[mesh.indices[3 * hit.triangle + k]];
+        return mean_curvature(mesh.curvatures_per_mm[mesh.indices[3 * hit.triangle + k]]);
     };
     return corner(0) * (1 - hit.u - hit.v) + corner(1) * hit.u + corner(2) * hit.v;
 }

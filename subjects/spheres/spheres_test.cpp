@@ -40,7 +40,7 @@ TEST(Spheres, are_four_of_radius_2_4_8_16_that_touch_one_plane) {
         EXPECT_NEAR(all[i].center_mm.y, kSphereRadiiMm[i], 1e-3);
         const Mesh& mesh = scene->objects[i].mesh;
         ASSERT_EQ(mesh.curvatures_per_mm.size(), mesh.positions_mm.size());
-        EXPECT_NEAR(mesh.curvatures_per_mm[100], 1 / kSphereRadiiMm[i], 1e-6);
+        EXPECT_NEAR(mean_curvature(mesh.curvatures_per_mm[100]), 1 / kSphereRadiiMm[i], 1e-6);
     }
 }
 

@@ -34,7 +34,7 @@ Mesh make_latitude_sphere(float radius_mm, Vec3 center_mm) {
             mesh.normals.push_back(n);
             mesh.tangents.push_back({-std::cos(azimuth), 0, std::sin(azimuth), 1});
             mesh.uvs.push_back({u, v});
-            mesh.curvatures_per_mm.push_back(1 / radius_mm);
+            mesh.curvatures_per_mm.push_back(isotropic_curvature(1 / radius_mm, n));
         }
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < kColumns; ++column) {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "dermis/mesh/curvature.h"
 #include "dermis/mesh/primitives.h"
 #include "dermis/mesh/tangents.h"
 #include "dermis/scene/placement.h"
@@ -13,9 +12,9 @@ namespace {
 
 constexpr Vec3 kSkinLinear = {0.8f, 0.52f, 0.42f}, kDarkSkinLinear = {0.2f, 0.11f, 0.08f};
 
-// Height, slopes and mean curvature (positive where convex) at x, y.
+// Height and slopes at x, y.
 struct HeightPoint {
-    float z = 0, slope_x = 0, slope_y = 0, curvature_per_mm = 0;
+    float z = 0, slope_x = 0, slope_y = 0;
 };
 
 template <class Height>
@@ -31,7 +30,6 @@ Mesh height_field(float half_mm, int columns, int rows, Height height) {
             mesh.positions_mm.push_back({x, y, point.z});
             mesh.normals.push_back(normalize(Vec3{-point.slope_x, -point.slope_y, 1}));
             mesh.uvs.push_back(uv);
-            mesh.curvatures_per_mm.push_back(point.curvature_per_mm);
         }
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
@@ -51,6 +49,7 @@ SceneObject skin_object(std::string name, Mesh mesh) {
     mesh.materials[0].name = "skin";
     mesh.materials[0].base_color_linear = kSkinLinear;
     apply_skin(Skin{}, mesh.materials[0]);
+    mesh.curvatures_per_mm.clear();  // complete_scene() fits what any loaded mesh gets
     return {.name = std::move(name), .mesh = std::move(mesh), .classes = {MaterialClass::skin}};
 }
 
@@ -88,26 +87,16 @@ SceneObject two_albedos() {
 Mesh saddle(float radius_mm) {
     constexpr int kCells = 96;
     return height_field(radius_mm, kCells, kCells, [&](float x, float y) {
-        const float a = x / radius_mm, b = y / radius_mm;
         return HeightPoint{
-            .z = (x * x - y * y) / (2 * radius_mm),
-            .slope_x = a,
-            .slope_y = -b,
-            .curvature_per_mm = (a * a - b * b) / (2 * radius_mm * std::pow(1 + a * a + b * b, 1.5f))};
+            .z = (x * x - y * y) / (2 * radius_mm), .slope_x = x / radius_mm, .slope_y = -y / radius_mm};
     });
 }
 
 Mesh relief(float wavelength_mm, float slope) {
     constexpr float kCellsAWave = 24;
     const float k = 2 * std::numbers::pi_v<float> / wavelength_mm;
-    // Of a wave, what the average that complete_scene() takes leaves.
-    const auto averaged = float(std::exp(-std::pow(k * kCurvatureSmoothingMm, 2) / 2));
     return height_field(kReachMm, int(2 * kReachMm / wavelength_mm * kCellsAWave), 1, [&](float x, float) {
-        const float rise = slope * std::cos(k * x);
-        return HeightPoint{.z = slope / k * std::sin(k * x),
-                           .slope_x = rise,
-                           .curvature_per_mm = averaged * slope * k * std::sin(k * x) /
-                                               (2 * std::pow(1 + rise * rise, 1.5f))};
+        return HeightPoint{.z = slope / k * std::sin(k * x), .slope_x = slope * std::cos(k * x)};
     });
 }
 

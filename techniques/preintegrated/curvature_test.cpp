@@ -17,10 +17,9 @@ Scene bent_grid(float across, float along) {
     Mesh& mesh = scene.objects[0].mesh;
     for (size_t i = 0; i < mesh.normals.size(); ++i) {
         const Vec3 n = mesh.normals[i];
-        const float k = mesh.curvatures_per_mm[i];
+        const float k = mean_curvature(mesh.curvatures_per_mm[i]);
         // In the plane of the light the direction is (-n.y, n.x, 0), at right angles to it z.
-        mesh.curvature_tensors_per_mm.push_back(
-            {k * Vec3{across * n.y * n.y, across * n.x * n.x, along}, {0, 0, -k * across * n.x * n.y}});
+        mesh.curvatures_per_mm[i] = tangent_curvature({-n.y, n.x, 0}, {0, 0, 1}, k * across, k * along);
     }
     return scene;
 }

@@ -26,7 +26,7 @@ Scene spheres_with_map() {
     EXPECT_TRUE(scene && complete_scene(*scene));
     constexpr float kScalePerMm = 0.5f;
     for (SceneObject& object : scene->objects) {
-        const float curvature_per_mm = object.mesh.curvatures_per_mm[0];
+        const float curvature_per_mm = mean_curvature(object.mesh.curvatures_per_mm[0]);
         object.mesh.materials[0].curvature_map = {
             .name = "curvature of " + object.name,
             .width = 1,
@@ -160,7 +160,8 @@ TEST_F(PreintegratedZoom, reads_an_image_of_curvature_around_its_value_of_flat_s
         Material& skin = object.mesh.materials[0];
         skin.curvature_mid = 0.2f;
         skin.curvature_map.pixels[0] = std::byte(std::lround(
-            255 * (0.2f + object.mesh.curvatures_per_mm[0] / skin.curvature_scale_per_mm) * 0.5f));
+            255 * (0.2f + mean_curvature(object.mesh.curvatures_per_mm[0]) / skin.curvature_scale_per_mm) *
+            0.5f));
         skin.curvature_mid *= 0.5f;
         skin.curvature_scale_per_mm *= 2;
     }

@@ -24,17 +24,20 @@ class SphericalGaussians : public GridTest {
     /// The grid with this curvature everywhere.
     static Scene scene_of(float curvature_per_mm) {
         Scene scene = make_grid_scene();
-        std::ranges::fill(scene.objects[0].mesh.curvatures_per_mm, curvature_per_mm);
+        Mesh& mesh = scene.objects[0].mesh;
+        for (size_t i = 0; i < mesh.normals.size(); ++i)
+            mesh.curvatures_per_mm[i] = isotropic_curvature(curvature_per_mm, mesh.normals[i]);
         return scene;
     }
 
     /// The largest difference from the integral over the sphere at each of kRadiiMm, over N.L, in red.
     static std::array<double, 4> errors(const char* lobes, const char* width = "deviation") {
         Scene scene = make_grid_scene();
-        std::vector<float>& curvatures = scene.objects[0].mesh.curvatures_per_mm;
-        const size_t row = curvatures.size() / kGrid;
-        for (size_t i = 0; i < curvatures.size(); ++i)
-            curvatures[i] = float(1 / kRadiiMm[std::min(i / row, kRadiiMm.size() - 1)]);
+        Mesh& mesh = scene.objects[0].mesh;
+        const size_t row = mesh.normals.size() / kGrid;
+        for (size_t i = 0; i < mesh.normals.size(); ++i)
+            mesh.curvatures_per_mm[i] = isotropic_curvature(
+                float(1 / kRadiiMm[std::min(i / row, kRadiiMm.size() - 1)]), mesh.normals[i]);
         const Image image = draw_curved(scene, lobes, width);
         std::array<double, 4> worst = {};
         for (size_t y = 0; y < worst.size(); ++y) {

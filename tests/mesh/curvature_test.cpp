@@ -19,10 +19,12 @@ namespace {
 // the first or last row (open borders see one side only).
 double worst_relative_error(const Mesh& mesh, const std::vector<float>& curvatures, float margin = 0) {
     double largest = 0, worst = 0;
-    for (const float h : mesh.curvatures_per_mm) largest = std::max(largest, std::abs(double(h)));
+    for (const CurvatureTensor& s : mesh.curvatures_per_mm)
+        largest = std::max(largest, std::abs(double(mean_curvature(s))));
     for (size_t i = 0; i < curvatures.size(); ++i)
         if (mesh.uvs[i].y >= margin && mesh.uvs[i].y <= 1 - margin)
-            worst = std::max(worst, std::abs(double(curvatures[i]) - mesh.curvatures_per_mm[i]) / largest);
+            worst = std::max(
+                worst, std::abs(double(curvatures[i]) - mean_curvature(mesh.curvatures_per_mm[i])) / largest);
     return worst;
 }
 

@@ -42,7 +42,8 @@ inline Scene make_grid_scene() {
                 mesh.normals.push_back(grid_normal(x));
                 mesh.uvs.push_back({float(x + dx) / kGrid, float(y + dy) / kGrid});
                 mesh.tangents.push_back({0, 0, 1, 1});
-                mesh.curvatures_per_mm.push_back(float(grid_curvature_per_mm(y)));
+                mesh.curvatures_per_mm.push_back(
+                    isotropic_curvature(float(grid_curvature_per_mm(y)), grid_normal(x)));
                 mesh.occlusions.push_back(1);
             }
             mesh.indices.insert(mesh.indices.end(),

@@ -22,7 +22,10 @@ class Properties : public RenderTest {};
 void scale_lengths(Scene& scene, float factor) {
     for (SceneObject& object : scene.objects) {
         for (Vec3& p : object.mesh.positions_mm) p *= factor;
-        for (float& curvature : object.mesh.curvatures_per_mm) curvature /= factor;
+        for (CurvatureTensor& curvature : object.mesh.curvatures_per_mm) {
+            curvature.diagonal *= 1 / factor;
+            curvature.mixed *= 1 / factor;
+        }
     }
     scene.camera.eye_mm *= factor;
     scene.camera.target_mm *= factor;

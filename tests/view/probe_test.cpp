@@ -16,7 +16,9 @@ Scene sphere_scene(float radius_mm) {
     EXPECT_TRUE(spheres);
     Scene scene = std::move(*spheres);
     for (SceneObject& object : scene.objects) {
-        object.mesh.curvatures_per_mm.assign(object.mesh.positions_mm.size(), 1 / radius_mm);
+        Mesh& mesh = object.mesh;
+        for (size_t i = 0; i < mesh.normals.size(); ++i)
+            mesh.curvatures_per_mm[i] = isotropic_curvature(1 / radius_mm, mesh.normals[i]);
     }
     return scene;
 }

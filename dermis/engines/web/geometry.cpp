@@ -80,11 +80,8 @@ struct Packer {
 
     // S n = 0: three numbers in the tangent plane are all of the tensor.
     void put_curvature(Binary& binary, uint32_t v, Vec3 n, Vec3 t) const {
-        CurvatureTensor s;
-        if (!mesh.curvature_tensors_per_mm.empty())
-            s = mesh.curvature_tensors_per_mm[v];
-        else if (!mesh.curvatures_per_mm.empty())
-            s = isotropic_curvature(mesh.curvatures_per_mm[v], n);
+        const CurvatureTensor s =
+            mesh.curvatures_per_mm.empty() ? CurvatureTensor{} : mesh.curvatures_per_mm[v];
         const Vec3 b = cross(n, t);
         for (const float c : {dot(t, s * t), dot(b, s * b), dot(t, s * b), 0.0f}) binary.put(to_half(c));
     }
