@@ -2,6 +2,7 @@
 
 #include "catalog/catalog.h"
 #include "command.h"
+#include "dermis/mesh/curvature.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/load_scene.h"
@@ -11,6 +12,7 @@ namespace dermis::cli {
 BakeMapSettings usual_map_settings(MapKind kind) {
     BakeMapSettings settings{.kind = kind};
     if (kind == MapKind::occlusion) settings.max_mm = 0;
+    if (kind == MapKind::curvature) settings.smoothing_mm = kCurvatureSmoothingMm;
     return settings;
 }
 

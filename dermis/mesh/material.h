@@ -66,7 +66,8 @@ struct Material {
     ImageSource roughness_map;           ///< perceptual, R; when present it replaces metallic_roughness_map's
     ImageSource metallic_map;            ///< R; when present it replaces metallic_roughness_map's
     ImageSource kernel_size_map;         ///< R: 0 on thick skin, up to 1 where blurs widen because it is thin
-    ImageSource curvature_map;           ///< R; (value - curvature_mid) * curvature_scale_per_mm
+    ImageSource curvature_map;  ///< (value - curvature_mid) * curvature_scale_per_mm; as bake_map has
+                                ///< it, or one channel: mean curvature
 
     float thickness_scale_mm = 1;         ///< thickness of a map value of 1
     float curvature_scale_per_mm = 1;     ///< curvature of a map value of 1

@@ -30,21 +30,44 @@ MaterialFilter filter_of(const BakeMapSettings& settings) {
     };
 }
 
-float interpolated(const std::vector<float>& values, const Mesh& mesh, const UvTexel& texel) {
+// The tensor at a texel in the frame that shaders make of interpolated normal and tangent (surface.glsl).
+Vec3 curvature_in_tangents(const Mesh& mesh, const std::vector<CurvatureTensor>& tensors,
+                           const UvTexel& texel) {
     const uint32_t* corner = &mesh.indices[3 * size_t(texel.triangle)];
-    return values[corner[0]] * (1 - texel.u - texel.v) + values[corner[1]] * texel.u +
-           values[corner[2]] * texel.v;
+    const float weight[3] = {1 - texel.u - texel.v, texel.u, texel.v};
+    CurvatureTensor s;
+    Vec3 n, along;
+    float side = 1;
+    for (int k = 0; k < 3; ++k) {
+        const Vec4 t = mesh.tangents.empty() ? Vec4{1, 0, 0, 1} : mesh.tangents[corner[k]];
+        s.diagonal += tensors[corner[k]].diagonal * weight[k];
+        s.mixed += tensors[corner[k]].mixed * weight[k];
+        n += mesh.normals[corner[k]] * weight[k];
+        along += Vec3{t.x, t.y, t.z} * weight[k];
+        side = t.w;
+    }
+    n = normalize(n);
+    along -= n * dot(n, along);
+    const Vec3 t = dot(along, along) > 1e-12f ? normalize(along) : frame_of(n).tangent;
+    const Vec3 b = cross(n, t) * side;
+    const float tt = dot(t, s * t), bb = dot(b, s * b);
+    return {(tt + bb) / 2, (tt - bb) / 2, dot(t, s * b)};
 }
 
 Image curvature_values(std::span<const SceneObject> objects, const UvRaster& raster, double smoothing_mm) {
-    std::vector<std::vector<float>> curvatures;
+    std::vector<std::vector<CurvatureTensor>> tensors;
     for (const SceneObject& object : objects)
-        curvatures.push_back(compute_curvature(object.mesh, smoothing_mm));
-    Image image(raster.width, raster.width, 1);
+        tensors.push_back(compute_curvature_tensors(object.mesh, smoothing_mm));
+    Image image(raster.width, raster.width, 3);
     const std::span<float> values = image.floats();
-    for (size_t i = 0; i < raster.texels.size(); ++i)
-        if (const UvTexel& t = raster.texels[i]; t.covered())
-            values[i] = interpolated(curvatures[t.object], objects[t.object].mesh, t);
+    for (size_t i = 0; i < raster.texels.size(); ++i) {
+        const UvTexel& t = raster.texels[i];
+        if (!t.covered()) continue;
+        const Vec3 value = curvature_in_tangents(objects[t.object].mesh, tensors[t.object], t);
+        values[3 * i] = value.x;
+        values[3 * i + 1] = value.y;
+        values[3 * i + 2] = value.z;
+    }
     return image;
 }
 

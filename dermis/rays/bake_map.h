@@ -21,9 +21,10 @@
 namespace dermis::inline rays {
 
 enum class MapKind {
-    curvature,    ///< signed mean curvature in 1/mm, positive where convex (mesh/curvature.h)
-    thickness,    ///< mm of material under the surface: mean depth of inward rays, see
-                  ///< BakeMapSettings::cone_rad
+    curvature,  ///< in 1/mm, positive where convex; of the curvature tensor S (mesh/curvature.h) in the frame
+                ///< of tangent t and bitangent b: its mean (t.St + b.Sb) / 2, (t.St - b.Sb) / 2, and t.Sb
+    thickness,  ///< mm of material under the surface: mean depth of inward rays, see
+                ///< BakeMapSettings::cone_rad
     kernel_size,  ///< 0..0.996: how thin the skin is against the reach of light; blurs grow with it
     stretch,      ///< mm per unit of u, mm per unit of v, cosine of the angle between the two directions
     occlusion     ///< ambient visibility 0..1, as vertex_occlusion.h has it
@@ -53,7 +54,7 @@ struct BakeMapSettings {
 
 struct BakedMap {
     MapKind kind = MapKind::curvature;
-    Image values;    ///< f32, linear, 1 channel (stretch: 3), gutter included
+    Image values;    ///< f32, linear, 1 channel (curvature, stretch: 3), gutter included
     Image coverage;  ///< u8: 255 where a triangle lies
     std::string unit;
     float min = 0, max = 0;  ///< over covered texels, first channel

@@ -47,6 +47,9 @@ std::string sidecar_text(const BakedMap& map, const MapOrigin& origin, bool is_p
     switch (map.kind) {
         case MapKind::curvature:
             json["sign"] = "positive where convex";
+            json["channel_values"] = {
+                "mean curvature", "half of: curvature along the tangent less curvature along the bitangent",
+                "twist: turn of the normal towards the tangent on the way along the bitangent"};
             json["smoothing_mm"] = s.smoothing_mm;
             break;
         case MapKind::kernel_size:

@@ -67,6 +67,28 @@ gpu::AddressMode address_mode(TextureWrap wrap) {
     return gpu::AddressMode::repeat;
 }
 
+bool is_grey(const Image& image) {
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if (image.at(x, y, 0) != image.at(x, y, 1) || image.at(x, y, 0) != image.at(x, y, 2))
+                return false;
+    return true;
+}
+
+// A map of mean curvature is one of spheres: the channels of direction are those of flat skin.
+Image curvature_channels(Image image, float mid, std::string& warning, const std::string& name) {
+    image = to_linear_float(image);
+    if (image.channels >= 3 && !is_grey(image)) return image;
+    warning = name +
+              ": holds mean curvature only, so skin scatters as on a sphere of it, not at all on a saddle; "
+              "`dermis bake curvature` writes how it bends in each direction";
+    Image channels(image.width, image.height, 3);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) channels.set(x, y, c, c == 0 ? image.at(x, y, 0) : mid);
+    return channels;
+}
+
 }  // namespace
 
 const std::vector<MaterialMap>& material_maps() {
@@ -96,7 +118,7 @@ const std::vector<MaterialMap>& material_maps() {
          .source = &Material::kernel_size_map,
          .is_single = true,
          .neutral = {}},
-        {.texture = "curvature_map", .source = &Material::curvature_map, .is_single = true, .neutral = {}},
+        {.texture = "curvature_map", .source = &Material::curvature_map, .neutral = {}},
         {.texture = "opacity_map", .source = &Material::opacity_map, .is_color = true},
         {.texture = "emission_map", .source = &Material::emission_map, .is_color = true},
         {.texture = "alpha_map",
@@ -148,6 +170,8 @@ Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& mate
     if (map.source == &Material::normal_map)
         if (const auto doubt = doubt_of_normal_map(image, material.normal_space))
             warning = source.name + ": given as a normal map, but " + *doubt;
+    if (map.source == &Material::curvature_map)
+        image = curvature_channels(std::move(image), material.curvature_mid, warning, source.name);
     if (material.dilate_texels > 0)
         dilate(image, atlas_mask(mesh, image.width, image.height), material.dilate_texels);
     gpu::TextureData data = {.name = source.name, .width = image.width, .height = image.height};

@@ -157,8 +157,10 @@ const KeyTable<MapsDescription>& maps_keys() {
                   {.name = "kernel_size",
                    .doc =
                        "0 on thick skin, up to 1 where it is thin and texture-space blurs grow; red channel"})
-            .file(&D::curvature,
-                  {.name = "curvature", .doc = "signed mean curvature, positive where convex; red channel"})
+            .file(
+                &D::curvature,
+                {.name = "curvature",
+                 .doc = "map of `dermis bake curvature`, positive where convex; grey: mean curvature alone"})
             .number(&D::curvature_scale_per_mm, {.name = "curvature_scale_per_mm",
                                                  .unit = "1/mm",
                                                  .doc = "curvature of a map value of 1",

@@ -76,13 +76,19 @@ vec3 mean_of_normal_map(vec2 uv, float lod_bias) {
     return texture(normal_map, uv, lod_bias).xyz * 2.0 - 1.0;
 }
 
+// Tangent and bitangent of the maps, at right angles to n.
+void tangent_frame(vec3 n, out vec3 t, out vec3 b) {
+    t = normalize(t_world_in.xyz - n * dot(n, t_world_in.xyz));
+    b = t_world_in.w * cross(n, t);
+}
+
 vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
     if (has_normal_map == 0 || normal_space == kNormalSpaceAbsent) return n_geometry_world;
     vec3 n = mean_of_normal_map(uv, lod_bias);
     if (normal_space == kNormalSpaceObject) return mix(n_geometry_world, n, normal_scale);
     n.xy *= normal_scale;
-    vec3 t = normalize(t_world_in.xyz - n_geometry_world * dot(n_geometry_world, t_world_in.xyz));
-    vec3 b = t_world_in.w * cross(n_geometry_world, t);
+    vec3 t, b;
+    tangent_frame(n_geometry_world, t, b);
     return n.x * t + n.y * b + n.z * n_geometry_world;
 }
 

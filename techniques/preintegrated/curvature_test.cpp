@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "dermis/mesh/curvature.h"
 #include "dermis/mesh/mesh.h"
 #include "dermis/optics/preintegration.h"
+#include "dermis/rays/map_file.h"
+#include "judge/exact_shares.h"
 #include "render/grid_scene.h"
 
 using namespace dermis;
@@ -65,4 +68,36 @@ TEST_F(PreintegratedCurvature, of_a_saddle_is_that_of_a_sphere_with_its_curvatur
 
 TEST_F(PreintegratedCurvature, of_a_concave_surface_is_that_of_the_convex_one) {
     EXPECT_LT(largest_difference(bent_grid(-1, -1), {}), 1e-3);
+}
+
+// A saddle has no mean curvature, but bends: a map of the mean leaves it unscattered and says so.
+TEST_F(PreintegratedCurvature, of_a_baked_map_is_that_of_the_vertices_and_a_grey_map_says_what_it_lacks) {
+    Scene scene = unit_case("saddle").scene;
+    ASSERT_TRUE(complete_scene(scene));
+    const BakeMapSettings settings = {.size = 128, .smoothing_mm = float(kCurvatureSmoothingMm)};
+    const Result<BakedMap> map = bake_map(scene.objects, settings);
+    ASSERT_TRUE(map) << map.error().message;
+    const std::string path = (std::filesystem::path(testing::TempDir()) / "dermis_saddle.exr").string();
+    ASSERT_TRUE(write_map(path, *map, {"saddle", settings}));
+    BakedMap mean = *map;
+    mean.values = single_channel(map->values, 0);
+    const std::string mean_path = (std::filesystem::path(testing::TempDir()) / "dermis_mean.exr").string();
+    ASSERT_TRUE(write_map(mean_path, mean, {"saddle", settings}));
+
+    std::vector<std::string> warnings;
+    const auto drawn = [&](const char* curvature, const std::string& file) {
+        scene.objects[0].mesh.materials[0].curvature_map = {.name = file};
+        Renderer renderer = make_renderer(scene);
+        const Image image =
+            radiance(renderer, technique(), values_of({{"curvature", curvature}, {"normals", "sharp"}}),
+                     {.width = 64, .height = 64, .view = "diffuse"});
+        warnings = renderer.warnings();
+        return image;
+    };
+    const Image vertex = drawn("vertex", ""), image = drawn("image", path);
+    EXPECT_TRUE(warnings.empty());
+    EXPECT_LT(relative_difference(vertex, image, 1), 0.01);
+    EXPECT_GT(relative_difference(vertex, drawn("image", mean_path), 1), 0.05);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("dermis_mean.exr: holds mean curvature only"), std::string::npos);
 }

@@ -86,10 +86,14 @@ void choose_curvature(Surface s) {
     skin_mixed_per_mm = curvature_gain * s.curvature_mixed_per_mm;
 #ifndef DERMIS_BAKED_NORMALS
     if (curvature == kCurvatureVertex) return;
-    float k = curvature == kCurvatureDerivative
-                  ? curvature_from_derivatives(fwidth(s.n_geometry_world), fwidth(s.p_world_mm)) / tune_curvature
-                  : curvature_scale_per_mm *
-                        (texture(curvature_map, s.uv).r - curvature_mid);
+    if (curvature == kCurvatureImage) {
+        vec3 t, b, per_mm = curvature_scale_per_mm * (texture(curvature_map, s.uv).rgb - curvature_mid);
+        tangent_frame(s.n_geometry_world, t, b);
+        skin_diagonal_per_mm = curvature_gain * tangent_diagonal(per_mm, t, b);
+        skin_mixed_per_mm = curvature_gain * tangent_mixed(per_mm, t, b);
+        return;
+    }
+    float k = curvature_from_derivatives(fwidth(s.n_geometry_world), fwidth(s.p_world_mm)) / tune_curvature;
     skin_diagonal_per_mm = sphere_diagonal(curvature_gain * k, s.n_geometry_world);
     skin_mixed_per_mm = sphere_mixed(curvature_gain * k, s.n_geometry_world);
 #endif

@@ -1,4 +1,5 @@
 #include "dermis/rays/bake_map.h"
+#include "dermis/mesh/primitives.h"
 
 #include <gtest/gtest.h>
 
@@ -119,6 +120,26 @@ TEST(BakeMap, the_curvature_of_a_cylinder_is_half_of_one_over_its_radius) {
             EXPECT_NEAR(value * 50, 1, 0.01) << v;
         }
     });
+}
+
+// Around the tube it bends by 1 / R, along it not at all; with tangents at 45 degrees all of that is twist.
+TEST(BakeMap, the_curvature_of_a_cylinder_says_in_which_direction_it_bends) {
+    for (const bool turned : {false, true}) {
+        Mesh tube = make_cylinder(25, 60, 96);
+        for (size_t i = 0; i < tube.tangents.size(); ++i)
+            if (const Vec4 t = tube.tangents[i]; turned) {
+                const Vec3 along = normalize(Vec3{t.x, t.y + 1, t.z});  // at right angles to y before
+                tube.tangents[i] = {along.x, along.y, along.z, 1};
+            }
+        const auto map = bake_map(object_of(tube), small(MapKind::curvature));
+        ASSERT_TRUE(map) << map.error().message;
+        const int middle = map->values.height / 2;
+        for (int x = 4; x < map->values.width - 4; ++x) {
+            EXPECT_NEAR(map->values.at(x, middle, 0) * 50, 1, 0.01) << x;
+            EXPECT_NEAR(map->values.at(x, middle, 1) * 50, turned ? 0 : 1, 0.02) << x;
+            EXPECT_NEAR(map->values.at(x, middle, 2) * 50, turned ? -1 : 0, 0.02) << x;
+        }
+    }
 }
 
 TEST(BakeMap, a_slab_is_as_thick_as_it_is_whatever_the_cone) {

@@ -112,8 +112,8 @@ void add_map(CommandLine& line, Command* group, MapKind kind, const std::string&
 
 void add_bake_maps_command(CommandLine& line) {
     Command* group = bake_group(line);
-    add_map(line, group, MapKind::curvature, "Signed mean curvature in 1/mm over the UV atlas",
-            "dermis bake curvature head_scan --smoothing-mm 2 -o curvature.exr");
+    add_map(line, group, MapKind::curvature, "Curvature in 1/mm: mean, and how it differs by direction",
+            "dermis bake curvature head_scan -o curvature.exr");
     add_map(line, group, MapKind::thickness, "Thickness of the body behind the surface in mm",
             "dermis bake thickness head_scan -o thickness.exr");
     add_map(line, group, MapKind::kernel_size, "Kernel size for texture_space, from thickness and profile",

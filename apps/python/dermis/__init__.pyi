@@ -146,13 +146,13 @@ class Mesh:
     def indices(self) -> NDArray[numpy.uint32]:
         """Three vertices a triangle, uint32, T x 3. A read-only view, no copy."""
 
-    def curvature(self, smoothing_mm: float=0.0) -> NDArray[numpy.float32]:
+    def curvature(self, smoothing_mm: float=1.8) -> NDArray[numpy.float32]:
         """Signed mean curvature at each vertex in 1/mm, positive where convex: 1/R on a sphere. float32, V.
 
         smoothing_mm: averages features narrower than about twice this, 0 for none.
         """
 
-    def curvature_tensors(self, smoothing_mm: float=0.0) -> NDArray[numpy.float32]:
+    def curvature_tensors(self, smoothing_mm: float=1.8) -> NDArray[numpy.float32]:
         """The curvature tensor at each vertex in 1/mm: xx, yy, zz, yz, xz, xy. float32, V x 6."""
 
     def occlusion(self, rays: int=64) -> NDArray[numpy.float32]:
@@ -201,8 +201,9 @@ class Map:
         """Writes the files of `dermis bake ... -o PATH`: PATH (.exr, half), PATH.json and a preview."""
 
 
-def bake_curvature(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None, unit_mm: float | None=None, smoothing_mm: float=0.0, progress: Callable[[float], object] | None=None) -> Map:
-    """Signed mean curvature in 1/mm, as `dermis bake curvature`. mesh: a Mesh, a mesh file or a scene.
+def bake_curvature(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None, unit_mm: float | None=None, smoothing_mm: float=1.8, progress: Callable[[float], object] | None=None) -> Map:
+    """Curvature in 1/mm, positive where convex, as `dermis bake curvature`: mean; half of that along the tangent
+    less that along the bitangent; twist. mesh: a Mesh, a mesh file or a scene.
 
     size: texels a side. gutter: texels around UV islands. unit_mm: of a mesh file. smoothing_mm: averages
     features narrower than about twice this.

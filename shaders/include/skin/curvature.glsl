@@ -43,6 +43,17 @@ vec3 sphere_mixed(float curvature_per_mm, vec3 n) {
     return -curvature_per_mm * vec3(n.y * n.z, n.x * n.z, n.x * n.y);
 }
 
+// The tensor in a frame of two tangents, from a map's value (dermis/rays/bake_map.h): mean curvature, half of
+// t.S t less b.S b, and t.S b.
+vec3 tangent_diagonal(vec3 per_mm, vec3 t, vec3 b) {
+    return (per_mm.x + per_mm.y) * t * t + (per_mm.x - per_mm.y) * b * b + 2.0 * per_mm.z * t * b;
+}
+
+vec3 tangent_mixed(vec3 per_mm, vec3 t, vec3 b) {
+    return (per_mm.x + per_mm.y) * t.yxx * t.zzy + (per_mm.x - per_mm.y) * b.yxx * b.zzy +
+           per_mm.z * (t.yxx * b.zzy + b.yxx * t.zzy);
+}
+
 // From derivatives over the pixel, of the normal and of the position in mm: how fast the normal turns over how fast the
 // point moves (Penner 2011). Pass fwidth() of both. It sees the mesh's facets and depends on the camera's distance.
 float curvature_from_derivatives(vec3 fwidth_n, vec3 fwidth_p_mm) {
