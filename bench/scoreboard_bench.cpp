@@ -21,7 +21,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
-#include "dermis/gpu/null_driver.h"
+#include "dermis/gpu/statistics.h"
 #include "dermis/judge/reference_cache.h"
 #include "dermis/judge/scoreboard.h"
 #include "dermis/render/complete_scene.h"

@@ -111,7 +111,7 @@ Result<void> write_beside(const fs::path& path, const std::function<Result<void>
         if (!direct) return Error{path.string() + ": cannot write: " + direct.error().message};
         return {};
     }
-    if (Result<void> made = make_parent(path); !made) return made;
+    DERMIS_TRY(make_parent(path));
     const TemporaryFile temporary(path);
     const Result<void> written = write(temporary.path());
     if (!written) return Error{path.string() + ": cannot write: " + written.error().message};
@@ -135,10 +135,10 @@ Result<void> write_files(std::span<const FileContent> files) {
         // Devices and pipes are written directly: see write_beside().
         const bool direct = fs::exists(file.path, ec) && !fs::is_regular_file(file.path, ec);
         if (direct) {
-            if (Result<void> written = write_file(file.path, file.bytes); !written) return written;
+            DERMIS_TRY(write_file(file.path, file.bytes));
             continue;
         }
-        if (Result<void> made = make_parent(file.path); !made) return made;
+        DERMIS_TRY(make_parent(file.path));
         renamed.push_back(&file);
         const Result<void> written =
             system::write_through(temporaries.emplace_back(file.path).path(), file.bytes);

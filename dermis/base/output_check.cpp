@@ -68,7 +68,7 @@ Result<void> check_outputs(const FileUse& files) {
         // The folder is tried once: a turn of the camera has thousands of files.
         const bool is_new_folder = tried.insert(output.parent_path()).second;
         if (!is_new_folder && !fs::is_directory(output, ec)) continue;
-        if (Result<void> can_write = try_output(output); !can_write) return can_write;
+        DERMIS_TRY(try_output(output));
     }
     return {};
 }

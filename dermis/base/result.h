@@ -18,7 +18,7 @@
 /// Returns the error of a Result from this function; otherwise goes on.
 #define DERMIS_TRY(...) \
     if (const auto dermis_tried = (__VA_ARGS__); !dermis_tried) return dermis_tried.error()
-/// Two statements, for a block: returns the error of a Result, or initialises `declaration` with its value.
+/// Two statements, for a block: returns the error, or gives the value to a new or declared variable.
 #define DERMIS_TRY_ASSIGN(declaration, ...) \
     DERMIS_TRY_NAMED(DERMIS_JOIN(dermis_tried_, __LINE__), declaration, __VA_ARGS__)
 #define DERMIS_TRY_NAMED(name, declaration, ...) \

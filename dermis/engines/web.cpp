@@ -163,10 +163,8 @@ Result<json> object_json(const WebInput& input, size_t index, web::Binary& binar
 
 Result<json> scene_json(const WebInput& input, web::Binary& binary, WebPage& page) {
     const Scene& scene = input.scene;
-    Result<json> tables = web::add_tables(binary, input.tones, input.table_max_curvature_per_mm);
-    if (!tables) return tables.error();
-    Result<json> environment = web::add_environment(binary, scene.environment);
-    if (!environment) return environment.error();
+    DERMIS_TRY_ASSIGN(json tables, web::add_tables(binary, input.tones, input.table_max_curvature_per_mm));
+    DERMIS_TRY_ASSIGN(json environment, web::add_environment(binary, scene.environment));
     json objects = json::array();
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         DERMIS_TRY_ASSIGN(json object, object_json(input, i, binary, page));
@@ -185,8 +183,8 @@ Result<json> scene_json(const WebInput& input, web::Binary& binary, WebPage& pag
         {"penumbra_mm", to_json(DrawSettings{}.penumbra_mm)},
         {"lights", lights_json(scene, page.warnings)},
         {"tones", tones_json(input.tones)},
-        {"tables", std::move(*tables)},
-        {"environment", std::move(*environment)},
+        {"tables", std::move(tables)},
+        {"environment", std::move(environment)},
         {"objects", std::move(objects)}};
 }
 
@@ -209,9 +207,8 @@ Result<WebPage> make_web_page(const WebInput& input) {
     WebPage page;
     DERMIS_TRY(add_texts(input, page.files));
     web::Binary binary;
-    const Result<json> scene = scene_json(input, binary, page);
-    if (!scene) return scene.error();
-    page.files.push_back({"scene.json", to_bytes(scene->dump(1) + "\n")});
+    DERMIS_TRY_ASSIGN(const json scene, scene_json(input, binary, page));
+    page.files.push_back({"scene.json", to_bytes(scene.dump(1) + "\n")});
     page.files.push_back({"scene.bin", binary.finish()});
     std::ranges::sort(page.files, {}, &WebFile::path);
     return page;

@@ -1,17 +1,54 @@
 // Names to descriptors: a draw's own maps first, then the pass's reads, then what the frame supplies.
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cstring>
 
 #include "dermis/base/text.h"
-#include "dermis/gpu/block_writer.h"
 #include "dermis/gpu/executor_state.h"
 #include "dermis/gpu/plan.h"
 
 namespace dermis::gpu {
 namespace {
 
+// Finds a value by member name; null when nothing supplies it.
+using ValueLookup = std::function<const ShaderValue*(std::string_view member)>;
+
+ValueType type_of(const ShaderValue& value) {
+    constexpr ValueType kTypes[] = {ValueType::int32, ValueType::number, ValueType::vec2,
+                                    ValueType::vec3,  ValueType::vec4,   ValueType::mat4};
+    return kTypes[value.index()];
+}
+
+bool fits(ValueType value, ValueType member) {
+    return value == member || (value == ValueType::int32 && member == ValueType::uint32);
+}
+
+Result<void> write_block(const BlockLayout& layout, const ValueLookup& find, const std::string& where,
+                         std::span<std::byte> bytes) {
+    for (const BlockMember& member : layout.members) {
+        const ShaderValue* value = find(member.name);
+        if (!value)
+            return Error{fmt::format("{}: nothing supplies member '{}' ({})", where, member.name,
+                                     type_name(member.type))};
+        if (!fits(type_of(*value), member.type))
+            return Error{fmt::format("{}: member '{}' is {} in the shader, but its value is {}", where,
+                                     member.name, type_name(member.type), type_name(type_of(*value)))};
+        std::visit([&](const auto& v) { std::memcpy(bytes.data() + member.offset, &v, sizeof v); }, *value);
+    }
+    return {};
+}
+
+ValueLookup lookup_in(const Values& values) {
+    return [&values](std::string_view member) -> const ShaderValue* {
+        const auto found = values.find(member);
+        return found == values.end() ? nullptr : &found->second;
+    };
+}
+
 std::string binding_label(const Pass& pass, std::string_view kind, const Binding& binding) {
-    return pass_label(pass) + ": " + std::string(kind) + " '" + binding.name + "'";
+    return fmt::format("{}: {} '{}'", pass_label(pass), kind, binding.name);
 }
 
 template <class Map>
@@ -98,26 +135,25 @@ Result<Descriptor> BindingResolver::sampler(const Pass& pass, const Binding& bin
 }
 
 Result<Descriptor> BindingResolver::texture(PlannedPass& planned, const Binding& binding, const Draw* draw) {
-    const Result<Found> found = find_texture(*planned.pass, binding, draw);
-    if (!found) return found.error();
-    if (found->shape != binding.shape)
-        return Error{binding_label(*planned.pass, "texture", binding) + " is " +
-                     std::string(shape_name(binding.shape)) + " in the shader, but what is bound to it is " +
-                     std::string(shape_name(found->shape))};
+    DERMIS_TRY_ASSIGN(const Found found, find_texture(*planned.pass, binding, draw));
+    if (found.shape != binding.shape)
+        return Error{fmt::format("{} is {} in the shader, but what is bound to it is {}",
+                                 binding_label(*planned.pass, "texture", binding), shape_name(binding.shape),
+                                 shape_name(found.shape))};
     const bool has_sampler = binding.kind == BindingKind::sampled_texture;
-    if (has_sampler && !found->sampler)
+    if (has_sampler && !found.sampler)
         return Error{binding_label(*planned.pass, "texture", binding) +
                      " is a sampler2D in the shader, but an image of a pass has no sampler; declare it as "
                      "texture2D and use one of the named samplers"};
     const std::optional<DepthTarget>& depth = planned.pass->depth;
-    const bool tested = found->image && depth && depth->image == found->image->declaration.name;
+    const bool tested = found.image && depth && depth->image == found.image->declaration.name;
     const ImageUse use = tested ? ImageUse::depth_test : ImageUse::sampled;
-    if (found->image)
+    if (found.image)
         add_access(planned.accesses,
-                   {.image = found->image, .mips = found->image->image.info.mips, .use = use});
+                   {.image = found.image, .mips = found.image->image.info.mips, .use = use});
     Descriptor descriptor{.type = has_sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
                                               : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
-    descriptor.image = {has_sampler ? found->sampler : VK_NULL_HANDLE, found->view, use_scope(use).layout};
+    descriptor.image = {has_sampler ? found.sampler : VK_NULL_HANDLE, found.view, use_scope(use).layout};
     return descriptor;
 }
 
@@ -130,9 +166,9 @@ Result<Descriptor> BindingResolver::storage_image(PlannedPass& planned, const Bi
     if (binding.shape != TextureShape::plane || image->declaration.samples > 1)
         return Error{binding_label(pass, "storage image", binding) + " must be an image2D with one sample"};
     if (binding.texel_format != format_name(image->declaration.format))
-        return Error{binding_label(pass, "storage image", binding) + " must be declared layout(" +
-                     std::string(format_name(image->declaration.format)) + "), the format of image '" +
-                     named->image + "'"};
+        return Error{fmt::format("{} must be declared layout({}), the format of image '{}'",
+                                 binding_label(pass, "storage image", binding),
+                                 format_name(image->declaration.format), named->image)};
     Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     descriptor.image = {VK_NULL_HANDLE, image->mip_views[0].get(), VK_IMAGE_LAYOUT_GENERAL};
     return descriptor;
@@ -177,10 +213,8 @@ Result<Descriptor> BindingResolver::uniform_block(const Pass& pass, const Bindin
     // Rounded up: drivers may read whole 16-byte rows.
     descriptor.size = (binding.block.size + 15) / 16 * 16;
     descriptor.offset = reserve(descriptor.size);
-    const Result<void> written =
-        write_block(binding.block, lookup_in(*values), binding_label(pass, "uniform block", binding),
-                    std::span(plan_.uploads).subspan(descriptor.offset, descriptor.size));
-    if (!written) return written.error();
+    DERMIS_TRY(write_block(binding.block, lookup_in(*values), binding_label(pass, "uniform block", binding),
+                           std::span(plan_.uploads).subspan(descriptor.offset, descriptor.size)));
     known_.push_back({binding.name, owner, &binding.block, descriptor.offset, descriptor.size});
     return descriptor;
 }
@@ -197,12 +231,10 @@ Result<Descriptor> BindingResolver::storage_buffer(const Pass& pass, const Bindi
     descriptor.size = std::max<size_t>(1, elements->size()) * stride;  // no buffer has size 0
     descriptor.offset = reserve(descriptor.size);
     for (size_t i = 0; i < elements->size(); ++i) {
-        const std::string where =
-            binding_label(pass, "storage buffer", binding) + " element " + std::to_string(i);
-        const Result<void> written =
-            write_block(binding.block, lookup_in((*elements)[i]), where,
-                        std::span(plan_.uploads).subspan(descriptor.offset + i * stride, stride));
-        if (!written) return written.error();
+        DERMIS_TRY(
+            write_block(binding.block, lookup_in((*elements)[i]),
+                        fmt::format("{} element {}", binding_label(pass, "storage buffer", binding), i),
+                        std::span(plan_.uploads).subspan(descriptor.offset + i * stride, stride)));
     }
     known_.push_back({binding.name, nullptr, &binding.block, descriptor.offset, descriptor.size});
     return descriptor;

@@ -1,3 +1,7 @@
+#include <algorithm>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
 #include "dermis/gpu/device_state.h"
 
@@ -72,13 +76,9 @@ Result<void> make_device(Device::State& state, const DeviceOptions& options) {
 
 // A device without hardware gets no submission.
 Result<void> make_submissions(Device::State& state) {
-    DERMIS_TRY_ASSIGN(OwnedCommandPool pool,
-                      make_command_pool(state.context, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT));
-    state.uploads = std::move(pool);
+    DERMIS_TRY_ASSIGN(state.uploads, make_command_pool(state.context, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT));
     if (state.context.keep_statistics) return {};
-    Result<OwnedSemaphore> done = make_semaphore(state.context, VK_SEMAPHORE_TYPE_TIMELINE);
-    if (!done) return done.error();
-    state.submissions_done = std::move(*done);
+    DERMIS_TRY_ASSIGN(state.submissions_done, make_semaphore(state.context, VK_SEMAPHORE_TYPE_TIMELINE));
     state.context.submissions.done = state.submissions_done.get();
     return {};
 }
@@ -115,13 +115,12 @@ Device::State::~State() {
 }
 
 Result<Device> Device::create(const DeviceOptions& options) {
-    Result<Instance> instance = Instance::create(options);
-    if (!instance) return instance.error();
-    DERMIS_TRY_ASSIGN(std::vector<PhysicalDevice> devices, physical_devices(*instance));
+    DERMIS_TRY_ASSIGN(Instance instance, Instance::create(options));
+    DERMIS_TRY_ASSIGN(std::vector<PhysicalDevice> devices, physical_devices(instance));
     DERMIS_TRY_ASSIGN(PhysicalDevice device, pick(devices, options.name_contains));
 
     auto state = std::make_unique<State>();
-    state->instance = std::move(*instance);
+    state->instance = std::move(instance);
     state->context.instance = state->instance.get();
     load_debug_names(state->instance, state->context);
     take_physical_device(*state, device, options);
@@ -153,6 +152,115 @@ uint64_t Device::created_objects() const {
 
 std::vector<std::string> Device::messages() const {
     return state_->instance.log().all();
+}
+
+// Compiled pipelines on disk, one file for each device and driver.
+
+namespace {
+
+constexpr std::string_view kCacheKind = "pipelines";
+// A larger cache is removed: it holds pipelines of shaders that no longer exist.
+constexpr size_t kMaxCacheBytes = size_t{64} << 20;
+
+std::string cache_key(const VkPhysicalDeviceProperties& properties) {
+    return Hasher()
+        .add(properties.vendorID)
+        .add(properties.deviceID)
+        .add(properties.driverVersion)
+        .add(std::as_bytes(std::span(properties.pipelineCacheUUID)))
+        .hex();
+}
+
+}  // namespace
+
+Result<void> open_pipeline_cache(Device::State& state) {
+    const Context& context = state.context;
+    state.pipeline_cache_key = cache_key(context.properties);
+    const std::vector<std::byte> bytes =
+        cache_load(kCacheKind, state.pipeline_cache_key).value_or(std::vector<std::byte>());
+    VkPipelineCacheCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                                      .initialDataSize = bytes.size(),
+                                      .pInitialData = bytes.data()};
+    if (bytes.size() > kMaxCacheBytes) info.initialDataSize = 0;
+    DERMIS_TRY_ASSIGN(
+        state.pipeline_cache,
+        make<OwnedPipelineCache>(context, context.vk.vkCreatePipelineCache, info, "make a pipeline cache"));
+    state.pipeline_cache_bytes = info.initialDataSize;
+    return {};
+}
+
+void save_pipeline_cache(Device::State& state) {
+    const Context& context = state.context;
+    if (!state.pipeline_cache) return;
+    size_t size = 0;
+    context.vk.vkGetPipelineCacheData(context.device, state.pipeline_cache.get(), &size, nullptr);
+    if (size == state.pipeline_cache_bytes) return;
+    std::vector<std::byte> bytes(size);
+    const VkResult result =
+        context.vk.vkGetPipelineCacheData(context.device, state.pipeline_cache.get(), &size, bytes.data());
+    bytes.resize(size);
+    // A cache that cannot be stored only costs time at the next start.
+    if (result == VK_SUCCESS) cache_store(kCacheKind, state.pipeline_cache_key, bytes);
+}
+
+// The samplers that shaders name, and those of textures: trilinear, one for each pair of address modes.
+
+namespace {
+
+constexpr std::array<VkSamplerAddressMode, kAddressModes> kVulkanModes = {
+    VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+    VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT};
+
+VkSamplerCreateInfo sampler_info(std::string_view name, const Context& context) {
+    const bool nearest = name.starts_with("nearest"), trilinear = name.starts_with("trilinear");
+    const VkFilter filter = nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+    const bool compare = name == "shadow_compare";
+    // Outside the shadow map nothing is in shadow: the border has the largest depth.
+    const VkSamplerAddressMode address =
+        compare ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    VkSamplerCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+        .magFilter = filter,
+        .minFilter = filter,
+        .mipmapMode = trilinear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+        .addressModeU = address,
+        .addressModeV = address,
+        .addressModeW = address,
+        .compareEnable = compare,
+        .compareOp = VK_COMPARE_OP_LESS_OR_EQUAL,
+        .maxLod = VK_LOD_CLAMP_NONE,
+        .borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE};
+    // Not on a CPU, where each sample of an anisotropic read costs time.
+    if (trilinear && context.features.samplerAnisotropy && !context.is_cpu) {
+        info.anisotropyEnable = VK_TRUE;
+        info.maxAnisotropy = std::min(8.0f, context.properties.limits.maxSamplerAnisotropy);
+    }
+    return info;
+}
+
+Result<OwnedSampler> make_sampler(const Context& context, const VkSamplerCreateInfo& info,
+                                  const std::string& name) {
+    DERMIS_TRY_ASSIGN(OwnedSampler sampler,
+                      make<OwnedSampler>(context, context.vk.vkCreateSampler, info, "make a sampler"));
+    set_object_name(context, VK_OBJECT_TYPE_SAMPLER, sampler.get(), name);
+    return sampler;
+}
+
+}  // namespace
+
+Result<void> make_samplers(Device::State& state) {
+    const Context& context = state.context;
+    for (size_t i = 0; i < kSamplerNames.size(); ++i) {
+        const std::string name(kSamplerNames[i]);
+        DERMIS_TRY_ASSIGN(state.samplers[i], make_sampler(context, sampler_info(name, context), name));
+    }
+    for (size_t i = 0; i < state.map_samplers.size(); ++i) {
+        VkSamplerCreateInfo info = sampler_info("trilinear", context);
+        info.addressModeU = kVulkanModes[i / kAddressModes];
+        info.addressModeV = kVulkanModes[i % kAddressModes];
+        DERMIS_TRY_ASSIGN(state.map_samplers[i], make_sampler(context, info, "map " + std::to_string(i)));
+    }
+    return {};
 }
 
 }  // namespace dermis::gpu

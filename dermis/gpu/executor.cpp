@@ -1,5 +1,7 @@
 #include "dermis/gpu/executor_state.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -15,10 +17,9 @@ Result<void> FrameSlot::store(const Context& context, const std::vector<std::byt
             VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
         // A frame of a scene has a few kB, an interface with all its panels some hundred.
         constexpr size_t kSmallest = 256 << 10;
-        DERMIS_TRY_ASSIGN(Buffer larger,
-                          make_buffer(context, "frame blocks", std::max(bytes.size() * 3 / 2, kSmallest),
-                                      kUsage, MemoryUse::upload));
-        uploads = std::move(larger);
+        DERMIS_TRY_ASSIGN(
+            uploads, make_buffer(context, "frame blocks", std::max(bytes.size() * 3 / 2, kSmallest), kUsage,
+                                 MemoryUse::upload));
     }
     if (!bytes.empty()) std::memcpy(uploads.mapped, bytes.data(), bytes.size());
     return {};
@@ -41,8 +42,8 @@ std::vector<std::string> supplied_names(const FrameInputs& inputs) {
 Result<void> check_frame(const PassList& list, const FrameInputs& inputs, const Context& context) {
     const int limit = int(context.properties.limits.maxImageDimension2D);
     if (inputs.width < 1 || inputs.height < 1 || inputs.width > limit || inputs.height > limit)
-        return Error{"frame size " + std::to_string(inputs.width) + "x" + std::to_string(inputs.height) +
-                     "; each side must be 1 to " + std::to_string(limit)};
+        return Error{
+            fmt::format("frame size {}x{}; each side must be 1 to {}", inputs.width, inputs.height, limit)};
     const std::vector<std::string> wrong = problems(list, supplied_names(inputs));
     if (!wrong.empty()) return Error{"pass list: " + join(wrong, "; ")};
     return {};
@@ -54,9 +55,8 @@ Result<Executor> Executor::create(Device& device, ShaderSource shaders) {
     auto state = std::make_unique<State>(device.state(), std::move(shaders));
     if (!state->device.context.keep_statistics)
         for (size_t i = 0; i < kFramesInFlight; ++i) {
-            Result<ReusedCommands> commands = ReusedCommands::create(state->device.context);
-            if (!commands) return commands.error();
-            state->slots.push_back({.commands = std::move(*commands)});
+            DERMIS_TRY_ASSIGN(ReusedCommands commands, ReusedCommands::create(state->device.context));
+            state->slots.push_back({.commands = std::move(commands)});
         }
     return Executor(std::move(state));
 }
@@ -72,16 +72,15 @@ Result<uint64_t> Executor::State::submit(const PassList& list, const FrameInputs
     DERMIS_TRY(slot.store(context, plan.uploads));
     DERMIS_TRY(slot.descriptors.prepare(context, plan, slot.uploads.handle.get()));
     DERMIS_TRY(slot.queries.prepare(context, plan));
-    const Result<void> done = slot.commands.run(device, "the frame", [&](VkCommandBuffer commands) {
+    DERMIS_TRY(slot.commands.run(device, "the frame", [&](VkCommandBuffer commands) {
         record_plan(context, commands, plan, slot.uploads.handle.get(), slot.queries);
-    });
-    if (!done) return done.error();
+    }));
     return slot.frame = ++frames;
 }
 
 Result<void> Executor::State::collect(FrameSlot& slot) {
     if (!slot.frame) return {};
-    if (Result<void> done = slot.commands.wait(device.context, "the frame"); !done) return done;
+    DERMIS_TRY(slot.commands.wait(device.context, "the frame"));
     DERMIS_TRY_ASSIGN(FrameResult result, slot.queries.collect(device.context));
     result.frame = std::exchange(slot.frame, 0);
     if (finished.size() == kResultsKept) finished.erase(finished.begin());

@@ -3,7 +3,7 @@
 
 #include "dermis/gpu/executor.h"
 #include "dermis/gpu/frame_descriptors.h"
-#include "dermis/gpu/queries.h"
+#include "dermis/gpu/recorder.h"
 
 namespace dermis::gpu {
 

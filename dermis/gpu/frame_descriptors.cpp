@@ -45,10 +45,8 @@ Result<void> FrameDescriptors::make_room(const Context& context, const Room& nee
                                              .maxSets = larger.sets,
                                              .poolSizeCount = uint32_t(sizes.size()),
                                              .pPoolSizes = sizes.data()};
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    const VkResult result = context.vk.vkCreateDescriptorPool(context.device, &info, nullptr, &pool);
-    if (Result<void> ok = check(result, "make a descriptor pool"); !ok) return ok;
-    pool_ = OwnedDescriptorPool(context, pool);
+    DERMIS_TRY_ASSIGN(pool_, make<OwnedDescriptorPool>(context, context.vk.vkCreateDescriptorPool, info,
+                                                       "make a descriptor pool"));
     room_ = std::move(larger);
     return {};
 }
@@ -63,14 +61,14 @@ Result<void> FrameDescriptors::prepare(const Context& context, Plan& plan, VkBuf
             layouts.push_back(planned.pipeline->set_layout.get());
         }
     if (draws.empty()) return {};
-    if (Result<void> ok = make_room(context, needed_room(draws)); !ok) return ok;
+    DERMIS_TRY(make_room(context, needed_room(draws)));
     const VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                               .descriptorPool = pool_.get(),
                                               .descriptorSetCount = uint32_t(layouts.size()),
                                               .pSetLayouts = layouts.data()};
     std::vector<VkDescriptorSet> sets(layouts.size());
     const VkResult result = context.vk.vkAllocateDescriptorSets(context.device, &info, sets.data());
-    if (Result<void> ok = check(result, "make the descriptor sets of a frame"); !ok) return ok;
+    DERMIS_TRY(check(result, "make the descriptor sets of a frame"));
     for (size_t i = 0; i < draws.size(); ++i) {
         draws[i]->set = sets[i];
         const DescriptorWrites writes(*draws[i], uploads);

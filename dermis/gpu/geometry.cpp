@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -22,14 +24,12 @@ Result<size_t> check_streams(std::string_view name, std::span<const VertexStream
             return geometry_error(name, "stream '" + stream.name + "' is no whole number of vertices");
         const size_t vertices = stream.values.size() / size_t(stream.components);
         if (&stream != &streams.front() && vertices != count)
-            return geometry_error(name, "stream '" + stream.name + "' has " + std::to_string(vertices) +
-                                            " vertices, '" + streams.front().name + "' has " +
-                                            std::to_string(count));
+            return geometry_error(name, fmt::format("stream '{}' has {} vertices, '{}' has {}", stream.name,
+                                                    vertices, streams.front().name, count));
         count = vertices;
     }
     if (const uint32_t last = *std::ranges::max_element(indices); last >= count)
-        return geometry_error(
-            name, "index " + std::to_string(last) + " of only " + std::to_string(count) + " vertices");
+        return geometry_error(name, fmt::format("index {} of only {} vertices", last, count));
     return count;
 }
 
@@ -38,18 +38,16 @@ Result<size_t> check_streams(std::string_view name, std::span<const VertexStream
 Result<Buffer> upload_buffer(Device::State& device, std::string_view name, VkBufferUsageFlags usage,
                              std::span<const std::byte> bytes) {
     const Context& context = device.context;
-    Result<Buffer> buffer =
-        make_buffer(context, name, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::device);
-    if (!buffer) return buffer;
-    Result<Buffer> staging = make_buffer(context, "staging " + std::string(name), bytes.size(),
-                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
-    if (!staging) return staging;
-    std::memcpy(staging->mapped, bytes.data(), bytes.size());
-    Result<void> done = run_once(device, "the upload of " + std::string(name), [&](VkCommandBuffer commands) {
+    DERMIS_TRY_ASSIGN(Buffer buffer,
+                      make_buffer(context, name, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                  MemoryUse::device));
+    DERMIS_TRY_ASSIGN(Buffer staging, make_buffer(context, "staging " + std::string(name), bytes.size(),
+                                                  VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload));
+    std::memcpy(staging.mapped, bytes.data(), bytes.size());
+    DERMIS_TRY(run_once(device, "the upload of " + std::string(name), [&](VkCommandBuffer commands) {
         const VkBufferCopy region = {.size = bytes.size()};
-        context.vk.vkCmdCopyBuffer(commands, staging->handle.get(), buffer->handle.get(), 1, &region);
-    });
-    if (!done) return done.error();
+        context.vk.vkCmdCopyBuffer(commands, staging.handle.get(), buffer.handle.get(), 1, &region);
+    }));
     return buffer;
 }
 
@@ -71,9 +69,8 @@ Result<std::unique_ptr<Geometry::State>> make_state(std::string_view name,
                               std::as_bytes(stream.values)));
         state->streams[stream.name] = {stream.components, std::move(data)};
     }
-    DERMIS_TRY_ASSIGN(GeometryData data, put(state->name + " indices", VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                             std::as_bytes(indices)));
-    state->indices = std::move(data);
+    DERMIS_TRY_ASSIGN(state->indices, put(state->name + " indices", VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                          std::as_bytes(indices)));
     return state;
 }
 
@@ -83,9 +80,8 @@ Result<Geometry> Geometry::upload(Device& device, std::string_view name,
                                   std::span<const VertexStream> streams, std::span<const uint32_t> indices) {
     const auto put = [&](const std::string& part, VkBufferUsageFlags usage,
                          std::span<const std::byte> bytes) -> Result<GeometryData> {
-        Result<Buffer> buffer = upload_buffer(device.state(), part, usage, bytes);
-        if (!buffer) return buffer.error();
-        return GeometryData{.buffer = std::move(*buffer)};
+        DERMIS_TRY_ASSIGN(Buffer buffer, upload_buffer(device.state(), part, usage, bytes));
+        return GeometryData{.buffer = std::move(buffer)};
     };
     DERMIS_TRY_ASSIGN(std::unique_ptr<State> state, make_state(name, streams, indices, put));
     return Geometry(std::move(state));

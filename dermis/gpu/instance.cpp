@@ -9,20 +9,15 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 bool has_layer(const char* name) {
-    uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
-    std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::ranges::any_of(layers,
+    return std::ranges::any_of(list_all<VkLayerProperties>(vkEnumerateInstanceLayerProperties),
                                [&](const auto& layer) { return !std::strcmp(layer.layerName, name); });
 }
 
 bool has_extension(const char* name) {
-    uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> all(count);
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, all.data());
-    return std::ranges::any_of(all, [&](const auto& one) { return !std::strcmp(one.extensionName, name); });
+    constexpr const char* kOfEachLayer = nullptr;
+    return std::ranges::any_of(
+        list_all<VkExtensionProperties>(vkEnumerateInstanceExtensionProperties, kOfEachLayer),
+        [&](const auto& one) { return !std::strcmp(one.extensionName, name); });
 }
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,

@@ -1,6 +1,9 @@
 #include "dermis/gpu/memory.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 namespace dermis::gpu {
@@ -26,10 +29,6 @@ uint32_t choose_memory_type(const Context& context, uint32_t allowed, MemoryUse 
     return type ? *type : *find_memory_type(context, allowed, 0);
 }
 
-std::string megabytes(VkDeviceSize bytes) {
-    return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MB";
-}
-
 // All device memory is allocated here.
 Result<OwnedMemory> allocate(const Context& context, const VkMemoryRequirements& needs, MemoryUse use,
                              std::string_view name) {
@@ -37,12 +36,12 @@ Result<OwnedMemory> allocate(const Context& context, const VkMemoryRequirements&
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
         .allocationSize = needs.size,
         .memoryTypeIndex = choose_memory_type(context, needs.memoryTypeBits, use)};
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    const VkResult result = context.vk.vkAllocateMemory(context.device, &info, nullptr, &memory);
-    const std::string what = "allocate " + megabytes(needs.size) + " for '" + std::string(name) + "'";
-    DERMIS_TRY(check(result, what));
-    set_object_name(context, VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
-    return OwnedMemory(context, memory);
+    const VkDeviceSize megabytes = (needs.size + (1 << 20) - 1) >> 20;
+    const std::string what = fmt::format("allocate {} MB for '{}'", megabytes, name);
+    DERMIS_TRY_ASSIGN(OwnedMemory memory,
+                      make<OwnedMemory>(context, context.vk.vkAllocateMemory, info, what));
+    set_object_name(context, VK_OBJECT_TYPE_DEVICE_MEMORY, memory.get(), name);
+    return memory;
 }
 
 Result<OwnedView> make_view(const Context& context, const DeviceImage& image, uint32_t first_mip,
@@ -55,10 +54,7 @@ Result<OwnedView> make_view(const Context& context, const DeviceImage& image, ui
                                                              .baseMipLevel = first_mip,
                                                              .levelCount = mips,
                                                              .layerCount = image.info.layers}};
-    VkImageView view = VK_NULL_HANDLE;
-    const VkResult result = context.vk.vkCreateImageView(context.device, &info, nullptr, &view);
-    DERMIS_TRY(check(result, "make an image view"));
-    return OwnedView(context, view);
+    return make<OwnedView>(context, context.vk.vkCreateImageView, info, "make an image view");
 }
 
 }  // namespace
@@ -68,19 +64,15 @@ Result<Buffer> make_buffer(const Context& context, std::string_view name, VkDevi
     const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                      .size = std::max<VkDeviceSize>(size, 4),
                                      .usage = usage};
-    VkBuffer handle = VK_NULL_HANDLE;
-    const VkResult created = context.vk.vkCreateBuffer(context.device, &info, nullptr, &handle);
-    DERMIS_TRY(check(created, "make buffer '" + std::string(name) + "'"));
-    Buffer buffer;
-    buffer.handle = OwnedBuffer(context, handle);
-    buffer.size = info.size;
+    Buffer buffer{.size = info.size};
+    DERMIS_TRY_ASSIGN(buffer.handle, make<OwnedBuffer>(context, context.vk.vkCreateBuffer, info,
+                                                       "make buffer '" + std::string(name) + "'"));
+    const VkBuffer handle = buffer.handle.get();
     set_object_name(context, VK_OBJECT_TYPE_BUFFER, handle, name);
 
     VkMemoryRequirements needs;
     context.vk.vkGetBufferMemoryRequirements(context.device, handle, &needs);
-    Result<OwnedMemory> memory = allocate(context, needs, use, name);
-    if (!memory) return memory.error();
-    buffer.memory = std::move(*memory);
+    DERMIS_TRY_ASSIGN(buffer.memory, allocate(context, needs, use, name));
     VkResult result = context.vk.vkBindBufferMemory(context.device, handle, buffer.memory.get(), 0);
     if (result == VK_SUCCESS && use != MemoryUse::device) {
         void* mapped = nullptr;
@@ -109,37 +101,56 @@ Result<DeviceImage> make_image(const Context& context, std::string_view name, co
     const bool fits = info.extent.width <= limits.maxExtent.width &&
                       info.extent.height <= limits.maxExtent.height && (limits.sampleCounts & info.samples);
     if (supported != VK_SUCCESS || !fits)
-        return Error{"image '" + std::string(name) + "': " + context.properties.deviceName +
-                     " has no image of this format, size (" + std::to_string(info.extent.width) + "x" +
-                     std::to_string(info.extent.height) + "), use and " + std::to_string(info.samples) +
-                     " samples"};
-    VkImage handle = VK_NULL_HANDLE;
-    VkResult result = context.vk.vkCreateImage(context.device, &create, nullptr, &handle);
-    DERMIS_TRY(check(result, "make image '" + std::string(name) + "'"));
-    DeviceImage image;
-    image.handle = OwnedImage(context, handle);
-    image.info = info;
+        return Error{
+            fmt::format("image '{}': {} has no image of this format, size ({}x{}), use and {} samples", name,
+                        context.properties.deviceName, info.extent.width, info.extent.height, info.samples)};
+    DeviceImage image{.info = info};
+    DERMIS_TRY_ASSIGN(image.handle, make<OwnedImage>(context, context.vk.vkCreateImage, create,
+                                                     "make image '" + std::string(name) + "'"));
+    const VkImage handle = image.handle.get();
     set_object_name(context, VK_OBJECT_TYPE_IMAGE, handle, name);
 
     VkMemoryRequirements needs;
     context.vk.vkGetImageMemoryRequirements(context.device, handle, &needs);
-    Result<OwnedMemory> memory = allocate(context, needs, MemoryUse::device, name);
-    if (!memory) return memory.error();
-    image.memory = std::move(*memory);
-    result = context.vk.vkBindImageMemory(context.device, handle, image.memory.get(), 0);
-    DERMIS_TRY(check(result, "bind image '" + std::string(name) + "'"));
+    DERMIS_TRY_ASSIGN(image.memory, allocate(context, needs, MemoryUse::device, name));
+    const VkResult bound = context.vk.vkBindImageMemory(context.device, handle, image.memory.get(), 0);
+    DERMIS_TRY(check(bound, "bind image '" + std::string(name) + "'"));
     const VkImageViewType type = info.cube         ? VK_IMAGE_VIEW_TYPE_CUBE
                                  : info.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
                                                    : VK_IMAGE_VIEW_TYPE_2D;
-    Result<OwnedView> view = make_view(context, image, 0, info.mips, type);
-    if (!view) return view.error();
-    image.view = std::move(*view);
+    DERMIS_TRY_ASSIGN(image.view, make_view(context, image, 0, info.mips, type));
     set_object_name(context, VK_OBJECT_TYPE_IMAGE_VIEW, image.view.get(), name);
     return image;
 }
 
 Result<OwnedView> make_mip_view(const Context& context, const DeviceImage& image, uint32_t mip) {
     return make_view(context, image, mip, 1, VK_IMAGE_VIEW_TYPE_2D);
+}
+
+FormatInfo format_info(ImageFormat format) {
+    constexpr VkImageAspectFlags kColor = VK_IMAGE_ASPECT_COLOR_BIT;
+    constexpr std::pair<ImageFormat, FormatInfo> kInfos[] = {
+        {ImageFormat::r8, {VK_FORMAT_R8_UNORM, kColor, 1, PixelFormat::u8}},
+        {ImageFormat::rg8, {VK_FORMAT_R8G8_UNORM, kColor, 2, PixelFormat::u8}},
+        // Four bytes; pictures are not read in it.
+        {ImageFormat::rgb10a2, {VK_FORMAT_A2B10G10R10_UNORM_PACK32, kColor, 4, PixelFormat::u8}},
+        {ImageFormat::rgba8, {VK_FORMAT_R8G8B8A8_UNORM, kColor, 4, PixelFormat::u8}},
+        {ImageFormat::rgba16, {VK_FORMAT_R16G16B16A16_UNORM, kColor, 4, PixelFormat::u16}},
+        {ImageFormat::r16f, {VK_FORMAT_R16_SFLOAT, kColor, 1, PixelFormat::f16}},
+        {ImageFormat::rg16f, {VK_FORMAT_R16G16_SFLOAT, kColor, 2, PixelFormat::f16}},
+        {ImageFormat::rgba16f, {VK_FORMAT_R16G16B16A16_SFLOAT, kColor, 4, PixelFormat::f16}},
+        {ImageFormat::r32f, {VK_FORMAT_R32_SFLOAT, kColor, 1, PixelFormat::f32}},
+        {ImageFormat::rgba32f, {VK_FORMAT_R32G32B32A32_SFLOAT, kColor, 4, PixelFormat::f32}},
+        {ImageFormat::depth32f, {VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, 1, PixelFormat::f32}}};
+    return std::ranges::find(kInfos, format, &std::pair<ImageFormat, FormatInfo>::first)->second;
+}
+
+int full_mip_count(int width, int height) {
+    return std::bit_width(unsigned(std::max({width, height, 1})));
+}
+
+VkExtent2D mip_extent(VkExtent2D base, int mip) {
+    return {std::max(1u, base.width >> mip), std::max(1u, base.height >> mip)};
 }
 
 }  // namespace dermis::gpu

@@ -1,5 +1,7 @@
 // Lists the devices, and which of them can run dermis.
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -11,36 +13,25 @@ namespace {
 
 int rank(const PhysicalDevice& device) {
     if (!device.info.missing.empty()) return 9;
-    switch (device.properties.deviceType) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-            return 0;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-            return 1;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-            return 2;
-        case VK_PHYSICAL_DEVICE_TYPE_CPU:
-            return 3;
-        default:
-            return 4;
-    }
+    constexpr VkPhysicalDeviceType kPreferred[] = {
+        VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU,
+        VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU, VK_PHYSICAL_DEVICE_TYPE_CPU};
+    return int(std::ranges::find(kPreferred, device.properties.deviceType) - kPreferred);
 }
 
 bool has_device_extension(VkPhysicalDevice device, const char* name) {
-    uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> all(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, all.data());
-    return std::ranges::any_of(all, [&](const auto& one) { return !std::strcmp(one.extensionName, name); });
+    constexpr const char* kOfEachLayer = nullptr;
+    return std::ranges::any_of(
+        list_all<VkExtensionProperties>(vkEnumerateDeviceExtensionProperties, device, kOfEachLayer),
+        [&](const auto& one) { return !std::strcmp(one.extensionName, name); });
 }
 
 // A graphics queue that also computes; by the specification such a queue can transfer, too.
 bool find_queue(PhysicalDevice& device) {
-    uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
+    const auto families =
+        list_all<VkQueueFamilyProperties>(vkGetPhysicalDeviceQueueFamilyProperties, device.handle);
     constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < families.size(); ++i) {
         if ((families[i].queueFlags & kWanted) != kWanted) continue;
         device.queue_family = i;
         device.timestamp_bits = families[i].timestampValidBits;
@@ -50,9 +41,8 @@ bool find_queue(PhysicalDevice& device) {
 }
 
 std::string version_text(uint32_t version) {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
-           std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-           std::to_string(VK_API_VERSION_PATCH(version));
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
 }
 
 std::vector<std::string> missing_features(PhysicalDevice& device) {

@@ -5,6 +5,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/base/text.h"
 #include "dermis/gpu/graphics_state.h"
+#include "dermis/gpu/plan.h"
 
 namespace dermis::gpu {
 namespace {
@@ -50,10 +51,9 @@ Result<void> make_stage(const Context& context, const ListedPass& pass, const Sh
     const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                            .codeSize = words.size() * 4,
                                            .pCode = words.data()};
-    VkShaderModule module = VK_NULL_HANDLE;
-    const VkResult result = context.vk.vkCreateShaderModule(context.device, &info, nullptr, &module);
-    if (Result<void> ok = check(result, "load shader '" + shader.name + "'"); !ok) return ok;
-    stage.module = OwnedShader(context, module);
+    DERMIS_TRY_ASSIGN(stage.module, make<OwnedShader>(context, context.vk.vkCreateShaderModule, info,
+                                                      "load shader '" + shader.name + "'"));
+    const VkShaderModule module = stage.module.get();
     set_object_name(context, VK_OBJECT_TYPE_SHADER_MODULE, module, shader.name);
     for (const SpecializationConstant& constant : shader.interface.constants) {
         stage.entries.push_back({constant.id, uint32_t(stage.values.size() * 4), 4});
@@ -179,6 +179,52 @@ void PipelineStore::begin_run() {
     if (pipelines_.size() <= kManyPipelines) return;
     std::erase_if(pipelines_,
                   [&](const auto& entry) { return entry.second.last_run + kIdlePipelineRuns < run_; });
+}
+
+std::string_view vertex_shader_name(const Pass& pass) {
+    if (!pass.vertex_shader.empty()) return pass.vertex_shader;
+    if (pass.kind == PassKind::geometry_screen) return "renderer/mesh_screen.vert";
+    if (pass.kind == PassKind::geometry_uv_atlas) return "renderer/mesh_uv_atlas.vert";
+    return pass.kind == PassKind::geometry_light ? "renderer/mesh_light.vert" : "renderer/fullscreen.vert";
+}
+
+namespace {
+
+TargetFormats target_formats(const PassList& list, const Pass& pass) {
+    TargetFormats formats;
+    const auto declared = [&](const std::string& name) {
+        const ImageDeclaration& image = *list.find_image(name);
+        formats.samples = uint32_t(image.samples);
+        return format_info(image.format).format;
+    };
+    for (const ColorTarget& target : pass.colors) formats.colors.push_back(declared(target.image));
+    if (pass.depth) formats.depth = declared(pass.depth->image);
+    return formats;
+}
+
+Result<const Pipeline*> find_pipeline(const PassList& list, const Pass& pass, ShaderLibrary& shaders,
+                                      PipelineStore& pipelines) {
+    if (pass.kind == PassKind::compute) {
+        DERMIS_TRY_ASSIGN(const Shader* shader, shaders.get(pass.shader, VK_SHADER_STAGE_COMPUTE_BIT));
+        return pipelines.compute({list, pass}, *shader);
+    }
+    DERMIS_TRY_ASSIGN(const Shader* vertex,
+                      shaders.get(vertex_shader_name(pass), VK_SHADER_STAGE_VERTEX_BIT));
+    const Shader* fragment = nullptr;
+    if (!pass.shader.empty()) {
+        DERMIS_TRY_ASSIGN(fragment, shaders.get(pass.shader, VK_SHADER_STAGE_FRAGMENT_BIT));
+    }
+    return pipelines.graphics({list, pass}, *vertex, fragment, target_formats(list, pass));
+}
+
+}  // namespace
+
+Result<const Pipeline*> pass_pipeline(const PassList& list, const Pass& pass, ShaderLibrary& shaders,
+                                      PipelineStore& pipelines) {
+    if (is_transfer(pass.kind) || (pass.kind == PassKind::fullscreen && pass.shader.empty()))
+        return static_cast<const Pipeline*>(nullptr);
+    const Result<const Pipeline*> pipeline = find_pipeline(list, pass, shaders, pipelines);
+    return pipeline ? pipeline : pipeline.error().within(pass_label(pass));
 }
 
 }  // namespace dermis::gpu

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "dermis/gpu/device_state.h"
-#include "dermis/gpu/shader_library.h"
+#include "dermis/gpu/reflection.h"
 
 namespace dermis::gpu {
 
@@ -71,5 +71,13 @@ class PipelineStore {
 
 /// Descriptor set layout and pipeline layout; decides whether the descriptors are pushed.
 [[nodiscard]] Result<void> make_layout(Device::State& device, Pipeline& pipeline);
+
+/// The vertex shader that a pass names, or the shared one of its kind.
+[[nodiscard]] std::string_view vertex_shader_name(const Pass& pass);
+
+/// The executor draws with it; statistics.h compiles the same one for another chip. `list` has no problems()
+/// (pass_list.h). Null: a transfer, or a pass that only clears. Errors name the pass.
+[[nodiscard]] Result<const Pipeline*> pass_pipeline(const PassList& list, const Pass& pass,
+                                                    ShaderLibrary& shaders, PipelineStore& pipelines);
 
 }  // namespace dermis::gpu

@@ -1,5 +1,7 @@
 // One descriptor set for all stages of a pipeline; binding numbers are assigned by name.
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "dermis/gpu/pipeline.h"
@@ -8,21 +10,11 @@ namespace dermis::gpu {
 namespace {
 
 VkDescriptorType descriptor_type(BindingKind kind) {
-    switch (kind) {
-        case BindingKind::texture:
-            return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-        case BindingKind::sampled_texture:
-            return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        case BindingKind::storage_image:
-            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-        case BindingKind::sampler:
-            return VK_DESCRIPTOR_TYPE_SAMPLER;
-        case BindingKind::uniform_block:
-            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        case BindingKind::storage_buffer:
-            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    }
-    return VK_DESCRIPTOR_TYPE_MAX_ENUM;
+    constexpr VkDescriptorType kTypes[] = {
+        VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,  VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,  VK_DESCRIPTOR_TYPE_SAMPLER,
+        VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    return kTypes[size_t(kind)];
 }
 
 Result<void> add_binding(const Shader& shader, const Binding& binding, Pipeline& pipeline) {
@@ -44,20 +36,20 @@ Result<void> check_stage_borders(const Pass& pass, const Shader& vertex, const S
     };
     for (size_t i = 0; i < pass.colors.size(); ++i)
         if (pass.colors[i].write_mask && (!fragment || !has(fragment->interface.outputs, i)))
-            return Error{"target '" + pass.colors[i].image + "' needs an output at location " +
-                         std::to_string(i) + ", which the shader lacks"};
+            return Error{fmt::format("target '{}' needs an output at location {}, which the shader lacks",
+                                     pass.colors[i].image, i)};
     if (!fragment) return {};
     for (const StageVariable& input : fragment->interface.inputs)
         if (!has(vertex.interface.outputs, input.location))
-            return Error{"input '" + input.name + "' at location " + std::to_string(input.location) +
-                         " is not written by vertex shader '" + vertex.name + "'"};
+            return Error{fmt::format("input '{}' at location {} is not written by vertex shader '{}'",
+                                     input.name, input.location, vertex.name)};
     return {};
 }
 
 Result<void> merge_interface(std::span<const Shader* const> stages, Pipeline& pipeline) {
     for (const Shader* shader : stages) {
         for (const Binding& binding : shader->interface.bindings)
-            if (Result<void> ok = add_binding(*shader, binding, pipeline); !ok) return ok;
+            DERMIS_TRY(add_binding(*shader, binding, pipeline));
         const BlockLayout& push = shader->interface.push_constants;
         if (push.members.empty()) continue;
         if (pipeline.push_stages && !(push == pipeline.push_constants))
@@ -82,9 +74,8 @@ std::vector<uint32_t> renumbered(const Shader& shader, const Pipeline& pipeline)
 Result<void> make_layout(Device::State& device, Pipeline& pipeline) {
     const Context& context = device.context;
     if (pipeline.push_constants.size > context.properties.limits.maxPushConstantsSize)
-        return Error{"wants " + std::to_string(pipeline.push_constants.size) + " bytes of push constants; " +
-                     device.info.name + " has " +
-                     std::to_string(context.properties.limits.maxPushConstantsSize)};
+        return Error{fmt::format("wants {} bytes of push constants; {} has {}", pipeline.push_constants.size,
+                                 device.info.name, context.properties.limits.maxPushConstantsSize)};
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const Binding& binding : pipeline.bindings) {
         bindings.push_back({.binding = uint32_t(bindings.size()),
@@ -98,21 +89,18 @@ Result<void> make_layout(Device::State& device, Pipeline& pipeline) {
                                                 .bindingCount = uint32_t(bindings.size()),
                                                 .pBindings = bindings.data()};
     if (pipeline.pushes_descriptors) set_info.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
-    VkDescriptorSetLayout set = VK_NULL_HANDLE;
-    VkResult result = context.vk.vkCreateDescriptorSetLayout(context.device, &set_info, nullptr, &set);
-    if (Result<void> ok = check(result, "make a descriptor layout"); !ok) return ok;
-    pipeline.set_layout = OwnedSetLayout(context, set);
-
+    DERMIS_TRY_ASSIGN(pipeline.set_layout,
+                      make<OwnedSetLayout>(context, context.vk.vkCreateDescriptorSetLayout, set_info,
+                                           "make a descriptor layout"));
+    const VkDescriptorSetLayout set = pipeline.set_layout.get();
     const VkPushConstantRange range = {pipeline.push_stages, 0, (pipeline.push_constants.size + 3) & ~3u};
     const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                              .setLayoutCount = 1,
                                              .pSetLayouts = &set,
                                              .pushConstantRangeCount = pipeline.push_stages ? 1u : 0u,
                                              .pPushConstantRanges = &range};
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    result = context.vk.vkCreatePipelineLayout(context.device, &info, nullptr, &layout);
-    if (Result<void> ok = check(result, "make a pipeline layout"); !ok) return ok;
-    pipeline.layout = OwnedPipelineLayout(context, layout);
+    DERMIS_TRY_ASSIGN(pipeline.layout, make<OwnedPipelineLayout>(context, context.vk.vkCreatePipelineLayout,
+                                                                 info, "make a pipeline layout"));
     return {};
 }
 

@@ -13,6 +13,74 @@ VkAttachmentLoadOp load_op(LoadOp load) {
     return kOps[size_t(load)];
 }
 
+// Passes without shaders: resolve, copy, and the mip chain by successive halving. resolve() is a render pass
+// without draws, because vkCmdResolveImage cannot resolve depth.
+void resolve(const Context& context, VkCommandBuffer commands, const PlannedPass& planned) {
+    const ImageAccess &source = planned.accesses[0], &target = planned.accesses[1];
+    const bool depth = is_depth(source.image->declaration.format);
+    const VkImageLayout layout = use_scope(source.use).layout;
+    const VkRenderingAttachmentInfo attachment = {
+        .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+        .imageView = source.image->mip_views[0].get(),
+        .imageLayout = layout,
+        .resolveMode = depth ? VK_RESOLVE_MODE_SAMPLE_ZERO_BIT : VK_RESOLVE_MODE_AVERAGE_BIT,
+        .resolveImageView = target.image->mip_views[target.first_mip].get(),
+        .resolveImageLayout = layout,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                  .renderArea = {.extent = planned.extent},
+                                  .layerCount = 1,
+                                  .colorAttachmentCount = depth ? 0u : 1u,
+                                  .pColorAttachments = depth ? nullptr : &attachment,
+                                  .pDepthAttachment = depth ? &attachment : nullptr};
+    context.vk.vkCmdBeginRendering(commands, &info);
+    context.vk.vkCmdEndRendering(commands);
+}
+
+// Leaves every level but the last as a copy source, and records that in the tracked uses.
+void generate_mips(const Context& context, VkCommandBuffer commands, const PlannedPass& planned) {
+    FrameImage& image = *planned.accesses[0].image;
+    BarrierBatch barriers;
+    for (uint32_t mip = 1; mip < image.image.info.mips; ++mip) {
+        barriers.add(image, mip - 1, 1, ImageUse::copy_source, false);
+        barriers.add(image, mip, 1, ImageUse::copy_target, true);
+        barriers.record(context, commands);
+        blit_mip(context, commands, image.image, mip);
+    }
+}
+
+void copy(const Context& context, VkCommandBuffer commands, const PlannedPass& planned) {
+    const ImageAccess &source = planned.accesses[0], &target = planned.accesses[1];
+    const ImageInfo &from = source.image->image.info, &to = target.image->image.info;
+    const VkImageSubresourceLayers from_level = {from.aspect, 0, 0, 1};
+    const VkImageSubresourceLayers to_level = {to.aspect, target.first_mip, 0, 1};
+    const VkExtent2D size = planned.extent;
+    const VkImage source_image = source.image->image.handle.get();
+    const VkImage target_image = target.image->image.handle.get();
+    if (from.format == to.format && from.extent.width == size.width && from.extent.height == size.height) {
+        const VkImageCopy region = {
+            .srcSubresource = from_level, .dstSubresource = to_level, .extent = {size.width, size.height, 1}};
+        context.vk.vkCmdCopyImage(commands, source_image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target_image,
+                                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+        return;
+    }
+    const VkImageBlit region = {
+        .srcSubresource = from_level,
+        .srcOffsets = {{}, {int32_t(from.extent.width), int32_t(from.extent.height), 1}},
+        .dstSubresource = to_level,
+        .dstOffsets = {{}, {int32_t(size.width), int32_t(size.height), 1}}};
+    context.vk.vkCmdBlitImage(commands, source_image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target_image,
+                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
+}
+
+// The barriers of planned.accesses have been recorded.
+void record_transfer(const Context& context, VkCommandBuffer commands, const PlannedPass& planned) {
+    if (planned.pass->kind == PassKind::resolve) return resolve(context, commands, planned);
+    if (planned.pass->kind == PassKind::copy) return copy(context, commands, planned);
+    generate_mips(context, commands, planned);
+}
+
 // Records one pass after another, with the upload buffer and the queries.
 class Recorder {
   public:
@@ -169,6 +237,96 @@ void record_plan(const Context& context, VkCommandBuffer commands, const Plan& p
         recorder.record(plan.passes[i], i);
         queries.timestamp(context, commands, i + 1);
     }
+}
+
+namespace {
+
+Result<OwnedQueryPool> make_pool(const Context& context, VkQueryType type, size_t count) {
+    const VkQueryPoolCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = type, .queryCount = uint32_t(count)};
+    return make<OwnedQueryPool>(context, context.vk.vkCreateQueryPool, info, "make a query pool");
+}
+
+Result<std::vector<uint64_t>> read_pool(const Context& context, VkQueryPool pool, size_t first,
+                                        size_t count) {
+    std::vector<uint64_t> values(count);
+    const VkResult result = context.vk.vkGetQueryPoolResults(
+        context.device, pool, uint32_t(first), uint32_t(count), count * sizeof(uint64_t), values.data(),
+        sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    DERMIS_TRY(check(result, "read the timings"));
+    return values;
+}
+
+// Only some of the bits are valid, and they may wrap around.
+double elapsed_ms(const Context& context, uint64_t from, uint64_t to) {
+    const uint64_t mask =
+        context.timestamp_bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << context.timestamp_bits) - 1;
+    return double((to - from) & mask) * context.properties.limits.timestampPeriod * 1e-6;
+}
+
+// All passes that rasterise with a pipeline.
+bool counts_samples(const PlannedPass& planned) {
+    return planned.pipeline && planned.pipeline->bind_point == VK_PIPELINE_BIND_POINT_GRAPHICS;
+}
+
+}  // namespace
+
+Result<void> FrameQueries::prepare(const Context& context, const Plan& plan) {
+    passes_.clear();
+    counted_.clear();
+    for (const PlannedPass& planned : plan.passes) {
+        passes_.push_back({.name = planned.pass->name,
+                           .target_texels = uint64_t(planned.extent.width) * planned.extent.height});
+        counted_.push_back(counts_samples(planned));
+    }
+    const size_t passes = passes_.size();
+    if (passes <= capacity_) return {};
+    DERMIS_TRY_ASSIGN(OwnedQueryPool timestamps, make_pool(context, VK_QUERY_TYPE_TIMESTAMP, passes + 1));
+    DERMIS_TRY_ASSIGN(OwnedQueryPool samples, make_pool(context, VK_QUERY_TYPE_OCCLUSION, passes));
+    timestamps_ = std::move(timestamps);
+    samples_ = std::move(samples);
+    capacity_ = passes;
+    return {};
+}
+
+void FrameQueries::reset(const Context& context, VkCommandBuffer commands) const {
+    if (!capacity_) return;
+    context.vk.vkCmdResetQueryPool(commands, timestamps_.get(), 0, uint32_t(capacity_ + 1));
+    context.vk.vkCmdResetQueryPool(commands, samples_.get(), 0, uint32_t(capacity_));
+}
+
+void FrameQueries::timestamp(const Context& context, VkCommandBuffer commands, size_t index) const {
+    if (!capacity_ || !context.timestamp_bits) return;
+    context.vk.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(),
+                                    uint32_t(index));
+}
+
+void FrameQueries::begin_samples(const Context& context, VkCommandBuffer commands, size_t pass) const {
+    const VkQueryControlFlags flags =
+        context.features.occlusionQueryPrecise ? VkQueryControlFlags{VK_QUERY_CONTROL_PRECISE_BIT} : 0;
+    context.vk.vkCmdBeginQuery(commands, samples_.get(), uint32_t(pass), flags);
+}
+
+void FrameQueries::end_samples(const Context& context, VkCommandBuffer commands, size_t pass) const {
+    context.vk.vkCmdEndQuery(commands, samples_.get(), uint32_t(pass));
+}
+
+Result<FrameResult> FrameQueries::collect(const Context& context) const {
+    FrameResult result{.passes = passes_};
+    const size_t count = passes_.size();
+    std::vector<uint64_t> times(count + 1);
+    if (count && context.timestamp_bits) {
+        DERMIS_TRY_ASSIGN(times, read_pool(context, timestamps_.get(), 0, count + 1));
+    }
+    for (size_t i = 0; i < count; ++i) {
+        PassTiming& timing = result.passes[i];
+        timing.time_ms = elapsed_ms(context, times[i], times[i + 1]);
+        if (!counted_[i]) continue;
+        DERMIS_TRY_ASSIGN(const std::vector<uint64_t> samples, read_pool(context, samples_.get(), i, 1));
+        timing.samples_passed = samples.front();
+    }
+    result.frame_ms = elapsed_ms(context, times.front(), times.back());
+    return result;
 }
 
 }  // namespace dermis::gpu

@@ -86,28 +86,16 @@ class Reflector {
     }
 
     std::string_view texel_format(spvc_type_id id) {
+        constexpr std::pair<SpvImageFormat, std::string_view> kNames[] = {
+            {SpvImageFormatUnknown, ""},    {SpvImageFormatR8, "r8"},
+            {SpvImageFormatRgba8, "rgba8"}, {SpvImageFormatR16f, "r16f"},
+            {SpvImageFormatRg16f, "rg16f"}, {SpvImageFormatRgba16f, "rgba16f"},
+            {SpvImageFormatR32f, "r32f"},   {SpvImageFormatRgba32f, "rgba32f"}};
         const SpvImageFormat format =
             spvc_type_get_image_storage_format(spvc_compiler_get_type_handle(compiler_, id));
-        switch (format) {
-            case SpvImageFormatUnknown:
-                return "";
-            case SpvImageFormatR8:
-                return "r8";
-            case SpvImageFormatRgba8:
-                return "rgba8";
-            case SpvImageFormatR16f:
-                return "r16f";
-            case SpvImageFormatRg16f:
-                return "rg16f";
-            case SpvImageFormatRgba16f:
-                return "rgba16f";
-            case SpvImageFormatR32f:
-                return "r32f";
-            case SpvImageFormatRgba32f:
-                return "rgba32f";
-            default:
-                return "another format";
-        }
+        for (const auto& [known, name] : kNames)
+            if (known == format) return name;
+        return "another format";
     }
 
     void read_bindings() {

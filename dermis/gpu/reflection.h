@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "dermis/gpu/executor.h"
 #include "dermis/gpu/vulkan.h"
 
 namespace dermis::gpu {
@@ -66,5 +68,26 @@ struct ShaderInterface {
 
 /// Errors name the shader and what in it cannot be bound by name (combined samplers, unknown types).
 [[nodiscard]] Result<ShaderInterface> reflect(std::string_view shader, std::span<const uint32_t> words);
+
+struct Shader {
+    std::string name;
+    std::string hash;  ///< of the words
+    std::vector<uint32_t> words;
+    ShaderInterface interface;
+};
+
+/// Shaders by name, read once until forgotten.
+class ShaderLibrary {
+  public:
+    explicit ShaderLibrary(ShaderSource source) : source_(std::move(source)) {}
+
+    /// Valid until forget(). A shader that fails is asked for again next time.
+    [[nodiscard]] Result<const Shader*> get(std::string_view name, VkShaderStageFlagBits stage);
+    void forget() { shaders_.clear(); }
+
+  private:
+    ShaderSource source_;
+    std::map<std::string, Shader, std::less<>> shaders_;
+};
 
 }  // namespace dermis::gpu

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dermis/gpu/device.h"
 #include "dermis/gpu/executor.h"
 
 namespace dermis::gpu {
@@ -41,12 +42,15 @@ struct PassStatistics {
     uint32_t vertex_bytes = 0;              ///< of the inputs of one vertex
 };
 
+/// Whether Mesa's RADV is on this machine, which NullDevice needs.
+[[nodiscard]] bool null_driver_installed();
+
 /// Compiles for one chip. Movable; not for several threads at once, nor while another thread opens a device:
 /// opening it sets variables of the environment for a moment.
 class NullDevice {
   public:
-    /// `chip` as RADV_FORCE_FAMILY has it since Mesa 23, "navi21". It must be one of cost/card.h: RADV ends
-    /// the process at a name that it does not know. Error: no RADV; it says what to install.
+    /// `chip` as RADV_FORCE_FAMILY has it since Mesa 23, "navi21". It must be one of report/card.h: RADV
+    /// ends the process at a name that it does not know. Error: no RADV; it says what to install.
     [[nodiscard]] static Result<NullDevice> open(std::string_view chip, ShaderSource shaders);
     ~NullDevice();
     NullDevice(NullDevice&&) noexcept;

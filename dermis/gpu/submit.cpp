@@ -71,20 +71,14 @@ Result<OwnedSemaphore> make_semaphore(const Context& context, VkSemaphoreType ty
     const VkSemaphoreTypeCreateInfo kind = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                             .semaphoreType = type};
     const VkSemaphoreCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &kind};
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    const VkResult result = context.vk.vkCreateSemaphore(context.device, &info, nullptr, &semaphore);
-    DERMIS_TRY(check(result, "make a semaphore"));
-    return OwnedSemaphore(context, semaphore);
+    return make<OwnedSemaphore>(context, context.vk.vkCreateSemaphore, info, "make a semaphore");
 }
 
 Result<OwnedCommandPool> make_command_pool(const Context& context, VkCommandPoolCreateFlags flags) {
     const VkCommandPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                           .flags = flags,
                                           .queueFamilyIndex = context.queue_family};
-    VkCommandPool pool = VK_NULL_HANDLE;
-    const VkResult result = context.vk.vkCreateCommandPool(context.device, &info, nullptr, &pool);
-    DERMIS_TRY(check(result, "make a command pool"));
-    return OwnedCommandPool(context, pool);
+    return make<OwnedCommandPool>(context, context.vk.vkCreateCommandPool, info, "make a command pool");
 }
 
 Result<ReusedCommands> ReusedCommands::create(const Context& context) {
@@ -104,10 +98,9 @@ Result<void> ReusedCommands::wait(const Context& context, std::string_view name)
 Result<void> ReusedCommands::run(Device::State& state, std::string_view name,
                                  const std::function<void(VkCommandBuffer)>& record,
                                  const Semaphores& semaphores) {
-    if (Result<void> done = wait(state.context, name); !done) return done;
-    if (Result<void> ok = record_once(state.context, commands_, name, record); !ok) return ok;
-    DERMIS_TRY_ASSIGN(const uint64_t number, submit(state.context, commands_, name, semaphores));
-    submission_ = number;
+    DERMIS_TRY(wait(state.context, name));
+    DERMIS_TRY(record_once(state.context, commands_, name, record));
+    DERMIS_TRY_ASSIGN(submission_, submit(state.context, commands_, name, semaphores));
     return {};
 }
 
@@ -115,10 +108,8 @@ Result<void> run_once(Device::State& state, std::string_view name,
                       const std::function<void(VkCommandBuffer)>& record) {
     const Context& context = state.context;
     OneTimeCommands once{context, state.uploads.get()};
-    const Result<VkCommandBuffer> commands = allocate_commands(context, once.pool);
-    if (!commands) return commands.error();
-    once.commands = *commands;
-    if (Result<void> ok = record_once(context, once.commands, name, record); !ok) return ok;
+    DERMIS_TRY_ASSIGN(once.commands, allocate_commands(context, once.pool));
+    DERMIS_TRY(record_once(context, once.commands, name, record));
     DERMIS_TRY_ASSIGN(const uint64_t number, submit(context, once.commands, name, {}));
     return check(context.wait_for(number), "finish " + std::string(name));
 }

@@ -11,11 +11,8 @@ using OwnedSwapchain = Owned<VkSwapchainKHR, &VolkDeviceTable::vkDestroySwapchai
 
 // Eight bits without conversion: the pictures are sRGB-encoded already.
 Result<VkSurfaceFormatKHR> choose_format(const Context& context, VkSurfaceKHR surface) {
-    uint32_t count = 0;
-    vkGetPhysicalDeviceSurfaceFormatsKHR(context.physical, surface, &count, nullptr);
-    std::vector<VkSurfaceFormatKHR> formats(count);
-    vkGetPhysicalDeviceSurfaceFormatsKHR(context.physical, surface, &count, formats.data());
-    for (const VkSurfaceFormatKHR& format : formats)
+    for (const VkSurfaceFormatKHR& format :
+         list_all<VkSurfaceFormatKHR>(vkGetPhysicalDeviceSurfaceFormatsKHR, context.physical, surface))
         if ((format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM) &&
             format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR)
             return format;
@@ -23,10 +20,8 @@ Result<VkSurfaceFormatKHR> choose_format(const Context& context, VkSurfaceKHR su
 }
 
 VkPresentModeKHR choose_mode(const Context& context, VkSurfaceKHR surface, Pacing pacing) {
-    uint32_t count = 0;
-    vkGetPhysicalDeviceSurfacePresentModesKHR(context.physical, surface, &count, nullptr);
-    std::vector<VkPresentModeKHR> modes(count);
-    vkGetPhysicalDeviceSurfacePresentModesKHR(context.physical, surface, &count, modes.data());
+    const auto modes =
+        list_all<VkPresentModeKHR>(vkGetPhysicalDeviceSurfacePresentModesKHR, context.physical, surface);
     const bool immediate = std::ranges::count(modes, VK_PRESENT_MODE_IMMEDIATE_KHR) > 0;
     return pacing == Pacing::immediate && immediate ? VK_PRESENT_MODE_IMMEDIATE_KHR
                                                     : VK_PRESENT_MODE_FIFO_KHR;
@@ -86,12 +81,11 @@ Result<void> Swapchain::State::build(VkExtent2D wanted) {
     const Context& context = device.context;
     context.vk.vkDeviceWaitIdle(context.device);
     VkSurfaceCapabilitiesKHR can = {};
-    VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context.physical, surface, &can);
-    if (Result<void> ok = check(result, "ask the window for its size"); !ok) return ok;
+    const VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context.physical, surface, &can);
+    DERMIS_TRY(check(result, "ask the window for its size"));
     if (!(can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT))
         return Error{"the window's pictures cannot be copied to"};
-    const Result<VkSurfaceFormatKHR> format = choose_format(context, surface);
-    if (!format) return format.error();
+    DERMIS_TRY_ASSIGN(const VkSurfaceFormatKHR format, choose_format(context, surface));
     extent = can.currentExtent.width != UINT32_MAX ? can.currentExtent : wanted;
     extent.width = std::clamp(extent.width, can.minImageExtent.width, can.maxImageExtent.width);
     extent.height = std::clamp(extent.height, can.minImageExtent.height, can.maxImageExtent.height);
@@ -101,8 +95,8 @@ Result<void> Swapchain::State::build(VkExtent2D wanted) {
     const VkSwapchainCreateInfoKHR info = {.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
                                            .surface = surface,
                                            .minImageCount = std::min(can.minImageCount + 1, most),
-                                           .imageFormat = format->format,
-                                           .imageColorSpace = format->colorSpace,
+                                           .imageFormat = format.format,
+                                           .imageColorSpace = format.colorSpace,
                                            .imageExtent = extent,
                                            .imageArrayLayers = 1,
                                            .imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,
@@ -111,26 +105,19 @@ Result<void> Swapchain::State::build(VkExtent2D wanted) {
                                            .presentMode = choose_mode(context, surface, pacing),
                                            .clipped = VK_TRUE,
                                            .oldSwapchain = old.get()};
-    VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-    result = context.vk.vkCreateSwapchainKHR(context.device, &info, nullptr, &swapchain);
-    if (Result<void> ok = check(result, "make the window's pictures"); !ok) return ok;
-    handle = OwnedSwapchain(context, swapchain);
+    DERMIS_TRY_ASSIGN(handle, make<OwnedSwapchain>(context, context.vk.vkCreateSwapchainKHR, info,
+                                                   "make the window's pictures"));
     return build_images();
 }
 
 Result<void> Swapchain::State::build_images() {
     const Context& context = device.context;
-    uint32_t count = 0;
-    context.vk.vkGetSwapchainImagesKHR(context.device, handle.get(), &count, nullptr);
-    images.resize(count);
-    const VkResult result =
-        context.vk.vkGetSwapchainImagesKHR(context.device, handle.get(), &count, images.data());
-    if (Result<void> ok = check(result, "get the window's pictures"); !ok) return ok;
-    drawn.clear();
+    images = list_all<VkImage>(context.vk.vkGetSwapchainImagesKHR, context.device, handle.get());
+    if (images.empty()) return Error{"cannot get the window's pictures"};
+    drawn = std::vector<OwnedSemaphore>(images.size());
     slots.clear();
-    for (uint32_t i = 0; i < count; ++i) {
-        DERMIS_TRY_ASSIGN(OwnedSemaphore semaphore, make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY));
-        drawn.push_back(std::move(semaphore));
+    for (OwnedSemaphore& semaphore : drawn) {
+        DERMIS_TRY_ASSIGN(semaphore, make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY));
     }
     for (size_t i = 0; i < kFramesInFlight; ++i) {
         DERMIS_TRY_ASSIGN(OwnedSemaphore acquired, make_semaphore(context, VK_SEMAPHORE_TYPE_BINARY));
@@ -171,8 +158,7 @@ Result<Swapchain> Swapchain::create(Device& device, const SurfaceMaker& make_sur
     VkBool32 supported = VK_FALSE;
     vkGetPhysicalDeviceSurfaceSupportKHR(context.physical, context.queue_family, state->surface, &supported);
     if (!supported) return Error{device.info().name + " cannot show pictures in this window"};
-    const Result<void> built = state->build({uint32_t(options.width), uint32_t(options.height)});
-    if (!built) return built.error();
+    DERMIS_TRY(state->build({uint32_t(options.width), uint32_t(options.height)}));
     return Swapchain(std::move(state));
 }
 
@@ -195,11 +181,10 @@ Result<Presented> Swapchain::present(Executor& executor, std::string_view name) 
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return Presented::resize;
     DERMIS_TRY(check(result, "get a picture of the window"));
     const VkSemaphore drawn = state.drawn[index].get();
-    const Result<void> copied = slot.commands.run(
+    DERMIS_TRY(slot.commands.run(
         state.device, "the copy to the window",
         [&](VkCommandBuffer commands) { state.blit(commands, *source, state.images[index]); },
-        {.wait = slot.acquired.get(), .signal = drawn});
-    if (!copied) return copied.error();
+        {.wait = slot.acquired.get(), .signal = drawn}));
     state.next_slot = (state.next_slot + 1) % state.slots.size();
     const VkSwapchainKHR swapchain = state.handle.get();
     const VkPresentInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,

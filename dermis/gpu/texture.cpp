@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstring>
 #include <span>
@@ -23,24 +25,24 @@ size_t expected_bytes(const TextureData& data, int mips) {
 Result<void> check_data(const TextureData& data, const Context& context) {
     const int limit = int(context.properties.limits.maxImageDimension2D);
     if (data.width < 1 || data.height < 1 || data.width > limit || data.height > limit)
-        return texture_error(data, "size " + std::to_string(data.width) + "x" + std::to_string(data.height) +
-                                       "; each side must be 1 to " + std::to_string(limit));
+        return texture_error(
+            data, fmt::format("size {}x{}; each side must be 1 to {}", data.width, data.height, limit));
     if (data.layers < 1 || (data.cube && data.layers != 6) || (data.cube && data.width != data.height))
         return texture_error(data, "a cube has six square layers, others at least one");
     if (data.mips < 1 || data.mips > full_mip_count(data.width, data.height))
-        return texture_error(data, "has " + std::to_string(data.mips) + " mip levels; 1 to " +
-                                       std::to_string(full_mip_count(data.width, data.height)));
+        return texture_error(data, fmt::format("has {} mip levels; 1 to {}", data.mips,
+                                               full_mip_count(data.width, data.height)));
     if (data.generate_mips && data.mips != 1)
         return texture_error(data, "bytes must hold level 0 only when mips are generated");
     if (data.srgb && data.format != ImageFormat::rgba8) return texture_error(data, "only rgba8 can be sRGB");
     constexpr VkFormatFeatureFlags kBlit = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
                                            VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
     if (data.generate_mips && !context.can(format_info(data.format).format, kBlit))
-        return texture_error(data, "this device cannot generate mips of " +
-                                       std::string(format_name(data.format)) + "; supply them");
+        return texture_error(data, fmt::format("this device cannot generate mips of {}; supply them",
+                                               format_name(data.format)));
     if (data.bytes.size() != expected_bytes(data, data.mips))
-        return texture_error(data, "has " + std::to_string(data.bytes.size()) + " bytes instead of " +
-                                       std::to_string(expected_bytes(data, data.mips)));
+        return texture_error(data, fmt::format("has {} bytes instead of {}", data.bytes.size(),
+                                               expected_bytes(data, data.mips)));
     return {};
 }
 
@@ -124,17 +126,15 @@ Result<void> copy_strips(Device& device, const TextureData& data, const DeviceIm
             std::memcpy(static_cast<std::byte*>(staging.mapped) + strip.region.bufferOffset,
                         data.bytes.data() + strip.begin, strip.bytes);
         const bool is_first = rest.size() == strips.size(), is_last = rest.size() == batch.size();
-        Result<void> done =
-            run_once(device.state(), "the upload of " + data.name, [&](VkCommandBuffer commands) {
-                if (is_first)
-                    transition(context, commands, image, 0, image.info.mips, VK_IMAGE_LAYOUT_UNDEFINED,
-                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-                for (const Strip& strip : batch)
-                    context.vk.vkCmdCopyBufferToImage(commands, staging.handle.get(), image.handle.get(),
-                                                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &strip.region);
-                if (is_last) finish_mips(context, commands, data, image);
-            });
-        if (!done) return done;
+        DERMIS_TRY(run_once(device.state(), "the upload of " + data.name, [&](VkCommandBuffer commands) {
+            if (is_first)
+                transition(context, commands, image, 0, image.info.mips, VK_IMAGE_LAYOUT_UNDEFINED,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+            for (const Strip& strip : batch)
+                context.vk.vkCmdCopyBufferToImage(commands, staging.handle.get(), image.handle.get(),
+                                                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &strip.region);
+            if (is_last) finish_mips(context, commands, data, image);
+        }));
         rest = rest.subspan(batch.size());
     }
     return {};
@@ -175,11 +175,10 @@ void blit_mip(const Context& context, VkCommandBuffer commands, const DeviceImag
 Result<Texture> Texture::upload(Device& device, const TextureData& data) {
     const Context& context = device.state().context;
     DERMIS_TRY(check_data(data, context));
-    Result<DeviceImage> image = make_image(context, data.name, image_info(data));
-    if (!image) return image.error();
-    DERMIS_TRY(copy_strips(device, data, *image));
+    DERMIS_TRY_ASSIGN(DeviceImage image, make_image(context, data.name, image_info(data)));
+    DERMIS_TRY(copy_strips(device, data, image));
     auto state = std::make_unique<State>();
-    state->image = std::move(*image);
+    state->image = std::move(image);
     state->name = data.name;
     state->bytes_per_texel = dermis::bytes_per_texel(data.format);
     state->sampler = device.state().map_sampler(data.address_u, data.address_v);

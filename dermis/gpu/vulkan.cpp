@@ -2,35 +2,27 @@
 #include "dermis/gpu/vulkan.h"
 
 namespace dermis::gpu {
+namespace {
 
-std::string_view result_text(VkResult result) {
-    switch (result) {
-        case VK_ERROR_OUT_OF_HOST_MEMORY:
-            return "out of memory";
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-            return "out of GPU memory; use a smaller size or fewer samples";
-        case VK_ERROR_OUT_OF_POOL_MEMORY:
-            return "the descriptor pool is full";
-        case VK_ERROR_DEVICE_LOST:
-            return "the GPU was lost (a crash or a time-out of its driver)";
-        case VK_ERROR_INITIALIZATION_FAILED:
-            return "the driver failed to start";
-        case VK_ERROR_LAYER_NOT_PRESENT:
-            return "a layer is not installed";
-        case VK_ERROR_EXTENSION_NOT_PRESENT:
-            return "an extension is missing";
-        case VK_ERROR_FEATURE_NOT_PRESENT:
-            return "a feature is missing";
-        case VK_ERROR_INCOMPATIBLE_DRIVER:
-            return "no Vulkan driver is installed (Debian: mesa-vulkan-drivers)";
-        case VK_ERROR_FORMAT_NOT_SUPPORTED:
-            return "the format is not supported";
-        case VK_ERROR_SURFACE_LOST_KHR:
-            return "the window's surface was lost";
-        default:
-            return "";
-    }
+std::string result_text(VkResult result) {
+    constexpr std::pair<VkResult, const char*> kTexts[] = {
+        {VK_ERROR_OUT_OF_HOST_MEMORY, "out of memory"},
+        {VK_ERROR_OUT_OF_DEVICE_MEMORY, "out of GPU memory; use a smaller size or fewer samples"},
+        {VK_ERROR_OUT_OF_POOL_MEMORY, "the descriptor pool is full"},
+        {VK_ERROR_DEVICE_LOST, "the GPU was lost (a crash or a time-out of its driver)"},
+        {VK_ERROR_INITIALIZATION_FAILED, "the driver failed to start"},
+        {VK_ERROR_LAYER_NOT_PRESENT, "a layer is not installed"},
+        {VK_ERROR_EXTENSION_NOT_PRESENT, "an extension is missing"},
+        {VK_ERROR_FEATURE_NOT_PRESENT, "a feature is missing"},
+        {VK_ERROR_INCOMPATIBLE_DRIVER, "no Vulkan driver is installed (Debian: mesa-vulkan-drivers)"},
+        {VK_ERROR_FORMAT_NOT_SUPPORTED, "the format is not supported"},
+        {VK_ERROR_SURFACE_LOST_KHR, "the window's surface was lost"}};
+    for (const auto& [code, text] : kTexts)
+        if (code == result) return text;
+    return "Vulkan error " + std::to_string(int(result));
 }
+
+}  // namespace
 
 bool Context::can(VkFormat format, VkFormatFeatureFlags wanted) const {
     VkFormatProperties has;
@@ -57,9 +49,7 @@ bool Context::is_done(uint64_t submission) const {
 
 Result<void> check(VkResult result, std::string_view what) {
     if (result >= 0) return {};
-    std::string reason(result_text(result));
-    if (reason.empty()) reason = "Vulkan error " + std::to_string(int(result));
-    return Error{"cannot " + std::string(what) + ": " + reason,
+    return Error{"cannot " + std::string(what) + ": " + result_text(result),
                  result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::general};
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "dermis/base/result.h"
 
@@ -100,10 +101,29 @@ using OwnedDescriptorPool = Owned<VkDescriptorPool, &VolkDeviceTable::vkDestroyD
 using OwnedQueryPool = Owned<VkQueryPool, &VolkDeviceTable::vkDestroyQueryPool>;
 using OwnedSemaphore = Owned<VkSemaphore, &VolkDeviceTable::vkDestroySemaphore>;
 
-[[nodiscard]] std::string_view result_text(VkResult result);
-
 /// "cannot WHAT: out of GPU memory". Success codes that are no failure (VK_INCOMPLETE, ...) pass.
 [[nodiscard]] Result<void> check(VkResult result, std::string_view what);
+
+/// make<OwnedSampler>(context, context.vk.vkCreateSampler, info, "make a sampler")
+template <class Owner, class Info, class Handle>
+[[nodiscard]] Result<Owner> make(const Context& context,
+                                 VkResult(VKAPI_PTR* create)(VkDevice, const Info*,
+                                                             const VkAllocationCallbacks*, Handle*),
+                                 const Info& info, std::string_view what) {
+    Handle handle = VK_NULL_HANDLE;
+    DERMIS_TRY(check(create(context.device, &info, nullptr, &handle), what));
+    return Owner(context, handle);
+}
+
+/// What one of Vulkan's listing functions returns after these arguments.
+template <class Item, class List, class... Arguments>
+[[nodiscard]] std::vector<Item> list_all(List list, Arguments... arguments) {
+    uint32_t count = 0;
+    list(arguments..., &count, nullptr);
+    std::vector<Item> items(count);
+    list(arguments..., &count, items.data());
+    return items;
+}
 
 /// For RenderDoc and the validation layers; nothing happens without VK_EXT_debug_utils.
 void set_object_name(const Context& context, VkObjectType type, uint64_t handle, std::string_view name);

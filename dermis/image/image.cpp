@@ -173,13 +173,12 @@ Result<void> check_image_size(uint64_t width, uint64_t height, int channels) {
     if (width == 0 || height == 0) return Error{"holds " + size};
     if (width > uint64_t(kMaxImageSide) || height > uint64_t(kMaxImageSide))
         return Error{"holds " + size + "; the largest side is " + std::to_string(kMaxImageSide)};
-    const Result<uint64_t> limit = max_image_bytes();
-    if (!limit) return limit.error();
+    DERMIS_TRY_ASSIGN(const uint64_t limit, max_image_bytes());
     const uint64_t bytes = width * height * uint64_t(channels) * sizeof(float);
-    if (bytes <= *limit) return {};
+    if (bytes <= limit) return {};
     return Error{"holds " + size + " of " + std::to_string(channels) + " channels, " +
-                 std::to_string(bytes >> 20) + " MiB as floats; the limit is " +
-                 std::to_string(*limit >> 20) + " (DERMIS_MAX_IMAGE_MIB)"};
+                 std::to_string(bytes >> 20) + " MiB as floats; the limit is " + std::to_string(limit >> 20) +
+                 " (DERMIS_MAX_IMAGE_MIB)"};
 }
 
 int alpha_channel(const Image& image) {

@@ -48,9 +48,8 @@ Result<std::string> output_of(const std::vector<std::string>& arguments, const f
     if (status == kNotFound || status == -1)
         return Error{"cannot start " + arguments[0] +
                      ": --runner slurm runs where Slurm's commands are (Debian: slurm-client)"};
-    const Result<std::string> text = read_text_file(log);
-    if (!text) return text;
-    const std::string said(trim(*text));
+    DERMIS_TRY_ASSIGN(const std::string text, read_text_file(log));
+    const std::string said(trim(text));
     if (status != 0) return Error{arguments[0] + ": " + said};
     return said;
 }
@@ -66,9 +65,8 @@ class Cluster {
         if (!after.empty()) arguments.push_back("--dependency=afterany:" + after);
         arguments.insert(arguments.end(), run_.options.begin(), run_.options.end());
         arguments.push_back((run_.folder / (name + ".sbatch")).string());
-        Result<std::string> said = output_of(arguments, run_.folder);
-        if (!said) return said;
-        return std::string(split(*said, ';')[0]);  // NUMBER or NUMBER;CLUSTER
+        DERMIS_TRY_ASSIGN(std::string said, output_of(arguments, run_.folder));
+        return std::string(split(said, ';')[0]);  // NUMBER or NUMBER;CLUSTER
     }
 
     // Whether one of the jobs waits or runs. A job that Slurm no longer knows has ended.
@@ -132,10 +130,7 @@ std::string array_text(const std::vector<size_t>& lines) {
 
 Result<SlurmOutcome> run_on_slurm(const JobLists& lists, const SlurmRun& run) {
     for (const char* name : {"work", "merge"})
-        if (Result<void> written =
-                write_text_file(run.folder / (std::string(name) + ".sbatch"), script(name, run.folder));
-            !written)
-            return written.error();
+        DERMIS_TRY(write_text_file(run.folder / (std::string(name) + ".sbatch"), script(name, run.folder)));
     SlurmOutcome outcome;
     for (int attempt = 0; attempt < run.attempts; ++attempt) {
         const size_t open = open_lines(lists.work).size();

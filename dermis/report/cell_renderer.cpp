@@ -76,9 +76,8 @@ Result<void> look_at_object(Scene& scene, const std::string& name, float aspect)
 }
 
 Result<void> place_camera_and_light(Scene& scene, const FigureCell& cell, float aspect) {
-    if (Result<void> set = set_section(scene, "camera", cell.camera); !set) return set;
-    if (!cell.object.empty())
-        if (Result<void> placed = look_at_object(scene, cell.object, aspect); !placed) return placed;
+    DERMIS_TRY(set_section(scene, "camera", cell.camera));
+    if (!cell.object.empty()) DERMIS_TRY(look_at_object(scene, cell.object, aspect));
     fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
     return set_section(scene, "light.key", cell.light);
 }
@@ -111,10 +110,9 @@ CellPicture picture_of(const Image& linear, CellEncoding encoding, CellSize size
 Result<Image> table_image(const Technique& technique, const ParameterValues& values, const std::string& name,
                           const SkinContext& skin) {
     if (!technique.tables) return Error{technique.id + " bakes no tables"};
-    const Result<std::vector<TableImage>> tables = technique.tables(values, skin);
-    if (!tables) return tables.error();
-    const auto table = std::ranges::find(*tables, name, &TableImage::name);
-    if (table == tables->end()) return Error{technique.id + " bakes no table '" + name + "'"};
+    DERMIS_TRY_ASSIGN(const std::vector<TableImage> tables, technique.tables(values, skin));
+    const auto table = std::ranges::find(tables, name, &TableImage::name);
+    if (table == tables.end()) return Error{technique.id + " bakes no table '" + name + "'"};
     if (table->format != ImageFormat::rgba32f) return Error{name + ": only 32-bit float tables can be shown"};
     Image image(table->width, table->height, 4);
     image.bytes = table->bytes;
@@ -169,19 +167,17 @@ Result<CellRenderer::Stage*> CellRenderer::stage(const Figure& figure, const Fig
     if (const auto found = stages_.find(key); found != stages_.end()) return found->second.get();
     if (stages_.size() >= kStages) stages_.clear();
 
-    Result<Scene> scene =
-        load_figure_scene(name, {.subjects = catalog_.subjects, .words = options_.loading_words});
-    if (!scene) return scene.error();
-    DERMIS_TRY(complete_scene(*scene));
-    if (cell.albedo == CellAlbedo::white) make_white(*scene);
-    const ChosenEnvironment chosen = choose_environment(scene->environment, cell);
-    scene->environment = chosen.environment;
-    DERMIS_TRY(set_words(*scene, options_.words));
-    auto made = std::make_unique<Stage>(Stage{.scene = std::move(*scene), .remark = chosen.remark});
-    Result<Renderer> renderer =
-        Renderer::create(*device_, gpu::embedded_shaders(catalog_.shaders), made->scene);
-    if (!renderer) return renderer.error();
-    made->renderer = std::make_unique<Renderer>(std::move(*renderer));
+    DERMIS_TRY_ASSIGN(Scene scene, load_figure_scene(name, {.subjects = catalog_.subjects,
+                                                            .words = options_.loading_words}));
+    DERMIS_TRY(complete_scene(scene));
+    if (cell.albedo == CellAlbedo::white) make_white(scene);
+    const ChosenEnvironment chosen = choose_environment(scene.environment, cell);
+    scene.environment = chosen.environment;
+    DERMIS_TRY(set_words(scene, options_.words));
+    auto made = std::make_unique<Stage>(Stage{.scene = std::move(scene), .remark = chosen.remark});
+    DERMIS_TRY_ASSIGN(Renderer renderer,
+                      Renderer::create(*device_, gpu::embedded_shaders(catalog_.shaders), made->scene));
+    made->renderer = std::make_unique<Renderer>(std::move(renderer));
     return stages_.emplace(key, std::move(made)).first->second.get();
 }
 
@@ -189,8 +185,7 @@ Result<CellPicture> CellRenderer::draw_scene(const Technique& technique, const P
                                              const FigureCell& cell, Stage& stage, CellSize size) {
     const Camera camera = stage.scene.camera;
     const std::vector<Light> lights = stage.scene.lights;
-    Result<void> ready = place_camera_and_light(stage.scene, cell, float(size.width) / float(size.height));
-    if (!ready) return ready.error();
+    DERMIS_TRY(place_camera_and_light(stage.scene, cell, float(size.width) / float(size.height)));
     const auto drawn = stage.renderer->draw(technique, values,
                                             {.width = size.width,
                                              .height = size.height,
@@ -205,18 +200,16 @@ Result<CellPicture> CellRenderer::draw_scene(const Technique& technique, const P
         if (shown) shown->remark = stage.remark, shown->credit = stage.scene.credit;
         return shown;
     }
-    const Result<Image> display = stage.renderer->display();
-    if (!display) return display.error();
+    DERMIS_TRY_ASSIGN(const Image display, stage.renderer->display());
     CellPicture picture = {
-        .display = three_channels(*display), .remark = stage.remark, .credit = stage.scene.credit};
+        .display = three_channels(display), .remark = stage.remark, .credit = stage.scene.credit};
     const auto& views = gbuffer_views();
     if (std::ranges::find(views, cell.view) != views.end()) {
         picture.radiance = picture_of(to_linear_float(picture.display), CellEncoding::srgb, size).radiance;
         return picture;
     }
-    Result<Image> radiance = stage.renderer->radiance();
-    if (!radiance) return radiance.error();
-    picture.radiance = to_linear_float(*radiance);
+    DERMIS_TRY_ASSIGN(Image radiance, stage.renderer->radiance());
+    picture.radiance = to_linear_float(radiance);
     return picture;
 }
 

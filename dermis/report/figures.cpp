@@ -65,10 +65,9 @@ Result<void> compare(const FigureCell& cell, const CellPicture& picture, const D
     if (cell.compare_to.empty()) return {};
     const DrawnCell& other = drawn.at(cell.compare_to);
     const CellPicture& subject = cell.kind == CellKind::difference ? drawn.at(cell.subject).picture : picture;
-    const Result<CellDifference> difference = compare_cells(subject, other.picture);
-    if (!difference) return difference.error();
+    DERMIS_TRY_ASSIGN(const CellDifference difference, compare_cells(subject, other.picture));
     report.compared_to = other.label;
-    report.difference = *difference;
+    report.difference = difference;
     return {};
 }
 
@@ -77,10 +76,8 @@ Result<void> compare(const FigureCell& cell, const CellPicture& picture, const D
 Result<CellDifference> compare_cells(const CellPicture& a, const CellPicture& b) {
     const Image mask = covered_by_both(a.radiance, b.radiance);
     DERMIS_TRY_ASSIGN(const Image map, abs_difference_map(a.radiance, b.radiance));
-    const Result<double> max_abs = max_abs_error(a.radiance, b.radiance, mask);
-    if (!max_abs) return max_abs.error();
-    const Result<double> flip = mean_flip(a.display, b.display, mask);
-    if (!flip) return flip.error();
+    DERMIS_TRY_ASSIGN(const double max_abs, max_abs_error(a.radiance, b.radiance, mask));
+    DERMIS_TRY_ASSIGN(const double flip, mean_flip(a.display, b.display, mask));
     double sum = 0;
     size_t count = 0;
     for (int y = 0; y < mask.height; ++y)
@@ -89,7 +86,7 @@ Result<CellDifference> compare_cells(const CellPicture& a, const CellPicture& b)
                 for (int c = 0; c < 3; ++c) sum += std::abs(a.radiance.at(x, y, c) - b.radiance.at(x, y, c));
                 count += 3;
             }
-    return CellDifference{.mean_abs = sum / double(count), .max_abs = *max_abs, .flip = *flip};
+    return CellDifference{.mean_abs = sum / double(count), .max_abs = max_abs, .flip = flip};
 }
 
 Result<std::vector<Figure>> figures_of(const Technique& technique, const std::string& only) {
@@ -116,23 +113,22 @@ Result<FigureResult> draw_figure(CellRenderer& renderer, const Font& font, const
     for (const FigureRow& row : figure.rows) {
         sheet.rows.push_back({.label = row.label});
         for (const FigureCell& cell : row.cells) {
-            Result<CellPicture> picture = make_picture(renderer, figure, cell, cell_size, drawn);
-            if (!picture) return picture.error();
+            DERMIS_TRY_ASSIGN(CellPicture picture, make_picture(renderer, figure, cell, cell_size, drawn));
             CellReport report = {.label = full_label(row, cell)};
-            if (Result<void> compared = compare(cell, *picture, drawn, report); !compared)
+            if (Result<void> compared = compare(cell, picture, drawn, report); !compared)
                 return Error{"figure '" + figure.id + "', cell '" + cell.label +
                              "': " + compared.error().message};
-            const std::string remark = picture->remark.empty() ? "" : " (" + picture->remark + ")";
+            const std::string remark = picture.remark.empty() ? "" : " (" + picture.remark + ")";
             sheet.rows.back().cells.push_back(
                 {.label = cell.label + remark,
-                 .picture = picture->display,
+                 .picture = picture.display,
                  .beneath = report.compared_to.empty()
                                 ? ""
                                 : difference_text(report.difference, report.compared_to)});
-            if (!picture->credit.empty() &&
-                std::ranges::find(result.credits, picture->credit) == result.credits.end())
-                result.credits.push_back(picture->credit);
-            if (!cell.id.empty()) drawn[cell.id] = {full_label(row, cell), std::move(*picture)};
+            if (!picture.credit.empty() &&
+                std::ranges::find(result.credits, picture.credit) == result.credits.end())
+                result.credits.push_back(picture.credit);
+            if (!cell.id.empty()) drawn[cell.id] = {full_label(row, cell), std::move(picture)};
             result.cells.push_back(std::move(report));
             if (on_drawn) on_drawn();
         }

@@ -39,13 +39,12 @@ Result<std::vector<double>> model_ratios(gpu::Device& device, const Catalog& cat
                                          const Card& card) {
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> with_base,
                       with_cost_base(contestants, catalog.techniques));
-    Result<std::vector<double>> ratios =
-        model_times_ms(device, catalog, scene, with_base, width, height, card);
-    if (!ratios) return ratios;
+    DERMIS_TRY_ASSIGN(std::vector<double> ratios,
+                      model_times_ms(device, catalog, scene, with_base, width, height, card));
     const auto base = std::ranges::find_if(with_base, is_cost_base);
-    const double base_ms = (*ratios)[size_t(base - with_base.begin())];
-    for (double& value : *ratios) value /= base_ms;
-    if (with_base.size() > contestants.size()) ratios->erase(ratios->begin());
+    const double base_ms = (ratios)[size_t(base - with_base.begin())];
+    for (double& value : ratios) value /= base_ms;
+    if (with_base.size() > contestants.size()) ratios.erase(ratios.begin());
     return ratios;
 }
 

@@ -32,7 +32,7 @@ class Order {
             if (found == units_.end())
                 return Error{units_[index].path + ": includes " + include +
                              ", which is none of the shading functions' files; move what it needs there"};
-            if (const Result<void> visited = visit(size_t(found - units_.begin())); !visited) return visited;
+            DERMIS_TRY(visit(size_t(found - units_.begin())));
         }
         visits_[index] = Visit::done;
         ordered_.push_back(units_[index]);
@@ -52,9 +52,8 @@ Result<std::vector<Unit>> read_sources(std::span<const Source> sources) {
         DERMIS_TRY_ASSIGN(Unit unit, parse(source.path, source.text));
         units.push_back(std::move(unit));
     }
-    Result<std::vector<Unit>> ordered = Order(units).run();
-    if (!ordered) return ordered.error();
-    DERMIS_TRY(check(*ordered));
+    DERMIS_TRY_ASSIGN(std::vector<Unit> ordered, Order(units).run());
+    DERMIS_TRY(check(ordered));
     return ordered;
 }
 

@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "dermis/base/file.h"
-#include "dermis/gpu/null_driver.h"
+#include "dermis/gpu/statistics.h"
 #include "dermis/judge/scoreboard.h"
 #include "test_paths.h"
 

@@ -28,20 +28,20 @@ class MapWriter {
         const auto map = std::ranges::find(material_maps(), texture, &MaterialMap::texture);
         const ImageSource* source = map_source(*map, material_);
         if (!source) return Image();
-        Result<Image> image = load_image_source(*source, map->is_color ? ImageUse::color : ImageUse::data);
-        if (!image) return image.error();
+        DERMIS_TRY_ASSIGN(Image image,
+                          load_image_source(*source, map->is_color ? ImageUse::color : ImageUse::data));
         if (material_.dilate_texels > 0)
-            dilate(*image, atlas_mask(mesh_, image->width, image->height), material_.dilate_texels);
+            dilate(image, atlas_mask(mesh_, image.width, image.height), material_.dilate_texels);
         if (map->is_single) {
             const int channel =
                 source == &(material_.*map->source) ? map->preferred_channel : map->packed_channel;
-            *image = single_channel(*image, channel < image->channels ? channel : 0);
+            image = single_channel(image, channel < image.channels ? channel : 0);
         }
         const Texels texels = texture == "normal_map" ? Texels::unit_vectors : Texels::values;
-        const int longest = std::max(image->width, image->height);
+        const int longest = std::max(image.width, image.height);
         if (longest > side_)
-            *image = resize(*image, std::max(image->width * side_ / longest, 1),
-                            std::max(image->height * side_ / longest, 1), texels);
+            image = resize(image, std::max(image.width * side_ / longest, 1),
+                           std::max(image.height * side_ / longest, 1), texels);
         return image;
     }
 
@@ -127,8 +127,7 @@ Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& mat
     std::array<Image, 3> singles;
     constexpr std::string_view kTextures[] = {"roughness_map", "specular_map", "occlusion_map"};
     for (size_t i = 0; i < singles.size(); ++i) {
-        DERMIS_TRY_ASSIGN(Image image, maps.load(kTextures[i]));
-        singles[i] = std::move(image);
+        DERMIS_TRY_ASSIGN(singles[i], maps.load(kTextures[i]));
     }
     if (std::ranges::any_of(singles, [](const Image& image) { return !image.empty(); }))
         DERMIS_TRY(add("surface", packed(singles), kTextures));

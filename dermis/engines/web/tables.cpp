@@ -81,8 +81,7 @@ Result<nlohmann::json> add_tables(Binary& binary, std::span<const WebTone> tones
 
 Result<nlohmann::json> add_environment(Binary& binary, const Environment& environment) {
     DERMIS_TRY_ASSIGN(const EnvironmentLight light, prepare_environment(environment));
-    const Result<std::vector<std::byte>> brdf = stored_brdf_table();
-    if (!brdf) return brdf.error();
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> brdf, stored_brdf_table());
     nlohmann::json made = {
         {"intensity", to_json(environment.kind == EnvironmentKind::none ? 0.0f : environment.intensity)},
         {"yaw_rad", to_json(environment.yaw_rad)},
@@ -106,7 +105,7 @@ Result<nlohmann::json> add_environment(Binary& binary, const Environment& enviro
     // Of GGX, scale and bias: the first half of each texel.
     constexpr size_t kTexel = 4 * sizeof(uint16_t), kTexels = size_t(kBrdfTableSize) * kBrdfTableSize;
     for (size_t i = 0; i < kTexels * kTexel; ++i)
-        if (i % kTexel < kTexel / 2) binary.put((*brdf)[i]);
+        if (i % kTexel < kTexel / 2) binary.put(brdf[i]);
     return made;
 }
 

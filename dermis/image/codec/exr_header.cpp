@@ -48,8 +48,7 @@ Result<void> read_attribute(std::string_view name, Bytes value, Part& part) {
         (data ? part.height : part.display_height) = y1 - y0 + 1;
     } else if (name == "compression") {
         const uint8_t compression = in.read<uint8_t>();
-        DERMIS_TRY_ASSIGN(int64_t lines, lines_of(compression));
-        part.lines_per_chunk = lines;
+        DERMIS_TRY_ASSIGN(part.lines_per_chunk, lines_of(compression));
         part.bounded = ratio_is_bounded(compression);
     } else if (name == "tiles") {
         part.tile_width = in.u32();
@@ -142,13 +141,10 @@ Result<Part> read_part(ByteReader& in, std::string_view first_name) {
 Result<void> check_part(const Part& part, uint64_t file_bytes) {
     if (part.deep) return Error{"deep EXR; dermis reads flat images"};
     if (part.width <= 0 || part.height <= 0) return Error{"corrupt EXR: a data window without texels"};
-    if (Result<void> size = check_image_size(uint64_t(part.width), uint64_t(part.height), 1); !size)
-        return size;
+    DERMIS_TRY(check_image_size(uint64_t(part.width), uint64_t(part.height), 1));
     if (part.display_width <= 0 || part.display_height <= 0)
         return Error{"corrupt EXR: a display window without texels"};
-    if (Result<void> size = check_image_size(uint64_t(part.display_width), uint64_t(part.display_height), 1);
-        !size)
-        return size;
+    DERMIS_TRY(check_image_size(uint64_t(part.display_width), uint64_t(part.display_height), 1));
     if (part.channels == 0 || part.channels > kMostChannels)
         return Error{"EXR of " + std::to_string(part.channels) + " channels; dermis reads 1 to " +
                      std::to_string(kMostChannels)};
@@ -180,7 +176,7 @@ Result<void> check_exr_header(Bytes file) {
         if (!in.ok()) return Error{"corrupt EXR: the file ends in the header"};
         if (first_name.empty()) break;
         DERMIS_TRY_ASSIGN(Part part, read_part(in, first_name));
-        if (Result<void> fine = check_part(part, file.size()); !fine) return fine;
+        DERMIS_TRY(check_part(part, file.size()));
         more = (version & kMultiPartFlag) != 0;
     }
     return {};

@@ -157,20 +157,18 @@ Result<LayeredImage> read_layers(Bytes bytes, Pick pick) {
     Imf::InputPart part(file, 0);
     const Imath::Box2i window = part.header().dataWindow();
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
-    Result<Layers> layers = collect_layers(part.header().channels());
-    if (!layers) return layers.error();
-    DERMIS_TRY_ASSIGN(Layers picked, pick(*layers));
+    DERMIS_TRY_ASSIGN(Layers layers, collect_layers(part.header().channels()));
+    DERMIS_TRY_ASSIGN(Layers picked, pick(layers));
 
     std::vector<Target> targets;
     Imf::FrameBuffer buffer;
     uint64_t total = 0;
-    const Result<uint64_t> limit = max_image_bytes();
-    if (!limit) return limit.error();
+    DERMIS_TRY_ASSIGN(const uint64_t limit, max_image_bytes());
     for (auto& [name, channels] : picked) {
         DERMIS_TRY_ASSIGN(Target target, make_target(std::move(channels), width, height));
         total += target.image.bytes.size();
-        if (total > *limit)
-            return Error{"EXR whose layers take more than " + std::to_string(*limit >> 20) +
+        if (total > limit)
+            return Error{"EXR whose layers take more than " + std::to_string(limit >> 20) +
                          " MiB, the limit (DERMIS_MAX_IMAGE_MIB)"};
         targets.push_back(std::move(target));
         add_slices(buffer, targets.back(), window);

@@ -158,13 +158,10 @@ Result<LoadedImage> decode_ktx2(Bytes file, ImageUse) {
     if (!level.ok() || !pairs.ok()) return Error{"corrupt KTX2: the file ends early"};
 
     LoadedImage loaded;
-    DERMIS_TRY_ASSIGN(ImageText read, read_key_values(text));
-    loaded.text = std::move(read);
+    DERMIS_TRY_ASSIGN(loaded.text, read_key_values(text));
     Image stored(int(header.width), int(header.height), format->channels, format->format, format->encoding);
     std::memcpy(stored.bytes.data(), texels.data(), texels.size());
-    Result<Image> image = as_oriented(std::move(stored), *format, loaded.text);
-    if (!image) return image.error();
-    loaded.image = *std::move(image);
+    DERMIS_TRY_ASSIGN(loaded.image, as_oriented(std::move(stored), *format, loaded.text));
     return loaded;
 }
 
