@@ -4,7 +4,7 @@
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/subdivide.h"
 #include "dermis/mesh/tangents.h"
-#include "dermis/mesh/weld.h"
+#include "dermis/mesh/topology.h"
 
 namespace dermis::inline mesh {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <tuple>
 
-#include "dermis/mesh/weld.h"
+#include "dermis/mesh/topology.h"
 
 namespace dermis::inline mesh {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <numeric>
 
-#include "dermis/mesh/weld.h"
+#include "dermis/mesh/topology.h"
 
 namespace dermis::inline mesh {
 namespace {

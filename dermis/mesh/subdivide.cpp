@@ -13,7 +13,7 @@
 #include <string>
 
 #include "dermis/base/progress.h"
-#include "dermis/mesh/weld.h"
+#include "dermis/mesh/topology.h"
 
 namespace dermis::inline mesh {
 namespace {

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "dermis/mesh/topology.h"
-#include "dermis/mesh/weld.h"
 
 namespace dermis::inline mesh {
 namespace {

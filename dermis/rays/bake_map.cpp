@@ -9,7 +9,7 @@
 #include "dermis/image/dilate.h"
 #include "dermis/image/resample.h"
 #include "dermis/mesh/curvature.h"
-#include "dermis/mesh/stretch.h"
+#include "dermis/mesh/uv_report.h"
 #include "dermis/rays/random.h"
 #include "dermis/rays/sampling.h"
 #include "dermis/rays/uv_raster.h"

@@ -9,7 +9,6 @@
 #include "dermis/base/progress.h"
 #include "dermis/mesh/hole_caps.h"
 #include "dermis/mesh/topology.h"
-#include "dermis/mesh/weld.h"
 #include "dermis/rays/random.h"
 #include "dermis/rays/ray_scene.h"
 #include "dermis/rays/rays_version.h"

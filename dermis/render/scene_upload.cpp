@@ -5,7 +5,7 @@
 
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
-#include "dermis/mesh/stretch.h"
+#include "dermis/mesh/uv_report.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"

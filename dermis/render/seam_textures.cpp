@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "dermis/image/half.h"
-#include "dermis/mesh/stretch.h"
+#include "dermis/mesh/uv_report.h"
 #include "dermis/mesh/uv_seams.h"
 
 namespace dermis::inline render {

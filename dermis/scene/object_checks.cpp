@@ -4,7 +4,6 @@
 #include <array>
 
 #include "dermis/mesh/topology.h"
-#include "dermis/mesh/weld.h"
 #include "dermis/scene/toml_values.h"
 
 namespace dermis::inline scene {

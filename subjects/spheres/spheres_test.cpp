@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "dermis/mesh/weld.h"
+#include "dermis/mesh/topology.h"
 #include "dermis/scene/placement.h"
 #include "subjects/spheres/spheres.h"
 #include "support/built_in.h"

@@ -7,7 +7,7 @@
 #include "dermis/mesh/curvature.h"
 #include "dermis/mesh/normals.h"
 #include "dermis/mesh/primitives.h"
-#include "dermis/mesh/weld.h"
+#include "dermis/mesh/topology.h"
 #include "mesh/mesh_files.h"
 
 using namespace dermis;

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "dermis/mesh/primitives.h"
-#include "dermis/mesh/weld.h"
+#include "dermis/mesh/topology.h"
 
 using namespace dermis;
 

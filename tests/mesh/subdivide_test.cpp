@@ -6,8 +6,8 @@
 #include "dermis/mesh/obj.h"
 #include "dermis/mesh/primitives.h"
 #include "dermis/mesh/subdivide.h"
+#include "dermis/mesh/topology.h"
 #include "dermis/mesh/uv_report.h"
-#include "dermis/mesh/weld.h"
 #include "mesh/mesh_files.h"
 #include "test_parts.h"
 

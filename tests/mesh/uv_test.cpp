@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "dermis/mesh/primitives.h"
-#include "dermis/mesh/stretch.h"
 #include "dermis/mesh/uv_report.h"
 #include "mesh/mesh_files.h"
 

@@ -2,6 +2,7 @@
 
 #include "dermis/mesh/gltf/gltf.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,9 +12,6 @@
 #include "dermis/mesh/gltf/material.h"
 #include "dermis/mesh/gltf/node_tree.h"
 #include "dermis/mesh/gltf/primitive.h"
-#include "dermis/mesh/gltf/skin.h"
-#include "dermis/mesh/gltf/texture.h"
-#include "dermis/mesh/gltf/transform.h"
 
 namespace dermis::inline mesh::gltf {
 namespace {
@@ -35,7 +33,7 @@ std::vector<float> weights_of(const JsonView& list) {
 class SceneReader {
   public:
     SceneReader(Document& document, double mm_per_unit) : document_(document), mm_per_unit_(mm_per_unit) {
-        for (const size_t i : {0, 4, 8}) to_mm_.linear[i] = mm_per_unit;
+        to_mm_.linear *= mm_per_unit;
     }
 
     Mesh run() {
@@ -144,7 +142,7 @@ class SceneReader {
         if (!primitive.tangents.empty()) {
             const Vec3 t = world.direction(vec3(primitive.tangents, 4 * i));
             const float sign = primitive.tangents[4 * i + 3] < 0 ? -1.0f : 1.0f;
-            tangent = {t.x, t.y, t.z, world.determinant() < 0 ? -sign : sign};
+            tangent = {t.x, t.y, t.z, world.linear.determinant() < 0 ? -sign : sign};
         }
         mesh_.tangents.push_back(tangent);
         const float* c = primitive.colors.empty() ? nullptr : &primitive.colors[4 * i];
@@ -163,7 +161,7 @@ class SceneReader {
                                      ? placement.world
                                      : blend(placement.joints, primitive.influences, i, to_mm_);
             append_vertex(primitive, i, world);
-            determinants += world.determinant();
+            determinants += world.linear.determinant();
         }
         any_normals_ |= !primitive.normals.empty();
         any_uvs_ |= !primitive.uvs.empty();

@@ -2,6 +2,8 @@
 
 #include "dermis/mesh/gltf/node_tree.h"
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <utility>
 
 namespace dermis::inline mesh::gltf {
@@ -50,8 +52,11 @@ class TreeReader {
         if (node["matrix"].exists())
             return affine_of_matrix(
                 node["matrix"].numbers<16>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
-        return affine_of_trs(node["translation"].numbers<3>({0, 0, 0}),
-                             node["rotation"].numbers<4>({0, 0, 0, 1}), node["scale"].numbers<3>({1, 1, 1}));
+        const auto t = node["translation"].numbers<3>({0, 0, 0}), s = node["scale"].numbers<3>({1, 1, 1});
+        const auto q = node["rotation"].numbers<4>({0, 0, 0, 1});  // a zero quaternion gives no rotation
+        const Eigen::Matrix3d rotation =
+            Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix();
+        return {rotation * Eigen::Vector3d(s.data()).asDiagonal(), Eigen::Vector3d(t.data())};
     }
 
     void visit(uint64_t root, bool drawn) {
@@ -82,6 +87,22 @@ class TreeReader {
 
 NodeTree read_nodes(Document& document, const Affine& to_mm) {
     return TreeReader(document, to_mm).run();
+}
+
+Affine Affine::for_normals() const {
+    Affine normals;
+    for (int i = 0; i < 3; ++i)  // the cofactors
+        normals.linear.row(i) = linear.row((i + 1) % 3).cross(linear.row((i + 2) % 3));
+    // Scaled so that the result stays within a float's range; the sign undoes a mirroring's.
+    const double largest = normals.linear.cwiseAbs().maxCoeff();
+    if (largest == 0) return {};  // flattened to a line or a point: any normal will do
+    normals.linear *= std::copysign(1 / largest, linear.determinant());
+    return normals;
+}
+
+Affine affine_of_matrix(const std::array<double, 16>& m) {
+    const Eigen::Map<const Eigen::Matrix4d> matrix(m.data());
+    return {matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>()};
 }
 
 }  // namespace dermis::inline mesh::gltf

@@ -6,10 +6,30 @@
 #include <vector>
 
 #include "dermis/mesh/gltf/document.h"
-#include "dermis/mesh/gltf/skin.h"
-#include "dermis/mesh/gltf/texture.h"
+#include "dermis/mesh/gltf/material.h"
+#include "dermis/mesh/gltf/node_tree.h"
 
 namespace dermis::inline mesh::gltf {
+
+/// Every joint's matrix: from the mesh's own space, in which the skin was bound, to where the joint is now.
+/// `world` has every node's transform. Empty after an error.
+[[nodiscard]] std::vector<Affine> joint_matrices(Document& document, uint64_t skin,
+                                                 std::span<const Affine> world);
+
+/// Joints and weights of a primitive's vertices, `per_vertex` each; weights sum to 1 (or are all 0).
+struct Influences {
+    size_t per_vertex = 0;  ///< 0: the primitive is not skinned
+    std::vector<uint32_t> joints;
+    std::vector<float> weights;
+};
+
+/// All sets JOINTS_n and WEIGHTS_n; joints are checked against `joint_count`.
+[[nodiscard]] Influences read_influences(Document& document, const JsonView& attributes, size_t vertex_count,
+                                         size_t joint_count);
+
+/// The weighted sum of the matrices; `unskinned` for a vertex without weights.
+[[nodiscard]] Affine blend(std::span<const Affine> joints, const Influences& influences, size_t vertex,
+                           const Affine& unskinned);
 
 /// Numbers a vertex: 3 of a position and a normal, 4 of a tangent and a colour, 2 of a UV; empty where the
 /// file has none.
