@@ -46,7 +46,9 @@ Result<ComparisonSettings> CompareChoice::settings() const {
 
 Result<std::vector<Contestant>> CompareChoice::contestants() const {
     const std::span<const Technique> known = built_in_catalog().techniques;
-    return techniques.empty() ? default_contestants(known) : parse_technique_list(known, techniques);
+    if (techniques.empty()) return default_contestants(known);
+    Result<std::vector<Contestant>> list = parse_technique_list(known, techniques);
+    return list ? std::move(list) : list.error().within("--techniques");
 }
 
 std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {

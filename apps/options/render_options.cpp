@@ -10,8 +10,10 @@ namespace dermis::cli {
 
 void RenderOptions::add_to(Command& command) {
     scene.add_to(command)->capture_default_str();
-    command.add_option("-t,--technique", technique,
-                       "id of the technique, listed by dermis techniques (default: the scene's, or lambert)");
+    command.add_option(
+        "-t,--technique", technique,
+        "ID or ID[NAME=VALUE,preset=NAME], listed by dermis techniques (default: the scene's, or "
+        "lambert)");
     command.add_option("--set", settings, "a parameter of the technique, NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
@@ -35,42 +37,39 @@ Result<void> check_view(const Technique& technique, const std::string& view) {
     return Error{unknown_name("view", view, views)};
 }
 
-Result<void> apply_setting(ParameterValues& values, const std::string& setting) {
-    const size_t equals = setting.find('=');
-    if (equals == std::string::npos) return Error{"--set '" + setting + "': write name=value"};
-    return values.set(setting.substr(0, equals), setting.substr(equals + 1));
+Result<Contestant> chosen_technique(const std::string& technique, const std::vector<std::string>& settings,
+                                    const Scene* scene) {
+    const std::span<const Technique> techniques = built_in_catalog().techniques;
+    DERMIS_TRY_ASSIGN(const Technique* baseline, find_baseline(techniques));
+    const std::string scenes = scene && !scene->technique.empty() ? scene->technique : baseline->id;
+    const std::string& text = technique.empty() ? scenes : technique;
+    DERMIS_TRY_ASSIGN(Contestant chosen, parse_technique(techniques, text));
+    if (scene && text == scene->technique)
+        if (Result<void> set = chosen.values.set_all(scene->settings); !set)
+            return set.error().within(scene->name + ": [settings]");
+    if (Result<void> set = chosen.values.set_all(settings); !set) return set.error().within("--set");
+    DERMIS_TRY(check_settings(*chosen.technique, chosen.values));
+    return chosen;
 }
 
 Result<Prepared> prepare(const RenderOptions& options) {
     DERMIS_TRY_ASSIGN(const Size size, parse_size(options.size));
     DERMIS_TRY(check_samples(options.samples));
-    if (!options.technique.empty())
-        DERMIS_TRY(find_technique(built_in_catalog().techniques, options.technique));
+    if (!options.technique.empty()) DERMIS_TRY(chosen_technique(options.technique, {}, nullptr));
 
     Scene as_filed;
     Result<Scene> scene = options.scene.load(&as_filed);
     if (!scene) return scene.error();
     DERMIS_TRY(complete_scene(*scene));
 
-    const bool scenes_own = options.technique.empty() || options.technique == scene->technique;
-    const std::string& id = scenes_own ? scene->technique : options.technique;
-    const std::span<const Technique> techniques = built_in_catalog().techniques;
-    const Result<const Technique*> technique =
-        id.empty() ? find_baseline(techniques) : find_technique(techniques, id);
-    if (!technique) return technique.error();
-    ParameterValues values((*technique)->parameters);
-    if (scenes_own)
-        for (const auto& [name, text] : scene->settings)
-            if (Result<void> set = values.set(name, text); !set)
-                return Error{options.scene.name + ": [settings] " + set.error().message};
-    for (const std::string& setting : options.settings) DERMIS_TRY(apply_setting(values, setting));
-
-    DERMIS_TRY(check_view(**technique, options.view));
+    DERMIS_TRY_ASSIGN(const Contestant chosen,
+                      chosen_technique(options.technique, options.settings, &*scene));
+    DERMIS_TRY(check_view(*chosen.technique, options.view));
     return Prepared{
         .scene = std::move(*scene),
         .as_filed = std::move(as_filed),
-        .technique = *technique,
-        .values = values,
+        .technique = chosen.technique,
+        .values = chosen.values,
         .draw = {
             .width = size.width, .height = size.height, .samples = options.samples, .view = options.view}};
 }

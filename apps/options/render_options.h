@@ -7,7 +7,7 @@
 
 #include "command.h"
 #include "dermis/render/renderer.h"
-#include "dermis/technique/technique.h"
+#include "dermis/technique/technique_list.h"
 #include "scene_choice.h"
 
 namespace dermis::cli {
@@ -39,7 +39,10 @@ struct Prepared {
 /// A debug view that the technique has.
 [[nodiscard]] Result<void> check_view(const Technique& technique, const std::string& view);
 
-/// Splits name=value and sets it.
-[[nodiscard]] Result<void> apply_setting(ParameterValues& values, const std::string& setting);
+/// `technique` as parse_technique() takes it, else the scene's, else the baseline; then `settings`,
+/// "name=value". The scene's own settings apply to its technique, unless brackets say what to set.
+[[nodiscard]] Result<Contestant> chosen_technique(const std::string& technique,
+                                                  const std::vector<std::string>& settings,
+                                                  const Scene* scene);
 
 }  // namespace dermis::cli

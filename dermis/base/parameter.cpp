@@ -8,6 +8,8 @@
 namespace dermis::inline base {
 namespace {
 
+const std::string kPreset = "preset";
+
 Error out_of_range(const Parameter& parameter, std::string_view text) {
     return Error{"parameter '" + parameter.name + "': '" + std::string(text) + "' is not in its range, " +
                  to_text(parameter.min) + " to " + to_text(parameter.max) +
@@ -64,13 +66,16 @@ const Parameter* ParameterTable::find(std::string_view name) const {
     return found == parameters.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> ParameterTable::names() const {
+    std::vector<std::string> names = {kPreset};
+    for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+    return names;
+}
+
 Result<void> ParameterValues::set(std::string_view name, std::string_view text) {
+    if (name == kPreset) return set_preset(text);
     const Parameter* parameter = table_->find(name);
-    if (!parameter) {
-        std::vector<std::string> names;
-        for (const Parameter& p : table_->parameters) names.push_back(p.name);
-        return Error{unknown_name("parameter", name, names)};
-    }
+    if (!parameter) return Error{unknown_name("parameter", name, table_->names())};
     if (parameter->kind == ParameterKind::color) {
         DERMIS_TRY_ASSIGN(const auto color, parse_color(*parameter, text));
         put(*parameter, color);
@@ -83,11 +88,58 @@ Result<void> ParameterValues::set(std::string_view name, std::string_view text) 
     return {};
 }
 
+Result<void> ParameterValues::set_preset(std::string_view name) {
+    std::vector<std::string> names;
+    for (const ParameterPreset& preset : table_->presets) {
+        if (preset.name == name) return bytes_ = preset.values, Result<void>();
+        names.push_back(preset.name);
+    }
+    return Error{unknown_name(kPreset, name, names)};
+}
+
+Result<void> ParameterValues::set_all(std::span<const std::string> settings) {
+    for (const std::string& setting : settings) {
+        const size_t equals = setting.find('=');
+        if (equals == std::string::npos) return Error{"'" + setting + "': write name=value"};
+        DERMIS_TRY(set(trim(std::string_view(setting).substr(0, equals)),
+                       trim(std::string_view(setting).substr(equals + 1))));
+    }
+    return {};
+}
+
+Result<void> ParameterValues::set_all(const std::map<std::string, std::string>& settings) {
+    if (const auto preset = settings.find(kPreset); preset != settings.end())
+        DERMIS_TRY(set_preset(preset->second));
+    for (const auto& [name, text] : settings)
+        if (name != kPreset) DERMIS_TRY(set(name, text));
+    return {};
+}
+
+const ParameterPreset* ParameterValues::preset() const {
+    const auto same = [&](const ParameterPreset& preset) {
+        ParameterValues values(*table_);
+        values.bytes_ = preset.values;
+        return values == *this;
+    };
+    const auto found = std::ranges::find_if(table_->presets, same);
+    return found == table_->presets.end() ? nullptr : &*found;
+}
+
+bool operator==(const ParameterValues& a, const ParameterValues& b) {
+    return a.table_ == b.table_ && std::ranges::all_of(a.table_->parameters, [&](const Parameter& parameter) {
+               return a.get(parameter) == b.get(parameter);
+           });
+}
+
 Result<void> ParameterValues::check() const {
     for (const Parameter& parameter : table_->parameters) {
         const std::array<double, 3> value = get(parameter);
+        // A float that was set to the end of its range holds the nearest float.
+        const auto end = [&](double number) {
+            return parameter.double_precision ? number : double(float(number));
+        };
         for (size_t i = 0; i < parameter.component_count(); ++i)
-            if (!(value[i] >= parameter.min && value[i] <= parameter.max))
+            if (!(value[i] >= end(parameter.min) && value[i] <= end(parameter.max)))
                 return out_of_range(parameter, to_text(value[i]));
     }
     return {};

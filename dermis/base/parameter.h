@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,23 +33,40 @@ struct Parameter {
     [[nodiscard]] size_t component_count() const { return kind == ParameterKind::color ? 3 : 1; }
 };
 
+/// A value for every parameter, under one name: "cheap".
+struct ParameterPreset {
+    std::string name, doc;
+    std::vector<std::byte> values;  ///< a Params
+};
+
 struct ParameterTable {
     std::vector<Parameter> parameters;
-    std::vector<std::byte> defaults;  ///< a default-constructed Params
+    std::vector<ParameterPreset> presets = {
+        {.name = "default", .doc = "used where no preset is named", .values = {}}};
 
     [[nodiscard]] const Parameter* find(std::string_view name) const;
+    /// "preset", then the parameters: the names that ParameterValues::set() knows.
+    [[nodiscard]] std::vector<std::string> names() const;
 };
 
 /// A Params in memory, reachable by name through its table (which must outlive it).
 class ParameterValues {
   public:
-    explicit ParameterValues(const ParameterTable& table) : table_(&table), bytes_(table.defaults) {}
+    explicit ParameterValues(const ParameterTable& table)
+        : table_(&table), bytes_(table.presets.front().values) {}
 
     [[nodiscard]] const ParameterTable& table() const { return *table_; }
 
     /// From text as --set and scene files have it: a number, on/off, a choice's name, or three numbers
-    /// separated by commas or spaces. Errors name the parameter, the value, and its range or choices.
+    /// separated by commas or spaces. "preset" sets every parameter to those of the preset. Errors name the
+    /// parameter, the value, and its range or choices.
     [[nodiscard]] Result<void> set(std::string_view name, std::string_view text);
+    /// "name=value" each, in this order.
+    [[nodiscard]] Result<void> set_all(std::span<const std::string> settings);
+    /// Settings without an order, as a file has them: the preset first.
+    [[nodiscard]] Result<void> set_all(const std::map<std::string, std::string>& settings);
+    /// The first preset that has these values; null: none.
+    [[nodiscard]] const ParameterPreset* preset() const;
     /// The inverse of set(): round-trips.
     [[nodiscard]] std::string text(const Parameter& parameter) const;
     [[nodiscard]] std::array<double, 3> get(const Parameter& parameter) const;
@@ -69,7 +87,11 @@ class ParameterValues {
         return params;
     }
 
+    friend bool operator==(const ParameterValues& a, const ParameterValues& b);
+
   private:
+    Result<void> set_preset(std::string_view name);
+
     const ParameterTable* table_;
     std::vector<std::byte> bytes_;
 };
@@ -82,6 +104,8 @@ class ParameterTableBuilder {
     static_assert(std::is_trivially_copyable_v<Params> && std::is_standard_layout_v<Params>);
 
   public:
+    ParameterTableBuilder() { table_.presets.front().values = bytes_of(defaults_); }
+
     template <class Real>
     ParameterTableBuilder& number(Real Params::*member, std::string name, std::string unit, double min,
                                   double max, std::string doc) {
@@ -149,14 +173,19 @@ class ParameterTableBuilder {
         return *this;
     }
 
-    [[nodiscard]] ParameterTable build() const {
-        ParameterTable table = table_;
-        table.defaults.resize(sizeof(Params));
-        std::memcpy(table.defaults.data(), &defaults_, sizeof(Params));
-        return table;
+    /// Beyond "default", which is a default-constructed Params.
+    ParameterTableBuilder& preset(std::string name, std::string doc, const Params& values) {
+        table_.presets.push_back({std::move(name), std::move(doc), bytes_of(values)});
+        return *this;
     }
 
+    [[nodiscard]] ParameterTable build() const { return table_; }
+
   private:
+    static std::vector<std::byte> bytes_of(const Params& values) {
+        const auto* bytes = reinterpret_cast<const std::byte*>(&values);
+        return {bytes, bytes + sizeof values};
+    }
     template <class Member>
     ParameterTableBuilder& add(Member Params::*member, Parameter parameter) {
         parameter.double_precision = std::is_same_v<Member, double>;

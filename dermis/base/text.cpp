@@ -149,11 +149,8 @@ std::optional<std::string> closest_name(std::string_view wrong, std::span<const 
 
 std::string unknown_name(std::string_view what, std::string_view wrong, std::span<const std::string> names) {
     std::string message = "unknown " + std::string(what) + " '" + std::string(wrong) + "'";
-    if (const auto meant = closest_name(wrong, names))
-        message += "; did you mean '" + *meant + "'?";
-    else
-        message += ";";
-    return message + " Known: " + join(names, ", ");
+    const auto meant = closest_name(wrong, names);
+    return message + (meant ? "; did you mean '" + *meant + "'? known: " : "; known: ") + join(names, ", ");
 }
 
 }  // namespace dermis::inline base

@@ -39,7 +39,7 @@ namespace dermis::inline base {
 [[nodiscard]] std::optional<std::string> closest_name(std::string_view wrong,
                                                       std::span<const std::string> names);
 
-/// "unknown WHAT 'wrong'; did you mean 'right'? Known: a, b, c" - the one wording for every unknown name.
+/// "unknown WHAT 'wrong'; did you mean 'right'? known: a, b, c" - the one wording for every unknown name.
 [[nodiscard]] std::string unknown_name(std::string_view what, std::string_view wrong,
                                        std::span<const std::string> names);
 

@@ -18,9 +18,9 @@
 #include "dermis/judge/regions.h"
 #include "dermis/judge/scores.h"
 #include "dermis/judge/technique_cost.h"
-#include "dermis/judge/technique_list.h"
 #include "dermis/render/catalog.h"
 #include "dermis/scene/subject.h"
+#include "dermis/technique/technique_list.h"
 
 namespace dermis::inline judge {
 

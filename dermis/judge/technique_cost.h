@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dermis/base/result.h"
-#include "dermis/judge/technique_list.h"
 #include "dermis/render/renderer.h"
+#include "dermis/technique/technique_list.h"
 
 namespace dermis::inline judge {
 

@@ -243,6 +243,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     const std::vector<std::string> views = view_names(technique);
     if (std::ranges::find(views, settings.view) == views.end())
         return Error{unknown_name("view", settings.view, views)};
+    DERMIS_TRY(check_settings(technique, values));
     DERMIS_TRY(prepare_tables(technique, values));
     DERMIS_TRY(prepare_legend(settings.view));
 

@@ -22,4 +22,11 @@ Result<const Technique*> find_baseline(std::span<const Technique> techniques) {
     return &*baseline;
 }
 
+Result<void> check_settings(const Technique& technique, const ParameterValues& values) {
+    if (Result<void> in_range = values.check(); !in_range) return in_range.error().within(technique.id);
+    const std::string refused = technique.refusal ? technique.refusal(values) : "";
+    if (!refused.empty()) return Error{technique.id + ": " + refused};
+    return {};
+}
+
 }  // namespace dermis::inline technique

@@ -76,6 +76,10 @@ struct Technique {
     bool is_baseline = false;
     ParameterTable parameters;
     std::vector<std::string> views;  ///< debug views beyond final, diffuse, specular
+    /// Why no frame can be made of these settings and what to change, "a=x ignores b; drop b or set a=y";
+    /// empty for a combination that can be. Absent where all can be. build(), tables() and the like see no
+    /// other.
+    std::function<std::string(const ParameterValues&)> refusal;
     std::function<PassList(const ParameterValues&, const FrameContext&)> build;
     /// Tables for these settings, baked on the CPU (cached by the bakers); absent when it needs none.
     std::function<Result<std::vector<TableImage>>(const ParameterValues&, const SkinContext&)> tables;
@@ -96,5 +100,8 @@ struct Technique {
 
 /// Error: none of them is the baseline.
 [[nodiscard]] Result<const Technique*> find_baseline(std::span<const Technique> techniques);
+
+/// Errors: a value out of its range, a combination that the technique refuses.
+[[nodiscard]] Result<void> check_settings(const Technique& technique, const ParameterValues& values);
 
 }  // namespace dermis::inline technique

@@ -126,9 +126,8 @@ void Opener::take_technique(const Scene& file) {
     if (!technique) return model.notices.report_error("technique", technique.error().message);
     model.choices[0].choose(**technique);
     model.notices.clear("technique");
-    for (const auto& [name, text] : file.settings)
-        if (const Result<void> set = model.choices[0].values().set(name, text); !set)
-            model.notices.report_error("technique", set.error().message);
+    if (const Result<void> set = model.choices[0].values().set_all(file.settings); !set)
+        model.notices.report_error("technique", set.error().message);
 }
 
 bool Opener::follow_files() {

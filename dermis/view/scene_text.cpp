@@ -54,9 +54,12 @@ void add_technique(std::vector<TomlEdit>& edits, Model& model) {
     TechniqueChoice& choice = model.choices[0];
     edits.push_back({"", "technique", toml_string(choice.technique().id)});
     for (const auto& [name, value] : model.scene->settings) edits.push_back({"settings", name, ""});
+    const ParameterPreset* preset = choice.values().preset();
+    const bool named = preset && preset->name != "default";
+    edits.push_back({"settings", "preset", named ? toml_string(preset->name) : ""});
     const ParameterValues defaults(choice.technique().parameters);
     for (const Parameter& parameter : choice.technique().parameters.parameters) {
-        const bool same = choice.values().text(parameter) == defaults.text(parameter);
+        const bool same = named || choice.values().get(parameter) == defaults.get(parameter);
         edits.push_back({"settings", parameter.name, same ? "" : setting_value(parameter, choice.values())});
     }
 }

@@ -71,10 +71,7 @@ Result<void> use_technique(Parts& p, Command command) {
 }
 
 Result<void> set_parameter(Parts& p, Command command) {
-    const std::string& word = command.words[0];
-    const size_t equals = std::min(word.find('='), word.size());
-    return p.model.choices[0].values().set(word.substr(0, equals),
-                                           word.substr(std::min(equals + 1, word.size())));
+    return p.model.choices[0].values().set_all(std::span(command.words).first(1));
 }
 
 Result<void> use_view(Parts& p, Command command) {

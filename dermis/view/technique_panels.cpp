@@ -2,11 +2,29 @@
 
 #include <imgui.h>
 
+#include <cassert>
+
 #include "dermis/render/shared_passes.h"
 #include "dermis/view/panel_parts.h"
 #include "dermis/view/widgets.h"
 
 namespace dermis::view {
+namespace {
+
+// Empty while the values are those of no preset.
+void show_presets(Rows& rows, ParameterValues& values) {
+    const std::vector<ParameterPreset>& presets = values.table().presets;
+    if (presets.size() < 2) return;
+    std::vector<std::string> names;
+    for (const ParameterPreset& preset : presets) names.push_back(preset.name);
+    const ParameterPreset* now = values.preset();
+    int index = now ? int(now - presets.data()) : -1;
+    const NumberRow row = {.name = "preset", .doc = now ? now->doc : "sets all parameters below"};
+    if (rows.choice(row, names, index) && !values.set("preset", names[size_t(index)]))
+        assert(false && "a preset of the table is known by its name");
+}
+
+}  // namespace
 
 void show_technique(Model& model, size_t choice, PanelRequests& requests, WidgetMap& widgets) {
     TechniqueChoice& chosen = model.choices[choice];
@@ -20,6 +38,7 @@ void show_technique(Model& model, size_t choice, PanelRequests& requests, Widget
     ImGui::PushTextWrapPos(0);
     ImGui::TextDisabled("%s", chosen.technique().summary.c_str());
     ImGui::PopTextWrapPos();
+    show_presets(rows, chosen.values());
     for (const Parameter& parameter : chosen.technique().parameters.parameters)
         rows.parameter(parameter, chosen.values());
     if (choice == 0 && !chosen.technique().parameters.parameters.empty() && ImGui::SmallButton("defaults"))

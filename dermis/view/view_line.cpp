@@ -5,6 +5,7 @@
 #include "dermis/base/text.h"
 #include "dermis/render/shared_passes.h"
 #include "dermis/scene/scene_words.h"
+#include "dermis/technique/technique_list.h"
 #include "dermis/view/words.h"
 
 namespace dermis::view {
@@ -60,12 +61,12 @@ struct Wanted {
     Result<void> take(std::string_view option, const std::string& value) {
         anything = true;
         if (option == "-t" || option == "--technique") {
-            DERMIS_TRY_ASSIGN(const Technique* technique, find_technique(techniques, value));
-            choice.choose(*technique);
+            DERMIS_TRY_ASSIGN(const Contestant chosen, parse_technique(techniques, value));
+            choice.choose(*chosen.technique);
+            if (!chosen.settings.empty()) choice.values() = chosen.values;
         } else if (option == "--set") {
-            const size_t equals = value.find('=');
-            if (equals == value.npos) return Error{"--set '" + value + "': write name=value"};
-            return choice.values().set(value.substr(0, equals), value.substr(equals + 1));
+            const Result<void> set = choice.values().set_all(std::span(&value, 1));
+            return set ? set : set.error().within("--set");
         } else if (option == "--scene") {
             DERMIS_TRY_ASSIGN(SceneWord word, parse_scene_word(value));
             words.push_back(std::move(word));
@@ -86,14 +87,16 @@ std::string view_line(Model& model, const Scene& file, const DrawSettings& draw)
     TechniqueChoice& choice = model.choices[0];
     const Scene& scene = *model.scene;
     std::string line = "dermis render " + shell_word(model.scene_path) + " -t " + choice.technique().id;
+    const ParameterValues& values = choice.values();
+    const ParameterPreset* preset = values.preset();
+    // Where the file has settings, its values would apply without a preset.
+    const bool stated = file.technique == choice.technique().id && !file.settings.empty();
+    if (stated || (preset && preset->name != "default"))
+        line += " --set preset=" + (preset ? preset->name : "default");
     const ParameterValues defaults(choice.technique().parameters);
-    for (const Parameter& parameter : choice.technique().parameters.parameters) {
-        const std::string text = choice.values().text(parameter);
-        // A setting that the file states is written even at its default, or the file's value would apply.
-        const bool stated = file.technique == choice.technique().id && file.settings.contains(parameter.name);
-        if (stated || text != defaults.text(parameter))
-            line += " --set " + shell_word(parameter.name + "=" + text);
-    }
+    for (const Parameter& parameter : choice.technique().parameters.parameters)
+        if (!preset && values.get(parameter) != defaults.get(parameter))
+            line += " --set " + shell_word(parameter.name + "=" + values.text(parameter));
     for (const SceneWord& word : model.loading_words) line += " --scene " + shell_word(text_of(word));
     line += scene_options(scene, file);
     if (model.view != "final") line += " --view " + model.view;

@@ -188,16 +188,15 @@ std::vector<Figure> figures() {
 }  // namespace
 
 Technique make_preintegrated_technique() {
-    return {
-        .id = "preintegrated",
-        .summary = "scattering on curved skin, at bumps and at shadow edges, from tables or a closed form",
-        .source = "Penner 2011, Pre-Integrated Skin Shading, GPU Pro 2; curves: Yeung 2015",
-        .parameters = parameters(),
-        .views = {kOwnView},
-        .build = build,
-        .tables = tables,
-        .skin_values = skin_values,
-        .figures = figures};
+    return {.id = "preintegrated",
+            .summary = "scattering on curved skin, at bumps and shadow edges",
+            .source = "Penner 2011, Pre-Integrated Skin Shading, GPU Pro 2; curves: Yeung 2015",
+            .parameters = parameters(),
+            .views = {kOwnView},
+            .build = build,
+            .tables = tables,
+            .skin_values = skin_values,
+            .figures = figures};
 }
 
 }  // namespace dermis

@@ -76,7 +76,7 @@ ParameterValues coarse(ParameterValues values, float) {
 
 Technique make_screen_space_burley_technique() {
     return {.id = "screen_space_burley",
-            .summary = "diffuse light gathered on the picture from a disk of samples",
+            .summary = "diffuse light gathered on the picture from a disk",
             .source = "Golubev 2018, Efficient Screen-Space Subsurface Scattering; Christensen, Burley 2015",
             .parameters = parameters(),
             .views = {kOwnView},

@@ -116,7 +116,7 @@ ParameterValues coarse(ParameterValues values, float) {
 
 Technique make_screen_space_separable_technique() {
     return {.id = "screen_space_separable",
-            .summary = "diffuse light blurred on the picture, along x and then along y",
+            .summary = "diffuse light blurred on the picture, along x, then y",
             .source = "Jimenez et al. 2015, Separable Subsurface Scattering",
             .parameters = parameters(),
             .views = {kOwnView},

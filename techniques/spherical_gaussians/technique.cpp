@@ -65,7 +65,7 @@ Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const
 Technique make_spherical_gaussians_technique() {
     return {
         .id = "spherical_gaussians",
-        .summary = "lobes around the light, as wide as the profile scatters on skin of this curvature",
+        .summary = "lobes around the light, as wide as the profile",
         .source = "Pettineo 2020, Approximating Subsurface Scattering with Spherical Gaussians; Hill 2016",
         .parameters = parameters(),
         .build = build,

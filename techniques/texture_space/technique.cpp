@@ -186,7 +186,7 @@ Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const
 
 Technique make_texture_space_technique() {
     return {.id = "texture_space",
-            .summary = "diffuse light blurred in the texture atlas, by a painted kernel size",
+            .summary = "diffuse light blurred in the skin's texture atlas",
             .source = "Gosselin, Sander, Mitchell 2004, Real-Time Texture-Space Skin Rendering",
             .parameters = texture_space::parameter_table(),
             .views = {kOwnView},

@@ -204,7 +204,7 @@ Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const
 
 Technique make_texture_space_gaussians_technique() {
     return {.id = "texture_space_gaussians",
-            .summary = "diffuse light blurred over the surface by every Gaussian of the diffusion profile",
+            .summary = "diffuse light blurred by each Gaussian of the profile",
             .source = "d'Eon, Luebke 2007, Advanced Techniques for Realistic Real-Time Skin Rendering",
             .parameters = parameters(),
             .views = {kOwnView},

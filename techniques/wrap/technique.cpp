@@ -61,7 +61,7 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
 
 Technique make_wrap_technique() {
     return {.id = "wrap",
-            .summary = "wrapped diffuse, as far past the terminator as the profile scatters",
+            .summary = "wrapped diffuse, as wide as the profile scatters",
             .source = "Green 2004, GPU Gems, chapter 16; McAuley 2010, Energy-Conserving Wrapped Diffuse",
             .parameters = parameters(),
             .build = build,

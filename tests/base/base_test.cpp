@@ -38,7 +38,7 @@ TEST(Text, numbers_round_trip_in_their_shortest_form) {
 TEST(Text, an_unknown_name_proposes_the_closest) {
     const std::vector<std::string> names = {"lambert", "oren_nayar", "wrap"};
     EXPECT_EQ(unknown_name("technique", "lamber", names),
-              "unknown technique 'lamber'; did you mean 'lambert'? Known: lambert, oren_nayar, wrap");
+              "unknown technique 'lamber'; did you mean 'lambert'? known: lambert, oren_nayar, wrap");
     EXPECT_EQ(closest_name("subsurface", names), std::nullopt);
     const std::vector<std::string> keys = {"exposure_ev", "explosion"};
     EXPECT_EQ(closest_name("exposure", keys), "exposure_ev");

@@ -24,6 +24,7 @@ const ParameterTable& table() {
             .toggle(&Params::dilate, "dilate", "grow charts")
             .choice(&Params::filter, "filter", {"poisson", "box"}, "kernel")
             .color(&Params::tint_linear, "tint_linear", 0, 1, "tint")
+            .preset("cheap", "one pass", {.width_mm = 2, .passes = 1})
             .build();
     return kTable;
 }
@@ -72,19 +73,43 @@ TEST(Parameters, text_round_trips_for_every_kind) {
 
 TEST(Parameters, wrong_values_are_named_with_what_would_be_right) {
     EXPECT_EQ(set_error("kernel", "1"),
-              "unknown parameter 'kernel'; Known: width_mm, passes, dilate, filter, tint_linear");
-    EXPECT_EQ(
-        set_error("width_m", "1"),
-        "unknown parameter 'width_m'; did you mean 'width_mm'? Known: width_mm, passes, dilate, filter, "
-        "tint_linear");
+              "unknown parameter 'kernel'; known: preset, width_mm, passes, dilate, filter, tint_linear");
+    EXPECT_EQ(set_error("width_m", "1"),
+              "unknown parameter 'width_m'; did you mean 'width_mm'? known: preset, width_mm, passes, "
+              "dilate, filter, "
+              "tint_linear");
     EXPECT_EQ(set_error("width_mm", "11"), "parameter 'width_mm': '11' is not in its range, 0 to 10 mm");
     EXPECT_EQ(set_error("width_mm", "nan"), "parameter 'width_mm': 'nan' is not in its range, 0 to 10 mm");
     EXPECT_EQ(set_error("width_mm", "wide"), "parameter 'width_mm': 'wide' is not a number (0 to 10 mm)");
     EXPECT_EQ(set_error("passes", "1.5"), "parameter 'passes': '1.5' is not a whole number");
-    EXPECT_EQ(set_error("filter", "gauss"), "unknown value for 'filter': 'gauss'; Known: poisson, box");
+    EXPECT_EQ(set_error("filter", "gauss"), "unknown value for 'filter': 'gauss'; known: poisson, box");
     EXPECT_EQ(set_error("tint_linear", "1,2"),
               "parameter 'tint_linear': '2' is not in its range, 0 to 1 linear");
+    EXPECT_EQ(set_error("preset", "cheep"),
+              "unknown preset 'cheep'; did you mean 'cheap'? known: default, cheap");
+    const std::vector<std::string> no_value = {"passes"};
+    EXPECT_EQ(ParameterValues(table()).set_all(no_value).error().message, "'passes': write name=value");
     EXPECT_EQ(set_error("tint_linear", "1,1"), "parameter 'tint_linear': '1,1' is not one number or three");
+}
+
+TEST(Parameters, a_preset_sets_all_and_later_settings_override_it) {
+    ParameterValues values(table());
+    EXPECT_EQ(values.preset()->name, "default");
+    const std::vector<std::string> settings = {"filter=poisson", "preset=cheap", "width_mm = 3"};
+    ASSERT_TRUE(values.set_all(settings));
+    EXPECT_EQ(values.preset(), nullptr);
+    ASSERT_TRUE(values.set("width_mm", "2"));
+    EXPECT_EQ(values.preset()->name, "cheap");
+    EXPECT_EQ(values.as<Params>().passes, 1);
+    EXPECT_EQ(values.as<Params>().filter, Filter::box);
+}
+
+TEST(Parameters, of_a_file_have_no_order_so_that_its_preset_comes_first) {
+    ParameterValues values(table());
+    ASSERT_TRUE(
+        values.set_all(std::map<std::string, std::string>{{"filter", "poisson"}, {"preset", "cheap"}}));
+    EXPECT_EQ(values.as<Params>().filter, Filter::poisson);
+    EXPECT_EQ(values.as<Params>().passes, 1);
 }
 
 namespace {

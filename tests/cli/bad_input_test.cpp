@@ -69,7 +69,7 @@ TEST_F(BadInput, options_that_are_wrong_say_what_would_be_right) {
     expect_error("render builtin:spheres --technique lambart", "did you mean 'lambert'?");
     expect_error("render builtin:spheres --set roughness=1", "unknown parameter 'roughness'");
     expect_error("render builtin:spheres --technique wrap --set wrap=3", "'3' is not in its range, 0 to 1");
-    expect_error("render builtin:spheres --technique wrap --set wrap", "--set 'wrap': write name=value");
+    expect_error("render builtin:spheres --technique wrap --set wrap", "--set: 'wrap': write name=value");
     expect_error("render builtin:spheres --samples 3", "--samples 3: 1 or 4");
     expect_error("render builtin:spheres --view norml", "did you mean 'normal'?");
     expect_error("render builtin:spheres --camera 'yaw_deg=x'", "yaw_deg is a number");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/docs_pages.h"
@@ -88,21 +89,22 @@ bool is_source(const std::string& name) {
                                [&](const std::string& file) { return file.ends_with("/" + name); });
 }
 
-/// Choices by parameter, over all techniques; none for a number.
+/// Choices by parameter, over all techniques; none for a number. "preset" has the names of all presets.
 using Parameters = std::map<std::string, std::set<std::string>>;
 
 const Parameters& all_parameters() {
     static const Parameters kParameters = [] {
         TemporaryDirectory scratch;
         const std::string text =
-            run_shell(std::string(DERMIS_PROGRAM) + " techniques", scratch.path.string()).out;
-        static const std::regex row("\\n    ([a-z0-9_]+) +([^ ]+).* default ");
+            run_shell(std::string(DERMIS_PROGRAM) + " techniques --json", scratch.path.string()).out;
         Parameters parameters;
-        for (std::sregex_iterator it(text.begin(), text.end(), row), end; it != end; ++it) {
-            std::set<std::string>& choices = parameters[(*it)[1]];
-            const std::string range = (*it)[2];
-            if (range.find('|') != std::string::npos)
-                for (const std::string_view choice : split(range, '|')) choices.emplace(choice);
+        for (const nlohmann::json& technique : nlohmann::json::parse(text)) {
+            for (const nlohmann::json& parameter : technique["parameters"])
+                for (std::set<std::string>& choices = parameters[parameter["name"]];
+                     const nlohmann::json& choice : parameter["choices"])
+                    choices.insert(choice);
+            for (const nlohmann::json& preset : technique["presets"])
+                parameters["preset"].insert(preset["name"]);
         }
         return parameters;
     }();

@@ -247,7 +247,7 @@ TEST(LoadScene, a_material_that_no_mesh_has_is_an_error) {
     const SceneDirectory dir;
     EXPECT_EQ(dir.error(kMesh + "[material.eye]\nclass = \"other\"\n"),
               dir.file("s.toml") +
-                  ":4: [material.eye]: unknown material 'eye'; did you mean 'eyes'? Known: face, eyes");
+                  ":4: [material.eye]: unknown material 'eye'; did you mean 'eyes'? known: face, eyes");
 }
 
 TEST(LoadScene, a_missing_file_names_the_line_and_key_that_asked_for_it) {
@@ -354,7 +354,7 @@ TEST(LoadScene, names_without_a_path_are_scenes_of_the_project) {
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->objects.size(), 4u);
     const std::string message = load_built_in_scene("sphere").error().message;
-    EXPECT_EQ(message.rfind("unknown scene 'sphere'; did you mean 'spheres'? Known: ", 0), 0u) << message;
+    EXPECT_EQ(message.rfind("unknown scene 'sphere'; did you mean 'spheres'? known: ", 0), 0u) << message;
 }
 
 TEST(LoadScene, a_folder_of_the_same_name_does_not_hide_a_scene) {

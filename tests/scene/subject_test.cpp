@@ -103,7 +103,7 @@ TEST(Subject, is_made_with_the_parameters_beside_its_name) {
 
 TEST(Subject, an_unknown_name_says_which_exist) {
     EXPECT_EQ(load_built_in_scene("builtin:sphere").error().message.substr(0, 65),
-              "unknown built-in scene 'sphere'; did you mean 'spheres'? Known: b");
+              "unknown built-in scene 'sphere'; did you mean 'spheres'? known: b");
 }
 
 TEST(Subject, all_built_in_ones_are_described_and_none_takes_a_name_that_a_mesh_has) {

@@ -1,5 +1,6 @@
 // Rules for every technique; none of these tests needs a GPU.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -9,20 +10,36 @@
 #include "support/built_in.h"
 
 using namespace dermis;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 namespace {
 
-// Every choice of every parameter, one at a time, and both ends of every range.
+// Every preset; and from each, every choice of every parameter, one at a time, and both ends of every range.
+// What the technique refuses is left out, once its message is found to be a line that names what to change.
 std::vector<ParameterValues> variations(const Technique& technique) {
-    std::vector<ParameterValues> all = {ParameterValues(technique.parameters)};
-    for (const Parameter& parameter : technique.parameters.parameters) {
-        std::vector<double> values = {parameter.min, parameter.max};
-        if (!parameter.choices.empty())
+    std::vector<ParameterValues> all;
+    const auto add = [&](const ParameterValues& values) {
+        const Result<void> checked = check_settings(technique, values);
+        if (checked) return all.push_back(values);
+        EXPECT_THAT(checked.error().message, StartsWith(technique.id + ": "));
+        EXPECT_THAT(checked.error().message, HasSubstr("; "));
+        EXPECT_THAT(checked.error().message, Not(HasSubstr("\n")));
+    };
+    for (const ParameterPreset& preset : technique.parameters.presets) {
+        ParameterValues base(technique.parameters);
+        EXPECT_TRUE(base.set("preset", preset.name));
+        EXPECT_TRUE(check_settings(technique, base)) << technique.id << " " << preset.name;
+        add(base);
+        for (const Parameter& parameter : technique.parameters.parameters) {
+            std::vector<double> values = {parameter.min, parameter.max};
             for (size_t i = 0; i < parameter.choices.size(); ++i) values.push_back(double(i));
-        for (const double value : values) {
-            ParameterValues varied(technique.parameters);
-            varied.put(parameter, {value, value, value});
-            all.push_back(varied);
+            for (const double value : values) {
+                ParameterValues varied = base;
+                varied.put(parameter, {value, value, value});
+                add(varied);
+            }
         }
     }
     return all;
@@ -59,9 +76,17 @@ TEST(AllTechniques, have_one_baseline) {
               "no technique is the baseline: set is_baseline in techniques/<id>/technique.cpp");
 }
 
-TEST(AllTechniques, say_what_they_are_and_document_every_parameter) {
+TEST(AllTechniques, say_what_they_are_and_document_every_parameter_and_preset) {
+    constexpr size_t kLongestSummary = 55;  // `dermis techniques` has a line of 80 columns for each
     for (const Technique& technique : built_in_catalog().techniques) {
         EXPECT_FALSE(technique.summary.empty()) << technique.id;
+        EXPECT_LE(technique.summary.size(), kLongestSummary) << technique.id;
+        std::set<std::string> presets;
+        for (const ParameterPreset& preset : technique.parameters.presets) {
+            EXPECT_FALSE(preset.doc.empty()) << technique.id << " " << preset.name;
+            EXPECT_TRUE(presets.insert(preset.name).second) << technique.id << " " << preset.name;
+        }
+        EXPECT_EQ(technique.parameters.presets.front().name, "default") << technique.id;
         EXPECT_FALSE(technique.source.empty()) << technique.id;
         std::set<std::string> names;
         for (const Parameter& parameter : technique.parameters.parameters) {

@@ -19,13 +19,11 @@ struct PassesOptions {
 };
 
 Result<int> print_passes(const PassesOptions& options) {
-    DERMIS_TRY_ASSIGN(const Technique* technique,
-                      find_technique(built_in_catalog().techniques, options.technique));
-    ParameterValues values(technique->parameters);
-    for (const std::string& setting : options.settings) DERMIS_TRY(apply_setting(values, setting));
-    DERMIS_TRY(check_view(*technique, options.view));
+    DERMIS_TRY_ASSIGN(const Contestant chosen,
+                      chosen_technique(options.technique, options.settings, nullptr));
+    DERMIS_TRY(check_view(*chosen.technique, options.view));
     DERMIS_TRY(check_samples(options.samples));
-    const PassList own = technique->build(values, {.view = options.view});
+    const PassList own = chosen.technique->build(chosen.values, {.view = options.view});
     std::printf("%s",
                 describe(frame_passes(own, {.samples = options.samples, .view = options.view})).c_str());
     return 0;
@@ -37,7 +35,7 @@ void add_passes_command(CommandLine& line) {
     const auto options = std::make_shared<PassesOptions>();
     Command* command = line.add("passes", "Prints the passes of a technique's frame, without a GPU",
                                 "dermis passes lambert --set specular=blinn_phong");
-    command->add_option("ID", options->technique, "id of the technique (dermis techniques lists them)")
+    command->add_option("ID", options->technique, "ID or ID[NAME=VALUE], listed by dermis techniques")
         ->required();
     command->add_option("--set", options->settings, "a parameter, name=value; may be repeated")
         ->allow_extra_args(false);

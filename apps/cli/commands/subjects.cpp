@@ -19,7 +19,7 @@ Result<int> list_subjects(bool json) {
                        {"parameters", parameters_json(subject.parameters)}});
         if (json) continue;
         std::printf("builtin:%s  %s\n", subject.name.c_str(), subject.summary.c_str());
-        print_parameters(subject.parameters);
+        std::fputs(parameters_text(subject.parameters).c_str(), stdout);
     }
     if (json) std::printf("%s\n", all.dump(2).c_str());
     return 0;

@@ -1,4 +1,4 @@
-#include "dermis/judge/technique_list.h"
+#include "dermis/technique/technique_list.h"
 #include "support/built_in.h"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ TEST(TechniqueList, names_and_settings_are_taken_apart) {
 }
 
 TEST(TechniqueList, brackets_hold_at_least_one_setting) {
-    EXPECT_THAT(error_of("wrap[]"), HasSubstr("write name=value between the brackets"));
+    EXPECT_THAT(error_of("wrap[]"), HasSubstr("wrap: '': write name=value"));
 }
 
 TEST(TechniqueList, mistakes_are_named) {
@@ -45,8 +45,28 @@ TEST(TechniqueList, mistakes_are_named) {
     EXPECT_THAT(error_of("wrap[wrap]"), HasSubstr("write name=value"));
     EXPECT_THAT(error_of("wrap[scater_width=1]"), HasSubstr("did you mean 'scatter_width'?"));
     EXPECT_THAT(error_of("wrap[wrap=3]"), HasSubstr("'3' is not in its range, 0 to 1"));
+    EXPECT_THAT(error_of("wrap[preset=cheep]"), HasSubstr("unknown preset 'cheep'"));
+    EXPECT_THAT(error_of("wrap,wrap[preset=default]"), HasSubstr("have the same settings"));
     EXPECT_THAT(error_of("wrap,wrap"), HasSubstr("have the same settings"));
     EXPECT_THAT(error_of("wrap,wrap[wrap=0.25]"), HasSubstr("have the same settings"));
+}
+
+TEST(TechniqueList, one_technique_is_not_a_list) {
+    const auto one = parse_technique(built_in_catalog().techniques, "wrap[wrap=0.4]");
+    ASSERT_TRUE(one) << one.error().message;
+    EXPECT_EQ(one->name(), "wrap[wrap=0.4]");
+    EXPECT_THAT(parse_technique(built_in_catalog().techniques, "wrap,lambert").error().message,
+                HasSubstr("'wrap,lambert': name one technique"));
+}
+
+TEST(TechniqueList, refused_settings_name_what_to_change) {
+    std::vector<Technique> techniques = {*parse_technique(built_in_catalog().techniques, "wrap")->technique};
+    techniques[0].refusal = [](const ParameterValues& values) {
+        return values.get(*values.table().find("wrap"))[0] > 0.5 ? "too wide; set wrap=0.5" : "";
+    };
+    EXPECT_TRUE(parse_technique_list(techniques, "wrap[wrap=0.5]"));
+    EXPECT_EQ(parse_technique_list(techniques, "wrap[wrap=0.6]").error().message,
+              "wrap: too wide; set wrap=0.5");
 }
 
 TEST(TechniqueList, by_default_all_techniques_run_and_lambert_first) {
