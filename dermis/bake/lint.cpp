@@ -21,6 +21,10 @@ Result<void> check(const Image& image) {
                      " texels; a table has at least 8 x 2"};
     if (image.channels < 3)
         return Error{"the picture has no colour; a table of skin has red, green and blue"};
+    return {};
+}
+
+Result<void> check_finite(const Image& image) {
     for (float value : image.floats())
         if (!std::isfinite(value)) return Error{"the picture has values that are not finite"};
     return {};
@@ -48,6 +52,12 @@ Result<LintReport> lint::measured(const Sample& sample, const LintHypothesis& hy
 
 Result<LintReport> lint_table(const Image& image, const LintHypothesis* own) {
     const Image stored = to_linear_float(Image{image});
+    DERMIS_TRY(check_finite(stored));
+    if (const std::optional<lint::OtherTable> other = own ? std::nullopt : lint::other_table_of(stored)) {
+        LintReport report;
+        lint::explain_other(report, *other, stored);
+        return report;
+    }
     DERMIS_TRY(check(stored));
     // The file's own convention is tried first. A profile that is not here, or a path, cannot be compared.
     std::optional<Result<LintReport>> claimed;

@@ -1,6 +1,9 @@
 #pragma once
-// Analysis of a pre-integrated diffuse table from another tool: the convention that explains it best, its
-// error against the exact function, and what to change.
+// Analysis of a table from another tool: what it is, and of a pre-integrated diffuse table the convention
+// that explains it best, its error against the exact function, and what to change.
+//
+// Beckmann, zonal and shadow tables are told by marks that no diffuse table has: grey; two or three rows;
+// light at p and 1 - p that sums to 1. They are then fitted with an even axis, or none is named.
 //
 // The search compares every candidate model (construction x profile, and the published taps) with a sample of
 // the texels, for each orientation and encoding of the picture; the radius of each row is free at first,
@@ -8,6 +11,7 @@
 // radius.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +58,8 @@ struct LintReport {
     double explained_share = 0;
     /// The reason why the picture cannot be a table of skin: flat, negative, grey, ... Empty: it may be one.
     std::string refusal;
+    /// What the picture is, where that is no diffuse table; of `best` rms and max alone are set then.
+    std::optional<Convention> other;
     /// `best` leaves an rms under 0.01, and nothing refuses the picture.
     bool explained = false;
     std::vector<std::string> findings;  ///< one line each, for the user
@@ -67,8 +73,7 @@ struct LintReport {
 
 /// Reads the file: a picture, or CSV with a line "n_dot_l,curvature_per_mm,r,g,b" (or radius_mm; numbers in
 /// light) for each texel. A convention inside or beside it is the first explanation that is tried; what it
-/// and a PNG's sRGB flag say is compared with the numbers. Errors as read_image and above; a table of another
-/// kind by its own convention.
+/// and a PNG's sRGB flag say is compared with the numbers. Errors as read_image and above.
 [[nodiscard]] Result<LintReport> lint_file(const std::filesystem::path& path);
 
 /// The best explanation as a convention. Errors: nothing explains the picture, or it is refused; a form that

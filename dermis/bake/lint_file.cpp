@@ -115,9 +115,6 @@ Result<LintReport> lint_file(const std::filesystem::path& path) {
     if (!picture) return picture.error();
     const Result<Table> table = read_table(path, {});
     std::optional<LintHypothesis> own;
-    if (table && table->convention.kind != TableKind::diffuse)
-        return Error{path.string() + ": its own convention says " + describe(*table) +
-                     "; only diffuse tables are compared"};
     if (table) own = hypothesis_of(table->convention, picture->holds_light);
     Result<LintReport> report = lint_table(picture->image, own ? &*own : nullptr);
     if (!report) return Error{path.string() + ": " + report.error().message};
@@ -128,6 +125,8 @@ Result<LintReport> lint_file(const std::filesystem::path& path) {
     if (!picture->coordinates.empty())
         report->findings.push_back("its texels' centres say: " + picture->coordinates);
     if (table) report->findings.push_back("its own convention says: " + describe(*table));
+    if (table && table->convention.kind != (report->other ? report->other->kind : TableKind::diffuse))
+        report->findings.push_back("its own convention does not describe these numbers");
     return report;
 }
 

@@ -2,6 +2,7 @@
 // Internal to the linter: candidate curves and how well texels agree with them.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -138,6 +139,15 @@ struct TablePicture {
 /// Names rows that have a curvature each but no spacing that is known here, and takes `explained` back; false
 /// where that is not so.
 [[nodiscard]] bool explain_rows(LintReport& report, const Search& found, const Image& image);
+
+/// A table of another kind than diffuse; `rms` and `max` are what its convention leaves.
+struct OtherTable {
+    Convention convention;
+    double rms = 0, max = 0;
+};
+/// Beckmann, zonal harmonics or shadow, if the numbers are those of one: rms below .006.
+[[nodiscard]] std::optional<OtherTable> other_table_of(const Image& linear_float);
+void explain_other(LintReport& report, const OtherTable& found, const Image& image);
 
 /// Findings and advice for a picture that is refused.
 void explain_refusal(LintReport& report);

@@ -8,6 +8,7 @@
 
 namespace dermis::inline bake {
 Result<Convention> convention_of(const LintReport& report) {
+    if (report.other) return *report.other;
     const LintHypothesis& best = report.best;
     if (!report.refusal.empty()) return Error{"no table of skin: " + report.refusal + "; nothing is written"};
     if (!report.explained) return Error{"no convention explains it; nothing is written"};

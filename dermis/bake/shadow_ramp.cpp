@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dermis/bake/rows.h"
 #include "dermis/bake/shadow_table.h"
 #include "dermis/base/parallel.h"
 #include "dermis/optics/gaussian_fit.h"

@@ -9,11 +9,14 @@
 #include <cstdio>
 
 #include "bake/lint_tables.h"
+#include "dermis/bake/beckmann_table.h"
 #include "dermis/bake/lint_model.h"
 #include "dermis/bake/lut.h"
 #include "dermis/bake/lut_taps.h"
 #include "dermis/bake/rows.h"
+#include "dermis/bake/shadow_table.h"
 #include "dermis/bake/table_io.h"
+#include "dermis/bake/zonal_table.h"
 #include "dermis/image/colour.h"
 #include "dermis/image/io.h"
 #include "dermis/optics/gaussian_fit.h"
@@ -342,6 +345,53 @@ TEST(Lint, csv_that_is_no_grid_is_refused_with_its_line) {
               std::string::npos);
     EXPECT_NE(refusal("0,0,1,1,1\n1,0,1,1,inf\n").find("a.csv:2"), std::string::npos);
     EXPECT_EQ(lint::parse_csv_picture("0,0,1,2,3\n0,1,4,5,6\n", "a.csv")->image.at(1, 0, 2), 6);
+}
+
+// From the picture alone: the file's convention is not read.
+TEST(Lint, every_table_that_bake_writes_is_named) {
+    DERMIS_NEEDS(PNG);
+    DERMIS_NEEDS(EXR);
+    struct Case {
+        const char* file;
+        Table table;
+        TableStorage storage = TableStorage::automatic;
+        TableEncoding encoding = TableEncoding::linear;
+    };
+    const Profile skin = *find_profile("gpu_gems_3"), jensen = *find_profile("jensen_skin1");
+    const Preintegration ring = {.construction = Construction::half_ring};
+    Case cases[] = {
+        {"gems.png", *bake_beckmann({.width = 64, .height = 64, .layout = BeckmannLayout::gems_8_bit}),
+         TableStorage::u8, TableEncoding::tenth_power},
+        {"beckmann.exr", *bake_beckmann({.width = 64, .height = 64})},
+        {"zh.exr", *bake_zonal_harmonics({.profile = jensen})},
+        {"zh.png",
+         *bake_zonal_harmonics({.profile = skin, .how = ring, .layout = ZonalLayout::two_rows_remapped_8}),
+         TableStorage::u8, TableEncoding::range},
+        {"shadow.png", *bake_shadow({.profile = skin})},
+        {"shadow_8.png", *bake_shadow({.profile = jensen, .sharpening = 5}), TableStorage::u8,
+         TableEncoding::srgb},
+    };
+    const TemporaryDirectory directory;
+    for (Case& one : cases) {
+        SCOPED_TRACE(one.file);
+        one.table.convention.encoding = one.encoding;
+        const auto path = directory.path / one.file;
+        ASSERT_TRUE(write_table(path, one.table, one.storage));
+        const Result<LintReport> report = lint_table(read_image(path, ImageUse::data)->image);
+        ASSERT_TRUE(report) << report.error().message;
+        ASSERT_TRUE(report->explained && report->other);
+        const Convention &found = *report->other, &made = one.table.convention;
+        EXPECT_EQ(name_of(found.kind), name_of(made.kind));
+        EXPECT_EQ(found.profile, made.profile);
+        EXPECT_EQ(name_of(found.encoding), name_of(made.encoding));
+        EXPECT_EQ(name_of(found.how.construction), name_of(made.how.construction));
+        EXPECT_NEAR(found.shadow_sharpening, made.shadow_sharpening, 0.02 * made.shadow_sharpening);
+        for (size_t i = 0; i < 2; ++i) {
+            const double length = std::abs(made.axes[i].max - made.axes[i].min);
+            EXPECT_NEAR(found.axes[i].min, made.axes[i].min, 0.01 * length) << i;
+            EXPECT_NEAR(found.axes[i].max, made.axes[i].max, 0.01 * length) << i;
+        }
+    }
 }
 
 TEST(Lint, a_picture_that_is_not_a_table_is_reported) {

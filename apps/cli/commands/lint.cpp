@@ -30,7 +30,7 @@ Result<int> run(const LintOptions& options) {
 
 void add_lint_command(CommandLine& line) {
     auto options = std::make_shared<LintOptions>();
-    Command* command = line.add("lint", "Finds how a pre-integrated table was made, and its error",
+    Command* command = line.add("lint", "Finds what a table is, how it was made, and its error",
                                 "dermis lint DiffuseScatteringOnRing.png --write-sidecar");
     command
         ->add_option("FILE", options->path, "PNG, EXR, DDS, KTX2, or CSV with n_dot_l,curvature_per_mm,r,g,b")
