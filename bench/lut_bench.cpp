@@ -77,7 +77,7 @@ Measured run_loop() {
     Measured measured;
     const GaussianSum skin = gpu_gems_3_skin();
     measured.table = {
-        .width = kSide, .height = kSide, .convention = options_of(Construction::ring).convention};
+        .width = kSide, .height = kSide, .convention = options_of(Construction::full_ring).convention};
     measured.table.data.resize(size_t(kSide) * kSide * 3);
     const std::clock_t start = std::clock();
     for (int y = 0; y < kSide; ++y)
@@ -119,11 +119,11 @@ double largest_error(const Table& table, Construction construction) {
 int main() {
     set_thread_limit(1);
     const Measured sphere = run_baker(Construction::sphere);
-    const Measured ring = run_baker(Construction::ring);
+    const Measured ring = run_baker(Construction::full_ring);
     const Measured loop = run_loop();
     const double sphere_error = largest_error(sphere.table, Construction::sphere);
-    const double ring_error = largest_error(ring.table, Construction::ring);
-    const double loop_error = largest_error(loop.table, Construction::ring);
+    const double ring_error = largest_error(ring.table, Construction::full_ring);
+    const double loop_error = largest_error(loop.table, Construction::full_ring);
     std::printf("%-34s %10s %12s\n", "512 x 512 RGB, six Gaussians", "CPU ms", "max error");
     std::printf("%-34s %10.2f %12.2g\n", "this baker, sphere", sphere.time_ms, sphere_error);
     std::printf("%-34s %10.2f %12.2g\n", "this baker, ring", ring.time_ms, ring_error);

@@ -77,7 +77,9 @@ Result<LutOptions> LutChoice::options() const {
 Result<ZonalOptions> ZhChoice::options() const {
     DERMIS_TRY_ASSIGN(Profile found, find_profile(profile));
     DERMIS_TRY_ASSIGN(const Construction chosen, find_construction(construction));
-    ZonalOptions zonal{.profile = std::move(found), .width = width, .how = {.construction = chosen}};
+    ZonalOptions zonal{.profile = std::move(found),
+                       .width = width,
+                       .how = {.construction = chosen, .variance_scale = variance_scale}};
     if (axis == "radius")
         zonal.curvature = radius_axis(1, 32);
     else if (axis != "curvature")

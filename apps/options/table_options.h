@@ -22,6 +22,7 @@ struct LutChoice {
 
 struct ZhChoice {
     std::string profile = "gpu_gems_3", construction = "sphere", axis = "curvature", range, layout = "float";
+    double variance_scale = 1;
     int width = 256;
 
     [[nodiscard]] Result<ZonalOptions> options() const;

@@ -20,7 +20,7 @@ constexpr std::string_view kSamplings[] = {"centre", "low_edge", "high_edge"};
 constexpr std::string_view kOrigins[] = {"top", "bottom"};
 constexpr std::string_view kEncodings[] = {"linear", "srgb", "range", "difference", "tenth_power"};
 constexpr std::string_view kIntegrations[] = {"exact", "unity_taps", "faceworks_taps"};
-constexpr std::string_view kConstructions[] = {"sphere", "ring", "half_ring"};
+constexpr std::string_view kConstructions[] = {"sphere", "full_ring", "half_ring"};
 constexpr std::string_view kRingWeights[] = {"line", "area"};
 
 template <class Enum>
@@ -55,7 +55,9 @@ class Reader {
     Enum name(const char* key, std::span<const std::string_view> names) {
         const std::string found = text(key);
         if (error_) return Enum{};
-        const Result<Enum> value = find_name<Enum>("value", names, found);
+        // Version 0.1 called the full ring so.
+        const Result<Enum> value = find_name<Enum>(
+            "value", names, names.data() == kConstructions && found == "ring" ? "full_ring" : found);
         if (value) return *value;
         fail(key, value.error().message);
         return Enum{};
@@ -187,6 +189,8 @@ std::string_view name_of(RingWeights weights) {
 }
 
 Result<Construction> find_construction(std::string_view name) {
+    if (name == "ring")
+        return Error{"construction 'ring' is either: full_ring or half_ring (-90 to 90 degrees)"};
     return find_name<Construction>("construction", kConstructions, name);
 }
 Result<AxisWarp> find_warp(std::string_view name) {

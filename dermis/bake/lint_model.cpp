@@ -286,9 +286,9 @@ std::vector<Model> made_models() {
     };
     const Way ways[] = {
         {{.construction = Construction::sphere}},
-        {{.construction = Construction::ring}},
+        {{.construction = Construction::full_ring}},
         {{.construction = Construction::half_ring}},
-        {{.construction = Construction::ring, .ring_weights = RingWeights::area}},
+        {{.construction = Construction::full_ring, .ring_weights = RingWeights::area}},
         {{.construction = Construction::half_ring, .ring_weights = RingWeights::area}},
         {unity.how, unity.integration},
         {faceworks.how, faceworks.integration},

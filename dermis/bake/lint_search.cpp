@@ -163,7 +163,7 @@ Range likely_range(const std::array<Sample, 2>& samples, std::span<const Model> 
     for (const Model& model : all)
         if (model.hypothesis.profile == "gpu_gems_3" &&
             model.hypothesis.how.ring_weights == RingWeights::line &&
-            model.hypothesis.how.construction != Construction::ring)
+            model.hypothesis.how.construction != Construction::full_ring)
             models.push_back(model);
     std::vector<Candidate> best;
     for (const double min : {-1.0, -0.75, -0.5, -0.25, 0.0, 0.25})

@@ -26,9 +26,9 @@ std::string construction_text(const LintHypothesis& h) {
     if (h.integration == Integration::unity_taps)
         return "ring by taps of 0.05 rad from -90 to 90 degrees (Unity, 2011)";
     if (h.integration == Integration::faceworks_taps) return "ring by 200 taps of arc length (FaceWorks)";
-    std::string text = h.how.construction == Construction::sphere ? "sphere"
-                       : h.how.construction == Construction::ring ? "full ring"
-                                                                  : "ring from -90 to 90 degrees";
+    std::string text = h.how.construction == Construction::sphere      ? "sphere"
+                       : h.how.construction == Construction::full_ring ? "full ring"
+                                                                       : "ring from -90 to 90 degrees";
     if (h.how.construction != Construction::sphere && h.how.ring_weights == RingWeights::area)
         text += " with Gaussians normalised by area";
     return text;

@@ -33,7 +33,7 @@ LutOptions faceworks() {
     LutOptions options{.profile = skin(), .width = 512, .height = 512};
     options.convention.axes = {TableAxis{"n_dot_l", "1", -1, 1}, curvature_axis(0.01, 1)};
     options.convention.encoding = TableEncoding::difference;
-    options.convention.how = {.construction = Construction::ring};
+    options.convention.how = {.construction = Construction::full_ring};
     options.convention.integration = Integration::faceworks_taps;
     options.storage = TableStorage::u8;
     return options;

@@ -33,9 +33,10 @@ namespace dermis::inline optics {
 
 /// What surrounds the shaded point.
 enum class Construction {
-    sphere,    ///< closed sphere; conserves energy; the default everywhere
-    ring,      ///< Penner's ring, integrated over the whole circle; too bright when strongly curved
-    half_ring  ///< the ring from -90 to +90 degrees, as published implementations integrate it
+    sphere,     ///< closed sphere; conserves energy; the default everywhere
+    full_ring,  ///< Penner's ring, integrated over the whole circle, as FaceWorks and Yeung 2015 do; too
+                ///< bright when strongly curved
+    half_ring  ///< the ring from -90 to +90 degrees, as the Unity script of 2011 integrates it
 };
 
 /// How a ring weighs Gaussians against one another: as lines (1 / sqrt(2 pi v), what published code does) or

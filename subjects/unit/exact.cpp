@@ -61,7 +61,7 @@ ExactExitance exact_sphere(Vec3 center_mm, float radius_mm, Vec3 to_light) {
 ExactExitance exact_cylinder(float radius_mm, Vec3 to_light) {
     return [=](const GaussianSum& profile, float, Vec3 p_mm) -> ExactPoint {
         const double t = dot(normalize(Vec3{p_mm.x, 0, p_mm.z}), to_light);
-        const Preintegration ring{.construction = Construction::ring, .ring_weights = RingWeights::line};
+        const Preintegration ring{.construction = Construction::full_ring, .ring_weights = RingWeights::line};
         return {.irradiance = float(std::max(t, 0.0)),
                 .exitance = rgb(preintegrated_diffuse(profile, t, radius_mm, ring))};
     };

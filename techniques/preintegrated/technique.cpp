@@ -157,7 +157,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 }
 
 preintegrated::TableSettings table_settings(const Params& params) {
-    const bool ring = params.construction == TableConstruction::ring;
+    const bool ring = params.construction == TableConstruction::full_ring;
     return {.construction = ring ? Construction::half_ring : Construction::sphere,
             .normal_lod_bias = params.normal_lod_bias,
             .shadow_width_mm = params.shadow_width_mm,

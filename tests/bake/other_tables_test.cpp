@@ -102,6 +102,20 @@ TEST(ZonalTable, the_remapped_png_reads_back_as_what_it_should_hold) {
     EXPECT_GT(different_codes, 32) << "red is another curve than green";
 }
 
+// Files of version 0.1 call the full ring "ring"; on the command line that word could mean either.
+TEST(Convention, an_old_file_with_a_ring_means_the_full_one) {
+    const Table table =
+        *bake_zonal_harmonics({.profile = skin(), .how = {.construction = Construction::full_ring}});
+    std::string json = convention_json(table.convention, table.width, table.height);
+    const size_t at = json.find("full_ring");
+    ASSERT_NE(at, std::string::npos);
+    const auto read = parse_convention(json.replace(at, 9, "ring"), "old.json");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->convention.how.construction, Construction::full_ring);
+    EXPECT_EQ(find_construction("ring").error().message,
+              "construction 'ring' is either: full_ring or half_ring (-90 to 90 degrees)");
+}
+
 TEST(Beckmann, is_a_normalised_distribution) {
     // int D cos over the hemisphere is 1 once divided by pi.
     for (double m : {0.1, 0.3, 0.8}) {

@@ -116,7 +116,7 @@ TEST(TableFile, the_reader_says_which_key_does_not_fit_the_use) {
               std::string::npos);
     EXPECT_NE(refusal(path, {.profile = "jensen_skin1"}).find("'profile' is 'gpu_gems_3'"),
               std::string::npos);
-    EXPECT_NE(refusal(path, {.construction = Construction::ring}).find("'construction' is 'sphere'"),
+    EXPECT_NE(refusal(path, {.construction = Construction::full_ring}).find("'construction' is 'sphere'"),
               std::string::npos);
 }
 

@@ -93,7 +93,7 @@ TEST_F(Export, tables_of_published_conventions_are_made_for_every_openpbr_tone) 
             << result.out;
     }
     const ProgramResult zonal =
-        dermis("bake zh --construction ring --profile openpbr_skin_5 -o " + out("zh.exr"));
+        dermis("bake zh --construction full_ring --profile openpbr_skin_5 -o " + out("zh.exr"));
     EXPECT_EQ(zonal.exit_code, 0) << zonal.err;
     EXPECT_THAT(zonal.out, HasSubstr("fitted, 0.23 %"));
     const ProgramResult exact = dermis("bake lut --size 32 --profile openpbr_skin_5 -o " + out("exact.exr"));

@@ -16,10 +16,11 @@ using namespace dermis;
 namespace {
 
 using std::numbers::pi;
-constexpr Construction kConstructions[] = {Construction::sphere, Construction::ring, Construction::half_ring};
-constexpr Preintegration kRing = {.construction = Construction::ring};
+constexpr Construction kConstructions[] = {Construction::sphere, Construction::full_ring,
+                                           Construction::half_ring};
+constexpr Preintegration kRing = {.construction = Construction::full_ring};
 constexpr Preintegration kHalfRing = {.construction = Construction::half_ring};
-constexpr Preintegration kRingByArea = {.construction = Construction::ring,
+constexpr Preintegration kRingByArea = {.construction = Construction::full_ring,
                                         .ring_weights = RingWeights::area};
 
 // R(distance) of one channel, Gaussians normalised as areas or as lines.
@@ -42,7 +43,7 @@ double exact(const GaussianSum& profile, size_t channel, double t, double radius
         return test::sphere_integral(channel_of(profile, channel, RingWeights::area), kFinest_mm, t,
                                      radius_mm);
     return test::ring_integral(channel_of(profile, channel, how.ring_weights), kFinest_mm, t, radius_mm,
-                               how.construction == Construction::ring ? pi : pi / 2);
+                               how.construction == Construction::full_ring ? pi : pi / 2);
 }
 
 // Largest difference of the red channel between a construction and the sphere, over N.L.
@@ -235,7 +236,7 @@ TEST(Preintegration, a_flat_or_barely_scattering_surface_is_lambertian) {
 TEST(Preintegration, a_lobe_that_spreads_everywhere_leaves_the_mean_light) {
     for (double t : {-1.0, -0.3, 0.0, 0.8}) {
         EXPECT_NEAR(blurred_cosine(Construction::sphere, t, 0), 0.25, 1e-15);
-        EXPECT_NEAR(blurred_cosine(Construction::ring, t, 0), 1 / pi, 1e-15);
+        EXPECT_NEAR(blurred_cosine(Construction::full_ring, t, 0), 1 / pi, 1e-15);
         EXPECT_NEAR(blurred_cosine(Construction::half_ring, t, 0), (1 + t) / pi, 1e-15);
     }
 }

@@ -106,8 +106,8 @@ TEST_F(SourcesPage, states_the_mean_light_of_every_construction) {
         "zh_0 of ([0-9.]+) in red at r = 2 mm; [^|]* half ring [^|]* has ([0-9.]+), the full ring ([0-9.]+), "
         "a "
         "sphere of any radius ([0-9.]+)",
-        {curve_2015_zonal(0.5)[0][0], zh_0(kPublishedHalfRing), zh_0({.construction = Construction::ring}),
-         zh_0({})});
+        {curve_2015_zonal(0.5)[0][0], zh_0(kPublishedHalfRing),
+         zh_0({.construction = Construction::full_ring}), zh_0({})});
 }
 
 TEST(PreintegratedPage, states_the_error_of_the_zonal_harmonics) {

@@ -29,9 +29,9 @@ class Tables(TestCase):
                   "-o", "b.png")
         self.bake(dermis.bake_lut(convention="faceworks", size=32, range=(.02, .8)), "auto", "lut", "--convention",
                   "faceworks", "--size", 32, "--range", ".02,.8", "-o", "c.png")
-        self.bake(dermis.bake_lut("jensen_skin2", construction="ring", ring_weights="area", axis="radius",
+        self.bake(dermis.bake_lut("jensen_skin2", construction="full_ring", ring_weights="area", axis="radius",
                                   warp="squared", size=(32, 8)), "float", "lut", "--profile", "jensen_skin2",
-                  "--construction", "ring", "--ring-weights", "area", "--axis", "radius", "--warp", "squared",
+                  "--construction", "full_ring", "--ring-weights", "area", "--axis", "radius", "--warp", "squared",
                   "--size", "32x8", "-o", "d.exr")
         self.bake(dermis.bake_zh(size=16), "float", "zh", "--size", 16, "-o", "e.exr")
         self.bake(dermis.bake_zh(size=16, layout="remapped"), "auto", "zh", "--size", 16, "--layout", "remapped", "-o",

@@ -72,7 +72,8 @@ void add_bake_closed_form_command(CommandLine& line) {
         "closed_form", "Coefficients and errors of the closed form, which needs no table",
         "dermis bake closed_form --profile jensen_skin1 -o skin.csv --plot errors.svg", bake_group(line));
     command->add_option("--profile", options->profile, "preset, .csv, .mtlx or .glb file, or burley:R,G,B");
-    command->add_option("--construction", options->construction, "sphere, ring or half_ring");
+    command->add_option("--construction", options->construction,
+                        "sphere, full_ring or half_ring (-90 to 90 degrees)");
     command->add_option("--max-curvature", options->max_curvature_per_mm, {1e-6, 1000},
                         "curvature of the last row in 1/mm");
     command->add_option("--rows", options->rows, {2, 65536},

@@ -29,7 +29,7 @@ void add_bake_lut_command(CommandLine& line) {
     command->add_option("--convention", options->lut.convention,
                         "dermis (exact, sphere), or a published table: penner, unity_2011, faceworks");
     command->add_option("--construction", options->lut.construction,
-                        "sphere, ring or half_ring (-90 to 90 degrees)");
+                        "sphere, full_ring or half_ring (-90 to 90 degrees)");
     command->add_option("--ring-weights", options->lut.ring_weights,
                         "normalisation of the ring's Gaussians: line (as in published code) or area");
     command->add_option("--variance-scale", options->lut.variance_scale, kVarianceScaleRange,

@@ -25,11 +25,14 @@ void add_bake_zh_command(CommandLine& line) {
     auto options = std::make_shared<BakeZhOptions>();
     Command* command = line.add("zh", "Zonal harmonics 0 to 2 of pre-integrated skin over curvature",
                                 "dermis bake zh --profile gpu_gems_3 -o skin_zh.exr\n"
-                                "  dermis bake zh --layout remapped --construction ring -o skin_zh.png",
+                                "  dermis bake zh --layout remapped --construction half_ring -o skin_zh.png",
                                 bake_group(line));
     command->add_option("--profile", options->zh.profile,
                         "preset, .csv, .mtlx or .glb file, or burley:R,G,B");
-    command->add_option("--construction", options->zh.construction, "sphere, ring or half_ring");
+    command->add_option("--construction", options->zh.construction,
+                        "sphere, full_ring or half_ring (-90 to 90 degrees)");
+    command->add_option("--variance-scale", options->zh.variance_scale, kVarianceScaleRange,
+                        "factor on every variance (1.414 in widely copied code)");
     command->add_option("--axis", options->zh.axis,
                         "meaning of the columns: curvature (1/mm) or radius (mm)");
     command->add_option("--range", options->zh.range, "MIN,MAX of the axis");

@@ -90,7 +90,7 @@ def bake_lut(profile: Profile | str | None=None, *, convention: str='dermis', co
     """Pre-integrated diffuse light over N.L (columns) and curvature or radius (rows), as `dermis bake lut`.
 
     profile: a Profile or its name (gpu_gems_3). convention: dermis (exact, sphere), penner, unity_2011,
-    faceworks. construction: sphere, ring, half_ring. ring_weights: line, area. axis: curvature (1/mm) or radius
+    faceworks. construction: sphere, full_ring, half_ring. ring_weights: line, area. axis: curvature (1/mm) or radius
     (mm). range: (min, max) in that unit. warp: linear, squared. size: pixels, 256, "256x64" or (256, 64).
     """
     texts = [convention, construction, ring_weights, size_text(size), axis, range_text(range), warp]

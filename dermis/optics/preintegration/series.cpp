@@ -138,7 +138,7 @@ void evaluate_basis(Construction construction, double t, std::span<double> value
     assert(values.size() == basis_size(construction));
     if (construction == Construction::sphere) return even_legendre(t, values);
     const double elevation = std::asin(std::clamp(t, -1.0, 1.0));
-    if (construction == Construction::ring) {
+    if (construction == Construction::full_ring) {
         for (size_t k = 0; k < values.size(); ++k) values[k] = std::cos(2 * double(k) * elevation);
         return;
     }
@@ -152,7 +152,7 @@ EvenSeries even_series(Construction construction, double concentration) {
         case Construction::sphere:
             sphere_series(concentration, series);
             break;
-        case Construction::ring:
+        case Construction::full_ring:
             ring_series(concentration, series);
             break;
         case Construction::half_ring:
