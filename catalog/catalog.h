@@ -11,9 +11,6 @@ namespace dermis {
 /// Made at the first call, by any thread.
 [[nodiscard]] const Catalog& built_in_catalog();
 
-/// shaders/include/skin/*.glsl as text, by path.
-[[nodiscard]] std::span<const shading::Source> built_in_skin_sources();
-
 /// The files of engines/ but for engines/web, and LICENSE.
 [[nodiscard]] std::span<const PackageTemplate> built_in_package_templates();
 

@@ -35,22 +35,20 @@ function(dermis_of_this_system files)
     set(${files} ${${files}} PARENT_SCOPE)
 endfunction()
 
-# dermis_library(optics DEPENDS base PACKAGES Eigen3::Eigen [INSTALL])
+# dermis_library(optics DEPENDS base PACKAGES Eigen3::Eigen [INSTALL PUBLIC_HEADERS profile.h])
 #   DEPENDS   the folders of dermis/ whose headers this one includes: all of them and no other. Also written to
 #             layers.txt, which a test compares with every #include
 #   PACKAGES  third-party targets that are linked, never visible in a public header
 #   HEADERS   third-party targets that are headers alone (cmake/Parts.cmake)
-#   LEFT_OUT  files of this folder that are neither compiled nor installed: those of a part that is not built in
+#   LEFT_OUT  files of this folder that are not compiled: those of a part that is not built in
 #   INSTALL   part of the CPU library that engines link
+#   PUBLIC_HEADERS  what an engine's build includes; dermis/dermis.h includes each, docs/library.md shows their use
 function(dermis_library folder)
-    cmake_parse_arguments(arg "INSTALL" "" "DEPENDS;PACKAGES;HEADERS;LEFT_OUT" ${ARGN})
+    cmake_parse_arguments(arg "INSTALL" "" "DEPENDS;PACKAGES;HEADERS;LEFT_OUT;PUBLIC_HEADERS" ${ARGN})
     file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp)
     dermis_of_this_system(sources)
-    # Headers in subfolders are a library's own.
-    file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
     foreach(file ${arg_LEFT_OUT})
         list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-        list(REMOVE_ITEM headers ${CMAKE_CURRENT_SOURCE_DIR}/${file})
     endforeach()
     if(sources)
         add_library(dermis_${folder} STATIC ${sources})
@@ -74,7 +72,7 @@ function(dermis_library folder)
     set_property(GLOBAL APPEND PROPERTY DERMIS_LAYERS "${folder}: ${dependencies}")
     if(arg_INSTALL)
         set_property(GLOBAL APPEND PROPERTY DERMIS_INSTALLED ${folder})
-        set_property(GLOBAL PROPERTY DERMIS_HEADERS_OF_${folder} ${headers})
+        set_property(GLOBAL PROPERTY DERMIS_HEADERS_OF_${folder} ${arg_PUBLIC_HEADERS})
     endif()
 endfunction()
 

@@ -1,7 +1,7 @@
 # What `cmake --install` puts in place, in two components that `cpack` makes a Debian package of each:
 #   runtime      dermis: the command line with the window and all shaders, the scenes, get_head
-#   development  libdermis-dev: the CPU libraries with their public headers (include/dermis/<folder>/<header>.h), and a
-#                CMake package: find_package(dermis CONFIG) gives dermis::bake and the rest
+#   development  libdermis-dev: the CPU libraries, the headers that their PUBLIC_HEADERS name, and a CMake package:
+#                find_package(dermis CONFIG) gives dermis::bake and the rest
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -22,8 +22,10 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dermis)
 foreach(folder ${installed})
     install(TARGETS dermis_${folder} EXPORT dermis ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
     get_property(headers GLOBAL PROPERTY DERMIS_HEADERS_OF_${folder})
+    list(TRANSFORM headers PREPEND ${PROJECT_SOURCE_DIR}/dermis/${folder}/)
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dermis/${folder} COMPONENT development)
 endforeach()
+install(FILES ${PROJECT_SOURCE_DIR}/dermis/dermis.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dermis COMPONENT development)
 install(EXPORT dermis NAMESPACE dermis:: FILE dermis-targets.cmake DESTINATION ${package_dir} COMPONENT development)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/dermis-config.cmake.in

@@ -19,10 +19,10 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "curl, ffmpeg, glslc")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdermis-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries, headers and CMake package of Dermis, to bake its tables")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries, headers and CMake package of Dermis, to bake tables, maps and shaders")
 # What dermis-config.cmake looks for, and what the libraries are linked with: static libraries name none of it.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libopenexr-dev, libpng-dev, libturbojpeg0-dev, libjpeg62-turbo-dev | libjpeg-turbo8-dev, \
-libfreetype-dev, libosd-dev, libpugixml-dev")
+libembree-dev, libfreetype-dev, libosd-dev, libpugixml-dev")
 include(CPack)
 
 # The installed libraries are all linked into the program.

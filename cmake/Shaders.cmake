@@ -43,30 +43,3 @@ ${table}    };
     set_property(SOURCE ${out_dir}/table.cpp APPEND PROPERTY OBJECT_DEPENDS "${outputs}")
     target_sources(${target} PRIVATE ${out_dir}/table.cpp)
 endfunction()
-
-# dermis_embed_texts(target FUNCTION built_in_skin_sources TYPE shading::Source FROM folder FILES a;b): text files, by their path
-# below FROM. Defines dermis::FUNCTION, see catalog/catalog.h.
-function(dermis_embed_texts target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "FUNCTION;TYPE;FROM" "FILES")
-    set(table "")
-    foreach(path ${arg_FILES})
-        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
-        file(RELATIVE_PATH name ${arg_FROM} ${path})
-        file(READ ${path} text)
-        string(APPEND table "        {\"${name}\", R\"dermis_text(${text})dermis_text\"},\n")
-    endforeach()
-    set(output ${PROJECT_BINARY_DIR}/catalog/${arg_FUNCTION}.cpp)
-    # Not file(CONFIGURE): it would replace the @words@ of the texts.
-    file(WRITE ${output}.new "#include \"catalog/catalog.h\"
-
-#include <vector>
-
-std::span<const dermis::${arg_TYPE}> dermis::${arg_FUNCTION}() {
-    static const std::vector<${arg_TYPE}> kTexts = {
-${table}    };
-    return kTexts;
-}
-")
-    file(COPY_FILE ${output}.new ${output} ONLY_IF_DIFFERENT)
-    target_sources(${target} PRIVATE ${output})
-endfunction()

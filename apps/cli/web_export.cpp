@@ -11,6 +11,7 @@
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/skin_tone.h"
 #include "dermis/scene/scene_files.h"
+#include "dermis/shading/skin_text.h"
 #include "techniques/preintegrated/constants.h"
 
 namespace dermis::cli {
@@ -97,7 +98,7 @@ Result<WebPage> make_web_page(const SceneChoice& choice, const std::string& prof
     if (!tones) return tones.error();
     return dermis::make_web_page({.scene = *scene,
                                   .tones = std::move(*tones),
-                                  .functions = built_in_skin_sources(),
+                                  .functions = shading::skin_sources(),
                                   .texts = built_in_web_texts(),
                                   .shared_shaders = kSharedShaders,
                                   .table_max_curvature_per_mm = kMaxCurvaturePerMm,

@@ -8,8 +8,8 @@
 #include "dermis/base/text.h"
 #include "dermis/engines/engine.h"
 #include "dermis/engines/picture.h"
-#include "dermis/engines/profile_source.h"
 #include "dermis/optics/gaussian_fit.h"
+#include "dermis/shading/skin_text.h"
 
 namespace dermis::inline engines {
 

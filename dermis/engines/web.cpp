@@ -5,6 +5,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/engines/engine.h"
 #include "dermis/engines/web/geometry.h"
 #include "dermis/engines/web/maps.h"
 #include "dermis/engines/web/tables.h"
@@ -16,15 +17,11 @@ namespace dermis::inline engines {
 namespace {
 
 using nlohmann::json;
+using packages::to_bytes;
 using web::to_json;
 
 constexpr std::string_view kPageFolder = "engines/web/";
 constexpr size_t kMaxTones = 16, kMaxLights = 4;
-
-std::vector<std::byte> to_bytes(std::string_view text) {
-    const auto bytes = as_bytes(text);
-    return {bytes.begin(), bytes.end()};
-}
 
 Result<std::string> text_of(std::span<const shading::Source> texts, std::string_view path) {
     const auto found = std::ranges::find(texts, path, &shading::Source::path);

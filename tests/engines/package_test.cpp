@@ -10,6 +10,7 @@
 #include "dermis/base/file.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/preintegration.h"
+#include "dermis/shading/skin_text.h"
 #include "engines/packages.h"
 
 namespace dermis {
@@ -92,7 +93,7 @@ TEST(Packages, refuse_an_unknown_engine_with_the_closest) {
 TEST(Packages, name_the_file_of_an_unknown_word) {
     const std::vector<PackageTemplate> templates = {{"engines/godot/a.txt", "by @nobody@\n"}};
     const auto refused =
-        make_package("godot", {*find_profile("gpu_gems_3"), built_in_skin_sources(), templates});
+        make_package("godot", {*find_profile("gpu_gems_3"), shading::skin_sources(), templates});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message, "engines/godot/a.txt: unknown word 'nobody'");
 }

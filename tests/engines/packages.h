@@ -10,6 +10,7 @@
 #include "catalog/catalog.h"
 #include "dermis/image/io.h"
 #include "dermis/optics/presets.h"
+#include "dermis/shading/skin_text.h"
 
 namespace dermis {
 
@@ -19,7 +20,7 @@ inline std::map<std::string, std::string> package_of(const std::string& engine, 
     const auto skin = find_profile(profile);
     EXPECT_TRUE(skin);
     if (!skin) return files;
-    const auto package = make_package(engine, {*skin, built_in_skin_sources(), built_in_package_templates()});
+    const auto package = make_package(engine, {*skin, shading::skin_sources(), built_in_package_templates()});
     EXPECT_TRUE(package) << package.error().message;
     if (!package) return files;
     for (const PackageFile& file : *package)

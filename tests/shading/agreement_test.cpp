@@ -6,11 +6,11 @@
 #include <string_view>
 
 #include "catalog/catalog.h"
-#include "dermis/engines/profile_source.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
 #include "dermis/shading/prefix.h"
+#include "dermis/shading/skin_text.h"
 #include "shading/evaluate.h"
 #include "support/gpu_fixture.h"
 
@@ -26,7 +26,7 @@ class Agreement : public gpu::GpuTest {
         GpuTest::SetUpTestSuite();
         const auto profile = find_profile("openpbr_skin_5");
         ASSERT_TRUE(profile);
-        std::vector<Source> sources(built_in_skin_sources().begin(), built_in_skin_sources().end());
+        std::vector<Source> sources(shading::skin_sources().begin(), shading::skin_sources().end());
         const auto own = profile_source(*profile);
         ASSERT_TRUE(own) << own.error().message;
         sources.push_back(*own);

@@ -7,8 +7,8 @@
 
 #include "catalog/catalog.h"
 #include "dermis/base/text.h"
-#include "dermis/engines/profile_source.h"
 #include "dermis/optics/presets.h"
+#include "dermis/shading/skin_text.h"
 
 using namespace dermis;
 using namespace dermis::shading;
@@ -105,7 +105,7 @@ TEST(Print, long_lines_are_broken_at_the_outermost_place) {
 // Pasted into a shader that has its own `ggx` and `kPi`, it must not meet them: comments, calls and constants
 // too.
 TEST(Print, every_name_of_the_skin_begins_with_skin) {
-    const std::string own = *skin_text(*find_profile("gpu_gems_3"), built_in_skin_sources(), Language::glsl);
+    const std::string own = *skin_text(*find_profile("gpu_gems_3"), shading::skin_sources(), Language::glsl);
     const std::regex function("^[a-z]+[2-4]? (\\w+)\\("), constant("^const [a-z]+[2-4]? (\\w+)");
     std::vector<std::string> names;
     for (const std::string_view line : split(own, '\n')) {
@@ -129,9 +129,9 @@ TEST(Print, the_skin_is_printed_in_every_language_the_same_every_time) {
         const auto profile = find_profile(name);
         ASSERT_TRUE(profile);
         for (const std::string& language : language_names()) {
-            const auto text = skin_text(*profile, built_in_skin_sources(), *find_language(language));
+            const auto text = skin_text(*profile, shading::skin_sources(), *find_language(language));
             ASSERT_TRUE(text) << text.error().message;
-            EXPECT_EQ(*text, *skin_text(*profile, built_in_skin_sources(), *find_language(language)));
+            EXPECT_EQ(*text, *skin_text(*profile, shading::skin_sources(), *find_language(language)));
             EXPECT_THAT(*text, HasSubstr(name));
             for (const char* function :
                  {"skin_ggx(", "skin_kelemen_szirmay_kalos(", "skin_wrap(", "skin_ambient_band_1(",

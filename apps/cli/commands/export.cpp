@@ -9,8 +9,8 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/engines/package.h"
-#include "dermis/engines/profile_source.h"
 #include "dermis/optics/presets.h"
+#include "dermis/shading/skin_text.h"
 #include "scene_choice.h"
 #include "web_export.h"
 
@@ -60,7 +60,7 @@ Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
     DERMIS_TRY_ASSIGN(const std::vector<shading::Language> languages, chosen_languages(options.language));
     std::vector<std::string> texts;
     for (const shading::Language language : languages) {
-        DERMIS_TRY_ASSIGN(std::string text, skin_text(profile, built_in_skin_sources(), language));
+        DERMIS_TRY_ASSIGN(std::string text, skin_text(profile, shading::skin_sources(), language));
         texts.push_back(std::move(text));
     }
     std::vector<FileContent> files;
@@ -73,7 +73,7 @@ Result<int> export_package(const ExportOptions& options, const Profile& profile)
     const std::filesystem::path folder = options.output;
     DERMIS_TRY_ASSIGN(
         const std::vector<PackageFile> package,
-        make_package(options.engine, {profile, built_in_skin_sources(), built_in_package_templates()}));
+        make_package(options.engine, {profile, shading::skin_sources(), built_in_package_templates()}));
     std::vector<FileContent> files;
     for (const PackageFile& file : package) files.push_back({folder / file.path, file.bytes});
     return deliver_files(files, {options.profile});

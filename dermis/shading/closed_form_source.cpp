@@ -1,15 +1,15 @@
-#include "dermis/engines/closed_form_source.h"
+#include "dermis/shading/closed_form_source.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "dermis/bake/shadow_ramp.h"
 #include "dermis/base/text.h"
-#include "dermis/engines/literals.h"
 #include "dermis/optics/curvature_expressions.h"
 #include "dermis/optics/edge_expression.h"
+#include "dermis/shading/literals.h"
 
-namespace dermis::inline engines::export_text {
+namespace dermis::shading::export_text {
 namespace {
 
 // Steps of visibility that the edge is fitted at.
@@ -92,4 +92,4 @@ std::string transmission_function(const std::vector<ChannelGaussians>& terms) {
            "    return through / (1.0 + through);\n}\n";
 }
 
-}  // namespace dermis::inline engines::export_text
+}  // namespace dermis::shading::export_text

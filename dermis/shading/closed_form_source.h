@@ -1,5 +1,5 @@
 #pragma once
-// Internal to dermis/engines: the functions of a skin whose coefficients are fitted.
+// Internal to dermis/shading: the functions of a skin whose coefficients are fitted.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 #include "dermis/optics/gaussian_channels.h"
 #include "dermis/optics/profile.h"
 
-namespace dermis::inline engines::export_text {
+namespace dermis::shading::export_text {
 
 /// skin_diffuse(n_dot_l, curvature_per_mm), with the error of its fit.
 [[nodiscard]] Result<std::string> diffuse_function(const GaussianSum& sum);
@@ -18,4 +18,4 @@ namespace dermis::inline engines::export_text {
 /// skin_transmittance(thickness_mm), of the constants kSkinWeight0...
 [[nodiscard]] std::string transmission_function(const std::vector<ChannelGaussians>& terms);
 
-}  // namespace dermis::inline engines::export_text
+}  // namespace dermis::shading::export_text

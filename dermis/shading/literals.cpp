@@ -1,4 +1,4 @@
-#include "dermis/engines/literals.h"
+#include "dermis/shading/literals.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "dermis/base/text.h"
 
-namespace dermis::inline engines::export_text {
+namespace dermis::shading::export_text {
 
 std::string literal(double value) {
     std::array<char, 32> digits{};
@@ -36,4 +36,4 @@ std::string error_text(double error) {
     return literal(std::ceil(error / unit) * unit);
 }
 
-}  // namespace dermis::inline engines::export_text
+}  // namespace dermis::shading::export_text

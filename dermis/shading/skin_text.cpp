@@ -1,17 +1,17 @@
-#include "dermis/engines/profile_source.h"
+#include "dermis/shading/skin_text.h"
 
 #include <algorithm>
 
 #include "dermis/base/text.h"
-#include "dermis/engines/closed_form_source.h"
-#include "dermis/engines/literals.h"
 #include "dermis/optics/gaussian_channels.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/gaussian_lobes.h"
 #include "dermis/optics/wrap_reach.h"
+#include "dermis/shading/closed_form_source.h"
+#include "dermis/shading/literals.h"
 #include "dermis/shading/prefix.h"
 
-namespace dermis::inline engines {
+namespace dermis::shading {
 namespace {
 
 using namespace export_text;
@@ -114,7 +114,7 @@ std::string wrap_function(const WrapReach& reach) {
 
 }  // namespace
 
-Result<shading::Source> profile_source(const Profile& profile) {
+Result<Source> profile_source(const Profile& profile) {
     const GaussianFit fit = to_gaussian_sum(profile);
     DERMIS_TRY(check_preintegrable(fit.sum));
     const std::vector<ChannelGaussians> terms = by_channel(fit.sum);
@@ -126,16 +126,15 @@ Result<shading::Source> profile_source(const Profile& profile) {
     text += "\n" + gaussian_constants(terms) + "\n" + diffuse + "\n" + spherical_gaussians_function(fit.sum) +
             "\n" + wrap_function(wrap_reach(fit.sum)) + "\n" + ambient_functions(terms.size()) + "\n" +
             shadow + "\n" + transmission_function(terms);
-    return shading::Source{"profile " + printable_line(profile.name), text};
+    return Source{"profile " + printable_line(profile.name), text};
 }
 
-Result<std::string> skin_text(const Profile& profile, std::span<const shading::Source> functions,
-                              shading::Language language) {
-    DERMIS_TRY_ASSIGN(shading::Source own, profile_source(profile));
-    std::vector<shading::Source> sources(functions.begin(), functions.end());
+Result<std::string> skin_text(const Profile& profile, std::span<const Source> functions, Language language) {
+    DERMIS_TRY_ASSIGN(Source own, profile_source(profile));
+    std::vector<Source> sources(functions.begin(), functions.end());
     sources.push_back(std::move(own));
-    DERMIS_TRY_ASSIGN(std::vector<shading::Unit> units, shading::read_sources(sources));
-    shading::prefix_names(units);
+    DERMIS_TRY_ASSIGN(std::vector<Unit> units, read_sources(sources));
+    prefix_names(units);
     const std::vector<std::string> heading = {
         "Shading functions for skin: " + printable_line(profile.name) +
             ". Printed by `dermis export`; change its source, not this file.",
@@ -144,7 +143,7 @@ Result<std::string> skin_text(const Profile& profile, std::span<const shading::S
         "from the surface.",
         "Pure functions: fetch textures and derivatives yourself and pass them. Needs 32-bit floats "
         "(highp)."};
-    return shading::print(units, language, heading);
+    return print(units, language, heading);
 }
 
-}  // namespace dermis::inline engines
+}  // namespace dermis::shading

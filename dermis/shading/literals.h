@@ -1,11 +1,11 @@
 #pragma once
-// Internal to dermis/engines: numbers as the text of shaders.
+// Internal to dermis/shading: numbers as the text of shaders.
 
 #include <string>
 
 #include "dermis/optics/preintegration.h"
 
-namespace dermis::inline engines::export_text {
+namespace dermis::shading::export_text {
 
 /// A float literal of six digits: "1.0", "0.000310047".
 [[nodiscard]] std::string literal(double value);
@@ -19,4 +19,4 @@ namespace dermis::inline engines::export_text {
 /// Two digits, rounded up: "0.0027".
 [[nodiscard]] std::string error_text(double error);
 
-}  // namespace dermis::inline engines::export_text
+}  // namespace dermis::shading::export_text
