@@ -182,10 +182,43 @@ void Command::allow_extras() {
     app_->allow_extras();
 }
 
+namespace {
+
+constexpr size_t kHelpColumns = 80, kOptionIndent = 30, kExampleIndent = 4;
+
+// Lines of at most kHelpColumns. The text of an option continues below its beginning, other text at the left.
+std::string wrapped_help(const std::string& text) {
+    std::string wrapped;
+    size_t deep = kOptionIndent;
+    for (std::string_view line : split(text, '\n')) {
+        if (line.starts_with("Example:")) deep = kExampleIndent;
+        const std::string indent(line.starts_with("  ") ? deep : 0, ' ');
+        std::string rest(line);
+        while (rest.size() > kHelpColumns) {
+            const size_t space = rest.rfind(' ', kHelpColumns);
+            if (space == std::string::npos || space <= indent.size()) break;  // a word is never broken
+            wrapped += rest.substr(0, space) + "\n";
+            rest = indent + rest.substr(space + 1);
+        }
+        wrapped += rest + "\n";
+    }
+    wrapped.pop_back();
+    return wrapped;
+}
+
+struct HelpFormatter : CLI::Formatter {
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+        return wrapped_help(CLI::Formatter::make_help(app, std::move(name), mode));
+    }
+};
+
+}  // namespace
+
 CommandLine::CommandLine(const std::string& version, const std::string& summary, const std::string& example)
     : app_(std::make_unique<CLI::App>(summary, "dermis")) {
     app_->set_version_flag("--version", version);
     app_->require_subcommand(1);
+    app_->formatter(std::make_shared<HelpFormatter>());
     app_->footer("Example:\n  " + example);
 }
 

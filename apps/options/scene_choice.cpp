@@ -19,8 +19,8 @@ void SceneChoice::add_options_to(Command& command) {
     command
         .add_option(
             "--scene", words,
-            "sets a key of the scene file (dermis keys lists them), KEY=VALUE: environment.yaw_deg=30, "
-            "light.key.intensity=2, skin.profile=NAME, exposure_ev=0.5; may be repeated")
+            "KEY=VALUE of the scene file, such as skin.profile=NAME or exposure_ev=0.5; may be repeated "
+            "(dermis keys lists them)")
         ->allow_extra_args(false);
     command.add_option("--camera", camera,
                        "short for camera keys: \"yaw_deg=30 pitch_deg=5 distance_mm=600 fov_deg=30\"");

@@ -167,9 +167,7 @@ void add_compare_command(CommandLine& line) {
     Command* command =
         line.add("compare",
                  "Compares techniques with the ground truth: captured shares, errors, a report with pictures",
-                 "dermis compare head_scan --techniques "
-                 "\"lambert,wrap,preintegrated[diffuse=curve_2015,shadow=plain]\" "
-                 "-o out/compare\n"
+                 "dermis compare head_scan -t \"wrap,preintegrated[shadow=plain]\" -o out/compare\n"
                  "  dermis compare unit -o out/unit   (small scenes with exact answers)");
     options->choice.scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->choice.techniques,

@@ -1,4 +1,4 @@
-// dermis cost: what techniques would cost on graphics cards that need not be there, by a model.
+// dermis cost: estimates the cost of techniques on GPUs that this machine does not have.
 
 #include <cstdio>
 #include <memory>
@@ -86,9 +86,8 @@ Result<int> print_costs(const CostOptions& options) {
 
 void add_cost_command(CommandLine& line) {
     const auto options = std::make_shared<CostOptions>();
-    Command* command =
-        line.add("cost", "Models what techniques cost on graphics cards that need not be there",
-                 "dermis cost lambert \"preintegrated[shadow=plain]\" --gpu navi21,navi31");
+    Command* command = line.add("cost", "Estimates the cost of techniques on GPUs you do not own",
+                                "dermis cost lambert \"preintegrated[shadow=plain]\" --gpu navi21,navi31");
     command->add_option("TECHNIQUES", options->techniques,
                         "technique or technique[name=value,...]; several; all when none is given");
     std::string chips;

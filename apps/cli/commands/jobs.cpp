@@ -145,10 +145,10 @@ void add_jobs_command(CommandLine& line) {
     const auto options = std::make_shared<JobsOptions>();
     Command* command =
         line.add("jobs", "Splits commands into jobs, and runs them on this machine or a cluster",
-                 "dermis jobs commands.txt --folder out/jobs --parts 64 --runner slurm --sbatch=\"-p long\"\n"
+                 "dermis jobs commands.txt --parts 64 --runner slurm --sbatch=\"-p long\"\n"
                  "  commands.txt has one command a line:\n"
                  "    reference head_scan --size 3840x2160 --samples 1024 -o out/head.exr\n"
-                 "    render head_scan -t preintegrated --frames 240 --turn 360 -o out/turn/%04d.png\n"
+                 "    render head_scan --frames 240 --turn 360 -o out/turn/%04d.png\n"
                  "    compare head_scan -o out/compare\n"
                  "  Samples and frames are split, a comparison is one job. What is done is not done again.");
     command->add_option("COMMANDS", options->commands, "file with a command a line")->required();

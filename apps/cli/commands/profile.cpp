@@ -201,7 +201,7 @@ void add_profile_command(CommandLine& line) {
 
     Command* convert_command = line.add(
         "convert", "Converts a profile to another tool's parameters, with quantity, unit and boundary",
-        "dermis profile convert --from unreal --set mean_free_path_distance=3 --to blender_burley", profile);
+        "dermis profile convert --from hdrp --set scatteringDistance=1 --to unreal", profile);
     convert_command->add_option("NAME", options->conversion.name, name_help);
     convert_command->add_option("--from", options->conversion.from,
                                 "read the settings of this tool instead of a profile");

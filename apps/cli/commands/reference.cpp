@@ -177,8 +177,8 @@ void add_reference_command(CommandLine& line) {
     Command* command = line.add(
         "reference", "Renders the ground truth of a scene: surface integral of the profile, or random walks",
         "dermis reference head_scan -o truth.exr --noise 0.01\n"
-        "  dermis reference head_scan --integrator walk --profile jensen_skin1 --samples 256 -o walk.exr\n"
-        "  dermis reference head_scan --samples 64 --sample-range 0:16 -o part.exr   (see dermis merge)\n"
+        "  dermis reference head_scan --integrator walk --samples 256 -o walk.exr\n"
+        "  dermis reference head_scan --samples 64 --sample-range 0:16 -o part.exr\n"
         "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin\n"
         "  Ctrl-C (or SIGTERM, SIGHUP) writes the picture so far and prints its error\n"
         "  exit code 3: the picture is written, but --samples ended it before --noise was reached");

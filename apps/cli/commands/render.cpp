@@ -199,9 +199,8 @@ Result<JobPlan> plan(const Options& options, const std::vector<std::string>& wor
 
 void add_render_command(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    Command* command =
-        line.add("render", "Renders a scene with a technique",
-                 "dermis render head_scan --technique wrap --set wrap=0.4 -o out/head.png --timings");
+    Command* command = line.add("render", "Renders a scene with a technique",
+                                "dermis render head_scan -t wrap --set wrap=0.4 -o out/head.png --timings");
     options->render.add_to(*command);
     command
         ->add_output("-o,--output", options->output,
@@ -212,7 +211,7 @@ void add_render_command(CommandLine& line) {
     command->add_flag("--layers", options->file.layers, "all debug views as layers of the EXR");
     command->add_option("--frames", options->frames, {1, 100000}, "number of frames")->capture_default_str();
     command->add_option("--frame-range", options->frame_range,
-                        "BEGIN:END: only these of the --frames, with the numbers that they have among all");
+                        "BEGIN:END: render only this range of the --frames; file numbers are unchanged");
     command
         ->add_option("--turn", options->turn_deg, {-1e6, 1e6},
                      "angle in degrees that the camera turns over all frames")
