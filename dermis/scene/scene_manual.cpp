@@ -46,13 +46,8 @@ std::string section_text(const std::string& heading, const std::string& intro,
 constexpr std::string_view kIntroduction =
     R"(# The scene file
 
-A scene is a TOML file: meshes, their maps, the skin, lights, environment and a camera. Only one
-`[[mesh]]` is required. Lengths are in mm and colours are linear; the name of a key contains its unit. An unknown
-key, a wrong type, a value out of range and a missing file are errors that name file, line and key.
-
-Paths are relative to the scene file. A path that starts with `assets:` is searched in `$DERMIS_ASSETS`, in
-`../shared/assets` beside the source tree, and where `tools/get_head` puts its files (`~/.local/share/dermis`). The
-scenes of `scenes/` are also found by name: `dermis render head_scan`.
+A scene is a TOML file. Only one `[[mesh]]` is required. Lengths are in mm, colours are linear. An unknown key, a wrong
+type, a value out of range and a missing file are errors that name file, line and key. `dermis keys` prints this page.
 
 ```toml
 credit = "Scan by NAME, CC BY 4.0"
@@ -76,15 +71,18 @@ yaw_deg = 20
 distance_mm = 700
 ```
 
-On the command line (`render`, `compare`, `reference`, `view`, `figures`) the same keys change a scene: `--scene
-environment.yaw_deg=30 --scene skin.profile=jensen_skin1 --scene exposure_ev=0.5`. Strings need no quotes, three numbers
-are `1,.9,.8`, and paths are relative to the current directory. A `[[light]]` or `[[mesh]]` is chosen by its name or its
-number, the key light as `key`: `--scene light.key.intensity=2`, `--scene light.2.color=1,.9,.8`; a single one needs no
-name: `--scene mesh.tone=5`. `--camera "yaw_deg=30 fov_deg=20"` is short for `--scene camera.yaw_deg=30 --scene
-camera.fov_deg=20`, and `--light "..."` the same for `light.key`. A camera or a light keeps what is not named. Meshes,
-maps, materials and settings can be changed of scene files only, not of a bare mesh or a `builtin:NAME`.
+Paths are relative to the scene file. A path that starts with `assets:` is searched in `$DERMIS_ASSETS`, in
+`../shared/assets` beside the source tree, and in `~/.local/share/dermis` (`tools/get_head`). Scenes of `scenes/` are
+also found by name: `dermis render head_scan`.
 
-`dermis keys` prints this page; a test compares the two.
+`render`, `compare`, `reference`, `view` and `figures` change keys on the command line:
+
+    --scene environment.yaw_deg=30 --scene skin.profile=jensen_skin1     strings need no quotes
+    --scene light.2.color=1,.9,.8 --scene light.key.intensity=2          a list's item by number, name, or `key`
+    --scene mesh.tone=5                                                  a single item needs no name
+    --camera "yaw_deg=30 fov_deg=20" --light "yaw_deg=-60"               short for camera.* and light.key.*
+
+Keys that are not named keep their value. Meshes, maps, materials and settings can only be changed for scene files.
 )";
 
 }  // namespace

@@ -235,6 +235,49 @@ TEST(Docs, every_part_of_a_source_names_its_tests) {
     EXPECT_GT(rows, 45u);
 }
 
+namespace {
+
+// "dermis view", "tests/bake/rows_test.cpp", "build/bench/lut_bench", "tools/soak", "optics.Suite.name".
+bool measures(const std::string& code) {
+    static const std::regex place("(?:build/)?((?:tests|bench|tools)/[^ ]+).*"), call("dermis [a-z].*");
+    std::smatch match;
+    if (std::regex_match(code, match, place)) return exists(match[1]);
+    return std::regex_match(code, call) || all_tests().contains(code);
+}
+
+bool names_a_measure(const std::string& text) {
+    return std::ranges::any_of(matches(text, std::regex("`([^`]+)`"), 1), measures);
+}
+
+// Rows of tables without a measure, neither in the last cell nor in the section's "Measured by ...".
+std::vector<std::string> figures_without_measure(const std::string& page) {
+    std::vector<std::string> found;
+    bool of_section = false, in_table = false;
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("## ")) of_section = false;
+        if (line.starts_with("Measured by ")) of_section = names_a_measure(line);
+        const bool row = line.starts_with("| ");
+        if (row && in_table && !of_section &&
+            !names_a_measure(line.substr(line.rfind("| ", line.size() - 3))))
+            found.push_back(line);
+        in_table = row || line.starts_with("|-");
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST(Docs, every_figure_names_what_measures_it) {
+    EXPECT_THAT(figures_without_measure(read(kRoot / "docs/figures.md")), IsEmpty());
+    const std::string table = "| what | figure | measured by |\n|---|---|---|\n";
+    EXPECT_THAT(figures_without_measure(table + "| time | 1 s | `build/bench/lut_bench` |\n"), IsEmpty());
+    EXPECT_EQ(figures_without_measure(table + "| time | 1 s | by hand |\n").size(), 1u);
+    EXPECT_EQ(figures_without_measure(table + "| time | 1 s | `bench/none` |\n").size(), 1u);
+    EXPECT_THAT(figures_without_measure("Measured by `tools/soak`.\n\n| a | b |\n|---|---|\n| c | d |\n"),
+                IsEmpty());
+}
+
 TEST(Docs, unknown_files_headings_and_settings_are_found) {
     EXPECT_FALSE(exists("dermis/render/no_such_file"));
     EXPECT_TRUE(exists("dermis/render/renderer"));
