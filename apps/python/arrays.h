@@ -37,7 +37,7 @@ py::array_t<T> view_of(const T* data, std::vector<py::ssize_t> shape, const py::
 /// A picture of linear light, H x W x 3, or H x W (x 1) of one channel: floats of 16, 32 or 64 bits. The
 /// error begins with `name` and says what is wrong with the shape or dtype.
 [[nodiscard]] Image picture_from(const py::object& array, const std::string& name);
-/// H x W: floats, integers or bools. None is an empty image, which is no mask.
+/// H x W: floats, integers or bools. None is an empty image: no mask.
 [[nodiscard]] Image mask_from(const py::object& array, const std::string& name);
 
 /// Real finite numbers of `columns` a row (0: a plain list of numbers), any length but none; `columns` N: N x

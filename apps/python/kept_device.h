@@ -9,7 +9,7 @@
 
 namespace dermis::python {
 
-/// The device, for one thread at a time: others wait until this is gone.
+/// The device, for one thread at a time: others wait until it is destroyed.
 class LentDevice {
   public:
     LentDevice(std::unique_lock<std::mutex> lock, gpu::Device& device)

@@ -1,5 +1,5 @@
 #pragma once
-// What a table's numbers mean: the convention that travels with every table, inside the file and beside it.
+// A table's convention: the meaning of its numbers, stored inside the file and beside it.
 //
 // Pre-integrated tables from different tools differ by up to 0.2 because nothing in the files says what was
 // integrated over what, along which axes, in which encoding. Here everything that a reader has to know is one
@@ -85,7 +85,7 @@ struct ParsedConvention {
 /// Errors name `place` and the key: no JSON, a missing or unknown key, a value outside its range.
 [[nodiscard]] Result<ParsedConvention> parse_convention(std::string_view text, std::string_view place);
 
-/// What a use needs; an empty field accepts anything.
+/// The requirements of a use; an empty field accepts anything.
 struct TableUse {
     std::optional<TableKind> kind = std::nullopt;
     std::optional<Construction> construction = std::nullopt;

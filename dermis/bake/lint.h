@@ -52,9 +52,8 @@ struct LintReport {
     LintHypothesis runner_up;
     /// The table, read as `best` says, against the exact sphere of the same profile and axis.
     double error_rms = 0, error_max = 0, error_max_n_dot_l = 0, error_max_radius_mm = 0;
-    /// Of how the light differs from row to row and colour to colour at the same N.L, which is what
-    /// scattering does, the share that `best` explains, in squares. 0 where nothing differs; below 0 it makes
-    /// it worse.
+    /// Share of the variance between rows and colours at the same N.L, which scattering causes, that `best`
+    /// explains. 0 where nothing differs; below 0 `best` makes it worse.
     double explained_share = 0;
     /// The reason why the picture cannot be a table of skin: flat, negative, grey, ... Empty: it may be one.
     std::string refusal;

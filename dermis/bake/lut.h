@@ -24,7 +24,7 @@ struct LutOptions {
     Profile profile;
     int width = 256, height = 256;
     Convention convention;
-    /// What the published program stores; `automatic` for our own convention.
+    /// The published program's storage; `automatic` for the convention of Dermis.
     TableStorage storage = TableStorage::automatic;
 };
 

@@ -31,7 +31,7 @@ enum class TableStorage { automatic, u8, u16, f16, f32 };
 /// Errors: a bound that is not finite, min equal to max, a bound outside [least, most].
 [[nodiscard]] Result<void> check_axis(const TableAxis& axis, double least, double most);
 
-/// What a file would hold after encoding and rounding to this storage, decoded again.
+/// The table after encoding, rounding to this storage and decoding: what a reader of the file gets.
 [[nodiscard]] Table quantised(const Table& table, TableStorage storage);
 
 /// Bilinear lookup at axis values, clamped at the borders as a GPU's clamp-to-edge sampler does (which takes

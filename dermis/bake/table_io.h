@@ -17,7 +17,7 @@
 
 namespace dermis::inline bake {
 
-/// What `automatic` means for this extension. Error: an unknown extension or one that cannot hold `storage`;
+/// Resolves `automatic` for this extension. Errors: an unknown extension or one that cannot hold `storage`;
 /// the message lists what can.
 [[nodiscard]] Result<TableStorage> storage_for(const std::filesystem::path& path, TableStorage storage);
 
@@ -29,7 +29,7 @@ namespace dermis::inline bake {
 [[nodiscard]] Result<void> write_table(const std::filesystem::path& path, const Table& table,
                                        TableStorage storage = TableStorage::automatic);
 
-/// What write_table() writes into the file of this path, without its sidecar.
+/// The bytes that write_table() writes to this path, without the sidecar.
 [[nodiscard]] Result<std::vector<std::byte>> table_bytes(const std::filesystem::path& path,
                                                          const Table& table,
                                                          TableStorage storage = TableStorage::automatic);
@@ -42,7 +42,7 @@ namespace dermis::inline bake {
 
 [[nodiscard]] std::filesystem::path sidecar_path(const std::filesystem::path& path);
 
-/// Whether a PNG's chunks claim sRGB. Files that are no PNG do not.
+/// Whether a PNG's chunks claim sRGB; false for other files.
 [[nodiscard]] bool png_is_flagged_srgb(std::span<const std::byte> file);
 
 }  // namespace dermis::inline bake

@@ -31,7 +31,7 @@ struct Engine {
     std::string_view table_path = {};     ///< the diffuse table, .exr or .dds; empty: none
     VOrigin v_origin = VOrigin::top;      ///< where the engine has v = 0 in a picture
     void (*add_words)(Words&) = nullptr;  ///< beyond the common ones
-    /// What is made from the other files, as Unity's .meta.
+    /// Files that are made from the other files, such as Unity's .meta.
     Result<void> (*add_files)(const PackageInput&, std::vector<PackageFile>&) = nullptr;
 };
 

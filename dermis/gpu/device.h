@@ -20,9 +20,9 @@ struct DeviceOptions {
     std::function<void(const std::string&)> on_message = {};
     /// Pick a device by part of its name, any case; empty: discrete, then integrated, then CPU.
     std::string name_contains = {};
-    /// What a window needs (glfwGetRequiredInstanceExtensions); empty: no window.
+    /// Extensions for a window (glfwGetRequiredInstanceExtensions); empty: no window.
     std::vector<std::string> instance_extensions = {};
-    /// Pipelines keep the compiler's statistics (statistics.h) and are compiled anew, never taken from the
+    /// Pipelines keep the compiler's statistics (statistics.h) and are compiled again, never taken from the
     /// cache on disk. Such a device draws nothing.
     bool keep_statistics = false;
     /// Descriptor sets come from a pool even where VK_KHR_push_descriptor exists: tests of the pool run on
@@ -52,7 +52,7 @@ class Device {
     Device& operator=(Device&&) noexcept;
 
     [[nodiscard]] const DeviceInfo& info() const;
-    /// What the validation layers said since creation, one message each; tests want this empty.
+    /// Messages of the validation layers since creation; tests expect none.
     [[nodiscard]] std::vector<std::string> messages() const;
 
     /// Waits for everything that was submitted. Error: the device was lost.
@@ -68,7 +68,7 @@ class Device {
     std::unique_ptr<State> state_;
 };
 
-/// What a texture has beyond its edges.
+/// How a texture continues beyond its edges.
 enum class AddressMode { repeat, clamp, mirror };
 
 /// Mip levels from large to small, layers (6 faces of a cube, in +X -X +Y -Y +Z -Z order) inside each level.
@@ -87,7 +87,7 @@ struct TextureData {
 class Texture {
   public:
     [[nodiscard]] static Result<Texture> upload(Device& device, const TextureData& data);
-    /// Of level 0, all layers.
+    /// Bytes of level 0, all layers.
     [[nodiscard]] uint64_t bytes() const;
     [[nodiscard]] size_t bytes_per_texel() const;
     ~Texture();

@@ -42,7 +42,7 @@ struct Device::State {
 [[nodiscard]] Result<void> open_pipeline_cache(Device::State& state);
 void save_pipeline_cache(Device::State& state);
 
-/// What a submission waits for before its transfers, and signals when done; null: nothing.
+/// Semaphores that a submission waits for before its transfers and signals when done; null: none.
 struct Semaphores {
     VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };

@@ -44,8 +44,7 @@ struct ForeignImage {
     std::string name;
 };
 
-/// What the frame supplies beside the list's own images. Where a name stands twice the draw's texture wins,
-/// then the pass's reads, then these.
+/// The frame's inputs beside the list's own images. Priority for duplicate names: draw, pass, frame.
 struct FrameInputs {
     int width = 0, height = 0;
     std::map<std::string, const Texture*, std::less<>> textures;
@@ -68,7 +67,7 @@ struct FrameResult {
     uint64_t frame = 0;   ///< what Executor::submit returned
 };
 
-/// What an executor holds at present.
+/// Counts of the objects that an executor holds.
 struct Footprint {
     size_t images = 0, pipelines = 0;
     uint64_t image_bytes = 0;  ///< texels of the images, all levels and samples; drivers add padding

@@ -1,5 +1,5 @@
 #pragma once
-// What is behind the handle Executor.
+// The state behind the handle Executor.
 
 #include "dermis/gpu/executor.h"
 #include "dermis/gpu/frame_descriptors.h"

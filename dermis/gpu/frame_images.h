@@ -7,7 +7,7 @@
 
 namespace dermis::gpu {
 
-/// What a pass does with an image; decides layout, stages and access.
+/// How a pass uses an image; decides layout, stages and access.
 /// depth_test: tested and perhaps sampled, never written.
 enum class ImageUse {
     none,

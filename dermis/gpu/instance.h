@@ -60,7 +60,7 @@ struct PhysicalDevice {
 /// All devices, the preferred first: discrete, integrated, virtual, CPU; those that cannot run dermis last.
 [[nodiscard]] Result<std::vector<PhysicalDevice>> physical_devices(const Instance& instance);
 
-/// What a device whose formats have these features lacks, one text each.
+/// The requirements that a device with these format features does not meet, one text each.
 [[nodiscard]] std::vector<std::string> missing_formats(
     const std::function<VkFormatFeatureFlags(VkFormat)>& features_of);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a shader wants, read from its SPIR-V by name: bindings, blocks, constants, inputs and outputs.
+// The interface of a shader, read from its SPIR-V by name: bindings, blocks, constants, inputs, outputs.
 // Binding numbers in the source do not matter: each pipeline assigns its own, by name.
 
 #include <array>
@@ -40,7 +40,7 @@ struct Binding {
     TextureShape shape = TextureShape::plane;
     std::string_view texel_format;  ///< of a storage image, as GLSL has it; empty when it has none
     BlockLayout block;
-    /// Where the numbers stand in the SPIR-V, in words.
+    /// Positions of the numbers in the SPIR-V, in words.
     uint32_t binding_word = 0, set_word = 0;
 };
 
@@ -61,7 +61,7 @@ struct ShaderInterface {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_FRAGMENT_BIT;
     std::vector<Binding> bindings;
     BlockLayout push_constants;
-    std::vector<StageVariable> inputs, outputs;  ///< what stands at a location; no built-ins
+    std::vector<StageVariable> inputs, outputs;  ///< by location; without built-ins
     std::vector<SpecializationConstant> constants;
     std::array<uint32_t, 3> local_size = {1, 1, 1};
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What is behind the handles Texture and Geometry.
+// The state behind the handles Texture and Geometry.
 
 #include <map>
 

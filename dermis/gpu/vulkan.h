@@ -115,7 +115,7 @@ template <class Owner, class Info, class Handle>
     return Owner(context, handle);
 }
 
-/// What one of Vulkan's listing functions returns after these arguments.
+/// The list that one of Vulkan's listing functions returns for these arguments.
 template <class Item, class List, class... Arguments>
 [[nodiscard]] std::vector<Item> list_all(List list, Arguments... arguments) {
     uint32_t count = 0;

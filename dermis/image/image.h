@@ -13,7 +13,7 @@ namespace dermis::inline image {
 
 enum class PixelFormat { u8, u16, f16, f32 };
 
-/// What the numbers mean: light or data as they are, or sRGB-encoded colour that is decoded before any
+/// Meaning of the numbers: light or data as they are, or sRGB-encoded colour that is decoded before any
 /// arithmetic.
 enum class Encoding { linear, srgb };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Image files, told apart by content when reading and by extension when writing.
+// Image files; the content decides the format when reading, the extension when writing.
 
 #include <filesystem>
 #include <map>
@@ -28,7 +28,7 @@ struct LoadedImage {
 /// JPEG takes 15 to 45 ms, the same as PNG 80 ms. Errors name the file: unreadable, truncated, corrupt,
 /// larger than check_image_size() allows, an unknown format.
 [[nodiscard]] Result<LoadedImage> read_image(const std::filesystem::path& path, ImageUse use);
-/// The same from memory (embedded glTF images); `name` stands in errors.
+/// The same from memory (embedded glTF images); `name` names the image in errors.
 [[nodiscard]] Result<LoadedImage> decode_image(std::span<const std::byte> bytes, std::string_view name,
                                                ImageUse use);
 

@@ -9,7 +9,7 @@
 
 namespace dermis::inline image {
 
-/// What the first three channels are: numbers to average, or unit vectors to average and make unit again.
+/// Kind of the first three channels: numbers to average, or unit vectors to average and normalise.
 /// Vectors are n * 0.5 + 0.5 in integer formats and n itself in f16 and f32; a fourth channel is a number.
 enum class Texels { values, unit_vectors };
 

@@ -13,7 +13,7 @@
 
 namespace dermis::inline jobs {
 
-/// What a part says of itself.
+/// The header of a part.
 struct PartFacts {
     PictureFacts picture;
     std::string version;  ///< of the code that made it

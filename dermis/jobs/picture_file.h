@@ -12,7 +12,7 @@
 
 namespace dermis::inline jobs {
 
-/// What a picture's files state beside its pixels.
+/// The text that a picture's files carry beside the pixels.
 struct PictureFacts {
     std::string description = "{}";  ///< JSON object: scene and settings, in the order of the file
     std::string credit;              ///< empty, or the line that goes wherever the picture goes

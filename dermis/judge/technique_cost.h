@@ -1,5 +1,5 @@
 #pragma once
-// What a technique costs: bytes of its tables and images, frame times.
+// The cost of a technique: bytes of its tables and images, frame times.
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a cached ground truth depends on beside its scene and settings: the code that makes it.
+/// Version of the code that makes a ground truth; part of the key of a cached one.
 
 #include <string_view>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a mesh file says of a surface, before any image is decoded.
+// The material of a mesh file, before any image is decoded.
 
 #include <cstddef>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace dermis::inline mesh {
 
-/// What an image has beyond its edges.
+/// How an image continues beyond its edges.
 enum class TextureWrap { repeat, clamp, mirror };
 
 /// An image named by a mesh file or a scene: a path, the encoded bytes of an embedded one, or the pixels of
@@ -29,7 +29,7 @@ struct ImageSource {
 /// The point of the image, 0 .. 1, that is read at uv.
 [[nodiscard]] Vec2 inside_image(const ImageSource& image, Vec2 uv);
 
-/// Of Material::emission_linear, each channel.
+/// Limit of each channel of Material::emission_linear.
 inline constexpr float kMostEmission = 1000;
 
 enum class NormalSpace { tangent, object };

@@ -43,7 +43,7 @@ constexpr CurvatureTensor tangent_curvature(Vec3 t, Vec3 b, float tt_per_mm, flo
     return {of_t * t + of_b * b,
             {of_t.y * t.z + of_b.y * b.z, of_t.x * t.z + of_b.x * b.z, of_t.x * t.y + of_b.x * b.y}};
 }
-/// Of a surface that bends alike in all directions.
+/// The tensor of a surface that bends equally in all directions.
 constexpr CurvatureTensor isotropic_curvature(float curvature_per_mm, Vec3 n) {
     return {curvature_per_mm * (Vec3{1, 1, 1} - n * n),
             -curvature_per_mm * Vec3{n.y * n.z, n.x * n.z, n.x * n.y}};

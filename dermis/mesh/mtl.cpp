@@ -21,7 +21,7 @@ std::optional<float> finite(std::optional<float> value) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// NaN is no value; an infinite number is one, so that it can be clamped.
+// Refuses NaN; accepts infinity, which is clamped.
 std::optional<float> number_of(TextCursor& cursor) {
     const std::optional<float> value = cursor.number();
     return value && !std::isnan(*value) ? value : std::nullopt;

@@ -18,11 +18,11 @@ namespace dermis::inline mesh {
 struct MeshOptions {
     /// Millimetres a file unit; none: 1000 for glTF (metres), 1 for OBJ.
     std::optional<double> unit_mm;
-    /// By how much the caller enlarges the mesh after loading: the warning about its height counts it.
+    /// Factor by which the caller scales the mesh later; used by the warning about its height.
     double scale_after = 1;
     /// Catmull-Clark refinements (subdivide.h); OBJ keeps its quads for them.
     int subdivision_level = 0;
-    /// The caller brings maps and materials of its own: an MTL that is not there is no news.
+    /// Do not warn about a missing MTL: the caller has its own materials.
     bool ignore_missing_materials = false;
     /// More, also through instancing, is an error before any of them is read.
     size_t max_vertices = 50'000'000;
@@ -33,7 +33,7 @@ struct MeshOptions {
 struct LoadedMesh {
     Mesh mesh;
     std::vector<std::string> warnings;  ///< one line each, for the user
-    /// By read_mesh: the file, and what it names beside it, there or not. Maps stand in the materials.
+    /// The mesh file and the files beside it that it names, existing or not; maps are in the materials.
     std::vector<std::filesystem::path> files;
 };
 

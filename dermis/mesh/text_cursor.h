@@ -8,7 +8,7 @@
 
 namespace dermis::inline mesh {
 
-/// Reads from the front of a line; what was read is gone.
+/// Reads from the front of a line and removes what it read.
 class TextCursor {
   public:
     explicit TextCursor(std::string_view line) : rest_(line) {}

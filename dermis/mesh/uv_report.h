@@ -1,5 +1,5 @@
 #pragma once
-// What a UV layout is worth for maps of skin: room used, overlaps, seams, millimetres a texel, stretch.
+// Measures of a UV layout for maps of skin: area used, overlaps, seams, millimetres per texel, stretch.
 
 #include <cstdint>
 #include <optional>
@@ -23,7 +23,7 @@ struct UvMetric {
     [[nodiscard]] float anisotropy() const;
 };
 
-/// Of every triangle. Needs UVs.
+/// One per triangle. Needs UVs.
 [[nodiscard]] std::vector<UvMetric> triangle_uv_metrics(const Mesh& mesh);
 
 /// Of every vertex: the mean over its triangles, by their area on the surface. Across a UV seam each side

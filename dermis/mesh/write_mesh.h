@@ -30,7 +30,7 @@ struct NamedImage {
                                      std::span<const NamedImage> images = {},
                                      std::span<const std::string> extras = {});
 
-/// What write_glb() writes.
+/// The bytes that write_glb() writes.
 [[nodiscard]] Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh,
                                                        std::span<const NamedImage> images = {},
                                                        std::span<const std::string> extras = {});
@@ -39,7 +39,7 @@ struct NamedImage {
 /// the same name beside it, with map paths as they stand in the materials.
 [[nodiscard]] Result<void> write_obj(const std::filesystem::path& path, const Mesh& mesh);
 
-/// What write_obj() writes to mtl_path(path) and to `path`.
+/// The texts that write_obj() writes to mtl_path(path) and to `path`.
 struct ObjTexts {
     std::string mtl, obj;
 };

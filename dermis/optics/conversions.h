@@ -42,7 +42,7 @@ struct ToolKey {
     std::string_view meaning;
 };
 
-/// What a tool means by its numbers.
+/// The meaning of a tool's numbers.
 struct ToolConvention {
     ToolId id;
     std::string_view name;

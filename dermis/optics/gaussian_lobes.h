@@ -5,7 +5,7 @@
 
 namespace dermis::inline optics {
 
-/// What a Gaussian keeps of the two that it replaces, besides their weight.
+/// The quantity that a merged Gaussian preserves, besides the weight.
 enum class LobeWidth : int32_t {
     deviation,  ///< mean standard deviation
     variance

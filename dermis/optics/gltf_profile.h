@@ -43,7 +43,7 @@ struct GltfVolume {
 [[nodiscard]] GltfVolume gltf_volume(const Profile& profile, const Rgb& surface_albedo);
 /// JSON of the material's `extras`.
 [[nodiscard]] std::string gltf_extras(const Profile& profile);
-/// What of the profile the volume does not hold, in one line.
+/// The parts of the profile that the volume loses, in one line.
 [[nodiscard]] std::string gltf_note(const Profile& profile);
 
 }  // namespace dermis::inline optics

@@ -1,5 +1,5 @@
 #pragma once
-// What a volume does to light: coefficients per mm, and the lengths and albedos derived from them.
+// A scattering volume: coefficients per mm, and the lengths and albedos derived from them.
 //
 // Names of lengths, because tools call all of them "radius": mean free path l = 1 / sigma_t (MFP); reduced
 // (transport) mean free path 1 / sigma_t'; diffuse mean free path l_d = 1 / sigma_tr (DMFP).

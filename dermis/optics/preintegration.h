@@ -31,7 +31,7 @@
 
 namespace dermis::inline optics {
 
-/// What surrounds the shaded point.
+/// The shape of the skin around the shaded point.
 enum class Construction {
     sphere,     ///< closed sphere; conserves energy; the default everywhere
     full_ring,  ///< Penner's ring, integrated over the whole circle, as FaceWorks and Yeung 2015 do; too

@@ -1,13 +1,11 @@
 #pragma once
-// What of an object's skin bounds its flesh: the skin that the outside can see. Scans and models have shells
-// over empty eye sockets and lips over an empty mouth, where a person has eyes and teeth; the inner faces of
-// such cavities are no skin. The cavities are taken for flesh instead.
+// Selects the skin surfaces that enclose flesh. Scans have empty eye sockets and mouths; the inner faces of
+// such cavities are not skin, and the cavities count as flesh.
 //
-// A face is hidden when no ray that leaves it reaches the outside. The hidden part then grows over neighbours
-// that see almost nothing (the inner side of closed lips up to the line where they part), takes in what lies
-// enclosed in it, and loses patches too small to be a cavity (the bottoms of creases). What opens where the
-// hidden faces were, and where the mesh itself is open (a neck), is closed by caps that walks are reflected
-// from, as if the flesh went on behind them as it is before them.
+// A face is hidden if no ray that leaves it reaches the outside. The hidden part grows over neighbours that
+// see almost nothing (the inner side of closed lips), includes what it encloses, and loses patches too small
+// to be a cavity (bottoms of creases). Caps close the holes where hidden faces were and where the mesh is
+// open (a neck); walks are reflected by caps, as if the flesh continued behind them.
 
 #include <array>
 #include <cstdint>
@@ -32,7 +30,7 @@ struct Flesh {
     size_t mesh_openings = 0;                       ///< closed borders of the skin as the mesh has it
 };
 
-/// What becomes of cavities: flesh, or what the mesh says, their inner faces counting as skin.
+/// Treatment of cavities: flesh, or open as in the mesh, with their inner faces counted as skin.
 enum class Cavities { flesh, open };
 
 /// Every object by itself: its own opaque triangles hide its skin, other objects do not. Deterministic,

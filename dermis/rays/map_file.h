@@ -10,7 +10,7 @@
 
 namespace dermis::inline rays {
 
-/// What the sidecar says beyond the map itself.
+/// Origin of a map, for its sidecar.
 struct MapOrigin {
     std::string mesh;  ///< file or scene
     BakeMapSettings settings;

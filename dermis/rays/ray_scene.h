@@ -20,11 +20,11 @@
 
 namespace dermis::inline rays {
 
-/// Skin and other | skin that is not hidden | translucent | what bounds the flesh: skin but the inner faces
-/// of cavities, and all caps | the same with the caps of cavities alone, as a sheet of skin is no body.
+/// Skin and other | skin that is not hidden | translucent | the skin that encloses flesh, with all caps | the
+/// same with the caps of cavities alone, because an open sheet encloses no volume.
 enum class RaySet { opaque, skin, translucent, flesh, folds };
 
-/// RayHit::object of a cap, which is no mesh's triangle.
+/// RayHit::object of a cap, which belongs to no mesh.
 inline constexpr uint32_t kCapObject = ~0u;
 
 struct Ray {
@@ -90,7 +90,7 @@ class RayScene {
     /// Everything between min_mm and max_mm, unordered; at most hits.size() of them, returns how many.
     [[nodiscard]] size_t all_hits(RaySet set, const Ray& ray, std::span<RayHit> hits) const;
 
-    /// Of the alpha map and the vertices, for materials that are cut out or blended; others: 1.
+    /// Alpha of map and vertices for materials that are cut out or blended; else 1.
     [[nodiscard]] float alpha_at(const RayHit& hit) const;
 
     [[nodiscard]] bool has(RaySet set) const;
@@ -115,7 +115,7 @@ class RayScene {
     std::unique_ptr<Impl> impl_;
 };
 
-/// Of `triangle` of the mesh.
+/// The material of a triangle of the mesh.
 [[nodiscard]] uint32_t material_of_triangle(const Mesh& mesh, uint32_t triangle);
 
 }  // namespace dermis::inline rays

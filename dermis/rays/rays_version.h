@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a cached result of ray casting depends on beside its mesh and settings: the code that makes it.
+/// Version of the ray casting code; part of the key of a cached result.
 
 #include <string_view>
 

@@ -29,7 +29,7 @@ class ExactSum {
     [[nodiscard]] bool is_zero() const { return units_ == 0; }
     /// The nearest double.
     [[nodiscard]] double value() const { return double(units_) * 0x1p-64; }
-    /// What value() rounded off, to the nearest double: both together have 106 bits.
+    /// The rounding error of value(), to the nearest double: together they have 106 bits.
     [[nodiscard]] double remainder() const { return double(units_ - Units(double(units_))) * 0x1p-64; }
 
     /// Takes the nearest float out of the sum. Six calls at most leave zero; add() of what they returned

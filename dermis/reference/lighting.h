@@ -112,7 +112,7 @@ class Lighting {
     float harmonic_entry_;  // the part of even light that enters; an integral, so it is made once
 };
 
-/// What reaches `p_mm` of a light that nothing blocks.
+/// The light that reaches `p_mm` if nothing blocks it.
 struct LightArrival {
     Vec3 irradiance_linear;  ///< on a surface that faces the light
     Vec3 to_light;

@@ -31,7 +31,7 @@ struct ShadingPoint {
     MaterialClass material_class = MaterialClass::skin;
 };
 
-/// What a surface's specular reflection is made of.
+/// Parameters of a surface's specular reflection.
 struct SurfaceReflection {
     float roughness = 0.5f;  ///< perceptual; alpha = roughness^2
     float f0 = 0.04f;

@@ -61,11 +61,11 @@ struct PixelState {
 
     /// The number of channels that were not finite or above kBrightest, and were cut.
     size_t add(const PixelSample& sample);
-    /// Of whole blocks.
+    /// Both states hold whole blocks.
     void add(const PixelState& other);
 
     [[nodiscard]] Vec3 mean(const SumLayout& of) const;
-    /// Of the mean radiance.
+    /// Variance of the mean radiance.
     [[nodiscard]] Vec3 variance() const;
     [[nodiscard]] float luminance_variance() const;
 };

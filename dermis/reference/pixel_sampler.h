@@ -41,7 +41,7 @@ class PixelSampler {
         Vec2 within;
     };
     [[nodiscard]] UvFootprint footprint(const Seen& seen, Vec3 p_mm) const;
-    /// Of what is opaque or blended.
+    /// Opacity of a hit on an opaque or blended surface.
     [[nodiscard]] float opacity_at(const RayHit& hit) const;
     [[nodiscard]] float add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample) const;
     MaterialClass add_surface(const Seen& seen, Vec3 weight, uint32_t seed, PixelSample& sample) const;

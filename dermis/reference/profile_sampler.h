@@ -22,7 +22,7 @@ class ProfileSampler {
     /// Red, green, blue in 1/mm^2.
     [[nodiscard]] Vec3 reflectance(float r_mm) const;
     [[nodiscard]] float sample_radius_mm(float u) const;
-    /// Of the sampled points, per mm^2 of the plane.
+    /// Density of the sampled points, per mm^2 of the plane.
     [[nodiscard]] float density_per_mm2(float r_mm) const;
     [[nodiscard]] float max_mm() const { return max_mm_; }
 

@@ -9,7 +9,7 @@
 
 namespace dermis::inline render {
 
-/// What the sidecar says beyond the maps themselves.
+/// Origin of the maps, for their sidecar.
 struct DiffusedNormalsOrigin {
     std::string mesh;  ///< file or scene
     std::string profile_name;

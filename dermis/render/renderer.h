@@ -61,7 +61,7 @@ class Renderer {
 
     gpu::Executor& executor() { return executor_; }
 
-    /// Of the last frame: its passes, and what its inputs() were besides.
+    /// Passes of the last frame, and its other inputs().
     [[nodiscard]] const PassList& list() const { return list_; }
     [[nodiscard]] gpu::FrameInputs inputs(const ParameterValues& values, const DrawSettings& settings) const;
 

@@ -23,7 +23,7 @@ class SceneOnDevice {
 
     [[nodiscard]] const std::vector<gpu::Draw>& draws() const { return draws_; }
     [[nodiscard]] bool has(gpu::DrawClass draw_class) const;
-    /// Of its maps, one line each.
+    /// Warnings about its maps, one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     /// Whether alpha cuts any of what is drawn (cutoff_of_map).
     [[nodiscard]] bool has_cut_outs() const { return has_cut_outs_; }

@@ -15,7 +15,7 @@ struct CellPicture {
     Image display;  ///< sRGB-encoded, u8, three channels: what the sheet shows
     Image
         radiance;  ///< linear f32, four channels; alpha is 1 where skin covers the whole pixel, or everywhere
-    std::string remark;  ///< what stands after the label ("studio turned: no sunset.hdr"); may be empty
+    std::string remark;  ///< after the label ("studio turned: no sunset.hdr"); may be empty
     std::string credit;  ///< of the scene
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 // A model of what a frame costs on a card nobody needs to own: the compiler's statistics of every shader, how
 // often it runs, and the bytes that move. It estimates the time of each of two resources and takes the
-// larger; it is no simulation: docs/performance.md has its assumptions.
+// larger; docs/performance.md has its assumptions.
 
 #include <string>
 #include <vector>

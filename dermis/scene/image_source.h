@@ -10,7 +10,7 @@ namespace dermis::inline scene {
 /// Pixels made by code are sRGB-encoded when used as a colour. Errors as read_image and decode_image.
 [[nodiscard]] Result<Image> load_image_source(const ImageSource& source, ImageUse use);
 
-/// What cuts a material out: one channel, 1 where the material's maps have no alpha.
+/// The alpha that cuts a material out: one channel, 1 where its maps have no alpha.
 [[nodiscard]] Result<Image> load_alpha(const Material& material);
 
 }  // namespace dermis::inline scene

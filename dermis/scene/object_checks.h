@@ -1,5 +1,5 @@
 #pragma once
-// What is probably not meant in an object of a scene, and which of its materials are no skin.
+// Probable mistakes in an object of a scene, and which of its materials are not skin.
 
 #include <string>
 #include <vector>

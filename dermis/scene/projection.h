@@ -17,9 +17,9 @@ namespace dermis::inline scene {
 /// A box from -half_side_mm to +half_side_mm across.
 [[nodiscard]] Mat4 orthographic(float half_side_mm, float near_mm, float far_mm);
 
-/// Of look_along(): a rotation and a shift.
+/// Inverse of a matrix of look_along(): a rotation and a shift.
 [[nodiscard]] Mat4 inverse_view(const Mat4& view);
-/// Of perspective(), also with y turned down.
+/// Inverse of a matrix of perspective(), also with y turned down.
 [[nodiscard]] Mat4 inverse_perspective(const Mat4& projection);
 
 }  // namespace dermis::inline scene

@@ -1,5 +1,5 @@
 #pragma once
-// What the parser does not look at: names, types, and what some language cannot say.
+// Checks after parsing: names, types, and constructs that some language lacks.
 
 #include <vector>
 

@@ -12,7 +12,7 @@ namespace dermis::shading::export_text {
 /// skin_diffuse(n_dot_l, curvature_per_mm), with the error of its fit.
 [[nodiscard]] Result<std::string> diffuse_function(const GaussianSum& sum);
 
-/// Of the penumbra whose width suits the renderer's default: skin_shadow_edge(visibility).
+/// skin_shadow_edge(visibility) for a penumbra of the renderer's default width.
 [[nodiscard]] Result<std::string> shadow_function(const Profile& profile);
 
 /// skin_transmittance(thickness_mm), of the constants kSkinWeight0...

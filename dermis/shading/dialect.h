@@ -1,5 +1,5 @@
 #pragma once
-// What differs between the languages, as data for one printer.
+// The differences between the languages, as data for one printer.
 
 #include <array>
 #include <string_view>

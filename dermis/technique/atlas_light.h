@@ -12,7 +12,7 @@
 
 namespace dermis::inline technique {
 
-/// What is too small for the light map's texels: lost, or lit at the pixel.
+/// Detail that is too small for the light map's texels: lost, or lit at the pixel.
 enum class AtlasDetail : int32_t { map = kDetailMap, pixel = kDetailPixel };
 
 /// The parameters of every technique that lights the skin in its atlas: a part of the technique's own, with
@@ -45,7 +45,7 @@ struct AtlasLightSettings {
     float kernel_scale_mm = 0, kernel_bias_mm = 1, longest_texels = 16;
 };
 
-/// What follows from the parameters alone.
+/// Values that follow from the parameters alone.
 [[nodiscard]] AtlasLightSettings atlas_light_settings(const AtlasParams& params);
 
 /// In texels of the light map, the farthest that `length_mm` reaches on nearly all of the skin (99 % of its
@@ -59,11 +59,9 @@ struct AtlasLightSettings {
 /// with texels of this side on the skin cannot hold.
 [[nodiscard]] std::vector<NamedValue> detail_values(const std::function<Vec3(double texel_mm)>& kept);
 
-/// What `blur` leaves of a wave of which the map holds half: of 2.5 texels, as lighting the mean of a texel
-/// and reading between texels leave sinc(1/2.5)^3 = .43 to sinc(1/2.5)^2 = .57 of it. Shorter ones are damped
-/// more, longer ones less. With 2, 2.5 and 3 texels texture_space_gaussians captures .753, .768 and .776 of
-/// the head scan at 128 x 128, .749, .757 and .758 at 256 x 256, of the bust .808, .812, .812 and .828, .825,
-/// .814.
+/// The share that `blur` leaves of a wave of 2.5 texels. The map holds half of such a wave: averaging a texel
+/// and reading between texels leave sinc(1/2.5)^3 = .43 to sinc(1/2.5)^2 = .57. Captured shares with 2, 2.5
+/// and 3 texels differ by .02 at most (head scan and bust, 128 and 256 pixels).
 [[nodiscard]] Vec3 kept_of_half_held_wave(const GaussianSum& blur, double texel_mm);
 
 /// Image "light_map_a" must be declared, in mm "light_map_b" too; the map ends in light_map_a. In mm it is

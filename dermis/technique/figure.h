@@ -20,7 +20,7 @@ namespace dermis::inline technique {
 
 struct SkinContext;
 
-/// What a cell shows.
+/// Content of a cell.
 enum class CellKind {
     render,     ///< a scene drawn with a technique
     table,      ///< a table that the technique bakes for its settings
@@ -34,7 +34,7 @@ enum class CellEncoding { srgb, linear };
 
 enum class CellAlbedo { mapped, white };
 
-/// What is shown of an image of the frame; transmittance is exp(-rgb).
+/// Channels that are shown of an image of the frame; transmittance is exp(-rgb).
 enum class FigureImageChannels { rgb, alpha, transmittance };
 
 /// Linear values, three a texel, rows top to bottom.
@@ -67,7 +67,7 @@ struct FigureCell {
     CellEncoding encoding = CellEncoding::srgb;
 
     std::string subject;     ///< of a difference: the id of a cell before this one
-    std::string compare_to;  ///< the id of a cell before this one; the difference's number stands beneath
+    std::string compare_to;  ///< id of an earlier cell; the difference is printed below
     float gain = 8;          ///< of a difference
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What techniques that shade in one forward pass share (shaders/include/forward.glsl is the other half).
+// Shared by techniques that shade in one forward pass; shaders/include/forward.glsl is the other half.
 
 #include <string>
 

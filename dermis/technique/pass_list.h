@@ -46,9 +46,9 @@ struct ImageDeclaration {
 struct TexelSize {
     int width = 0, height = 0;
 };
-/// Of an image in a frame of this size.
+/// Size of an image in a frame of this size.
 [[nodiscard]] TexelSize size_in_frame(const ImageSize& size, int frame_width, int frame_height);
-/// Of all its levels and samples.
+/// Bytes of all levels and samples.
 [[nodiscard]] uint64_t bytes_in_frame(const ImageDeclaration& image, int frame_width, int frame_height);
 
 /// What a pass rasterises. geometry_screen: through the camera; geometry_uv_atlas: at uv * 2 - 1;

@@ -86,9 +86,8 @@ struct Technique {
     /// The members of the uniform block "Skin" for these settings, computed when tables are; absent when no
     /// shader has it.
     std::function<Result<std::vector<NamedValue>>(const ParameterValues&, const SkinContext&)> skin_values;
-    /// What replaces these settings while something moves on a slow device and the picture is drawn
-    /// with `scale` (under 1) of its sides: the same look with fewer texels, taps or passes, none of which is
-    /// more than the settings have. Absent when only pixels cost.
+    /// Cheaper settings for interaction on slow devices, where the picture has `scale` (under 1) of its
+    /// sides: the same look with fewer texels, taps or passes. Absent when only pixels cost.
     std::function<ParameterValues(ParameterValues, float scale)> coarse;
     /// The figures of its source, for `dermis figures`; absent when it has none.
     std::function<std::vector<Figure>()> figures;

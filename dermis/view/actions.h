@@ -1,5 +1,5 @@
 #pragma once
-// What keys do, in one table: the keyboard, the help page and scripts read it.
+// The actions of keys in one table, for keyboard, help page and scripts.
 
 #include <optional>
 #include <span>
@@ -45,7 +45,7 @@ struct Shortcut {
 
 [[nodiscard]] Action action_of(const KeyChord& chord);
 
-/// What the mouse does over the picture, for the help page: gesture and meaning.
+/// Gestures of the mouse over the picture, for the help page.
 struct Gesture {
     std::string_view gesture, meaning;
 };

@@ -29,7 +29,7 @@ class HotShaders {
     /// was last confirmed, with `message` to show. False when nothing had changed since.
     [[nodiscard]] bool take_back(const std::string& message);
 
-    /// What is wrong now, a shader or a frame each; empty when nothing is.
+    /// Present errors, one per shader or frame.
     [[nodiscard]] const std::map<std::string, std::string>& errors() const { return errors_; }
 
   private:

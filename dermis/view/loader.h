@@ -20,7 +20,7 @@ class Loader {
     [[nodiscard]] bool load(const std::string& path, const std::vector<SceneWord>& words);
     [[nodiscard]] bool is_loading() const { return loading_.valid(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// What has come, once.
+    /// Takes the result if there is one.
     [[nodiscard]] std::optional<Result<Start>> take();
     void wait() const {
         if (loading_.valid()) loading_.wait();
@@ -32,11 +32,11 @@ class Loader {
     [[nodiscard]] bool is_reload() const { return reload_; }
     [[nodiscard]] bool file_changed() const { return file_changed_; }
 
-    /// The scene stands: its files are followed from here on.
+    /// The scene is complete: its files are watched from here on.
     void follow(const Scene& scene);
     /// These too: of a scene that cannot be drawn yet, or a panorama that was dropped.
     void follow_too(const std::vector<std::filesystem::path>& files) { files_.add(files); }
-    /// What the scene file names, there or not: what a scene that could not be read waits for.
+    /// The files that the scene file names, existing or not; a scene that could not be read waits for them.
     void follow_stated_files() { files_.add(stated_files()); }
     [[nodiscard]] std::vector<std::filesystem::path> changed_files() { return files_.changed(); }
 

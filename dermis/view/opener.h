@@ -12,7 +12,7 @@
 
 namespace dermis::view {
 
-/// What an opened file changes.
+/// The changes by an opened file.
 struct OpenTargets {
     gpu::Device& device;
     const Clock& clock;

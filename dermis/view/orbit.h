@@ -12,7 +12,7 @@ void orbit(Camera& camera, Vec2 drag_px, float height_px);
 void pan(Camera& camera, Vec2 drag_px, float height_px);
 /// Closer by a tenth each notch, between a hundredth of and fifty times the scene's radius.
 void zoom(Camera& camera, float notches, float radius_mm);
-/// Looks at the whole scene from where the eye stands now; `aspect` is width over height.
+/// Looks at the whole scene from the present direction; `aspect` is width over height.
 void fit(Camera& camera, const Scene& scene, float aspect);
 /// The key light around the scene's middle; what faces the eye follows the mouse.
 void turn_key_light(Scene& scene, Vec2 drag_px, float height_px);

@@ -22,7 +22,7 @@ struct TimedPass {
     std::vector<float> history_ms;  ///< oldest first, this one last
 };
 
-/// What panels show and cannot change.
+/// Values that panels show but cannot change.
 struct PanelFacts {
     float scale = 1;
     int width = 0, height = 0;          ///< the window, pixels
@@ -34,7 +34,7 @@ struct PanelFacts {
     std::string probe;  ///< the surface under the mouse pointer
 };
 
-/// What a panel wants done beyond the model.
+/// Requests of a panel beyond the model.
 struct PanelRequests {
     std::vector<Action> actions;
     std::optional<int> tone;  ///< Model::tone wanted

@@ -24,9 +24,9 @@ class Pictures {
     /// For renderers; this must outlive them.
     [[nodiscard]] gpu::ShaderSource shaders() { return shaders_.source(); }
 
-    /// Looks at the shaders' files. True when the pictures are to be drawn anew.
+    /// Looks at the shaders' files. True if the pictures must be drawn again.
     [[nodiscard]] bool follow_shaders();
-    /// What is wrong with shaders now.
+    /// Present errors of shaders.
     void report_shaders(Notices& notices) const;
 
     /// Takes the times of drawings that are done by now.

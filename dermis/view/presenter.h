@@ -33,7 +33,7 @@ class Presenter {
     [[nodiscard]] Result<bool> show(const InterfaceDraws& draws, const ShownPictures& pictures,
                                     const Model& model, float scale);
 
-    /// Writes the window as it stands.
+    /// Writes the window as a picture.
     [[nodiscard]] Result<void> capture(const std::string& path);
     [[nodiscard]] gpu::Footprint footprint() const { return executor_->footprint(); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the surface under the mouse is: curvature and thickness, measured on the mesh with rays.
+// Curvature and thickness under the mouse pointer, measured on the mesh with rays.
 
 #include <optional>
 #include <string>

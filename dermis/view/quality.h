@@ -30,7 +30,7 @@ class QualityLadder {
     [[nodiscard]] std::optional<Quality> due(bool changed, double still_s, double megapixels,
                                              const QualityLimits& limits) const;
     void drawn(Quality quality) { last_ = quality; }
-    /// What a drawing took, known some frames later.
+    /// The time of a drawing, known some frames later.
     void measured(Quality quality, double megapixels, double time_ms);
     /// Whether the last drawing was the best there is.
     [[nodiscard]] bool is_final(const QualityLimits& limits) const;

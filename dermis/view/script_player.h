@@ -10,7 +10,7 @@ namespace dermis::view {
 
 class ScriptPlayer {
   public:
-    /// `commands` must outlive it; without any there is no script. `name` is for messages.
+    /// `commands` must outlive it; may be empty. `name` is for messages.
     ScriptPlayer(std::span<const ScriptCommand> commands, std::string name)
         : commands_(commands), name_(std::move(name)) {}
 

@@ -13,7 +13,7 @@ class Session {
     [[nodiscard]] static Result<Session> open(const ViewerOptions& options);
     [[nodiscard]] Result<ViewerReport> run();
     [[nodiscard]] bool has_scene() const { return parts_->model.scene != nullptr; }
-    /// What another session needs to go on where this one ended.
+    /// State with which another session continues this one.
     void hand_over(ViewerOptions& options) const;
 
   private:

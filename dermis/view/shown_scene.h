@@ -28,10 +28,10 @@ class ShownScene {
     void follow_skin();
     /// A panorama takes the environment's place. After an error nothing has changed.
     [[nodiscard]] Result<void> open_panorama(const std::string& path);
-    /// What a line of the command line says (view_line.h).
+    /// Applies a line of the command line (view_line.h).
     [[nodiscard]] Result<void> paste(const std::string& line, Model& model);
 
-    /// What is at a place of the picture, 0..1; measured anew when place, size or camera have changed.
+    /// The surface at a place of the picture, 0..1; measured again when place, size or camera change.
     [[nodiscard]] const std::string& probe(Vec2 place, PictureSize size);
 
   private:

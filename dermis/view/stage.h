@@ -17,7 +17,7 @@ struct PictureSize {
     int width = 1, height = 1;
 };
 
-/// What the window shows on one side.
+/// One side of the window.
 struct Picture {
     gpu::FrameResult timings;  ///< of the last drawing that is done
     Quality quality;
@@ -32,7 +32,7 @@ class Stage {
                                               std::unique_ptr<Scene> scene, int samples);
 
     [[nodiscard]] Scene& scene() { return *scene_; }
-    /// Of the finished picture.
+    /// Samples per pixel of the finished picture.
     [[nodiscard]] int samples() const { return limits_.samples; }
 
     /// Draws the side `choice` if it is due. True when it drew. An error leaves the last picture standing,
@@ -55,7 +55,7 @@ class Stage {
     void skin_changed();
     [[nodiscard]] Result<void> environment_changed();
 
-    /// Forgets what stands, so that the next refresh draws.
+    /// Marks the picture stale; the next refresh redraws.
     void invalidate();
     /// Reads all shaders again.
     void forget_shaders();

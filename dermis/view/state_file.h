@@ -19,7 +19,7 @@ inline constexpr size_t kMaxRecent = 10;
 
 [[nodiscard]] std::filesystem::path state_path();
 
-/// What cannot be read or is out of range is as if it was not there.
+/// Unreadable and out-of-range values are ignored.
 [[nodiscard]] WindowState parse_state(std::string_view text);
 [[nodiscard]] std::string state_text(const WindowState& state);
 

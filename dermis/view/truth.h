@@ -31,7 +31,7 @@ class Truth {
 
     /// The texture follows the picture, exposure and tone map.
     [[nodiscard]] Result<void> refresh(gpu::Device& device, Model& model);
-    /// Null where the right side is no picture.
+    /// Null if the right side is not a picture.
     [[nodiscard]] const gpu::Texture* texture() const { return texture_ ? &*texture_ : nullptr; }
 
     /// For another window: the picture, and of which view it is (hash_of_views(); empty for a file).

@@ -15,14 +15,14 @@
 
 namespace dermis::view {
 
-/// What a window whose device was lost leaves to the next one.
+/// State that a window with a lost device passes to the next one.
 struct Handed {
     Model model;  ///< without its scene
     Image truth;
     std::string truth_view;
 };
 
-/// What the window opens with.
+/// Options of the window.
 struct Start {
     Scene scene;
     std::vector<SceneWord> loading_words;  ///< see Model
@@ -54,7 +54,7 @@ struct ViewerOptions {
     std::function<void(const std::string& line)> print;  ///< what the script's print says
 };
 
-/// What a run came to, for one line at its end.
+/// Summary of a run, printed as one line.
 struct ViewerReport {
     int frames = 0;
     std::optional<double> first_picture_s;  ///< from the call to the first presented picture

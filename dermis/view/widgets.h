@@ -46,10 +46,10 @@ class Rows {
 /// A heading that folds; true while open.
 [[nodiscard]] bool section(const char* title, bool open_at_first);
 
-/// Window flags of what stands where it is put: no frame, no moving, nothing remembered.
+/// Window flags for fixed windows: no frame, no moving, no saved state.
 [[nodiscard]] int fixed_window();
 
-/// Where `name` stands among `names`; -1 when it does not.
+/// Index of `name` in `names`, or -1.
 [[nodiscard]] int index_of(const std::vector<std::string>& names, const std::string& name);
 
 /// The label of a name: "shadow width" for "shadow_width_mm".

@@ -24,7 +24,7 @@ class Window {
     Window(Window&&) noexcept;
     Window& operator=(Window&&) noexcept;
 
-    /// What DeviceOptions and Swapchain want.
+    /// Arguments for DeviceOptions and Swapchain.
     [[nodiscard]] std::vector<std::string> instance_extensions() const;
     [[nodiscard]] gpu::SurfaceMaker surface_maker() const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the window shows as a pass list: the pictures in their region, the interface over them.
+// The window as a pass list: the pictures in their region, the interface over them.
 
 #include "dermis/technique/pass_list.h"
 #include "dermis/view/panels.h"

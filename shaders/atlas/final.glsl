@@ -47,9 +47,9 @@ vec3 kept_detail(float side_mm) {
     return mix(detail_kept[i], detail_kept[i + 1], min(at - float(i), 1.0));
 }
 
-// What the map's texels are too coarse for is added at the pixel, damped as the blur damps it: the light there less that of
-// the map before the blur, `map_lit`. Means of normals are compared, as the two read the normal map at different levels;
-// what normalising adds to the mean is no wave and stays. The light at the pixel takes in albedo ^ pre_scatter, as the map does.
+// Adds detail that the map's texels cannot hold: the light at the pixel minus the map's light before the blur, `map_lit`,
+// damped as the blur damps it. Means of normals are compared, because the two read different levels of the normal map. The
+// light at the pixel includes albedo ^ pre_scatter, as the map does.
 vec3 scattered_exitance(texture2D map, texture2D map_lit, Surface s, vec3 direct, int texels, float pre_scatter) {
     vec3 blurred, lit;
     bool found = read_light_map(map, s, texels, blurred);
@@ -62,11 +62,10 @@ vec3 scattered_exitance(texture2D map, texture2D map_lit, Surface s, vec3 direct
     return max(blurred + kept * (here.of_mean * pre - lit) + (here.of_normal - here.of_mean) * pre, vec3(0.0));
 }
 
-// The blur reaches what is near along the surface, however that bends, but not through. Points of one surface that are near
-// have normals that differ little; opposite walls of a thin part have opposite ones. The blur walks on the surface, so
-// that it goes around small parts by itself: of light on the side of a sphere the fourth power counts. On the dark side of
-// spheres of 4 mm blur and transmission then come to 0.69 (texture_space) and 0.63 (Gaussians) times the integral, of 2 mm to
-// 1.18 and 1.01, where a point that counts in full wherever it is would come to 1.5 to 1.9.
+// The blur reaches points that are near along the surface; transmission adds those through the body. Near points of one
+// surface have similar normals, opposite walls opposite ones. The blur goes around small parts, so the fourth power of the
+// difference counts. On the dark side of a sphere of 4 mm, blur and transmission sum to 0.69 (texture_space) and 0.63
+// (Gaussians) of the integral, of 2 mm to 1.18 and 1.01; without the power to 1.5 to 1.9.
 float part_not_counted(LightMap map, LitPoint lit) {
     float turned = turned_away(lit), squared = turned * turned;
     return squared * squared;
@@ -81,14 +80,14 @@ vec3 transmitted_past(Surface s, int i, LightSample light, vec3 passing) {
     return transmitted_part(s, i, light.to_light_world, n_dot_l, visibility, -1.0);
 }
 
-// What the lights give a pixel; shadows are looked up once for all of it.
+// The light of a pixel; shadows are looked up once.
 struct PixelLight {
     vec3 direct, transmitted;       // exitance over albedo
     vec3 key_specular, specular;    // radiance: of the key light before anything casts a shadow, and of the others
     vec3 key_passing;
 };
 
-// What the taps in the light's maps give: they need geometry and normal alone.
+// Results of the taps in the light's maps. They need geometry and normal only.
 struct Arrival {
     LightSample light;
     vec3 passing, transmitted;

@@ -34,12 +34,12 @@ vec3 own_view(Surface s);
 #endif
 
 #ifdef DERMIS_TRANSMISSION
-// All light that comes through the skin is gathered, and counts where it is more than the technique's own. Left out is
-// what faces as the point itself does, which at grazing light the shadow map's texels are too coarse for.
+// Transmission counts where it is more than the technique's own light. Lit points that face like the shaded point are left
+// out: the shadow map is too coarse for them at grazing light.
 const float kOwnSide = 0.15;
 float part_not_counted(LightMap map, LitPoint lit) { return smoothstep(0.0, kOwnSide, turned_away(lit)); }
 
-// With DERMIS_OWN_BODY defined: the light's way through the body that the technique's own model has light through.
+// With DERMIS_OWN_BODY defined: the length of the light's way through the body in the technique's own model.
 #ifdef DERMIS_OWN_BODY
 float own_way_mm(Surface s, vec3 to_light_world);
 #else
@@ -59,7 +59,7 @@ vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visib
 vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) { return vec3(visibility); }
 #endif
 
-// Irradiance from the environment behind what occludes it, as the skin answers to it.
+// Irradiance from the environment, occluded, after the response of the skin.
 vec3 ambient_response(Surface s);
 
 // Scattered light entered around the point. The response without shadows is the mean cosine there; that of the light is
@@ -76,7 +76,7 @@ vec3 entered_part(Surface s, vec3 to_light_world) {
 #endif
 }
 
-// What the taps in the light's maps give. They need the geometry alone.
+// Results of the taps in the light's maps. They need the geometry only.
 struct Arrival {
     LightSample light;  // past translucent surfaces
     float visibility;   // past opaque ones
@@ -103,7 +103,7 @@ void main() {
 #ifdef DERMIS_PREPARE_SURFACE
     prepare_geometry(s);
 #endif
-    // The taps of the one light come before the material is read. Those of several are in the loop.
+    // With one light, its taps precede the material: fewer live registers.
     Arrival first;
     if (one_light != 0) first = arrival(s, 0);
     load_normal(s);

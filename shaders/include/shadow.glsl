@@ -1,5 +1,4 @@
-// What reaches a point of a light: percentage-closer filtering over a disk whose width is given in mm, and the colour of
-// translucent surfaces on the way.
+// Visibility of a light: percentage-closer filtering over a disk of a width in mm, and the tint of translucent surfaces.
 #ifndef DERMIS_SHADOW_GLSL
 #define DERMIS_SHADOW_GLSL
 
@@ -14,7 +13,7 @@ uniform texture2D shadow_map, shadow_map_1, shadow_map_2;
 uniform texture2D shadow_tint, shadow_tint_1, shadow_tint_2;
 
 layout(constant_id = 30) const int tinted_shadows = 0;
-// Where it is known to be 1, nothing is compiled that looks for another map: a software device takes every branch.
+// With 1, no code for other maps is compiled: a software device executes every branch.
 layout(constant_id = 32) const int shadow_map_count = kMaxShadowMaps;
 
 // Given by the device.
@@ -29,7 +28,7 @@ vec2 vogel_disk(int index, int count) {
     return radius * vec2(cos(angle), sin(angle));
 }
 
-// No map is nearer than 0, so that both ends may be clamped: that is free on a GPU.
+// No depth is below 0, so both ends may be clamped, which is free on a GPU.
 float shadow_depth_tap(texture2D map, vec3 p_light) {
     float z = on_cpu != 0 ? min(p_light.z, 1.0) : clamp(p_light.z, 0.0, 1.0);
     return textureLod(sampler2DShadow(map, shadow_compare), vec3(p_light.xy, z), 0.0);
@@ -48,30 +47,28 @@ vec3 shadow_map_position(mat4 light_from_world, vec3 p_mm) {
     return p.w > 0.0 ? vec3(p.xy / p.w * 0.5 + 0.5, p.z / p.w) : vec3(-1.0);  // behind a spot or point light
 }
 
-// From the place of origin_mm in the map to that of a point beside it.
+// Offset in the map from origin_mm to a point beside it.
 vec3 shadow_map_step(mat4 light_from_world, vec3 origin_mm, vec3 origin_in_map, vec3 step_mm) {
     if (all_directional != 0) return (light_from_world * vec4(step_mm, 0.0)).xyz * vec3(0.5, 0.5, 1.0);
     return shadow_map_position(light_from_world, origin_mm + step_mm) - origin_in_map;
 }
 
-// A point past the far end of the map is inside: skin that is lifted off the far side of the scene still has everything
-// between it and the light.
+// A point beyond the far end of the map counts as inside: everything still lies between it and the light.
 bool outside_shadow_map(vec3 p_light) {
     return any(lessThan(p_light, vec3(0.0))) || any(greaterThan(p_light.xy, vec2(1.0)));
 }
 
-// The disk of a filtered shadow, round as the light sees it, in the tangent plane of the receiver: no flat or
-// convex surface shadows itself, and no shadow moves when the filter grows, as it does when the lookup is lifted by the
-// filter's radius (Holbert 2011). That is left for grazing light alone, where the disk would be endless; past the
-// terminator it lets through what scatters there. In cavities whose radius is above ten times the disk's, the disk is
-// lifted too. dermis/reference/lighting.cpp has the same disk.
+// The disk of a filtered shadow lies in the tangent plane of the receiver and is round as seen from the light, so flat and
+// convex surfaces do not shadow themselves, and shadows do not move as the filter grows. At grazing light, where the disk
+// would be endless, the lookup is lifted by the filter's radius instead (Holbert 2011). In cavities with a radius above ten
+// times the disk's, the disk is lifted too. dermis/reference/lighting.cpp has the same disk.
 struct ShadowDisk {
     vec3 center, axis_x, axis_y;  // in the shadow map
     vec3 lift;                    // a millimetre along the normal, in the shadow map
     vec3 concavity_mm;            // lift of x^2, y^2, xy
 };
 
-// What of the disk does not depend on where the light's map is.
+// The part of the disk that does not depend on the light's map.
 struct DiskPlane {
     vec2 slope;    // of the way towards the light over the way across it
     float lift_mm;
@@ -81,7 +78,7 @@ struct DiskPlane {
 // n_in_light: the normal along two axes across the light and towards it.
 DiskPlane disk_plane(vec3 n_in_light, float radius_mm) {
     float n_dot_l = clamp(n_in_light.z, 0.0, 1.0), sine = sqrt(1.0 - n_dot_l * n_dot_l);
-    // `lacking` is what the held slope leaves of the disk under the surface.
+    // `lacking`: how far the limited slope leaves the disk below the surface.
     float lacking = max(0.0, sine - kShadowMaxSlope * n_dot_l);
     DiskPlane plane;
     plane.slope = -n_in_light.xy * min(1.0 / max(n_dot_l, 1e-3), kShadowMaxSlope / max(sine, 1e-3));
@@ -127,9 +124,8 @@ vec3 shadow_tap_position(ShadowDisk disk, vec2 v) {
 
 float filter_radius_mm(float width_mm) { return max(0.5 * width_mm, shadow_texel_mm); }
 
-// Most points are wholly lit or wholly dark, and the outermost taps, which lie around the disk, tell: where these agree
-// the others are not read. An edge that cuts off less of the disk than lies between two of them is missed: under one
-// tap's share.
+// If the outermost taps, which surround the disk, agree, the others are not read. This misses an edge that cuts off less of
+// the disk than lies between two of them: less than one tap's share.
 bool outer_taps_agree(float lit) { return lit == 0.0 || lit == float(kShadowOuterTaps); }
 
 float taps_lit(texture2D map, ShadowDisk disk, int first, int end) {
@@ -139,10 +135,9 @@ float taps_lit(texture2D map, ShadowDisk disk, int first, int end) {
     return lit;
 }
 
-// The same for a software device. It reads the four texels of a filtered tap one by one, so the outermost taps are asked for
-// the nearest alone. It computes both sides of a branch, but leaves a loop when all its pixels have: so all taps are read in
-// a loop, from the last to the first, and the angle is turned from tap to tap. One tap each time around: the first time is
-// computed even where no pixel asks for it.
+// The same for a software device, which executes both sides of a branch but can leave a loop early: all taps are read in a
+// loop, one per iteration, from the last to the first. The outermost taps read the nearest texel alone, because a filtered
+// tap costs four reads.
 float disk_visibility_on_cpu(texture2D map, ShadowDisk disk) {
     float nearest = 0.0;
     for (int i = kShadowTaps - kShadowOuterTaps; i < kShadowTaps; ++i) {
@@ -176,7 +171,7 @@ vec3 disk_tint(texture2D map, ShadowDisk disk) {
     return tint / float(kTintTaps);
 }
 
-// Of the key light: 0 in shadow, 1 lit. Outside the map everything is lit.
+// Visibility of the key light: 0 in shadow, 1 lit and outside the map.
 float shadow_visibility(vec3 p_world_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm) {
     ShadowDisk disk =
         shadow_disk(light_view_projection, p_world_mm, n_geometry_world, to_light_world, filter_radius_mm(width_mm));

@@ -1,13 +1,13 @@
 // Light that enters the skin elsewhere and leaves here, gathered from the shadow maps (Dachsbacher and Stamminger 2003,
-// "Translucent Shadow Maps"): every texel holds a lit point of the skin, and whatever way that faces, the light it takes
-// in is what falls on the texel's own area. So int E R(|x - y|) dA over the lit side is a sum over texels without normals.
+// "Translucent Shadow Maps"). Every texel holds a lit point of the skin, and the light that enters there is the light that
+// falls on the texel's area. So int E R(|x - y|) dA over the lit side is a sum over texels without normals.
 //
-// The light that leaves at x is that integral over the one of R alone, which is 1 on flat skin and more where there is
-// skin behind x too: how much more is summed over the lit points off its tangent plane.
+// The light that leaves at x is that integral divided by the integral of R alone. The latter is 1 on flat skin and larger
+// where skin lies behind x; the excess is summed over the lit points off the tangent plane.
 //
-// Of the shadow map's texels those count that hold skin: frames and eyes before it shade it.
+// Only texels that hold skin count: frames and eyes in front of the skin shade it.
 //
-// The includer says which lit points its own blur or model has left out, so that no light is counted twice:
+// The includer defines which lit points its own blur or model leaves out, so that no light is counted twice:
 //
 //     float part_not_counted(LightMap map, LitPoint lit);
 #ifndef DERMIS_TRANSMISSION_GLSL
@@ -28,9 +28,9 @@ uniform texture2D lit_skin, lit_skin_1, lit_skin_2;
 vec3 transmission_profile(float distance_over_reach);
 float transmission_reach();
 
-// Of a quad of 2 x 2 pixels together: each that is drawn takes its part of them, and all get the sum.
+// Taps of a quad of 2 x 2 pixels: each pixel that is drawn takes its part, and all get the sum.
 const int kTransmissionTaps = 64;
-// Pixels farther apart than this part of the reach do not share; each takes half of the taps.
+// Pixels farther apart than this fraction of the reach do not share taps; each takes half of them.
 const float kSharedStep = 0.1;
 const float kWidestRing = 0.7;  // of the reach
 // Profiles that reach farther than the table would end at an edge.
@@ -40,7 +40,7 @@ const float kThinnest = 0.004;
 // Texels from the middle of one to the farthest point that reads it, and the steepest slope that this is done for. Past
 // the terminator there is skin before the point, unless the mesh is open there: the slope counts less.
 const float kTexelRise = 0.7, kSteepest = 12.0, kSlopesAway = 4.0;
-// Where a surface takes in more of the light than this, what comes through the skin is not added.
+// A surface that receives more of the light than this gets no transmission.
 const float kDark = 0.3;
 
 // The light's shadow map around the point that is shaded.
@@ -55,10 +55,9 @@ struct LightMap {
     bool valid;  // false behind a light, and beside the triangle where a driver loads nothing for such pixels
 };
 
-// Cosine to the normal from which on a lit point is of another wall.
+// A lit point whose normal has a smaller cosine than this belongs to another wall.
 const float kOtherWall = 0.5;
-// Normals of lit points that face the light less are differences of depth across a silhouette. They say nothing: skin beside
-// the point was taken for another wall, a speck of white at the terminator.
+// Ignore normals of lit points that face the light less: they are differences of depth across a silhouette.
 const float kLeastFacing = 0.03;
 
 // Along x_world, y_world and to_light_world of the light's map.
@@ -90,7 +89,7 @@ LightMap light_map_around(int light, vec3 p_mm, vec3 n_geometry_world, vec3 to_l
     map.reach_mm = reach_mm;
     map.to_light_world = to_light_world;
     vec4 here_clip = light_from_world * vec4(p_mm, 1.0);
-    // A uniform block is loaded beside the triangle too, a storage buffer not everywhere.
+    // Helper invocations load uniform blocks, but not storage buffers on every driver.
     map.valid = (all_directional != 0 && one_light != 0) || here_clip.w > 0.0;
     if (all_directional != 0) {
         map.x_world = source.x_world;
@@ -120,7 +119,7 @@ float shadow_z(int map_index, vec2 map_uv) {
     return textureLod(sampler2D(shadow_map_2, nearest_clamp), map_uv, 0.0).r;
 }
 
-// Of the four texels around: below left, below right, above right, above left; 1 without lit skin.
+// Depths of the four texels around: below left, below right, above right, above left; 1 without lit skin.
 vec4 lit_skin_z4(int map_index, vec2 map_uv) {
     if (shadow_map_count == 1 || map_index == 0) return textureGather(sampler2D(lit_skin, nearest_clamp), map_uv);
     if (map_index == 1) return textureGather(sampler2D(lit_skin_1, nearest_clamp), map_uv);
@@ -155,7 +154,7 @@ LitPoint lit_point(LitNormals normals, vec3 offset_mm, vec4 z) {
     return LitPoint(offset_mm, vec3(tilt, 1.0) * per_length, cosine);
 }
 
-// 0 where the lit point faces as the point that it shines on does, 1 where it faces the other way, as an opposite wall.
+// 0 where the lit point faces like the shaded point, 1 where it faces the other way, as an opposite wall does.
 float turned_away(LitPoint lit) { return 0.5 - 0.5 * lit.cosine; }
 
 #ifndef DERMIS_TRANSMISSION_EXPRESSION
@@ -175,17 +174,16 @@ vec4 sum_of_quad(int lane, vec4 v) {
     return 2.0 * pair + ((lane & 2) != 0 ? -down : down);
 }
 
-// Above 0 where it is so in any pixel of the quad; v is not below 0. All four must come here together.
+// Above 0 if v is above 0 in any pixel of the quad; v >= 0. All four pixels must call this together.
 float any_of_quad(float v) {
     float row = v + abs(dFdxFine(v));
     return row + abs(dFdyFine(row));
 }
 
-// Taps are in rings at even steps of radius, which is closer than even cover where R is large; each counts for its
-// ring's area, and they are turned from quad to quad: noise instead of bands. What of it lies off the tangent plane adds
-// to the integral of R.
+// Taps lie on rings at even steps of radius, denser where R is large; each counts for its ring's area. The rings turn from
+// quad to quad: noise instead of bands. Taps off the tangent plane add to the integral of R.
 vec3 gathered_light(LightMap map, bool needed) {
-    // One decision for all four pixels of a quad. Those beside the triangle are no part of the picture: they take none.
+    // One decision for all four pixels of a quad. Helper invocations beside the triangle take none.
     bool together =
         length(dFdxCoarse(p_world_mm_in)) + length(dFdyCoarse(p_world_mm_in)) < 2.0 * kSharedStep * map.reach_mm;
     ivec2 in_quad = ivec2(gl_FragCoord.xy) & 1;
@@ -231,11 +229,10 @@ vec3 gathered_light(LightMap map, bool needed) {
 // gathered.
 const float kOwnBody = 0.9, kOtherBody = 0.5;
 
-// Exitance over albedo, over the light's irradiance and over Surface::occlusion, which the includer multiplies by: in a crease, between lips or lids,
-// there is more skin around a point than flat skin has. It is unlit, so that the taps do not find it: the occlusion says
-// how much. Of the surface load_geometry() is enough. own_way_mm is the light's way through the body that the includer's own model has light through,
-// as far as the light is visible; below 0 for none. Where no lit skin is near along the light, as on most of a head's
-// dark side, one tap is all.
+// Exitance over albedo, over the light's irradiance and over Surface::occlusion, by which the includer multiplies: creases
+// hold unlit skin that the taps do not find. Only load_geometry() must have run. own_way_mm: length of the light's way
+// through the body in the includer's own model, scaled by the light's visibility; below 0 for none. Without lit skin near
+// along the light, one tap is taken.
 vec3 transmitted_part(Surface s, int light, vec3 to_light_world, float n_dot_l, float visibility, float own_way_mm) {
     if (transmission == kTransmissionNone) return vec3(0.0);
     float lit = max(n_dot_l, 0.0) * visibility;

@@ -14,7 +14,7 @@ namespace dermis::inline engines::web {
 /// "count".
 [[nodiscard]] Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangle_count);
 
-/// Of one vertex.
+/// Bytes of one vertex.
 inline constexpr int kVertexBytes = 36;
 
 }  // namespace dermis::inline engines::web

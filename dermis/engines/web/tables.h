@@ -1,5 +1,5 @@
 #pragma once
-// What the page reads by texture coordinate. Internal to dermis/engines.
+// The page's lookup tables. Internal to dermis/engines.
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-// The first bytes of the formats that a library reads: they are told apart without it.
+// Magic numbers of the formats that a library reads.
 
 #include "dermis/image/codec/codec.h"
 

@@ -46,7 +46,7 @@ inline constexpr std::array kTexelFormats = {
     TexelFormat{2, 109, PixelFormat::f32, 4, Encoding::linear},         // R32G32B32A32_SFLOAT
 };
 
-/// What the messages about other formats say is read.
+/// The supported formats, for messages about others.
 inline constexpr const char* kReadTexelFormats =
     "dermis reads uncompressed 1 to 4 channels of 8 or 16 bits or floats (not signed, not packed)";
 
