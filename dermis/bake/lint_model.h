@@ -28,7 +28,7 @@ struct Sample {
 /// N.L of the sample's columns under a hypothesis.
 [[nodiscard]] std::vector<double> n_dot_l_of(const Sample& sample, const LintHypothesis& hypothesis);
 
-/// Radii of the sample's rows; the axis is clamped to what is no negative curvature.
+/// Radii of the sample's rows; negative curvatures are clamped to 0.
 [[nodiscard]] std::vector<double> radii_of(const Sample& sample, const LintHypothesis& hypothesis);
 
 /// Cuts light to what the encoding of the hypothesis holds; light is interleaved RGB, rows of n_dot_l.
@@ -64,8 +64,8 @@ struct Bank {
 void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> light,
               const std::vector<double>& radii_mm, LintHypothesis& hypothesis);
 
-/// What a table may have been made of: construction and profile of the hypothesis are set. Profiles that are
-/// no sums of Gaussians are replaced by their fit, which is exact enough to distinguish them.
+/// Hypotheses about a table's origin, with construction and profile set. Profiles that are
+/// not sums of Gaussians are replaced by their fit, which is exact enough to distinguish them.
 struct Model {
     LintHypothesis hypothesis;
     std::shared_ptr<const Profile> profile;
@@ -84,7 +84,7 @@ struct Search {
 enum class Crops { searched, ignored };
 [[nodiscard]] Search search(const Image& linear_float, Crops crops);
 
-/// What a sample is compared with: rows as the hypothesis says, cut by the encoding as the file is, or the
+/// Reference of a sample: rows of the hypothesis, cut by the encoding like the file, or the
 /// exact sphere of its profile.
 enum class Against { its_model, the_sphere };
 
@@ -136,8 +136,8 @@ struct TablePicture {
 /// Three digits.
 [[nodiscard]] std::string rounded(double value);
 
-/// Names rows that have a curvature each but no spacing that is known here, and takes `explained` back; false
-/// where that is not so.
+/// Describes rows of unknown spacing and clears `explained`; false
+/// if the spacing is known.
 [[nodiscard]] bool explain_rows(LintReport& report, const Search& found, const Image& image);
 
 /// A table of another kind than diffuse; `rms` and `max` are what its convention leaves.

@@ -45,7 +45,7 @@ struct LutOptions {
 /// of the integral. Other profiles on the sphere: about 20 microseconds a texel and core, within 1e-6, kept
 /// in the cache; on a ring they are refused (a profile with a pole has no ring integral): fit Gaussians first
 /// (optics/gaussian_fit.h). Errors: the size, the profile, an axis other than n_dot_l within -1..1 over
-/// curvature_per_mm 0..1000 or radius_mm 0.001..1e6, taps of a profile that is no Gaussian sum.
+/// curvature_per_mm 0..1000 or radius_mm 0.001..1e6, taps of a profile that is not a Gaussian sum.
 [[nodiscard]] Result<Table> bake_lut(const LutOptions& options);
 
 }  // namespace dermis::inline bake

@@ -11,7 +11,7 @@ namespace dermis::inline bake {
 /// Header "U,V,r,g,b" (or "U,V,value"), zonal tables "U,order,r,g,b".
 [[nodiscard]] std::string table_csv(const Table& table);
 
-/// `convention` says size and meaning. Errors name `place` and the line: a wrong header, a cell that is no
+/// `convention` says size and meaning. Errors name `place` and the line: a wrong header, a cell that is not a
 /// number, too few or too many rows, coordinates that are not the convention's.
 [[nodiscard]] Result<Table> parse_table_csv(std::string_view text, const ParsedConvention& convention,
                                             std::string_view place);

@@ -5,7 +5,7 @@
 
 namespace dermis::inline base {
 
-/// What such work is left by. No std::exception: nothing on the way takes it for a failure of its own.
+/// Thrown to leave stopped work. Not a std::exception, so that no handler on the way catches it.
 struct Stopped {};
 
 /// While it exists, leave_if_stopped() throws on this thread, and on the threads of its parallel_for(), once

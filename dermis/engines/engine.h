@@ -1,5 +1,5 @@
 #pragma once
-// What differs between the engines' packages, as data.
+// The differences between the engines' packages, as data.
 
 #include <map>
 

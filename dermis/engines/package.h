@@ -3,7 +3,7 @@
 //
 //     Result<std::vector<PackageFile>> files = make_package("godot", {.profile = skin, ...});
 //
-// What an engine needs is a folder of text files (engines/<engine>), in which words between @ are replaced,
+// A package is a folder of text files (engines/<engine>), in which words between @ are replaced,
 // and one Engine (engine.h) that names what is generated beside them. The same input gives the same bytes.
 
 #include <cstddef>

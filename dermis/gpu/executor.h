@@ -105,7 +105,7 @@ class Executor {
     /// As run(), but does not wait for the frame, only for the one two before it: the CPU prepares a frame
     /// while the device draws another. Returns the frame's number.
     [[nodiscard]] Result<uint64_t> submit(const PassList& list, const FrameInputs& inputs);
-    /// Of submitted frames that are done by now: each once, oldest first. Those of the last few are kept.
+    /// Timings of submitted frames that are done: each once, oldest first; the last few frames only.
     [[nodiscard]] Result<std::vector<FrameResult>> finished();
 
     /// An image of the last list, as it was left: f16 and f32 formats as such, 8 bit as u8. Depth as one

@@ -7,7 +7,7 @@
 
 namespace dermis::gpu {
 
-/// What a frame in flight has to itself. Images are shared: the queue runs frames in order, and barriers
+/// State of one frame in flight. Images are shared: the queue runs frames in order, and barriers
 /// reach from one to the next.
 struct FrameSlot {
     ReusedCommands commands;

@@ -1,6 +1,6 @@
 #pragma once
-// What a compiler makes of the pipelines of a pass list, for a chip that need not be there: Mesa's RADV opens
-// a device without hardware, which compiles and draws nothing.
+// Compiler statistics of the pipelines of a pass list, for a chip that need not be installed: Mesa's RADV
+// opens a device without hardware, which compiles and draws nothing.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace dermis::gpu {
 
-/// Of one shader, as the compiler counts. Cycles are the compiler's estimate: a loop that it did not unroll
+/// Statistics of one shader. Cycles are the compiler's estimate: a loop that it did not unroll
 /// counts eight times, a branch half (ACO, aco_statistics.cpp).
 struct ShaderStatistics {
     std::string stage;  ///< "vertex", "fragment", "compute"

@@ -12,7 +12,7 @@
 
 namespace dermis::gpu {
 
-/// What the queue was given, counted: a timeline semaphore has the number of the last submission that is
+/// Counts submissions to the queue: a timeline semaphore has the number of the last submission that is
 /// done, and all before it are done too.
 struct Submissions {
     VkSemaphore done = VK_NULL_HANDLE;
@@ -101,7 +101,7 @@ using OwnedDescriptorPool = Owned<VkDescriptorPool, &VolkDeviceTable::vkDestroyD
 using OwnedQueryPool = Owned<VkQueryPool, &VolkDeviceTable::vkDestroyQueryPool>;
 using OwnedSemaphore = Owned<VkSemaphore, &VolkDeviceTable::vkDestroySemaphore>;
 
-/// "cannot WHAT: out of GPU memory". Success codes that are no failure (VK_INCOMPLETE, ...) pass.
+/// "cannot WHAT: out of GPU memory". Other success codes (VK_INCOMPLETE, ...) pass.
 [[nodiscard]] Result<void> check(VkResult result, std::string_view what);
 
 /// make<OwnedSampler>(context, context.vk.vkCreateSampler, info, "make a sampler")

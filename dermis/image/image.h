@@ -23,7 +23,7 @@ enum class Encoding { linear, srgb };
 inline constexpr int kMaxImageSide = 16384;
 
 /// Most bytes one image may take as 32-bit floats, the form in which it is worked on: 2 GiB, or the number of
-/// MiB in the environment's DERMIS_MAX_IMAGE_MIB. An error when that is no positive number.
+/// MiB in the environment's DERMIS_MAX_IMAGE_MIB. Error: not a positive number.
 [[nodiscard]] Result<uint64_t> max_image_bytes();
 
 /// Value type; copies are deep. Integer formats hold 0..1 as 0..255 or 0..65535. Channels: 1 to 4 (red,

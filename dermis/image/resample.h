@@ -14,7 +14,7 @@ namespace dermis::inline image {
 enum class Texels { values, unit_vectors };
 
 /// To any size, each axis by itself: the average over a texel's area where it shrinks (box filter, exact for
-/// ratios that are no integers), linear interpolation between texel centres where it grows. Format and
+/// ratios that are not integers), linear interpolation between texel centres where it grows. Format and
 /// encoding stay. Channels are independent: colour is not weighted by alpha. 2048x2048 RGB u8 to half takes
 /// about 120 ms.
 [[nodiscard]] Image resize(const Image& image, int width, int height, Texels texels = Texels::values);

@@ -1,5 +1,5 @@
 #pragma once
-// What there is to do, as shell lines: each runs alone, in any order, and does nothing when its result is
+// Jobs as shell lines: each runs alone, in any order, and does nothing if its result is
 // there and whole.
 
 #include <filesystem>

@@ -53,7 +53,7 @@ struct Captured {
 [[nodiscard]] Result<Captured> captured(const Image& technique_effect, const EffectHalves& truth,
                                         const Image& mask);
 
-/// Of a technique that is noisy itself, as another truth is: its noise is taken out like the truth's.
+/// Share of a technique that is noisy itself, such as another truth; its noise drops out too.
 [[nodiscard]] Result<Captured> captured(const EffectHalves& technique, const EffectHalves& truth,
                                         const Image& mask);
 

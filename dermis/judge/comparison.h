@@ -32,7 +32,7 @@ struct ComparisonSettings {
     int grid = 6;        ///< both sides take grid x grid points of a pixel (docs/ground_truth.md: how many)
     double noise = 0.2;  ///< of the effect's RMS at which the truth is fine enough
     int samples = 2048;  ///< of the truth a pixel, at most
-    /// Of the truth a sample. The bias of its quotient of two integrals is below a hundredth of the effect.
+    /// Probes per sample of the truth. The bias of its quotient is below a hundredth of the effect.
     int probes = 64;
     int frames = 5;  ///< timed ones, after one that compiles; 0: none are
     /// Integrator, lighting and seed of the truth. Its size is the comparison's. The defaults are

@@ -38,7 +38,7 @@ struct EffectTruth {
 /// second never falls by more than the estimate of all grows.
 using ReferenceDone = std::function<void(double done, bool first_samples)>;
 
-/// A state in the cache that is finer than asked for is taken as it is, a coarser one is gone on with, so
+/// Reuses a finer cached state and continues a coarser one, so
 /// that a run that was stopped loses little. Width 0 takes the same places in the pixels and the same
 /// reflections as the skin's width, so that their noise cancels. Errors: as render_reference; stopped; no
 /// skin in sight.

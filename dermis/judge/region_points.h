@@ -1,5 +1,5 @@
 #pragma once
-// What the judge has to know of the skin in a pixel's middle to say which region it belongs to. Internal to
+// Attributes of the skin in a pixel's centre that decide its region. Internal to
 // dermis/judge.
 
 #include <vector>

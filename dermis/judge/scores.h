@@ -25,7 +25,7 @@ struct SkinMasks {
     Image penumbra;    ///< n.l above that, within kPenumbraBandMm / 2 of the edge of a shadow
 };
 
-/// What the masks are cut from. `light`: uv, n.l and visibility through a filter kPenumbraBandMm wide (the
+/// Sources of the masks. `light`: uv, n.l and visibility through a filter kPenumbraBandMm wide (the
 /// G-buffer's gbuffer_light); `drawn`: the share of the pixel where the renderer drew a surface, one channel;
 /// `skin`: the ground truth's share of skin. Only pixels that are wholly skin in both count.
 [[nodiscard]] SkinMasks make_masks(const Image& light, const Image& drawn, const Image& skin);

@@ -23,7 +23,7 @@ struct ObjFile {
                                         const ReadSibling& read_sibling, const MeshOptions& options);
 
 /// The materials of an MTL file. Map paths are made relative to the working directory through `directory`.
-/// What cannot be read, and what is not used, becomes a warning, once each: a head can be drawn without its
+/// Unreadable and unused statements become warnings, once each: a head can be drawn without its
 /// gloss map.
 [[nodiscard]] std::vector<Material> parse_mtl(std::string_view text, const std::string& name,
                                               const std::filesystem::path& directory,

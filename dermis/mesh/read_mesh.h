@@ -48,7 +48,7 @@ using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::stri
 /// Every value of the result is finite and every index in range. Normals are unit, computed where the file
 /// has none (normals.h), and so are tangents (tangents.h).
 ///
-/// Of glTF: skins in the pose of the file's nodes, morph targets by their weights, the UV set and
+/// glTF: skins in the pose of the file's nodes, morph targets by their weights, the UV set and
 /// KHR_texture_transform of each material's first texture (maps with others are left out together with the
 /// factors that they multiply, with a warning that names both).
 ///

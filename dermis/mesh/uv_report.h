@@ -26,7 +26,7 @@ struct UvMetric {
 /// One per triangle. Needs UVs.
 [[nodiscard]] std::vector<UvMetric> triangle_uv_metrics(const Mesh& mesh);
 
-/// Of every vertex: the mean over its triangles, by their area on the surface. Across a UV seam each side
+/// One per vertex: the mean over its triangles, weighted by area on the surface. At a UV seam each side
 /// keeps its own. Interpolate it over the UV layout for a stretch map.
 [[nodiscard]] std::vector<UvMetric> vertex_uv_metrics(const Mesh& mesh);
 
@@ -57,7 +57,7 @@ struct UvReport {
     Percentiles anisotropy;             ///< by surface area
 };
 
-/// Of the whole mesh, or of one material (atlases are per material: two of them may share a tile without
+/// Report of the whole mesh, or of one material (atlases are per material: two may share a tile without
 /// overlap). Needs UVs. Coverage and overlap are counted at texel centres of a `resolution` grid a tile;
 /// edges that triangles share count once. Linear in triangles, each of which costs a step a row of texels;
 /// the resolution is halved while that would take more than some seconds. About 15 ms for 18,000 triangles at

@@ -1,5 +1,5 @@
 #pragma once
-// What lies beyond the border of a UV chart: the surface goes on in another chart, and filters over the atlas
+// Beyond the border of a UV chart the surface continues in another chart, and filters over the atlas
 // must follow it there.
 
 #include <cstdint>
@@ -19,10 +19,10 @@ struct AtlasPart {
 /// Rows from the top; a texel's centre is at (x + 0.5, y + 0.5).
 struct SeamMap {
     int size = 0;
-    /// Of a gutter texel: where in the atlas (in texels) the surface that it shows lies, the neighbouring
+    /// For a gutter texel, the place in the atlas (in texels) of the surface that it shows, the neighbouring
     /// chart unfolded over the shared edge; (-1, -1) inside charts, at open borders and far from any chart.
     std::vector<Vec2> carried;
-    /// Whose texel it is, gutter included: 0 no chart's, else 1 to 255 (charts beyond repeat).
+    /// Chart of the texel, gutter included: 0 none, else 1 to 255 (further charts repeat).
     std::vector<uint8_t> chart;
 };
 

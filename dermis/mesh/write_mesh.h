@@ -24,7 +24,7 @@ struct NamedImage {
 /// without, and empty ones, have none. Errors: a map without bytes or neither PNG nor JPEG, extras that are
 /// no JSON, more than 4 GiB, an unwritable file. read_mesh reads it back, but for extras.
 ///
-/// What glTF has no place for is left out: curvature and occlusion, object-space normal maps, maps of
+/// Leaves out what glTF cannot hold: curvature and occlusion, object-space normal maps, maps of
 /// roughness alone, displacement, opacity, kernel size and curvature.
 [[nodiscard]] Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
                                      std::span<const NamedImage> images = {},
@@ -36,7 +36,7 @@ struct NamedImage {
                                                        std::span<const std::string> extras = {});
 
 /// Positions in millimetres, normals, UVs (origin bottom-left, as OBJ has it), `usemtl` by name; an MTL of
-/// the same name beside it, with map paths as they stand in the materials.
+/// the same name beside it, with map paths as in the materials.
 [[nodiscard]] Result<void> write_obj(const std::filesystem::path& path, const Mesh& mesh);
 
 /// The texts that write_obj() writes to mtl_path(path) and to `path`.

@@ -1,5 +1,5 @@
 #pragma once
-// What links Burley's d to the lengths that tools ask for: d = length / s(A), with s fitted by Christensen
+// Burley's d from the lengths that tools ask for: d = length / s(A), with s fitted by Christensen
 // and Burley 2015 to Monte Carlo walks in an index-matched half-space, one fit per length and illumination. A
 // is the albedo under diffuse light, 0..1; every s is positive.
 

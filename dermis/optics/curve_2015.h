@@ -13,7 +13,7 @@ namespace dermis::inline optics {
 /// integral, largest channel: 0.20 at 2 mm, 0.071 at 4, 0.019 at 8, 0.017 at 16 (`dermis bake closed_form`).
 [[nodiscard]] Rgb curve_2015_direct(double n_dot_l, double curvature_per_mm);
 
-/// What the curve for 2 mm is mixed of: a parabola (a cubic in blue) for the dark, a line for the light.
+/// The pieces of the curve for 2 mm: a parabola (a cubic in blue) for the dark, a line for the light.
 struct TightPieces {
     double dark = 0, light = 0;
 };

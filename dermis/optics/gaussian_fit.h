@@ -1,7 +1,7 @@
 #pragma once
 // A sum of Gaussians for any profile, so that every table, blur and shader has one form to work on.
 //
-// What is fitted is S(r) = 1 - cdf(r), the part of the light that leaves beyond r, by sum_i w_i
+// Fits S(r) = 1 - cdf(r), the part of the light that leaves beyond r, by sum_i w_i
 // exp(-r^2/2v_i): bounded where R itself is infinite (Burley at 0), and the slab transmittance at the same
 // time. Burley's and the dipole's S are completely monotone in r^2, so positive weights suffice and more
 // terms always help. Each channel gets its own Gaussians, placed by Levenberg-Marquardt on log variances and

@@ -23,7 +23,7 @@ enum class LobeWidth : int32_t {
 [[nodiscard]] double merging_error(const GaussianSum& profile, const std::vector<ChannelGaussians>& lobes,
                                    double least_radius_mm);
 
-/// What the irradiance of a lobe in shaders/include/skin/spherical_gaussians.glsl adds at most.
+/// Largest error that the irradiance of a lobe in shaders/include/skin/spherical_gaussians.glsl adds.
 inline constexpr double kLobeLightError = 0.018;
 
 }  // namespace dermis::inline optics

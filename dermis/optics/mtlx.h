@@ -25,7 +25,7 @@ namespace dermis::inline optics {
 [[nodiscard]] Result<Profile> parse_mtlx(std::string_view text, std::string_view place);
 [[nodiscard]] Result<Profile> read_mtlx(const std::filesystem::path& path);
 
-/// What of the same surface is no part of a profile but of a scene's skin; nothing where the file does not
+/// Values of the surface that belong to a scene's skin, not to a profile; nothing where the file does not
 /// say it, or by a map. Both as skin.roughness and skin.ior of a scene: perceptual
 /// roughness, and the index of refraction.
 struct MtlxSurface {
@@ -37,7 +37,7 @@ struct MtlxSurface {
 /// A document of version 1.39 with the surface and its material; radius in cm, colour in lin_rec709, as that
 /// of the base too. Without scattering direction: subsurface_scatter_anisotropy is 0.
 [[nodiscard]] std::string mtlx_text(const Profile& profile);
-/// What the document of `written` does not keep of the profile it was made from, and what its numbers mean; a
+/// What the document of `written` loses of its profile, and the meaning of its numbers; a
 /// sentence each.
 [[nodiscard]] std::vector<std::string> mtlx_notes(const Profile& profile, const Profile& written);
 

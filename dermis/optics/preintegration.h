@@ -104,7 +104,7 @@ class DiffuseRows {
     std::vector<double> basis_;                 // block by block of elevations
 };
 
-/// A profile that is no Gaussian sum: R(distance_mm) per channel, any common scale; finite and smooth for
+/// A profile that is not a Gaussian sum: R(distance_mm) per channel, any common scale; finite and smooth for
 /// distances above 0, and distance * R finite towards 0 (a 1/r pole is allowed).
 struct RadialProfile {
     std::function<Rgb(double distance_mm)> reflectance;

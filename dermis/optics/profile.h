@@ -40,8 +40,9 @@ struct GaussianSum {
     std::vector<GaussianTerm> terms;
 };
 
-/// What is left of a wave of light of each colour, 1 for a colour that the skin does not reflect: the sum of
-/// the weights times exp(-variance x), x = 2 pi^2 / wavelength^2 in 1/mm^2, over the sum of the weights.
+/// The share of a wave of light that the profile leaves, 1 for a colour that the skin does not reflect: the
+/// sum of the weights times exp(-variance x), x = 2 pi^2 / wavelength^2 in 1/mm^2, over the sum of the
+/// weights.
 [[nodiscard]] Vec3 profile_transfer(const GaussianSum& profile, double x);
 
 /// GPU Gems 3, section 14.4: six Gaussians fitted to a three-layer skin; weights

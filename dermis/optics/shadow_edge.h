@@ -1,5 +1,5 @@
 #pragma once
-// What of a straight edge's shadow both the bakers of its scattering and the unit scenes' exact answers need.
+// The shadow of a straight edge, for the bakers of its scattering and for the unit scenes' exact answers.
 
 namespace dermis::inline optics {
 

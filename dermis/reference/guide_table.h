@@ -13,7 +13,7 @@ namespace dermis::inline reference {
 class GuideTable {
   public:
     GuideTable() = default;
-    /// Of values that do not fall, from at least 0, at most 2^24 of them.
+    /// `values`: at least 0, not decreasing, at most 2^24.
     template <class Value>
     explicit GuideTable(const std::vector<Value>& cumulative) {
         const size_t steps = std::bit_ceil(cumulative.size());

@@ -36,7 +36,7 @@ struct GuidedStep {
 [[nodiscard]] GuidedStep sample_guided_step(const WalkMedium& medium, const WalkGuide& guide, int hero,
                                             Vec3 n_out, Vec3 direction, bool turned, Pcg32& random);
 
-/// What a walk carries and how likely each channel is to have led it here.
+/// Throughput of a walk, and the density with which each channel would have led it here.
 struct GuidedWeight {
     Vec3 throughput = {1, 1, 1};
     Vec3 led_by = {1.0f / 3, 1.0f / 3, 1.0f / 3};

@@ -84,11 +84,11 @@ class Lighting {
     [[nodiscard]] Vec3 specular_radiance(const ShadingPoint& point, Vec3 to_eye,
                                          const LightingRandom& random) const;
 
-    /// What is left of diffuse light that leaves towards the eye (shaders/include/reduced_diffuse.glsl): less
+    /// Factor on diffuse light that leaves towards the eye (shaders/include/reduced_diffuse.glsl): less
     /// than 1 on skin of a scene with Skin::specular_reduces_diffuse.
     [[nodiscard]] float diffuse_exit(const ShadingPoint& point, Vec3 to_eye) const;
 
-    /// What comes through of light along the segment: 0 behind opaque things, coloured behind translucent
+    /// Transmittance along the segment: 0 behind opaque surfaces, coloured behind translucent
     /// ones (each surface crossed multiplies).
     [[nodiscard]] Vec3 transmittance(const Ray& ray) const;
 

@@ -48,7 +48,7 @@ class MaterialSet {
     /// space.
     [[nodiscard]] Vec3 normal_at(const SurfaceAttributes& surface, uint32_t object) const;
     [[nodiscard]] SurfaceReflection reflection_at(const SurfaceAttributes& surface, uint32_t object) const;
-    /// What a translucent surface lets through: its opacity map's colour, or base colour * (1 - opacity).
+    /// Transmittance of a translucent surface: its opacity map's colour, or base colour * (1 - opacity).
     [[nodiscard]] Vec3 transmittance_at(const SurfaceAttributes& surface, uint32_t object) const;
     [[nodiscard]] float occlusion_at(const SurfaceAttributes& surface, const RayHit& hit) const;
 

@@ -45,7 +45,7 @@ struct ReferenceSettings {
     std::optional<ScatteringMedium> medium;  ///< walk: else walk_medium_of the scene's profile
 };
 
-/// What a picture is right now. Linear f32. The error of a pixel is the standard error of its mean luminance
+/// The picture so far, linear f32. The error of a pixel is the standard error of its mean luminance
 /// over max(luminance, 5 % of the brightest percentile); the picture's is the root mean square over all
 /// pixels that show skin or another surface.
 struct ReferencePicture {

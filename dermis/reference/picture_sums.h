@@ -21,7 +21,7 @@ struct PixelSample;
 inline constexpr int kSampleBlock = 4;
 inline constexpr int kMostSamples = 65536;  ///< a pixel
 
-/// What each pixel sums, and where in PixelState::sums: `channels` sums from `first` on.
+/// A quantity that each pixel sums, and its place in PixelState::sums: `channels` sums from `first` on.
 struct SumLayout {
     std::string_view name;
     size_t first, channels;

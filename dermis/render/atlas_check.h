@@ -15,8 +15,8 @@ namespace dermis::inline render {
 /// without UVs. Cost: 20 ms for 20,000 triangles.
 [[nodiscard]] Result<std::vector<std::string>> check_skin_atlas(const Scene& scene);
 
-/// What keeps maps that are baked over the skin's atlas from being used, and the mend; nothing where each
-/// place has texels of its own, but for 1 %. UVs in other tiles are no reason: they have no texels, which a
+/// Why maps over the skin's atlas cannot be used, and the fix; nothing if each
+/// place but 1 % has its own texels. UVs in other tiles are allowed: they have no texels, which a
 /// shader sees.
 [[nodiscard]] std::optional<std::string> unfit_for_baked_maps(const Scene& scene);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a program is built with, as plain data. The program makes it (catalog/) and hands it down: no library
+// The built-in parts of a program, as plain data. The program passes it down from catalog/: no library
 // names a technique, a subject or a technique's shader by name.
 
 #include <span>

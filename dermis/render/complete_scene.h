@@ -1,5 +1,5 @@
 #pragma once
-// What shading needs and files do not have: the curvature of the skin at each vertex, and the occlusion of
+// Adds what shading needs and files lack: the curvature of the skin at each vertex, and the occlusion of
 // the environment there.
 
 #include "dermis/base/result.h"
@@ -12,7 +12,7 @@ namespace dermis::inline render {
 /// costs a file read.
 [[nodiscard]] Result<void> complete_scene(Scene& scene);
 
-/// Of each vertex its occlusion blurred over the surface by three variances (kOcclusionVariance0Mm2 and
+/// One per vertex: its occlusion blurred over the surface by three variances (kOcclusionVariance0Mm2 and
 /// following); 1 where the mesh has none. Errors as blur_over_surface().
 [[nodiscard]] Result<std::vector<Vec3>> blurred_occlusions(const Mesh& mesh);
 

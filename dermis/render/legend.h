@@ -13,7 +13,7 @@ inline constexpr int kLegendWidth = 320, kLegendHeight = 44;
 /// Whether a view's colours have a scale.
 [[nodiscard]] bool has_legend(std::string_view view);
 
-/// One channel, u8: how much ink stands on each pixel of the legend, kLegendWidth x kLegendHeight. curvature:
+/// One channel, u8: coverage of ink on each pixel of the legend, kLegendWidth x kLegendHeight. curvature:
 /// -0.125 to 0.125 in 1/mm; n_dot_l: -1 to 1; blank for views without a scale. Error: no font
 /// (image/label.h).
 [[nodiscard]] Result<Image> make_legend(std::string_view view);

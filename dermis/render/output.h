@@ -19,7 +19,7 @@ struct OutputSettings {
 /// Whether `path` and the settings go together, before anything expensive runs.
 [[nodiscard]] Result<void> check_output(const std::filesystem::path& path, const OutputSettings& settings);
 
-/// What a picture of the last frame is made of: its linear numbers (radiance, or a view of the G-buffer), the
+/// The parts of a picture of the last frame: its linear numbers (radiance, or a view of the G-buffer), the
 /// tone-mapped picture in the bits of a PNG, and the text that files of both carry.
 [[nodiscard]] Result<Image> linear_picture(Renderer& renderer, const std::string& view);
 [[nodiscard]] Result<Image> display_picture(Renderer& renderer, int png_bits);

@@ -50,7 +50,7 @@ class Renderer {
                                           const DrawSettings& settings);
     [[nodiscard]] Result<std::vector<gpu::FrameResult>> finished() { return executor_.finished(); }
 
-    /// Of the last frame: linear radiance (f16, RGBA; alpha is coverage), the tone-mapped picture
+    /// Images of the last frame: linear radiance (f16, RGBA; alpha is coverage), the tone-mapped picture
     /// (sRGB-encoded, u8, or f32 when deep), any image of its list by name.
     [[nodiscard]] Result<Image> radiance();
     [[nodiscard]] Result<Image> display();

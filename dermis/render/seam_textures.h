@@ -1,5 +1,5 @@
 #pragma once
-// What blurs over the skin's atlas need to know of it, made of the scene's meshes.
+// Textures for blurs over the skin's atlas, made from the scene's meshes.
 
 #include "dermis/gpu/device.h"
 #include "dermis/scene/scene.h"
@@ -12,7 +12,7 @@ struct SeamTextures {
     gpu::Texture seam_map, chart_map;
 };
 
-/// Of all skin of the scene, which shares one atlas. See SeamRequest for what the texels mean.
+/// Textures of all skin of the scene, which shares one atlas. SeamRequest describes the texels.
 [[nodiscard]] Result<SeamTextures> make_seam_textures(gpu::Device& device, const Scene& scene,
                                                       const SeamRequest& request);
 

@@ -36,7 +36,7 @@ struct SharedPassSettings {
 /// The image of frame_passes() that holds the linear result.
 [[nodiscard]] std::string radiance_image(const SharedPassSettings& settings);
 
-/// What a frame supplies to a list beside its own images: shared_inputs() plus the technique's tables.
+/// The inputs of a list beside its own images: shared_inputs() plus the technique's tables.
 /// "no_image" is one white texel, for textures that a shader has but, by its constants, never reads.
 [[nodiscard]] std::vector<std::string> shared_inputs();
 

@@ -11,7 +11,7 @@ namespace dermis::inline render {
 /// map.
 [[nodiscard]] Result<Vec3> mean_skin_albedo(const Scene& scene);
 
-/// What Skin::albedo_tint_linear must be for the mean to become `albedo_linear`: relative differences (lips,
+/// Skin::albedo_tint_linear with which the mean becomes `albedo_linear`: relative differences (lips,
 /// freckles) stay.
 [[nodiscard]] Vec3 tint_towards(Vec3 albedo_linear, Vec3 mean_linear);
 

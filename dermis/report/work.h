@@ -22,7 +22,7 @@ struct PassWork {
     uint64_t indices = 0;    ///< 0 for a full-screen triangle
     uint64_t fragments = 0;  ///< that passed the depth test
     uint64_t threads = 0;    ///< of a compute pass
-    /// What the frame can bind, by name; of draws with different maps the sum.
+    /// Bytes that the frame can bind, by name; the sum for draws with different maps.
     std::map<std::string, TextureBytes> textures;
 };
 

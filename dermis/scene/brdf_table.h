@@ -1,7 +1,7 @@
 #pragma once
-// What a lobe reflects of a constant white environment, as F0 * scale + bias: the second factor of the split
-// sum (Karis 2013, "Real Shading in Unreal Engine 4"), and by reciprocity the part of light from one
-// direction that is reflected at all. Fresnel is Schlick's.
+// The share of a constant white environment that a lobe reflects, as F0 * scale + bias: the second factor of
+// the split sum (Karis 2013, "Real Shading in Unreal Engine 4"), and by reciprocity the part of light from
+// one direction that is reflected at all. Fresnel is Schlick's.
 //
 // - GGX with height-correlated Smith masking (Heitz 2014, equation 99)
 // - Kelemen/Szirmay-Kalos over Beckmann's distribution (shaders/include/skin/specular.glsl)

@@ -11,8 +11,8 @@ inline constexpr float kMostSkinIor = 2;
 /// Copies ior, roughness and specular into a material of skin.
 void apply_skin(const Skin& skin, Material& material);
 
-/// What a MaterialX profile says of the surface that the skin has otherwise: "skin.mtlx: specular_roughness
-/// 0.3, skin.roughness is 0.45"; empty where both agree, or where the profile is no such file.
+/// Values of a MaterialX profile that differ from the skin's: "skin.mtlx: specular_roughness
+/// 0.3, skin.roughness is 0.45"; empty where both agree, or where the profile is another file.
 [[nodiscard]] std::string surface_difference(const Skin& skin);
 /// The skin with roughness and ior of its MaterialX profile where it has the defaults.
 [[nodiscard]] Skin with_surface_of_profile(Skin skin);

@@ -67,8 +67,8 @@ struct Environment {
     bool visible = false;  ///< as the background
 };
 
-/// What all skin materials share. ior, roughness and specular are copied into the skin materials on load
-/// (apply_skin), where they are read from, so that a material of skin can have its own.
+/// Values that all skin materials share. ior, roughness and specular are copied into the skin materials on
+/// load (apply_skin), where they are read from, so that a material of skin can have its own.
 struct Skin {
     std::string profile = "gpu_gems_3";
     float ior = 1.4f;
@@ -108,8 +108,8 @@ struct Scene {
     float bounds_radius_mm = 1;
 
     [[nodiscard]] const Light& key_light() const;
-    /// Of each light the number of its shadow map, -1 for none: the key light first, then the others in their
-    /// order, as far as the budget goes. Renderer and ground truth have the same shadows by it.
+    /// Shadow map index of each light, -1 for none: the key light first, then the others in their
+    /// order, as far as the budget goes. Renderer and ground truth both use it.
     [[nodiscard]] std::vector<int> shadow_maps() const;
 };
 

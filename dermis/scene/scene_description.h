@@ -1,5 +1,5 @@
 #pragma once
-// What a scene file says, as plain data: nothing is loaded yet, and every file that it names has its line.
+// A parsed scene file as plain data: nothing is loaded yet, and every file that it names has its line.
 
 #include <filesystem>
 #include <map>

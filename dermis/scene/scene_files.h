@@ -18,7 +18,7 @@ namespace dermis::inline scene {
 [[nodiscard]] Error error_at(const SceneDescription& description, const NamedFile& file,
                              const std::string& message);
 
-/// The paths a description states, in its order: whatever may stand in quotes in the file.
+/// The paths of a description, in its order: every path in quotes in the file.
 [[nodiscard]] std::vector<const NamedFile*> named_files(const SceneDescription& description);
 
 /// Where these files are or would have to be; missing assets and built-ins are left out.

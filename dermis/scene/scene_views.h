@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene can be changed after its meshes and maps were loaded: lights, camera, environment, skin,
+// The parts of a scene that can change after loading: lights, camera, environment, skin,
 // exposure and tone map. A description places them; describe() is its inverse.
 
 #include "dermis/scene/scene_description.h"

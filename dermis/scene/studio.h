@@ -7,7 +7,7 @@
 namespace dermis::inline scene {
 
 /// Linear radiance from a unit direction. A large warm box at the upper left (yaw -50, pitch 35, where the
-/// default key light stands), a large cool one at the right, two strips behind, one box overhead, and a room
+/// default key light is), a large cool one at the right, two strips behind, one box overhead, and a room
 /// that is a little brighter at the horizon.
 [[nodiscard]] Vec3 studio_radiance(Vec3 d);
 

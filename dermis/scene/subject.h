@@ -1,5 +1,5 @@
 #pragma once
-// What a subject is: something made by code to draw, as a technique is a way to draw it. A scene names it
+// A subject is something to draw that is made by code. A scene names it
 // "builtin:NAME", and sets its parameters beside it.
 //
 // A folder subjects/<name>/ defines `dermis::Subject dermis::make_<name>_subject();` and is found by CMake.
@@ -24,14 +24,14 @@ struct ExactPoint {
     Vec3 exitance;         ///< radiant exitance over albedo, red, green, blue
 };
 
-/// What the diffuse transport (the surface integral of the profile) makes of a point of the surface, exactly.
+/// The exact result of the diffuse transport (the surface integral of the profile) at a point of the surface.
 /// `penumbra_mm` is the width of a shadow's edge.
 using ExactExitance =
     std::function<ExactPoint(const GaussianSum& profile, float penumbra_mm, Vec3 p_world_mm)>;
 
-/// What a subject makes. Most make objects alone and are shown as a mesh file is: framed from the front, in
+/// The result of a subject. Most make objects alone and are shown like a mesh file: framed from the front, in
 /// the studio. A subject that is a test scene states its camera, lights and environment too, so that a
-/// picture of it can be compared with a formula. What a scene file says wins over all three.
+/// picture of it can be compared with a formula. A scene file overrides all three.
 struct SubjectScene {
     std::vector<SceneObject> objects;
     std::optional<Camera> camera;
@@ -39,7 +39,7 @@ struct SubjectScene {
     /// stated too, kind none for no light but these.
     std::vector<Light> lights;
     std::optional<Environment> environment;
-    /// Of a test scene whose answer is known, under its own lights; empty: none is.
+    /// The known answer of a test scene under its own lights; empty: unknown.
     ExactExitance exact;
 
     [[nodiscard]] bool states_anything() const { return camera || !lights.empty() || environment; }
@@ -51,7 +51,7 @@ struct Subject {
     ParameterTable parameters;
     /// The same values give the same bytes. Errors: what the table's ranges do not exclude.
     std::function<Result<SubjectScene>(const ParameterValues&)> make;
-    /// Of a set of test scenes: the name of the choice each of whose values is one. Else empty.
+    /// For a set of test scenes, the parameter whose choices are the scenes; else empty.
     std::string cases;
 };
 
@@ -66,7 +66,7 @@ struct Subject {
 [[nodiscard]] Result<SubjectScene> make_subject(std::span<const Subject> subjects, std::string_view name,
                                                 const std::map<std::string, std::string>& parameters = {});
 
-/// What was made as a scene of its own: framed from the front, in the studio, where it states nothing else.
+/// The result as a scene: framed from the front, in the studio, unless it states otherwise.
 [[nodiscard]] Scene scene_of(std::string name, SubjectScene made);
 
 /// One scene of a set of test scenes.

@@ -51,7 +51,7 @@ struct TexelSize {
 /// Bytes of all levels and samples.
 [[nodiscard]] uint64_t bytes_in_frame(const ImageDeclaration& image, int frame_width, int frame_height);
 
-/// What a pass rasterises. geometry_screen: through the camera; geometry_uv_atlas: at uv * 2 - 1;
+/// The work of a pass. geometry_screen: through the camera; geometry_uv_atlas: at uv * 2 - 1;
 /// geometry_light: from the key light. resolve, generate_mips and copy are transfers from reads[0] (to
 /// colors[0]).
 enum class PassKind {

@@ -1,5 +1,5 @@
 #pragma once
-// What techniques that blur light on the picture share: the skin's diffuse light as the camera sees it, and
+// Shared by techniques that blur light on the picture: the skin's diffuse light as the camera sees it, and
 // the pass that shades with it once it is blurred (shaders/screen).
 
 #include <string>

@@ -23,8 +23,8 @@ struct ShadowChannelSettings {
     ShadowLookup lookup = ShadowLookup::disk;
 };
 
-/// What the settings need in this frame: none where the scene has nothing translucent, no second light is
-/// asked for and the lookup is filtered (then the frame's own shadow map will do).
+/// The channels that the settings need in this frame: none if the scene has nothing translucent, no second
+/// light is asked for and the lookup is filtered (then the frame's own shadow map will do).
 [[nodiscard]] ShadowChannels shadow_channels_of(const ShadowChannelSettings& settings,
                                                 const FrameContext& frame);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a technique is: parameters, the tables it needs, and a pure function from settings to a list of
+// A technique: parameters, the tables it needs, and a pure function from settings to a list of
 // passes.
 //
 // A folder techniques/<id>/ defines `dermis::Technique dermis::make_<id>_technique();` and is found by CMake.

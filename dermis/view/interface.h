@@ -34,7 +34,7 @@ class Interface {
     Interface(Interface&&) noexcept;
     Interface& operator=(Interface&&) noexcept;
 
-    /// Letters, spaces and lines all grow with it; makes the font's texture anew. 1 suits 1280 x 800.
+    /// Letters, spaces and lines all grow with it; makes the font's texture again. 1 suits 1280 x 800.
     [[nodiscard]] Result<void> set_scale(float scale);
     [[nodiscard]] float scale() const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the user has chosen: the scene, the techniques and their settings, what is shown. Plain data; panels,
+// The user's choices: the scene, the techniques and their settings, what is shown. Plain data; panels,
 // keys and scripts change it, the stage draws it.
 
 #include <array>

@@ -12,7 +12,7 @@
 
 namespace dermis::view {
 
-/// What the window shows: one picture, or two with a technique's (`b`) or any other (`truth`) on the
+/// Content of the window: one picture, or two with a technique's (`b`) or any other (`truth`) on the
 /// right.
 struct ShownPictures {
     std::optional<gpu::ForeignImage> a, b;

@@ -25,7 +25,7 @@ class QualityLadder {
   public:
     explicit QualityLadder(double guessed_ms_per_megapixel) : ms_per_megapixel_(guessed_ms_per_megapixel) {}
 
-    /// What to draw now; nothing when the picture has its full quality, or is not due yet. `changed`: since
+    /// The next drawing; nothing if the picture has its full quality, or is not due yet. `changed`: since
     /// the last drawing; `still_s`: since anything changed.
     [[nodiscard]] std::optional<Quality> due(bool changed, double still_s, double megapixels,
                                              const QualityLimits& limits) const;

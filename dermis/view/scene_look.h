@@ -1,5 +1,5 @@
 #pragma once
-// What the user has changed in the window stays when the scene's files are read again. A look is a scene
+// Changes by the user survive the reloading of the scene's files. A look is a scene
 // without its objects (without_objects()).
 
 #include "dermis/scene/scene.h"

@@ -28,7 +28,7 @@ class Window {
     [[nodiscard]] std::vector<std::string> instance_extensions() const;
     [[nodiscard]] gpu::SurfaceMaker surface_maker() const;
 
-    /// What happened since the last call. `wait_s` > 0: sleeps until something does, at most so long.
+    /// Events since the last call. `wait_s` > 0: sleeps until one comes, at most so long.
     [[nodiscard]] std::vector<Event> poll(double wait_s);
 
     /// In pixels; zero while minimised.

@@ -24,7 +24,7 @@ class InputFile {
 
     /// Never waits, as opening a pipe would.
     [[nodiscard]] Result<void> open(const std::filesystem::path& path);
-    /// What was opened. `bytes` gets its size, which is 0 for some files that have content (/proc).
+    /// Kind of the opened file. `bytes` gets its size, which is 0 for some files that have content (/proc).
     [[nodiscard]] Result<Kind> kind(uint64_t& bytes) const;
     /// How many bytes were read into `to`; 0 at the end.
     [[nodiscard]] Result<size_t> read(std::span<std::byte> to);

@@ -12,7 +12,7 @@ namespace dermis::inline mesh::gltf {
 /// Empty after an error.
 [[nodiscard]] std::vector<float> read_floats(Document& document, uint64_t accessor, size_t components);
 
-/// What the largest number of an index type becomes: glTF forbids it, since GPUs start a new primitive there.
+/// Replaces the largest number of an index type: glTF forbids it, since GPUs start a new primitive there.
 inline constexpr uint32_t kRestart = ~0u;
 
 /// Unsigned scalars of 8, 16 or 32 bits, with kRestart for the largest. Empty after an error.

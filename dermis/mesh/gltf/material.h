@@ -24,7 +24,7 @@ struct UvMapping {
     [[nodiscard]] bool keeps_directions() const { return rotation_rad == 0 && scale[0] > 0 && scale[1] > 0; }
 };
 
-/// Of one textureInfo object.
+/// The content of one textureInfo object.
 [[nodiscard]] UvMapping uv_mapping(const JsonView& texture_info);
 
 /// Whether the texture of a textureInfo object names an image; one in a format of an extension alone does

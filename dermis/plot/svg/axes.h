@@ -28,7 +28,7 @@ struct PlotAxisScale {
     }
 };
 
-/// Of x or of y (`values`), for all series of the panel. `rounded`: outwards to a tick.
+/// Range of x or of y (`values`) over all series of the panel. `rounded`: outwards to a tick.
 [[nodiscard]] PlotAxisScale resolve_axis(const PlotPanel& panel, const PlotAxis& axis,
                                          std::vector<double> PlotSeries::*values, bool rounded);
 
