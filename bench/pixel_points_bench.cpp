@@ -1,5 +1,5 @@
-// How many points of a pixel are enough: the captured shares of every technique with 16, 36 and 64 points, as
-// the table of docs/ground_truth.md.
+// How many points of a pixel are enough: the captured shares of every technique with 16, 36 and 64 points;
+// docs/figures.md has them.
 //
 //     build/bench/pixel_points_bench [SIZE] [NOISE] [SCENE...]     128 pixels, 0.08 of the effect, three
 //     scenes

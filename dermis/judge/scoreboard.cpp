@@ -82,7 +82,6 @@ std::string ratio_text(std::optional<double> ratio) {
 }
 
 std::string markdown_row(const ScoreRow& row) {
-    const Scores& s = row.scores;
     const Captured& captured = row.captured;
     std::string settings = row.settings.empty() ? "" : " " + row.settings;
     for (size_t at = 0; (at = settings.find(',', at)) != std::string::npos; at += 2)
@@ -90,8 +89,7 @@ std::string markdown_row(const ScoreRow& row) {
     std::string text = "| `" + row.technique + "`" + settings + " | " + share_and_error_text(captured.all);
     for (const CapturedShare& channel : captured.channels) text += " | " + share_text(channel);
     return text + " | " + figures(row.time_ratio, "%.2f") + " | " + ratio_text(row.model_ratio) + " | " +
-           memory_text(row.bytes) + " | " + figures(s.rmse, "%.4f") + " | " + figures(s.flip, "%.4f") +
-           " | " + figures(s.delta_e_2000, "%.2f") + " |\n";
+           memory_text(row.bytes) + " |\n";
 }
 
 // A row a scene and a column a technique with its defaults, the exact answer first.
@@ -103,9 +101,10 @@ std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& s
             techniques.push_back(row.technique);
         if (std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
     }
-    std::string text = "## " + set + "\n\nCaptured share. `" + std::string(kExactId) +
-                       "` is what the exact answer has of the ground truth's effect.\n\n| scene | effect ",
-                rule = "|---|---";
+    std::string
+        text = "## " + set + "\n\nCaptured share. `" + std::string(kExactId) +
+               "` is the share of the exact answer. Intervals are in scoreboard.csv.\n\n| scene | effect ",
+        rule = "|---|---";
     for (const std::string& technique : techniques) {
         text += "| `" + technique + "` ";
         rule += "|---";
@@ -118,7 +117,7 @@ std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& s
         for (const std::string& technique : techniques) {
             const auto row = std::ranges::find_if(
                 own, [&](const ScoreRow& r) { return r.technique == technique && r.settings.empty(); });
-            text += " | " + (row == own.end() ? "" : share_and_error_text(row->captured.all));
+            text += " | " + (row == own.end() ? "" : share_text(row->captured.all));
         }
         text += " |\n";
     }
@@ -175,9 +174,8 @@ std::string scoreboard_markdown(const std::vector<ScoreRow>& rows) {
         text += "## " + scene + "\n\nScattering changes the picture by " +
                 figures(effect.effect_rms, "%.2g") +
                 " (RMS); noise of the ground truth: " + figures(effect.truth_noise, "%.2g") +
-                ".\n\n| technique | captured | R | G | B | × lambert measured | modelled | memory | RMSE | "
-                "FLIP | "
-                "ΔE 2000 |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+                ".\n\n| technique | captured | R | G | B | × lambert measured | modelled | memory |\n"
+                "|---|---|---|---|---|---|---|---|\n";
         for (const ScoreRow& row : own) text += markdown_row(row);
         text += "\n";
     }

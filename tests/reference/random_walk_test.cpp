@@ -100,7 +100,7 @@ TEST(RandomWalk, without_scattering_nothing_comes_back) {
 }
 
 // Jensen 2001, figure 5, gives the dipole's albedo beside the coefficients; the dipole is a diffusion
-// approximation, which a walk is not. docs/ground_truth.md shows both.
+// approximation, which a walk is not. docs/figures.md has both.
 TEST(RandomWalk, the_skins_of_jensen_have_the_albedo_that_the_page_says) {
     const auto expect = [](const char* name, const double(&recorded)[3]) {
         const auto profile = find_profile(name);
