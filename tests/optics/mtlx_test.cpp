@@ -27,7 +27,7 @@ std::string input(const std::string& name, const std::string& value, const std::
 }
 const std::string kOn = input("subsurface_weight", "1");
 
-std::string message(const std::string& text) {
+std::string mtlx_verdict(const std::string& text) {
     const Result<Profile> profile = parse_mtlx(text, "skin.mtlx");
     return profile ? std::string("valid") : profile.error().message;
 }
@@ -111,7 +111,7 @@ TEST(Mtlx, what_is_not_kept_is_told) {
 
 TEST(Mtlx, numbers_of_the_surface_are_checked_where_a_profile_is_read) {
     const auto with = [](const std::string& name, const std::string& value, const std::string& more = "") {
-        return message(document(kOn + input(name, value, more)));
+        return mtlx_verdict(document(kOn + input(name, value, more)));
     };
     EXPECT_EQ(with("specular_ior", "1.4"), "valid");
     EXPECT_EQ(with("specular_roughness", "0", " nodename=\"map\""), "valid") << "a map";
@@ -123,27 +123,27 @@ TEST(Mtlx, numbers_of_the_surface_are_checked_where_a_profile_is_read) {
 }
 
 TEST(Mtlx, refusals_name_the_place_the_value_and_what_would_be_right) {
-    EXPECT_EQ(message(document(kOn)), "valid");
-    EXPECT_THAT(message("<materialx>\n<open_pbr"), HasSubstr("skin.mtlx:2: no complete XML"));
-    EXPECT_THAT(message("<materialx/>"), HasSubstr("skin.mtlx: no open_pbr_surface"));
-    EXPECT_THAT(message(document("")), HasSubstr("skin.mtlx:3: subsurface_weight is 0"));
-    EXPECT_THAT(message("<m>\n<open_pbr_surface/>\n<open_pbr_surface/></m>"),
+    EXPECT_EQ(mtlx_verdict(document(kOn)), "valid");
+    EXPECT_THAT(mtlx_verdict("<materialx>\n<open_pbr"), HasSubstr("skin.mtlx:2: no complete XML"));
+    EXPECT_THAT(mtlx_verdict("<materialx/>"), HasSubstr("skin.mtlx: no open_pbr_surface"));
+    EXPECT_THAT(mtlx_verdict(document("")), HasSubstr("skin.mtlx:3: subsurface_weight is 0"));
+    EXPECT_THAT(mtlx_verdict("<m>\n<open_pbr_surface/>\n<open_pbr_surface/></m>"),
                 HasSubstr("skin.mtlx:3: a second open_pbr_surface; keep one"));
-    EXPECT_THAT(message(document(kOn + "<input name=\"subsurface_color\" nodename=\"image\"/>\n")),
+    EXPECT_THAT(mtlx_verdict(document(kOn + "<input name=\"subsurface_color\" nodename=\"image\"/>\n")),
                 HasSubstr("skin.mtlx:5: subsurface_color is connected to a node"));
-    EXPECT_THAT(message(document(kOn + input("subsurface_color", "1, x, 1"))),
+    EXPECT_THAT(mtlx_verdict(document(kOn + input("subsurface_color", "1, x, 1"))),
                 HasSubstr("' x' is not a number"));
-    EXPECT_THAT(message(document(kOn + input("subsurface_color", "1, 1"))),
+    EXPECT_THAT(mtlx_verdict(document(kOn + input("subsurface_color", "1, 1"))),
                 HasSubstr("takes 3 numbers, not 2"));
-    EXPECT_THAT(message(document(kOn + input("subsurface_color", "2, 1, 1"))),
+    EXPECT_THAT(mtlx_verdict(document(kOn + input("subsurface_color", "2, 1, 1"))),
                 HasSubstr("subsurface_color is 2"));
-    EXPECT_THAT(message(document(kOn + input("subsurface_radius", "-1"))),
+    EXPECT_THAT(mtlx_verdict(document(kOn + input("subsurface_radius", "-1"))),
                 HasSubstr("subsurface_radius is -1"));
-    EXPECT_THAT(message(document(kOn + input("subsurface_radius", "1", "unit=\"milimeter\""))),
+    EXPECT_THAT(mtlx_verdict(document(kOn + input("subsurface_radius", "1", "unit=\"milimeter\""))),
                 HasSubstr("did you mean 'millimeter'"));
-    EXPECT_THAT(message(document(kOn + input("subsurface_color", "1, 1, 1"), " colorspace=\"acescgg\"")),
+    EXPECT_THAT(mtlx_verdict(document(kOn + input("subsurface_color", "1, 1, 1"), " colorspace=\"acescgg\"")),
                 HasSubstr("did you mean 'acescg'"));
-    EXPECT_THAT(message(document(kOn + input("subsurface_scatter_anisotropy", "1"))),
+    EXPECT_THAT(mtlx_verdict(document(kOn + input("subsurface_scatter_anisotropy", "1"))),
                 HasSubstr("subsurface_scatter_anisotropy is 1"));
 }
 

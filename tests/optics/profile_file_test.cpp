@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 namespace {
 
-std::string message(std::string_view csv) {
+std::string csv_verdict(std::string_view csv) {
     const Result<Profile> profile = parse_profile_csv(csv, "skin.csv");
     return profile ? std::string("valid") : profile.error().message;
 }
@@ -68,28 +68,28 @@ TEST(ProfileFile, a_fine_table_of_a_dipole_is_that_dipole) {
 }
 
 TEST(ProfileFile, refusals_name_the_place_the_value_and_what_would_be_right) {
-    EXPECT_EQ(message("r_mm,r,g,b\n0,1,1,1\n1,0,0,0\n"), "valid");
-    EXPECT_THAT(message(""), HasSubstr("skin.csv: empty; its first line must be 'r_mm,r,g,b'"));
-    EXPECT_THAT(message("radius;r;g;b\n"), HasSubstr("skin.csv:1: the header is 'radius;r;g;b'"));
-    EXPECT_THAT(message("r_mm,r,g,b\n0,1,1\n"), HasSubstr("skin.csv:2: 3 values; a row has 4"));
-    EXPECT_THAT(message("r_mm,r,g,b\n0,1,x,1\n"), HasSubstr("skin.csv:2: 'x' is not a number"));
-    EXPECT_THAT(message("r_mm,r,g,b\n0,1,1,1\n"),
+    EXPECT_EQ(csv_verdict("r_mm,r,g,b\n0,1,1,1\n1,0,0,0\n"), "valid");
+    EXPECT_THAT(csv_verdict(""), HasSubstr("skin.csv: empty; its first line must be 'r_mm,r,g,b'"));
+    EXPECT_THAT(csv_verdict("radius;r;g;b\n"), HasSubstr("skin.csv:1: the header is 'radius;r;g;b'"));
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n0,1,1\n"), HasSubstr("skin.csv:2: 3 values; a row has 4"));
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n0,1,x,1\n"), HasSubstr("skin.csv:2: 'x' is not a number"));
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n0,1,1,1\n"),
                 HasSubstr("the number of rows is 1; it must be 2 to 100000"));
-    EXPECT_THAT(message("r_mm,r,g,b\n0,1,1,1\n2,1,1,1\n1,1,1,1\n"),
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n0,1,1,1\n2,1,1,1\n1,1,1,1\n"),
                 HasSubstr("r_mm of row 3 is 1; it must be above the row before, 2"));
-    EXPECT_THAT(message("r_mm,r,g,b\n1,1,1,1\n1,1,1,1\n"), HasSubstr("r_mm of row 2 is 1"));
-    EXPECT_THAT(message("r_mm,r,g,b\n-1,1,1,1\n1,1,1,1\n"),
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n1,1,1,1\n1,1,1,1\n"), HasSubstr("r_mm of row 2 is 1"));
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n-1,1,1,1\n1,1,1,1\n"),
                 HasSubstr("r_mm of row 1 is -1; it must be >= 0"));
-    EXPECT_THAT(message("r_mm,r,g,b\n0,1,1,1\n1,nan,1,1\n"),
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n0,1,1,1\n1,nan,1,1\n"),
                 HasSubstr("the red reflectance of row 2 is nan"));
-    EXPECT_THAT(message("r_mm,r,g,b\n0,1,-1,1\n1,1,1,1\n"),
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n0,1,-1,1\n1,1,1,1\n"),
                 HasSubstr("the green reflectance of row 1 is -1"));
-    EXPECT_THAT(message("r_mm,r,g,b\n0,0,0,0\n1,0,0,0\n"), HasSubstr("no reflectance at all"));
-    EXPECT_THAT(message("r_mm,r,g,b\n0,1,1,1\n12e-83,1,1,1\n"),
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n0,0,0,0\n1,0,0,0\n"), HasSubstr("no reflectance at all"));
+    EXPECT_THAT(csv_verdict("r_mm,r,g,b\n0,1,1,1\n12e-83,1,1,1\n"),
                 HasSubstr("the last r_mm is 1.2e-82; it must be at least 1e-6"));
-    EXPECT_THAT(message("variance_mm2,r,g,b\n"), HasSubstr("the sum of Gaussians is empty"));
-    EXPECT_THAT(message("variance_mm2,r,g,b\n0,1,1,1\n"), HasSubstr("variance_mm2 of term 1 is 0"));
-    EXPECT_THAT(message("variance_mm2,r,g,b\n1,-1,1,1\n"), HasSubstr("red weight of term 1 is -1"));
+    EXPECT_THAT(csv_verdict("variance_mm2,r,g,b\n"), HasSubstr("the sum of Gaussians is empty"));
+    EXPECT_THAT(csv_verdict("variance_mm2,r,g,b\n0,1,1,1\n"), HasSubstr("variance_mm2 of term 1 is 0"));
+    EXPECT_THAT(csv_verdict("variance_mm2,r,g,b\n1,-1,1,1\n"), HasSubstr("red weight of term 1 is -1"));
 }
 
 // An annulus from 3 to 3 + width mm: the light leaves at its mean radius, however narrow it is.
