@@ -14,7 +14,7 @@ Result<std::string> hash_of_job(const std::vector<const Scene*>& scenes,
     hasher.add(std::span(program));
     for (const Scene* scene : scenes) {
         DERMIS_TRY_ASSIGN(const std::string content, hash_of(*scene));
-        // What hash_of() leaves out and a picture shows.
+        // Visible in a picture, but not in hash_of().
         hasher.add(content).add(scene->exposure_ev).add(scene->tone_map).add(scene->credit);
         hasher.add(scene->technique);
         for (const auto& [name, value] : scene->settings) hasher.add(name).add(value);

@@ -28,7 +28,7 @@ Result<TableImage> table_of(std::span<const TableImage> tables, std::string_view
     return *table;
 }
 
-// What a technique gives the page for one skin, with its default settings.
+// The page's data of one skin, by the technique's default settings.
 class ToneMaker {
   public:
     static Result<ToneMaker> create() {

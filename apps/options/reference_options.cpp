@@ -147,7 +147,7 @@ Result<Scene> ReferenceOptions::load_scene() const {
 }
 
 PictureFacts ReferenceOptions::facts(const ReferenceSettings& settings, const Scene& loaded) const {
-    // What only the picture knows has its place already.
+    // Null: values that only the picture knows; the order stays.
     const nlohmann::ordered_json facts_json = {
         {"scene", scene.name},       {"integrator", integrator},
         {"width", settings.width},   {"height", settings.height},

@@ -81,7 +81,7 @@ std::vector<OneComparison> compare(const SceneArguments& scene, const std::strin
     return watched(progress, [&](Watch& watch) { return compare_all(choice, settings, watch); });
 }
 
-// Of a technique's row, or the ground truth's.
+// Picture of a technique's row, or of the ground truth.
 py::array picture(const py::object& self, int row, const std::string& name) {
     const OneComparison& made = self.cast<const OneComparison&>();
     const Comparison& comparison = made.comparison;

@@ -14,7 +14,7 @@ namespace {
 
 using cli::MadeTable;
 
-// Of Python's keyword arguments: empty text keeps the choice's own value.
+// An empty keyword argument keeps the choice's value.
 void take_text(std::string& choice, const std::string& text) {
     if (!text.empty()) choice = text;
 }

@@ -256,7 +256,7 @@ void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> lig
     const TableAxis curvature{.name = "curvature_per_mm", .unit = "1/mm"},
         radius{.name = "radius_mm", .unit = "mm"};
     double best = std::numeric_limits<double>::infinity();
-    // What `needed` times as little remains of is taken in place of the spacing before it.
+    // Replaces the best spacing only if the residual falls by the factor `needed`.
     const auto offer = [&](Spacing spacing, AxisWarp warp, double needed) {
         const bool in_curvature = spacing.axis.name == curvature.name;
         spacing.axis.warp = warp;

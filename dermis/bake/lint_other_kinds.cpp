@@ -63,7 +63,7 @@ std::optional<OtherTable> beckmann_of(const Image& image) {
                     bake_beckmann({.width = 2, .height = 2, .layout = layout})->convention;
                 convention.v_origin = origin;
                 for (TableAxis& axis : convention.axes) axis.sampling = sampling;
-                // What 8 and 16 bits hold at most. Values without bound are compared by their ratio above 1.
+                // The largest storable value. Unbounded values are compared by their ratio above 1.
                 const double most = convention.encoding == TableEncoding::linear ? 60000 : 1;
                 Misfit misfit;
                 for (const int y : looks(image.height))
@@ -268,7 +268,7 @@ double bank_width_mm(double index) {
     return 0.1 * std::pow(10000.0, index / (kWidths - 1));
 }
 
-// Of each row the width that comes nearest, by a parabola through the three best of the bank.
+// The nearest width of each row, by a parabola through the three best of the bank.
 std::vector<double> free_widths(const ShadowPicture& picture, std::span<const std::vector<Rgb>> bank) {
     std::vector<double> widths;
     for (const std::vector<Rgb>& row : picture.light) {

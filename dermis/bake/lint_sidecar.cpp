@@ -1,4 +1,4 @@
-// What the linter found out, as the convention file that read_table asks for.
+// The linter's result as the convention file that read_table needs.
 
 #include "dermis/bake/lint_model.h"
 #include "dermis/bake/lut.h"

@@ -83,7 +83,7 @@ std::string share_text(const std::string& value, double min, double max) {
     return length == 1 ? text : text + " / " + lint::rounded(length);
 }
 
-// What a lookup has to add so that the filter finds the texels where they were evaluated.
+// The offset of a lookup at which the filter finds the texels where they were evaluated.
 std::string offset_text(TexelSampling sampling, bool mirrored, int texels) {
     if (sampling == TexelSampling::centre) return {};
     const bool add = (sampling == TexelSampling::low_edge) != mirrored;

@@ -29,7 +29,7 @@ Rgb gaussian_line_profile(const GaussianSum& sum, double distance_mm, double var
 }
 
 // The published programs have one profile, whose weights sum to 1 in each channel; others' sum to the albedo,
-// which is no part of a table.
+// which a table does not contain.
 GaussianSum without_albedo(GaussianSum sum) {
     Rgb total = {};
     for (const GaussianTerm& term : sum.terms)

@@ -13,8 +13,8 @@
 namespace dermis::inline bake {
 namespace {
 
-// Of a straight edge in the light of a disk, blurred by a Gaussian: the disk's lines of light at u radii have
-// a length of sqrt(1 - u^2), for which the nodes are Chebyshev's of the second kind.
+// Share of a disk light past a straight edge, blurred by a Gaussian. The disk's lines of light at u radii
+// have a length of sqrt(1 - u^2), for which the nodes are Chebyshev's of the second kind.
 double blurred_disk_share(double x_mm, double radius_mm, double sigma_mm) {
     constexpr int kLines = 127;
     double light = 0;

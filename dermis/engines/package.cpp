@@ -61,7 +61,7 @@ Result<const Engine*> find_engine(std::string_view name) {
     return Error{unknown_name("engine", name, engine_names())};
 }
 
-// Of the Gaussians that the coefficients are for, so that table and functions agree.
+// Baked from the Gaussians of the coefficients, so that table and functions agree.
 Result<Table> diffuse_table(const Engine& engine, const Profile& profile) {
     DERMIS_TRY_ASSIGN(LutOptions options, lut_options("dermis"));
     options.profile = {.name = profile.name, .source = profile.source, .model = to_gaussian_sum(profile).sum};

@@ -27,7 +27,7 @@ Result<void> FrameSlot::store(const Context& context, const std::vector<std::byt
 
 namespace {
 
-// Of frames that nobody asks about.
+// Results that are kept if nobody asks for them.
 constexpr size_t kResultsKept = 8;
 
 std::vector<std::string> supplied_names(const FrameInputs& inputs) {

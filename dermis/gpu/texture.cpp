@@ -89,7 +89,7 @@ std::vector<Strip> strips_of(const TextureData& data, const ImageInfo& info) {
     return strips;
 }
 
-// What fits into the staging buffer at once, from the first of `strips` on.
+// The strips that fit into the staging buffer at once, from the first of `strips` on.
 std::span<Strip> first_batch(std::span<Strip> strips, size_t staging_bytes) {
     size_t count = 0, used = 0;
     for (; count < strips.size() && used + strips[count].bytes <= staging_bytes; ++count) {

@@ -74,7 +74,7 @@ Image as_exr(const Image& image) {
                    half ? PixelFormat::f16 : PixelFormat::f32, Encoding::linear);
 }
 
-// What PNG allows as a keyword (ISO/IEC 15948, 11.3.4.2), less the upper half of Latin-1; EXR and KTX2 accept
+// PNG's rule for keywords (ISO/IEC 15948, 11.3.4.2), less the upper half of Latin-1; EXR and KTX2 accept
 // these too.
 Result<void> check_text(const ImageText& text) {
     for (const auto& [key, value] : text) {

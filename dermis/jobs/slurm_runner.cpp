@@ -41,7 +41,7 @@ std::string script(const std::string& name, const fs::path& folder) {
            "exit $status\n";
 }
 
-// What the program printed; its exit code must be 0.
+// The program's output; its exit code must be 0.
 Result<std::string> output_of(const std::vector<std::string>& arguments, const fs::path& folder) {
     const fs::path log = folder / "logs" / (arguments[0] + ".txt");
     const int status = run_program(arguments, log);

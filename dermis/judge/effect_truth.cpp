@@ -17,7 +17,7 @@ constexpr int kMostRounds = 8;
 // Factor on the estimated number of passes, so that the wanted noise is not missed by a small amount.
 constexpr double kMargin = 1.05;
 
-// What is stored: the header, then the floats of every image in the order of images().
+// Stored: the header, then the floats of every image in the order of images().
 struct EffectHeader {
     int32_t width = 0, height = 0;
     int32_t passes = 0;  // a half

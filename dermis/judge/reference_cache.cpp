@@ -12,7 +12,7 @@
 namespace dermis::inline judge {
 namespace {
 
-// What a profile is to the integrator: its values, whatever its model and name.
+// The integrator's view of a profile: its values, whatever its model and name.
 void add(Hasher& hasher, const Profile& profile) {
     hasher.add(profile.model.index());
     for (int channel = 0; channel < 3; ++channel)

@@ -13,7 +13,7 @@
 namespace dermis::inline judge {
 namespace {
 
-// Of interpolated and face normals at the terminator, so that a point's own facet is no cast shadow.
+// Cosine from which a surface faces the light; lower ones may lie behind their own facet.
 constexpr float kFacesLight = 0.1f;
 
 float curvature_at(const Mesh& mesh, const RayHit& hit) {

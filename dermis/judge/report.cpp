@@ -59,7 +59,7 @@ double common_full(const Comparison& comparison, Image Compared::*map) {
     return rounded_up(full);
 }
 
-// Of the effect of scattering: what a technique makes of it is shown on the truth's own scale.
+// Scale of the truth's effect of scattering; the techniques' effects use the same.
 double effect_full(const Comparison& comparison, const Image& effect) {
     Image size(effect.width, effect.height, 1);
     for (size_t i = 0; i < size.pixel_count(); ++i) {

@@ -19,7 +19,7 @@ struct SurfaceOperators {
     Sparse laplacian;  // rows sum to 0
 };
 
-// Of the angle between two edges; 0 for obtuse angles and slivers.
+// Cotangent of the angle between two edges; 0 for obtuse angles and slivers.
 double cotangent(Vec3 a, Vec3 b) {
     const double cosine = dot(a, b), sine = length(cross(a, b));
     return sine > 1e-12 ? std::clamp(cosine / sine, 0.0, 1e3) : 0.0;

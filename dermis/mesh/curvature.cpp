@@ -127,7 +127,7 @@ class Walker {
         mark_[centre] = generation_;
         found_ = {{centre, 0}};
     }
-    // Behind a fold the surface is no height field over this plane.
+    // Behind a fold the surface is not a height field over this plane.
     [[nodiscard]] bool same_side(uint32_t centre, uint32_t at) const {
         return at == centre || dot(surface_.normals[centre], surface_.normals[at]) > 0;
     }
@@ -156,8 +156,8 @@ struct Derivatives {
     double zx, zy, zxx, zxy, zyy;
 };
 
-// Of the graph of z(x, y), in its own axes: S = J I^-1 II I^-1 J^T with both fundamental forms (do Carmo
-// 1976, section 3-3) and J = (1, 0, zx; 0, 1, zy)^T; positive where it bends away from the normal.
+// The tensor of the graph of z(x, y), in its own axes: S = J I^-1 II I^-1 J^T, fundamental forms I and II (do
+// Carmo 1976, section 3-3) and J = (1, 0, zx; 0, 1, zy)^T; positive where it bends away from the normal.
 Eigen::Matrix3d tensor_of_graph(const Derivatives& d) {
     Eigen::Matrix<double, 3, 2> j;
     j << 1, 0, 0, 1, d.zx, d.zy;

@@ -26,7 +26,7 @@ std::vector<Edge> border_edges(std::vector<Edge> edges) {
         const Edge back{edges[i].to, edges[i].from};
         const auto same = std::equal_range(edges.begin(), edges.end(), edges[i]);
         const auto partners = std::equal_range(edges.begin(), edges.end(), back);
-        // Of several equal edges as many are open as have no partner.
+        // Among equal edges, as many are open as lack a partner.
         const auto number = edges.begin() + std::ptrdiff_t(i) - same.first;
         if (number >= partners.second - partners.first) border.push_back(edges[i]);
     }

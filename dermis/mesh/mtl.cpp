@@ -190,7 +190,7 @@ class MtlParser {
         material.alpha_mode = material.opacity < 1 ? AlphaMode::blend : AlphaMode::opaque;
     }
 
-    // What a keyword's map goes to; nothing for maps that are not used.
+    // The member that takes a keyword's map; null for unused maps.
     ImageSource* target_of(std::string_view keyword, const MapLine& map) {
         Material& material = materials_.back();
         if (keyword == "map_kd") return &material.base_color_map;

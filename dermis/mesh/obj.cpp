@@ -76,7 +76,7 @@ class ObjParser {
         const auto x = cursor.number(), y = cursor.number(), z = cursor.number();
         if (!x || !y || !z) return fail("a normal needs three numbers, as 'vn 0 0 1'");
         const Vec3 n = normalize({*x, *y, *z});
-        // What is no direction is left zero, for compute_normals to fill.
+        // An invalid direction stays zero; compute_normals fills it.
         polygons_.normals.push_back(std::isfinite(n.x + n.y + n.z) ? n : Vec3{});
     }
 
@@ -111,7 +111,7 @@ class ObjParser {
         while (!cursor.at_end() && cursor.rest().front() != '#') {
             Corner corner;
             if (!read_corner(cursor, corner)) return;
-            // Exporters write faces that touch one vertex twice in a row; the second is no corner.
+            // Exporters write faces that touch one vertex twice in a row; skip the second.
             if (corners_.empty() || corners_.back().position != corner.position) corners_.push_back(corner);
         }
         if (corners_.size() > 1 && corners_.front().position == corners_.back().position) corners_.pop_back();

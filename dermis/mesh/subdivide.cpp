@@ -22,7 +22,7 @@ namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 constexpr uint64_t kMaxFaces = 20'000'000;
 
-// What OpenSubdiv interpolates: it only wants weighted sums.
+// OpenSubdiv interpolates by weighted sums.
 template <class Value>
 struct Sum {
     Value value;

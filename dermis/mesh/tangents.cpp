@@ -16,7 +16,7 @@ namespace {
 
 enum class Handedness : uint8_t { none, kept, mirrored };
 
-// What a triangle says of the texture's axes. `u_direction` is along dP/du, of any length.
+// The texture's axes on a triangle. `u_direction` is along dP/du, of any length.
 struct FaceFrame {
     Vec3 u_direction;
     Handedness handedness = Handedness::none;

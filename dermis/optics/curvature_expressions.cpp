@@ -39,7 +39,7 @@ VectorXd least_squares_of(const MatrixXd& basis, const VectorXd& target) {
     return basis.colPivHouseholderQr().solve(target);
 }
 
-// What is fitted: curvatures closer together towards 0, N.L closer together towards 0 and 1.
+// Samples of the fit: curvatures denser towards 0, N.L denser towards 0 and 1.
 struct LitSamples {
     std::vector<double> curvatures, cosines;
     std::vector<VectorXd> even[3];  // D(t) + D(-t) by channel and curvature

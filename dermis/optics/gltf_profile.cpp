@@ -32,7 +32,7 @@ Result<std::string_view> json_of(std::span<const std::byte> file) {
     return text.substr(kHeader, size);
 }
 
-// Of the document the materials alone: the rest may be large. Nothing nested deeper than they are is kept.
+// Parses only the materials of the document, because the rest may be large.
 Json materials_of(std::string_view text) {
     constexpr int kDeepest = 16;
     const auto keep = [](int depth, Json::parse_event_t event, const Json& parsed) {

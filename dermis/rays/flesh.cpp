@@ -18,7 +18,7 @@ namespace dermis::inline rays {
 namespace {
 
 constexpr int kRays = 256;
-// Of kRays: what hidden parts grow over (2 %), and what a part enclosed by them may see at most (5 %).
+// Counts of kRays that leave the mesh: hidden parts grow up to 2 %; a part that they enclose may have 5 %.
 constexpr int kGrowRays = 5, kEnclosedRays = 12;
 // A majority of them decides whether a hidden face is buried.
 constexpr int kBuriedRays = 31;

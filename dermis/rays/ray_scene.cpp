@@ -53,7 +53,7 @@ MaterialClass class_of(std::span<const MaterialClass> classes, uint32_t material
     return material < classes.size() ? classes[material] : MaterialClass::skin;
 }
 
-// Of the materials for which `wanted` is true.
+// Triangles of the materials for which `wanted` is true.
 Part select_triangles(const Mesh& mesh, std::span<const MaterialClass> classes, RaySet set,
                       const auto& wanted) {
     Part part;

@@ -36,7 +36,7 @@ TexelPair texel_pair(float at, int size, TextureWrap wrap) {
     return {texel(int(low)), texel(int(low) + 1), position - low};
 }
 
-// Of the four texels around a point.
+// Bilinear mean of the four texels around a point.
 Vec4 mix(Vec4 a, Vec4 b, Vec4 c, Vec4 d, float fx, float fy) {
     const float wa = (1 - fx) * (1 - fy), wb = fx * (1 - fy), wc = (1 - fx) * fy, wd = fx * fy;
     return {a.x * wa + b.x * wb + c.x * wc + d.x * wd, a.y * wa + b.y * wb + c.y * wc + d.y * wd,

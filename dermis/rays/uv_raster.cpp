@@ -16,8 +16,8 @@ double edge(const double (&a)[2], const double (&b)[2], double x, double y) {
     return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
 }
 
-// Of a triangle with positive area in a y-down raster: edges that run up, or to the right when horizontal,
-// own their points.
+// Fill rule for a triangle of positive area in a y-down raster: edges that run up, or to the right when
+// horizontal, own their points.
 bool owns(const double (&a)[2], const double (&b)[2]) {
     return b[1] < a[1] || (b[1] == a[1] && b[0] > a[0]);
 }

@@ -25,7 +25,7 @@ Mat4 light_matrix_of(const Scene& scene, int light) {
     return light_matrix(scene.lights[size_t(light)], scene.bounds_center_mm, scene.bounds_radius_mm);
 }
 
-// Of LightSource in shaders/include/frame.glsl: the same for all pixels where the light's rays are parallel.
+// Part of LightSource in shaders/include/frame.glsl; equal for all pixels if the light's rays are parallel.
 struct MapAxes {
     Vec3 x_world, y_world;
     float per_mm = 0, mm_per_z = 0;

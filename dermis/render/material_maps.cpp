@@ -39,7 +39,7 @@ Image to_half_image(const Image& image, int channels) {
     return half;
 }
 
-// Of unit length, in 16 bits: smaller levels then say by their length how far the normals differ. In 8 bits,
+// Unit normals in 16 bits: the length in smaller levels then tells how far the normals differ. In 8 bits,
 // rounded at every level, a mean of shallow bumps would be off by half of their slope.
 Image to_normals(const Image& image) {
     Image normals(image.width, image.height, 4, PixelFormat::u16);

@@ -37,7 +37,7 @@ NormalCount count_normals(const Image& image) {
 }  // namespace
 
 std::optional<std::string> doubt_of_normal_map(const Image& image, NormalSpace space) {
-    // Of the maps of heads at hand: tangent space 0.95 and above, object space 0.1 to 0.3.
+    // Measured on maps of heads: tangent space 0.95 and above, object space 0.1 to 0.3.
     constexpr double kTangentZ = 0.6, kLeastUnit = 0.5;
     if (image.channels < 3)
         return "a normal map has three channels, this has " + std::to_string(image.channels);

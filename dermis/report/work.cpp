@@ -14,7 +14,7 @@ bool rasterises(const Pass& pass) {
            pass.kind == PassKind::geometry_uv_atlas || pass.kind == PassKind::geometry_light;
 }
 
-// Of the level that it draws into.
+// Texels of the level that the pass draws into.
 uint64_t target_texels(const PassList& list, const Pass& pass, int width, int height) {
     const ColorTarget* color = pass.colors.empty() ? nullptr : &pass.colors.front();
     const std::string& name = color                  ? color->image

@@ -30,7 +30,7 @@ Result<void> check_light(const SceneDescription& scene, const LightDescription& 
     return {};
 }
 
-// What a subject is made with already.
+// Refuses keys of a mesh that a subject sets itself.
 Result<void> check_mesh(const SceneDescription& scene, const MeshDescription& mesh) {
     if (!subject_name(mesh.file.text)) return {};
     if (mesh.subdivision > 0)

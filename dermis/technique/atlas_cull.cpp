@@ -13,7 +13,7 @@ int in_tiles(float texels) {
     return int(std::ceil(texels / float(kCullTile)));
 }
 
-// Of the tile that reaches farthest.
+// Tiles that the farthest light crosses.
 int most_tiles(const AtlasCullSettings& s) {
     return in_tiles(std::min(s.reach_texels + s.reach_steps * s.longest_texels, float(s.size)));
 }

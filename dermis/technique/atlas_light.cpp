@@ -105,7 +105,7 @@ void add_atlas_light(PassList& list, const AtlasLightSettings& settings, const F
     // Whole, as it says how far the light of each tile may come from.
     if (settings.in_mm) list.passes.push_back(metric_pass(settings));
     AtlasCullSettings cull = settings.cull;
-    // Of two steps at right angles, each of which may be longest_texels long.
+    // The diagonal of two steps at right angles, each up to longest_texels long.
     cull.longest_texels = std::numbers::sqrt2_v<float> * settings.longest_texels;
     add_atlas_cull(list, cull);
     Pass light = {.name = "light map",

@@ -6,7 +6,7 @@
 namespace dermis::inline technique {
 namespace {
 
-// Of each channel: weight, and weight times variance, of all Gaussians and of those that are stored.
+// Per channel, weight and weight times variance: of all Gaussians, and of those that are stored.
 struct Spreads {
     std::array<double, 3> total = {}, spread_mm2 = {}, wide = {}, wide_spread_mm2 = {};
 };

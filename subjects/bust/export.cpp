@@ -27,7 +27,7 @@ Image in_channel(const Image& grey, int channels, int channel, uint8_t rest) {
     return image;
 }
 
-// Of the map's colours on the mesh, by area.
+// Mean of the map's colours on the mesh, weighted by area.
 Rgb mean_albedo(const Bust& bust) {
     const Mesh& mesh = bust.mesh;
     const Image& map = bust.albedo;

@@ -35,7 +35,7 @@ auto with_progress(Work work) {
     });
 }
 
-// Of the words of the command line, those that all parts have in common.
+// The words of the command line that all parts have in common.
 std::vector<std::string> common_words(const std::vector<std::string>& words) {
     constexpr std::string_view kOptions[] = {"-o", "--output", "--sample-range", "--preview"};
     constexpr std::string_view kFlags[] = {"--json"};

@@ -26,7 +26,7 @@ struct Options {
     bool timings = false, json = false;
 };
 
-// Of --frame-range; all frames without it.
+// The frames of --frame-range, or all.
 Result<IndexRange> frames_of(const Options& options) {
     const bool numbered = frame_path(options.output, 0) != options.output;
     if (options.frames > 1 && !options.timings && !numbered)

@@ -55,7 +55,7 @@ constexpr std::string_view wrap_name(TextureWrap wrap) {
     return wrap == TextureWrap::clamp ? "clamp" : wrap == TextureWrap::mirror ? "mirror" : "repeat";
 }
 
-// What the maps in one picture have beyond their edges, as names along u and v. Error: they differ.
+// The common wrap modes of the maps in one picture, along u and v. Error: they differ.
 Result<nlohmann::json> wrap_of(const Material& material, std::span<const std::string_view> textures) {
     nlohmann::json wrap;
     for (const std::string_view texture : textures) {

@@ -15,9 +15,9 @@ namespace {
 // The renderer's table goes further; more than this a head has in a few creases only.
 constexpr int kTableWidth = 128, kTableHeight = 64;
 constexpr float kPageCurvaturePerMm = 0.6f;
-// Of the rows, half of theirs.
+// Half the texels of the technique's rows.
 constexpr int kRowWidth = 129;
-// Of the prefiltered cube the level of 128 texels is for mirrors.
+// First level of the prefiltered cube in the page: 128 texels, for mirrors.
 constexpr int kFirstLevel = 1;
 
 Result<Image> image_of(const TableImage& table) {
@@ -102,7 +102,7 @@ Result<nlohmann::json> add_environment(Binary& binary, const Environment& enviro
         binary.put(
             shared_exponent({from_half(halves[i]), from_half(halves[i + 1]), from_half(halves[i + 2])}));
     made["brdf"] = {{"offset", binary.begin_block()}, {"side", kBrdfTableSize}};
-    // Of GGX, scale and bias: the first half of each texel.
+    // Scale and bias of GGX are the first half of each texel.
     constexpr size_t kTexel = 4 * sizeof(uint16_t), kTexels = size_t(kBrdfTableSize) * kBrdfTableSize;
     for (size_t i = 0; i < kTexels * kTexel; ++i)
         if (i % kTexel < kTexel / 2) binary.put(brdf[i]);
