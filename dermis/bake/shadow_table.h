@@ -1,21 +1,14 @@
 #pragma once
-// Light that scatters into a shadow's penumbra (Penner 2011, GPU Pro 2, "Pre-Integrated Skin Shading", the
-// shadow scattering part).
+// Light that scatters into a shadow's penumbra (Penner 2011, GPU Pro 2, "Pre-Integrated Skin Shading").
 //
-// A straight shadow edge on a flat surface. Across the edge the shadow filter rises from 0 to 1 over the
-// width w mm, and p in 0..1 is the position in that ramp. The light itself is taken to rise inside the middle
-// 1/k of the ramp only (k = sharpening): S(p) = smoothstep(1/2 + k (p - 1/2)), so that the rest of the
-// filter's width remains to show light scattered out of it. The table is the light's edge blurred by the
-// profile,
+// Across a straight edge on a flat surface the shadow filter rises from 0 to 1 over w mm; p in 0..1 is the
+// position in that ramp. The light rises inside the middle 1/k of the ramp only (k = sharpening, 3 to 10 are
+// usual): S(p) = smoothstep(1/2 + k (p - 1/2)). The rest of the ramp shows the scattered light:
 //
-//     T(p, w) = int R_line(d) S(p + d / w) dd,
+//     T(p, w) = int R_line(d) S(p + d / w) dd,   R_line the profile integrated along the edge.
 //
-// with R_line the profile integrated along the edge: exactly a Gaussian of the same variance for each
-// Gaussian. With k = 1 nothing is assumed, and what scatters further than the filter reaches is lost; 3 to 10
-// are usual (FaceWorks calls the same ratio sharpening).
-//
-// In a shader: shadow = texture(table, vec2(p, w_mm mapped)).rgb in place of the filtered visibility, p from
-// the filtered visibility s of a box filter is s itself.
+// In a shader: shadow = texture(table, vec2(p, w_mm mapped)).rgb in place of the filtered visibility; p is
+// the visibility of a box filter.
 
 #include "dermis/bake/table.h"
 #include "dermis/optics/profile.h"

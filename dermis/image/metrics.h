@@ -1,13 +1,11 @@
 #pragma once
-// How far one picture is from another.
+// Differences between two pictures.
 //
-// All functions take images of one size and one number of channels, in any format; both are decoded to linear
-// light first. A fourth channel (alpha) is ignored. max_abs_error, rmse and rel_mse compare the linear
-// numbers as they are and suit HDR and data. The rest compare what a display would show, linear sRGB clamped
-// to 0..1: tone-map HDR pictures before. One channel counts as grey.
+// Both images have one size and one number of channels, in any format; they are decoded to linear light.
+// Alpha is ignored. max_abs_error, rmse and rel_mse compare linear numbers and suit HDR and data. The others
+// compare linear sRGB clamped to 0..1: tone-map HDR pictures first. One channel counts as grey.
 //
-// A mask has one channel and the images' size; only texels where it is above 0 count. An empty Image is no
-// mask.
+// A mask has one channel and the images' size; texels above 0 count. An empty Image: no mask.
 //
 // Errors: sizes or channels that differ, an empty image, NaN or infinity in either image (with the first
 // place), a mask that covers nothing. Results do not depend on the number of threads. Equal images give 0

@@ -2,12 +2,10 @@
 // Techniques compared with the ground truth of the same scene: captured share, pictures, errors, times,
 // bytes.
 //
-// All show the same: skin's diffuse transport, direct lights with their shadows, specular reflection
-// by GGX, the environment as the renderer approximates it (order-2 harmonics, split sum, occlusion). The
-// ground truth takes these over as they are, so that what differs is the transport within the skin; with
-// AmbientModel::traced the environment is traced instead, and its approximation counts as error of every
-// technique. Pixels that are not wholly skin do not count. Both sides average the same grid of points in a
-// pixel; maps are read at the same level of detail.
+// Both sides share lights, shadows, GGX reflection and the renderer's approximation of the environment
+// (order-2 harmonics, split sum, occlusion), so only the transport in the skin differs. With
+// AmbientModel::traced the approximation counts as an error of every technique. Only pixels that are wholly
+// skin count. Both sides average the same points of a pixel and read maps at the same level of detail.
 
 #include <functional>
 #include <string>

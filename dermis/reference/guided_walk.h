@@ -1,15 +1,13 @@
 #pragma once
-// The random walk with less noise for the same light: flights are drawn towards the boundary that the walk
-// came in by.
+// The random walk with less noise: steps are drawn towards the boundary by which the walk entered.
 //
-// In a half-space the light that will leave grows towards the boundary as exp(z / nu), nu being the diffusion
-// length in mean free paths. Collisions therefore choose the cosine w to the outward normal with density 1 /
-// (nu - w), and free paths the extinction (1 - w / nu) sigma_t: Krivanek, d'Eon 2014, A Zero-variance-based
-// Sampling Scheme for Monte Carlo Subsurface Scattering (Dwivedi 1982). Every step does so with a fixed
-// chance and else follows the medium. One channel leads the whole walk, each as often, and the walk is
-// weighted by the mean density of all three (Wilkie et al. 2014): a walk that one channel would hardly take
-// weighs as in the channel that takes it. That bounds the weight of what runs elsewhere: through an ear,
-// along a wrinkle. No mean changes (tested against random_walk), whatever the shape.
+// In a half-space the light that will leave grows towards the boundary as exp(z / nu), nu the diffusion
+// length in mean free paths. Collisions choose the cosine w to the outward normal with density 1 / (nu - w),
+// free paths the extinction (1 - w / nu) sigma_t: Krivanek, d'Eon 2014, A Zero-variance-based Sampling Scheme
+// for Monte Carlo Subsurface Scattering (Dwivedi 1982). Each step does so with a fixed chance, else it
+// follows the medium. The channels lead the walks in turn, and a walk is weighted by the mean density of all
+// three (Wilkie et al. 2014), which bounds the weight of walks through an ear or along a wrinkle. The mean is
+// that of random_walk (tested).
 
 #include "dermis/reference/random_walk.h"
 

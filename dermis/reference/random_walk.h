@@ -1,14 +1,14 @@
 #pragma once
 // The diffuse transport by simulation: light scattering in a homogeneous medium behind a smooth boundary.
 //
-// A path starts under the visible point and is followed backwards to where its light came in. Free paths come
-// from one channel, chosen by what the path still carries, and are weighted by the mean of all channels'
-// densities (Wilkie, Nawaz, Droske, Weidlich, Hanika 2014, Hero Wavelength Spectral Sampling); directions
-// from Henyey and Greenstein; paths that carry little end by Russian roulette. At the boundary a path goes
-// back in with the probability of Fresnel's equations (no other loss), else it ends.
+// A path starts below the visible point and is followed back to where its light entered. One channel, chosen
+// by throughput, draws the free path, weighted by the mean of all channels' densities (Wilkie, Nawaz, Droske,
+// Weidlich, Hanika 2014, Hero Wavelength Spectral Sampling); Henyey and Greenstein draws the direction;
+// Russian roulette ends weak paths. At the boundary a path is reflected with Fresnel's probability, else it
+// ends.
 //
-// Light that enters is taken to fill the refraction cone as diffuse light does: the boundary is a smooth
-// dielectric that also diffuses. With eta 1 there is no reflection, and directions inside are Lambert's.
+// Entering light fills the refraction cone like diffuse light: the boundary is a smooth dielectric that also
+// diffuses. With eta 1 nothing is reflected, and directions inside are Lambert's.
 
 #include <algorithm>
 #include <optional>

@@ -4,14 +4,13 @@
 //
 //     M(x) = integral E(y) R(d(x, y)) dA_y / integral R(d(x, y)) dA_y
 //
-// over all skin, d being the way through flesh (way_through_flesh.h): straight through an ear, around a fold.
-// E is the shadowed irradiance on the shading normal of y, normal map included: what a technique reads from
-// its maps the ground truth reads from the same ones. dA is the area of the triangles.
+// over all skin. d is the way through flesh (way_through_flesh.h): straight through an ear, around a fold. E
+// is the shadowed irradiance on the shading normal of y, normal map included. dA is the triangles' area.
 //
-// Estimated by probes (King, Kulla, Conty, Fajardo 2013, BSSRDF Importance Sampling): a disk around x takes a
-// radius from the profile, a segment through it finds the surface, and the three axes the disk may have are
-// combined by their densities. Both integrals use the same probes, so that an even irradiance has no noise at
-// all; most of the bias of such a quotient is removed by the jackknife (Quenouille 1956).
+// Estimated by probes (King, Kulla, Conty, Fajardo 2013, BSSRDF Importance Sampling): the profile draws a
+// radius on a disk around x, a segment through it finds the surface; the disk's three axes are combined by
+// their densities. Both integrals use the same probes, so an even irradiance has no noise; the jackknife
+// (Quenouille 1956) removes most of the quotient's bias.
 
 #include "dermis/rays/sampling.h"
 #include "dermis/reference/lighting.h"

@@ -3,11 +3,10 @@
 // Techniques"): a depth image over the atlas that is 0 where later passes must work and 1 elsewhere; those
 // draw at depth 0 and test for EQUAL.
 //
-// The source marks texels that are in view and face the camera by v.n + 0.3 > 0; the 0.3 is to keep what the
-// blur carries into view (it exempts the ears, where that fails). Here the marked area grows by the blur's
-// whole reach, in tiles of 8 texels, so that every texel that can touch a visible one is kept, whatever the
-// curvature. A blur in mm reaches more texels where the atlas has more of them for a millimetre, so the reach
-// of a tile follows from the steps of the metric in the tiles that it may reach.
+// The source keeps texels in view with v.n + 0.3 > 0, where 0.3 allows for the blur, and exempts the ears,
+// where that fails. Here the kept area grows by the blur's whole reach, in tiles of 8 texels, so that every
+// texel that can touch a visible one is kept. The reach of a blur in mm follows, per tile, from the steps of
+// the metric in the tiles that it may reach.
 
 #include "dermis/technique/technique.h"
 

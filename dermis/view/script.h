@@ -1,28 +1,7 @@
 #pragma once
 // UI script: simulated mouse and keyboard, for tests and demonstrations. One command a line, '#' starts a
 // comment; words with spaces are written in double quotes.
-//
-//     open spheres                    # a scene, a mesh, a name
-//     technique preintegrated
-//     set shadow_width_mm=4           # a parameter
-//     view curvature
-//     tone 5                          # 0: as the maps are, 1 to 6: skin I to VI
-//     drag left 300 300 420 280       # button, from, to in pixels; then ctrl, shift or alt
-//     scroll 300 300 -3
-//     key ctrl+C
-//     slide picture.exposure_ev 0.7   # drags a widget to a share of its range
-//     drop head.glb
-//     copy broken.frag shaders/a/b.frag   # files; changes a watched file
-//     save scene.toml                 # the scene with what was changed
-//     clipboard "yaw_deg=30"          # as if copied elsewhere
-//     resize 640 480
-//     wait 5                          # frames
-//     settle                          # until the picture has its full quality
-//     screenshot picture.png          # the picture alone; .exr is linear
-//     capture window.png              # the window with its panels
-//     lose_device                     # simulates the loss of the GPU: everything on it is made again
-//     print                           # the state, on standard output
-//     quit                            # also the end of the script, without --frames
+// docs/view.md lists the commands.
 
 #include <deque>
 #include <string>
