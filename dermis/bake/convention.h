@@ -1,9 +1,8 @@
 #pragma once
 // A table's convention: the meaning of its numbers, stored inside the file and beside it.
 //
-// Pre-integrated tables from different tools differ by up to 0.2 because nothing in the files says what was
-// integrated over what, along which axes, in which encoding. Here everything that a reader has to know is one
-// value: written as JSON, compared key by key.
+// Pre-integrated tables from different tools differ by up to 0.2, because the files do not state integral,
+// axes and encoding. The convention is one value, written as JSON and compared key by key.
 
 #include <array>
 #include <optional>

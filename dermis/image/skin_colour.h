@@ -6,10 +6,10 @@
 namespace dermis::inline image {
 
 /// Mean albedo of the bare skin of tone 1 to 6 (clamped), linear sRGB; between two, straight in CIELAB.
-/// OpenPBR's skin examples IV to VI give the lightness of theirs; I to III, which are lighter than faces are
-/// and of which III looks paler than II, are brought down in even steps. Hue and chroma follow what
-/// spectrophotometers find on faces: redness hardly differs between groups of people, yellowness rises from
-/// fair to brown skin and falls again in dark skin (Xiao et al. 2017). docs/bust.md has both tables.
+/// Tones IV to VI have the lightness of OpenPBR's skin examples; I to III are darkened in even steps, because
+/// those examples are lighter than faces. Hue and chroma follow measurements of faces: redness hardly
+/// differs, yellowness rises from fair to brown skin and falls in dark skin (Xiao et al. 2017). docs/bust.md
+/// has both tables.
 [[nodiscard]] Vec3 skin_tone_albedo_linear(double tone);
 
 /// The albedo with more (or less, if negative) melanin and blood than it has: each multiplies it by

@@ -13,10 +13,9 @@ struct NormalOptions {
 
 /// Angle-weighted (Thuermer and Wuethrich 1998, "Computing Vertex Normals from Polygonal Facets"), summed
 /// over all faces around a position that are connected by edges, whether or not a UV seam runs between them.
-/// Surfaces that only touch in a point are kept apart. Where a sum cancels (a fold whose two sides are
-/// opposite) each face keeps its own normal. Afterwards every normal is unit and finite; a vertex without any
-/// proper face gets (0, 1, 0). Tangents and curvatures are dropped, since they depend on the normals. Linear
-/// time, about 4 ms a 10,000 vertices.
+/// Surfaces that touch in a point only stay separate. Where a sum cancels (opposite sides of a fold) each
+/// face keeps its own normal. Every normal is unit and finite; a vertex without a proper face gets (0, 1, 0).
+/// Drops tangents and curvatures, which depend on the normals. Linear time, about 4 ms per 10,000 vertices.
 void compute_normals(Mesh& mesh, const NormalOptions& options = {});
 
 /// Only where a normal is zero or not finite; the others are kept, and made unit.

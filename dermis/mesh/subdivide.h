@@ -10,13 +10,12 @@ namespace dermis::inline mesh {
 
 inline constexpr int kMaxSubdivisionLevel = 5;
 
-/// `level` refinements, then every vertex is moved to its place on the limit surface and gets the limit's
-/// normal (Catmull and Clark 1978; Halstead et al. 1993 for the limits; done by OpenSubdiv). Each level makes
-/// four times the faces: a cage of 8,842 quads has 566,000 at level 3. Level 0 returns the cage as it is. UVs
-/// are face-varying: smooth inside of charts, linear along their borders, so that seams stay where the maps
-/// have them. Where copies of a face meet there are no normals. UV corners are joined by value, since files
-/// often do not share their indices. Open borders become smooth curves with sharp corners. Errors: a level
-/// outside of 0..5, more than 20 million faces, faces that use a vertex twice.
+/// `level` refinements; then every vertex moves to the limit surface and gets its normal (Catmull and Clark
+/// 1978; Halstead et al. 1993 for the limits; by OpenSubdiv). Each level has four times the faces. Level 0
+/// returns the cage. UVs are face-varying: smooth inside charts, linear along borders, so seams stay in
+/// place; UV corners are joined by value. Duplicate faces have no normals where they meet. Open borders
+/// become smooth curves with sharp corners. Errors: a level outside 0..5, more than 20 million faces, faces
+/// that use a vertex twice.
 [[nodiscard]] Result<PolygonMesh> subdivide(const PolygonMesh& cage, int level);
 
 struct DisplacementOptions {

@@ -58,10 +58,9 @@ struct UvReport {
 };
 
 /// Report of the whole mesh, or of one material (atlases are per material: two may share a tile without
-/// overlap). Needs UVs. Coverage and overlap are counted at texel centres of a `resolution` grid a tile;
-/// edges that triangles share count once. Linear in triangles, each of which costs a step a row of texels;
-/// the resolution is halved while that would take more than some seconds. About 15 ms for 18,000 triangles at
-/// 1024.
+/// overlap). Needs UVs. Coverage and overlap are counted at texel centres of a `resolution` grid per tile;
+/// shared edges count once. Linear in triangles; the resolution is halved while the count would take seconds.
+/// About 15 ms for 18,000 triangles at 1024.
 [[nodiscard]] UvReport analyze_uvs(const Mesh& mesh, std::optional<uint32_t> material = std::nullopt,
                                    int resolution = 1024);
 

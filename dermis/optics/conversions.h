@@ -79,12 +79,10 @@ struct ToolSettings {
 /// s(A) d. For a random walk. An albedo of 1 gives a medium without absorption, whose walk ends only at the
 /// surface.
 [[nodiscard]] ScatteringMedium medium_of(const BurleyProfile& burley, double g, double eta);
-/// The volume that a random walk takes for a profile. A dipole's own; else the medium above for the Burley
-/// profile of the same albedo and mean radius, isotropic and index-matched. A half-space of it blurs diffuse
-/// light by a profile that has up to 2.4 % of its light in the wrong place and a mean radius up to 7 % too
-/// short against that Burley profile's (albedo 0.1 to 0.8, tested). Where the albedo is above 0.8 the profile
-/// is a blur whose colour lies in an albedo map, and says nothing of absorption: the medium's albedo is 0.5
-/// there.
+/// The volume of a random walk for a profile: a dipole's own, else the medium above for the Burley profile of
+/// the same albedo and mean radius, isotropic and index-matched. Against that profile, a half-space has up to
+/// 2.4 % of the light at a wrong distance and a mean radius up to 7 % too short (albedo 0.1 to 0.8, tested).
+/// An albedo above 0.8 means a blur whose colour lies in a map; the medium's albedo is 0.5 then.
 [[nodiscard]] ScatteringMedium walk_medium_of(const Profile& profile);
 /// The other way, within 1e-4 in albedo (that of the inversion).
 [[nodiscard]] BurleyProfile burley_of(const ScatteringMedium& medium);

@@ -11,11 +11,10 @@ enum class LobeWidth : int32_t {
     variance
 };
 
-/// `count` Gaussians at most in each channel, whose weights sum to 1. Neighbours in width are replaced by one
-/// until no more are left, first those that lose least. On gently curved skin the light at the terminator is
-/// sum w sqrt(v / 2 pi) / r, which LobeWidth::deviation keeps; LobeWidth::variance keeps the mean cosine of
-/// the lobes instead, and reaches too far. A channel without reflectance has one Gaussian of no width that
-/// matters.
+/// At most `count` Gaussians per channel, with weights that sum to 1. Merges neighbours in width, those that
+/// lose least first. On gently curved skin the light at the terminator is sum w sqrt(v / 2 pi) / r, which
+/// LobeWidth::deviation preserves; LobeWidth::variance preserves the mean cosine of the lobes and reaches too
+/// far. A channel without reflectance has one Gaussian.
 [[nodiscard]] std::vector<ChannelGaussians> lobes_of(const GaussianSum& profile, int count, LobeWidth width);
 
 /// How far the light of the lobes is at most from that of the profile, both integrated over spheres of

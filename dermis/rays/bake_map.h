@@ -1,9 +1,6 @@
 #pragma once
-// Maps of a mesh, one value a texel of its UV atlas: what the texture-space, pre-integrated and transmittance
-// techniques read beside the artist's maps.
-//
-// They live here and not in dermis/bake because thickness and occlusion need rays, and one baker for all five
-// shares the atlas, the gutter and the file.
+// Maps of a mesh, one value per texel of its UV atlas, which techniques read beside the artist's maps. They
+// are here because thickness and occlusion need rays.
 
 #include <atomic>
 #include <functional>

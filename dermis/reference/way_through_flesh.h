@@ -1,10 +1,8 @@
 #pragma once
-// How far light goes through flesh between two points of the skin. Straight, as a diffusion profile has it,
-// where the segment between them lies in flesh. Across a fold, between lips or the walls of a crease, it goes
-// around the bottom of the gap: light that crosses the air has left the skin, and what of it falls on skin
-// again is light between surfaces, which no technique here computes. Random walks go around too: on the dark
-// wall of a groove of 20 degrees, the straight distance gave 50 to 300 times their light, this way 20 times
-// at most, where there is hardly any (tests/reference/across_gap_test.cpp).
+// Length of the way through flesh between two points of the skin: straight where the segment lies in flesh,
+// around the bottom of the gap across a fold (between lips or the walls of a crease). Light that crosses the
+// air has left the skin; light between surfaces is not computed. Random walks go around too
+// (tests/reference/across_gap_test.cpp).
 
 #include "dermis/rays/ray_scene.h"
 

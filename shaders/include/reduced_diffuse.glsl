@@ -1,4 +1,4 @@
-// What the specular reflection takes from the diffuse light (skin.specular_reduces_diffuse of the scene): the matte part of
+// Diffuse light reduced by the specular reflection (skin.specular_reduces_diffuse of the scene): the matte part of
 // Kelemen, Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model". a(c) is the part of light at cosine c
 // that the lobe reflects, A its mean over the hemisphere, weighted by the cosine. Light enters by 1 - a(n.l), leaves by
 // 1 - a(n.v), and the product is over 1 - A, so that the albedo is what the surface returns per light that entered:
