@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The full-screen triangle is at depth 0; dropped texels keep the 1 that they were cleared to.
+// The full-screen triangle is at depth 0; dropped texels keep the clear value 1.
 #include "shaders/atlas/constants.h"
 #include "shaders/include/frame.glsl"
 

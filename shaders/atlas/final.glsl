@@ -13,11 +13,11 @@ uniform texture2D light_map;
 
 layout(location = 0) out vec4 radiance_out;
 
-// Other UDIM tiles, UVs that run over the edge.
+// Outside the atlas: other UDIM tiles, UVs beyond the edge.
 bool outside_atlas(vec2 uv) { return any(greaterThan(abs(uv - 0.5), vec2(0.5001))); }
 
-// False where the light map does not have the point: outside the atlas, between texels of which none was written, and on
-// skin seen from inside, through the holes of an open mesh. That counts as facing away, so that its texels may have been culled.
+// False where the light map lacks the point: outside the atlas, between unwritten texels, and on
+// skin seen from inside through the holes of an open mesh, whose texels may have been culled.
 bool read_light_map(texture2D map, Surface s, int texels, out vec3 exitance) {
     vec4 blurred = texels == kTexelsWritten ? light_and_coverage(map, s.uv)
                                             : textureLod(sampler2D(map, linear_clamp), s.uv, 0.0);
@@ -29,11 +29,11 @@ bool read_light_map(texture2D map, Surface s, int texels, out vec3 exitance) {
 
 layout(constant_id = 4) const int detail = kDetailPixel;
 
-// Of detail_values() in dermis/technique/atlas_light.h.
+// The values of detail_values() in dermis/technique/atlas_light.h.
 layout(scalar) uniform Skin { vec3 detail_kept[kDetailSamples]; };
 
-// The side of a square on the skin, as large as a texel there, or as a pixel where that is larger: what is lit here holds no
-// shorter waves then. The ratio of areas on the skin and in the atlas is that of the first fundamental form.
+// Side of a square on the skin as large as a texel, or as a pixel if that is larger: light here holds no
+// shorter waves. The first fundamental form gives the ratio of areas on the skin and in the atlas.
 float coarser_side_mm(Surface s, vec2 texels) {
     vec2 across = dFdx(s.uv) * texels, down = dFdy(s.uv) * texels;
     float pixel_mm2 = length(cross(dFdx(s.p_world_mm), dFdy(s.p_world_mm)));
@@ -71,7 +71,7 @@ float part_not_counted(LightMap map, LitPoint lit) {
     return squared * squared;
 }
 
-// transmitted_part(). `passing`: what arrives of the light past opaque and translucent surfaces.
+// transmitted_part(). `passing`: share of the light past opaque and translucent surfaces.
 vec3 transmitted_past(Surface s, int i, LightSample light, vec3 passing) {
     if (transmission == kTransmissionNone) return vec3(0.0);
     float n_dot_l = max(dot(s.n_world, light.to_light_world), 0.0), visibility = passing.r;
@@ -95,13 +95,13 @@ struct Arrival {
 
 Arrival arrival(Surface s, int i) {
     LightSample light = sample_light(i, s.p_world_mm);
-    // Skin that faces away takes in and reflects nothing, whatever is before it.
+    // Skin that faces away receives and reflects nothing.
     bool faces = dot(s.n_world, light.to_light_world) > 0.0;
     vec3 arriving = faces ? passing(s, i, light.to_light_world) : vec3(0.0);
     return Arrival(light, arriving, transmitted_past(s, i, light, arriving));
 }
 
-// Loads the surface too, after the taps of the one light.
+// Also loads the surface, after the taps of the single light.
 PixelLight light_pixel(out Surface s) {
     s = load_geometry();
     load_normal(s);

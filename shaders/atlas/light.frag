@@ -18,7 +18,7 @@ layout(location = 0) out vec4 light_out;  // exitance over albedo
 
 const float kLargestWritten = 254.0 / 255.0;
 
-// Where a pixel covers more than a texel, the levels by which the camera reads maps coarser. At one level of detail the map
+// Levels by which the camera reads maps coarser, where a pixel covers more than a texel. At one level of detail the map
 // and the pixel have the same light, also where grazing light is clamped, and the map holds no waves that pixels skip.
 float levels_to_the_pixel(Surface s) {
     const float kLeastCosine = 0.1;

@@ -8,14 +8,14 @@
 #include "shaders/include/reduced_diffuse.glsl"
 #include "shaders/include/surface.glsl"
 
-// Of dermis::AtlasParams, what shaders need.
+// The members of dermis::AtlasParams that shaders need.
 layout(scalar) uniform AtlasParams {
     float occluded;
     float trans_shadow_alpha;
     float cull_bias;
 };
 
-// What passes opaque and translucent surfaces.
+// The light past opaque and translucent surfaces.
 vec3 passing(Surface s, int light, vec3 to_light_world) {
     if (light == key_light && light_source(light).shadow_map_index >= 0)
         return key_light_through(s.p_world_mm, s.n_geometry_world, to_light_world, penumbra_mm, trans_shadow_alpha);
@@ -27,12 +27,12 @@ vec3 passing(Surface s, int light, vec3 to_light_world) {
 
 vec3 shadow_factor(vec3 passing) { return mix(vec3(occluded), vec3(1.0), passing); }
 
-// By the shading normal, and by the mean of the normal map's normals that it is made of: N.L of that mean is the mean of N.L.
+// N.L by the shading normal, and by the mean of the normal map's normals: N.L of that mean is the mean of N.L.
 struct Exitance {
     vec3 of_normal, of_mean;
 };
 
-// Exitance over albedo; `direct` is that of the lights, by the shading normal.
+// Exitance over albedo; `direct` is the part of the lights, by the shading normal.
 Exitance unblurred_exitance(Surface s, vec3 direct) {
     return Exitance(environment_irradiance(s.n_world) * s.occlusion + direct,
                     environment_irradiance(s.n_mean_length * s.n_world) * s.occlusion + direct * s.n_mean_length);

@@ -20,7 +20,7 @@ layout(push_constant, scalar) uniform PassValues {
 layout(location = 0) out vec4 steps_out;
 layout(location = 1) out vec4 normal_out;
 
-const float kMinTexels = 1e-3;  // 0 means that no skin is there
+const float kMinTexels = 1e-3;  // 0: no skin
 
 // The step in UV whose image on the surface is `t_mm`: least squares through the first fundamental form.
 vec2 uv_step(vec3 t_mm, float e, float f, float g, float determinant) {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// In the UV atlas, with the derivatives of the position by u and v.
+// Draws in the UV atlas, with the derivatives of the position by u and v.
 #include "shaders/include/mesh_vertex.glsl"
 
 layout(location = 9) in vec3 du_mm;  // of a step of 1 in u

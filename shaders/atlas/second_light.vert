@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// From the second light.
+// Draws from the second light.
 #include "shaders/include/mesh_vertex.glsl"
 
 invariant gl_Position;  // passes that test for equal depth rely on it

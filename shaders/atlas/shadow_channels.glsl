@@ -12,9 +12,9 @@ uniform texture2D shadow_channels;
 layout(constant_id = 10) const int channels = kChannelsNone;
 layout(constant_id = 11) const int shadow_lookup = kLookupDisk;
 
-// Of the source, in the light's depth range.
+// The source's bias, in the light's depth range.
 const float kSourceDepthBias = 0.01;
-// Half floats near 1 are this far apart.
+// Spacing of half floats near 1.
 const float kHalfStep = 1.0 / 2048.0;
 
 // Light through the translucent surfaces, to the power that darkens it (trans_shadow_alpha).
@@ -44,7 +44,7 @@ vec3 key_light_through(vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, fl
     return visibility * tint / float(kTintTaps);
 }
 
-// The same of the second light, whose depth is in B: compared tap by tap.
+// The same for the second light, whose depth is in B: compared tap by tap.
 vec3 second_light_through(vec3 p_mm, vec3 n_geometry_world, vec3 to_light_world, float width_mm, float darkening) {
     bool single = shadow_lookup == kLookupSingle;
     ShadowDisk disk = shadow_disk(second_light_view_projection, p_mm, n_geometry_world, to_light_world,

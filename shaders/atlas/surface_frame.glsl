@@ -1,4 +1,4 @@
-// The tangent frame that the atlas's metric is given in.
+// The tangent frame of the atlas's metric.
 #ifndef DERMIS_ATLAS_SURFACE_FRAME_GLSL
 #define DERMIS_ATLAS_SURFACE_FRAME_GLSL
 

@@ -1,5 +1,5 @@
-// Ways over the surface as ways over the atlas. A step in mm is another number of texels wherever the atlas is stretched
-// otherwise, and straight ways on a curved surface are not straight in the atlas.
+// Paths on the surface as paths in the atlas. A step in mm is another number of texels wherever the atlas is stretched
+// differently, and straight paths on a curved surface are not straight in the atlas.
 #ifndef DERMIS_ATLAS_WALK_MM_GLSL
 #define DERMIS_ATLAS_WALK_MM_GLSL
 
@@ -33,11 +33,11 @@ Walk walk_from(BlurCentre centre, vec2 along) {
     return Walk(centre.at, t1 * along.x + t2 * along.y, n, step_texels, centre.chart, centre.is_skin);
 }
 
-// Straight on to where the normal is `n`: turned by the smallest rotation that takes one normal to the other. Tangent planes of
+// Continues straight to where the normal is `n`: turned by the smallest rotation between the normals. Tangent planes of
 // equal normals are parallel, so that is parallel transport along the arc between the normals.
 vec3 transported(vec3 along, vec3 n_from, vec3 n) { return along - (n_from + n) * (dot(along, n) / (1.0 + dot(n_from, n))); }
 
-// From a gutter to where the surface goes on. `at`, from where the gutter texel is taken, may lie beyond it.
+// Moves from a gutter to where the surface continues. `at` may lie beyond the gutter texel.
 void cross_seam(inout Walk walk, vec2 at, ivec2 gutter_texel) {
     BlurCentre there = blur_centre(gutter_texel);
     float beyond = dot(at - vec2(gutter_texel) - 0.5, walk.step_texels) / max(dot(walk.step_texels, walk.step_texels), 1e-12);
@@ -50,7 +50,7 @@ void cross_seam(inout Walk walk, vec2 at, ivec2 gutter_texel) {
     walk.chart = there.chart;
 }
 
-// `distance` steps on. The way is the mean of the steps at both its ends (Heun's method). It must not be longer than gutters are
+// Moves by `distance` steps: the mean of the steps at both ends (Heun's method). It must not be longer than gutters are
 // wide; where it leaves the skin the walk ends.
 void advance(inout Walk walk, float distance) {
     vec2 at = walk.at + walk.step_texels * distance;

@@ -31,7 +31,7 @@ layout(scalar) uniform Material {
     int emission_from_map;
 };
 
-// Whether any material of the scene has the map; where none has, 1 is not read but known.
+// Whether any material of the scene has the map; without one, the value 1 is a constant.
 layout(constant_id = 50) const int has_albedo_map = 1;
 layout(constant_id = 51) const int has_normal_map = 1;
 layout(constant_id = 52) const int has_specular_map = 1;
@@ -64,7 +64,7 @@ float mean_curvature_per_mm(Surface s) {
     return 0.5 * dot(s.curvature_diagonal_per_mm, vec3(1.0));
 }
 
-// Levels that a map is magnified by, 0 when it is not. A bias adds to the level before it is clamped to 0, so
+// Levels by which a map is magnified, or 0. A bias adds to the level before it is clamped to 0, so
 // under magnification a smoother read has to add these too.
 float magnification_levels(sampler2D map, vec2 uv) {
     return max(-textureQueryLod(map, uv).y, 0.0);
@@ -92,8 +92,8 @@ vec3 mean_normal_world(vec3 n_geometry_world, vec2 uv, float lod_bias) {
     return n.x * t + n.y * b + n.z * n_geometry_world;
 }
 
-// What the vertices give. A shader whose taps need no more makes them before it loads the rest, and loads the albedo last:
-// registers that hold what comes later are not there for the taps.
+// Attributes of the vertices. A shader takes its taps before it loads the rest, and loads the albedo last:
+// fewer registers are live during the taps.
 Surface load_geometry() {
     Surface s;
     s.p_world_mm = p_world_mm_in;
@@ -106,7 +106,7 @@ Surface load_geometry() {
     return s;
 }
 
-// `lod_bias`: of the normal map.
+// `lod_bias`: level bias of the normal map.
 void load_normal(inout Surface s, float lod_bias) {
     vec3 n_mean_world = mean_normal_world(s.n_geometry_world, uv_in, lod_bias);
     s.n_mean_length = length(n_mean_world);
@@ -124,14 +124,14 @@ void load_occlusion(inout Surface s) {
     s.occlusion = min(occlusion_in, has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
 }
 
-// All but normal, occlusion and albedo.
+// Loads all but normal, occlusion and albedo.
 void load_gloss(inout Surface s) {
     s.to_eye_world = normalize(eye_world_mm - p_world_mm_in);
     s.roughness = clamp(roughness * (has_roughness_map != 0 ? texture(roughness_map, uv_in).r : 1.0), 0.03, 1.0);
     s.f0 = f0 * specular * (has_specular_map != 0 ? texture(specular_map, uv_in).r : 1.0);
 }
 
-// All but normal and albedo.
+// Loads all but normal and albedo.
 void load_material(inout Surface s) {
     load_gloss(s);
     load_occlusion(s);

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What is behind everything: a colour, falling off towards the corners like a studio's backdrop, or the environment.
+// The background: a colour that falls off towards the corners like a studio's backdrop, or the environment.
 #include "shaders/include/environment.glsl"
 
 layout(location = 0) in vec2 uv;

@@ -1,5 +1,5 @@
-// What C++ and the renderer's own passes agree on. Valid C++ and GLSL, compiled by both, so that a number is
-// written once; a change needs a build, as hot reload follows .glsl only.
+// Constants that C++ and the renderer's passes share. Valid C++ and GLSL, compiled by both, so that a number
+// is written once; a change needs a build, as hot reload follows .glsl only.
 #ifndef DERMIS_SHADERS_RENDERER_CONSTANTS_H
 #define DERMIS_SHADERS_RENDERER_CONSTANTS_H
 #ifdef __cplusplus
@@ -9,15 +9,15 @@ namespace dermis {
 // Specialisation constant tone_map: dermis/image/tone_map.h.
 const int kToneMapNone = 0, kToneMapHable = 1, kToneMapAces = 2, kToneMapPbrNeutral = 3;
 
-// Specialisation constant blended: what of the blended materials a pass draws.
+// Specialisation constant blended: the part of the blended materials that a pass draws.
 const int kBlendedNot = 0, kBlendedCore = 1, kBlendedRim = 2;
 
-// Specialisation constant shown: which attribute of the G-buffer.
+// Specialisation constant shown: attribute of the G-buffer.
 const int kShownNormal = 0, kShownGeometryNormal = 1, kShownAlbedo = 2, kShownRoughness = 3,
           kShownCurvature = 4, kShownOcclusion = 5, kShownShadow = 6, kShownNDotL = 7, kShownDepth = 8,
           kShownUv = 9, kShownPosition = 10, kShownCount = 11;
 
-// Signed colours are full at this curvature.
+// Curvature of full colour.
 const float kFullCurvaturePerMm = 0.125;
 // The colour bar of the legend, in its pixels.
 const int kLegendBarLeft = 24, kLegendBarRight = 264, kLegendBarTop = 4, kLegendBarBottom = 18;

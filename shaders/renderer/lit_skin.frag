@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Depth of the skin that a light reaches: that of the shadow map, where it is skin's.
+// Depth of the skin that a light reaches: the shadow map's depth where it belongs to skin.
 #include "shaders/include/cut_out.glsl"
 #include "shaders/include/frame.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// From a light, into its shadow map.
+// Draws from a light into its shadow map.
 #include "shaders/include/mesh_vertex.glsl"
 
 layout(constant_id = 0) const int from_light = -1;  // index into lights; -1: the key light

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // A translucent surface seen from a light, added into colour channels. Added is its optical depth, minus the logarithm of
-// its transmittance: sums of it are products of transmittances, so several surfaces come out right in any order. (The
-// source adds opacities, which two surfaces bring above 1.)
+// its transmittance: sums of it are products of transmittances, so the order of surfaces does not matter. (The
+// source adds opacities, which can exceed 1.)
 #include "shaders/include/translucent.glsl"
 
 layout(constant_id = 0) const int single_channel = 0;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What is not skin: eyes, teeth, hair, frames, glass. Metallic-roughness as glTF has it.
+// Surfaces other than skin: eyes, teeth, hair, frames, glass. glTF's metallic-roughness.
 #include "shaders/include/cut_out.glsl"
 #include "shaders/include/emission.glsl"
 #include "shaders/include/environment.glsl"

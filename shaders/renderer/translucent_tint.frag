@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A translucent surface over the picture, first half: what is behind it is multiplied by its transmittance. The order of
-// several surfaces has no influence on a product.
+// A translucent surface over the picture, first half: multiplies the background by its transmittance. The order of
+// surfaces does not change the product.
 #include "shaders/include/translucent.glsl"
 
 layout(location = 0) out vec4 transmittance_out;

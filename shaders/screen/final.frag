@@ -11,12 +11,12 @@ uniform texture2D blurred_light;
 uniform texture2D skin_z;
 uniform texture2D skin_key_visibility;  // so that the shadow's filter runs once a pixel
 
-layout(constant_id = 37) const int one_sample = 0;  // a pixel, at its middle
+layout(constant_id = 37) const int one_sample = 0;  // per pixel, at its centre
 
 layout(location = 0) out vec4 radiance_out;
 
-// The blurred picture has one value per pixel, at its middle. With several samples one at an edge may be of another surface than
-// the middle: then the neighbour nearest in depth is taken, and where none is near, the light is not blurred at all.
+// The blurred picture has one value per pixel, at its centre. With several samples, one at an edge may show another surface than
+// the centre: then the neighbour nearest in depth is read; if none is near, the light is not blurred.
 const float kSameSurfaceMm = 3.0;
 const float kSeenMm = 0.5;
 
@@ -46,7 +46,7 @@ bool read_blurred(vec3 p_world_mm, out vec3 exitance, out float key_visibility) 
     return least_mm <= kSameSurfaceMm;
 }
 
-// The blur has the points that the camera sees: not those that face away, nor those behind the skin that is drawn there.
+// The blur has only points that the camera sees: none that face away or lie behind other skin.
 // Within a pixel the depth changes by about the pixel's own size.
 float pixel_mm;
 const float kFacesAway = 0.3;  // cosine
@@ -60,14 +60,14 @@ float part_not_counted(LightMap map, LitPoint lit) {
     bool outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size));
     float z_mm = outside ? 0.0 : texelFetch(sampler2D(skin_z, nearest_clamp), pixel, 0).r;
     float margin_mm = kSeenMm + 0.5 * pixel_mm;
-    // Past the border of the picture the blur takes the light to go on as it is inside.
+    // Beyond the border of the picture the blur repeats the light at the border.
     float hidden = z_mm == 0.0 ? float(!outside) : smoothstep(margin_mm, 2.0 * margin_mm, p_clip.w - z_mm);
     if (hidden == 1.0) return 1.0;
     float away = dot(to_world(map, lit.n), normalize(p_from_eye_mm));
     return max(hidden, smoothstep(0.0, kFacesAway, away));
 }
 
-// What the taps in the light's maps give. They need geometry, normal and the key light's visibility alone.
+// Results of the taps in the light's maps. They need geometry, normal and the key light's visibility only.
 struct Arrival {
     LightSample light;
     float visibility;
@@ -89,7 +89,7 @@ void main() {
     Surface s = load_geometry();
     load_normal(s);
     load_occlusion(s);
-    // Light that enters needs no more, but where the reflection reduces it.
+    // More is needed only where the reflection reduces the diffuse light.
     if (reduced_diffuse != 0) load_gloss(s);
     pixel_mm = length(fwidth(s.p_world_mm));
     vec3 exitance;

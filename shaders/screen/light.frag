@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The diffuse light of the skin that the camera sees, and how far away it is. The targets are cleared to 0; alpha is 1
+// The diffuse light of the skin that the camera sees, and its distance. The targets are cleared to 0; alpha is 1
 // where skin was written, so that a bilinear read gives the share of skin.
 #include "shaders/include/half_floats.glsl"
 #include "shaders/screen/light.glsl"

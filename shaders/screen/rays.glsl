@@ -1,4 +1,4 @@
-// Points of the picture in mm: what lies at a distance along the camera's axis, under a place of the picture.
+// Points of the picture in mm, from a place of the picture and a distance along the camera's axis.
 #ifndef DERMIS_SCREEN_RAYS_GLSL
 #define DERMIS_SCREEN_RAYS_GLSL
 
@@ -28,7 +28,7 @@ PictureRays picture_rays() {
     return rays;
 }
 
-// From the eye.
+// Position relative to the eye.
 vec3 picture_point_mm(PictureRays rays, vec2 uv, float z_mm) {
     return z_mm * (rays.corner + uv.x * rays.right + uv.y * rays.down);
 }
