@@ -19,7 +19,7 @@ namespace {
 
 constexpr size_t kFinalists = 16;
 constexpr size_t kViewsOfModel = 4;  // that are compared finely
-// A full range that leaves less is no cropped picture; 8 bits and published taps leave 0.002.
+// A full range that leaves less is not cropped; 8 bits and published taps leave 0.002.
 constexpr double kFullRangeRms = 0.004;
 
 // A possible orientation and encoding of the picture, with the light that it then shows.

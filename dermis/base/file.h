@@ -15,7 +15,7 @@
 namespace dermis::inline base {
 
 /// The path of a name in UTF-8, which names inside of files and in arguments are. std::filesystem::path takes
-/// plain text for the system's encoding, and on Windows that is another one. Where bytes are no UTF-8,
+/// plain text for the system's encoding, which on Windows is another one. Where bytes are not UTF-8,
 /// Windows gets U+FFFD.
 [[nodiscard]] std::filesystem::path utf8_path(std::string_view name);
 

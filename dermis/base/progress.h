@@ -29,7 +29,7 @@ class Progress {
     void draw_if_due(double fraction);
     void draw(double fraction);
 
-    double first_fraction_ = 0;  ///< where set() began: work that was done before is no measure of speed
+    double first_fraction_ = 0;  ///< where set() began: earlier work does not measure the speed
     bool begun_ = false;
 
     std::string what_;

@@ -78,7 +78,7 @@ Result<std::vector<uint32_t>> compile(const fs::path& root, std::string_view nam
     const int status = run_program({"glslc", "--target-env=vulkan1.3", "-O", "-g", "-fauto-bind-uniforms",
                                     "-I", root.string(), "-o", output.string(), source.string()},
                                    log);
-    // posix_spawn's child exits with 127 when there is no such program.
+    // posix_spawn's child exits with 127 if the program does not exist.
     if (status == -1 || status == 127)
         return Error{"cannot run glslc, the shader compiler; install it (Debian: apt-get install glslc)"};
     if (status != 0) {

@@ -65,7 +65,7 @@ struct Strip {
     size_t begin = 0, bytes = 0;
 };
 
-// The staging buffer is no larger but for a strip that is: a map of 16384 x 16384 texels takes 1 GiB already.
+// Limit of the staging buffer, unless one strip is larger: a map of 16384 x 16384 texels takes 1 GiB.
 constexpr size_t kStagingBytes = size_t{32} << 20;
 
 std::vector<Strip> strips_of(const TextureData& data, const ImageInfo& info) {

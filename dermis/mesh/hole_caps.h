@@ -16,7 +16,7 @@ namespace dermis::inline mesh {
 using BorderLoop = std::vector<Vec3>;
 
 /// Edges that only one of the chosen triangles has, joined to loops. Positions that are exactly equal are one
-/// vertex, so UV seams are no border. `triangles` are numbers into `indices`. Where several borders meet at
+/// vertex, so UV seams are not borders. `triangles` are numbers into `indices`. Where several borders meet at
 /// one vertex each loop takes the first edge that is left, so every border edge is in exactly one loop or in
 /// a chain that does not close, which is left out.
 [[nodiscard]] std::vector<BorderLoop> border_loops(std::span<const Vec3> positions_mm,

@@ -14,7 +14,7 @@ namespace dermis::inline mesh {
 namespace {
 
 constexpr int64_t kSubTexels = 256;
-constexpr size_t kMaxTiles = 100;  // counted; a layout of more is no atlas
+constexpr size_t kMaxTiles = 100;  // layouts with more are not atlases
 
 using Fixed = std::array<int64_t, 2>;
 

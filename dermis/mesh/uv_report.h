@@ -19,7 +19,7 @@ struct UvMetric {
     /// Square root of the area on the surface for a unit of UV area: the length to divide by a map's size.
     [[nodiscard]] float mm_per_uv() const;
     /// Longest over shortest stretch of any direction, at least 1 (Sander et al. 2001, "Texture Mapping
-    /// Progressive Meshes", the singular values Gamma and gamma). 0 where there is no metric.
+    /// Progressive Meshes", the singular values Gamma and gamma). 0 for degenerate triangles.
     [[nodiscard]] float anisotropy() const;
 };
 

@@ -103,7 +103,7 @@ std::string exact_profile_json(const Profile& profile) {
     Json json = std::visit([](const auto& model) { return model_json(model); }, profile.model);
     json["name"] = profile.name;
     json["source"] = profile.source;
-    // A name that is no UTF-8, as of a file, would be an exception.
+    // The JSON library throws for names that are not UTF-8, such as those of files.
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

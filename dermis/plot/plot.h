@@ -1,6 +1,6 @@
 #pragma once
 // Line plots as SVG, for `--plot`, the score tables and the documentation: panels side by side, linear or
-// logarithmic axes, a legend above each panel, text as text, colours that are legible on white and told apart
+// logarithmic axes, a legend above each panel, text as text, colours that are legible on white and distinct
 // by lightness as well as hue.
 //
 //     Plot plot{.title = "Burley", .panels = {{.x = {.label = "r (mm)"}, .y = {.label = "R (1/mm^2)"}}}};

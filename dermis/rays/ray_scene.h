@@ -75,8 +75,8 @@ class RayScene {
   public:
     /// Rays pass what the alpha maps of materials of class `other` cut out.
     /// Errors: no triangle at all, the ray library cannot start, or an alpha map cannot be read.
-    /// With `flesh` (one an object, of find_flesh) hidden skin is no skin, and the sets `flesh` and `folds`
-    /// exist; without it all skin is.
+    /// With `flesh` (one per object, from find_flesh) hidden skin is excluded, and the sets `flesh` and
+    /// `folds` exist; without it all skin is.
     [[nodiscard]] static Result<RayScene> build(std::span<const SceneObject> objects,
                                                 std::span<const Flesh> flesh = {});
     /// One mesh, all of it skin.

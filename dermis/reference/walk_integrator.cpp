@@ -30,7 +30,7 @@ class FleshBoundary {
             if (!rounding) bodies_ += cosine > 0 ? -1 : 1;
             from_mm = std::nextafter(hit->distance_mm, max_mm);
         }
-        // Outside the box the path left where there is no face: a boundary met from its back, which ends it
+        // Outside the box the path left where no face is: a boundary met from its back, which ends it
         // as lost.
         if (!inside_box(p_mm + direction * max_mm)) return BoundaryHit{max_mm, -direction};
         return std::nullopt;

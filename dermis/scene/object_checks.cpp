@@ -73,7 +73,7 @@ constexpr std::array<Side, 5> kWrongSides = {{{{0, 0, -1}, "-Z", "[0, 180, 0]"},
                                               {{0, 1, 0}, "+Y", "[90, 0, 0]"}}};
 
 // A head has its detail in the face: of the heads at hand twice as many triangles point to the front as to
-// the back, and 1.4 times as many as to a side. Objects of few triangles are no heads.
+// the back, and 1.4 times as many as to a side. Objects of few triangles are not heads.
 void warn_of_direction(const SceneObject& object, std::vector<std::string>& warnings) {
     constexpr size_t kFewest = 2000;
     constexpr double kRatio = 1.5;

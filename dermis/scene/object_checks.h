@@ -12,7 +12,7 @@ namespace dermis::inline scene {
 /// skin unless a scene file says so. (Exporters mark whole heads as cut out; those stay skin.)
 [[nodiscard]] bool is_card(const Mesh& mesh, const Material& material);
 
-/// One line each, with the mend: alpha that does less than the mesh file says (skin is never cut
+/// One line each, with the fix: alpha that does less than the mesh file says (skin is never cut
 /// out, nothing is blended); a head that does not face +Z; double-sided sheets as skin.
 [[nodiscard]] std::vector<std::string> object_warnings(const SceneObject& object);
 

@@ -12,7 +12,7 @@
 namespace dermis::inline scene {
 namespace {
 
-// Nothing where the profile is no MaterialX document; what is wrong with one is said when the profile is
+// Nothing unless the profile is a MaterialX document; its errors are reported when the profile is
 // read.
 MtlxSurface surface_of_profile(const Skin& skin) {
     if (!to_lower(skin.profile).ends_with(".mtlx")) return {};

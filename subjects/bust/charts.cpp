@@ -177,7 +177,7 @@ void split_chords(Surface& mesh, const BustField& field) {
         for (int h = 0; h < int(edges.twin.size()); ++h) {
             const int t = edges.twin[h];
             if (t < h) continue;
-            // The edges of a triangle that was split are no longer those of `edges`: next round.
+            // `edges` is stale for a triangle that was split: next round.
             if (touched[h / 3] || touched[t / 3]) continue;
             const auto corner = [&](int e, int k) { return mesh.triangles[e / 3][(e % 3 + k) % 3]; };
             const int a = corner(h, 0), b = corner(h, 1), c = corner(h, 2), d = corner(t, 2);

@@ -26,7 +26,7 @@ Mesh make_latitude_sphere(float radius_mm, Vec3 center_mm) {
     for (int row = 0; row <= kRows; ++row)
         for (int column = 0; column <= kColumns; ++column) {
             const float u = float(column) / kColumns, v = float(row) / kRows;
-            // At the seam and the poles the same numbers: positions that differ are no shared edge.
+            // Equal numbers at the seam and the poles: edges are shared only if positions are equal.
             const float azimuth = float(column % kColumns) / kColumns * 2 * kPi, polar = v * kPi;
             const float ring = row % kRows == 0 ? 0 : std::sin(polar);
             const Vec3 n = {-ring * std::sin(azimuth), std::cos(polar), -ring * std::cos(azimuth)};

@@ -1,4 +1,4 @@
-// What is no table of skin is refused, and how good a match is stated.
+// Pictures that are not tables of skin are refused, and the quality of a match is stated.
 
 #include <gtest/gtest.h>
 

@@ -19,7 +19,7 @@ using testing::Not;
 
 namespace {
 
-// Its own cache, so that nothing made before can stand in for what is made now.
+// Its own cache, so that no earlier result is used.
 class Comparisons : public RenderTest {
   protected:
     void SetUp() override {

@@ -200,7 +200,7 @@ TEST_F(CutOut, surfaces_emit_what_their_map_says) {
     expect_at(of_skin, {10, 0, 20}, {});
 }
 
-// What is no metal reflects its colour diffusely; a metal does not.
+// Only surfaces other than metal reflect their colour diffusely.
 TEST_F(CutOut, a_map_of_metal_counts_by_its_red_channel) {
     Scene scene = card_over_skin([](Material& m) {
         m.metallic = 1;

@@ -1,4 +1,4 @@
-// Frame after frame of the same view: what is made anew, and what is read from the disk.
+// Frame after frame of one view: objects that are made again, and files that are read.
 
 #include <dlfcn.h>
 

@@ -102,7 +102,7 @@ TEST_F(Transmissions, through_a_slab_is_its_integral_in_every_technique_and_prof
         }
 }
 
-// A plate that covers the lit side, .3 mm before it: it takes all the light, and is no lit skin itself.
+// A plate that covers the lit side, .3 mm before it: it takes all the light, and is not lit skin.
 TEST_F(Transmissions, end_at_an_opaque_frame) {
     Scene scene = lit(make_box({40, 40, 2}), {0, 0, -1}, 2);
     Mesh plate = make_box({44, 44, 0.5f});

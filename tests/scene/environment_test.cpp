@@ -222,7 +222,7 @@ TEST(Prefilter, agrees_with_brute_force_integration_of_the_lobe) {
 }
 
 TEST(Environment, yaw_turns_what_is_in_front_towards_plus_x) {
-    // What stands at +Z of the environment appears at +X of the world after a quarter turn.
+    // After a quarter turn, +Z of the environment appears at +X of the world.
     const Vec3 d = to_environment({1, 0, 0}, kPi / 2);
     EXPECT_NEAR(d.z, 1, 1e-6);
     EXPECT_NEAR(d.x, 0, 1e-6);

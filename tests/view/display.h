@@ -18,7 +18,7 @@ namespace dermis {
 /// Another program, silent, until the end of its scope.
 class ChildProgram {
   public:
-    /// started() is false where there is no such program.
+    /// started() is false if the program does not exist.
     explicit ChildProgram(const std::vector<std::string>& words) {
         std::vector<char*> arguments;
         for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -48,7 +48,7 @@ class ChildProgram {
 
 class VirtualDisplay {
   public:
-    /// `screen`: "1280x800". name() stays empty when there is no Xvfb.
+    /// `screen`: "1280x800". name() stays empty without Xvfb.
     explicit VirtualDisplay(const std::string& screen) {
         int fds[2];
         if (pipe(fds) != 0) return;

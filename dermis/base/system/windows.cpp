@@ -48,7 +48,7 @@ InputFile::~InputFile() {
 
 Result<void> InputFile::open(const fs::path& path) {
     constexpr DWORD kAnyShare = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-    // Without FILE_FLAG_BACKUP_SEMANTICS a directory could not be told from a file that may not be read.
+    // FILE_FLAG_BACKUP_SEMANTICS distinguishes a directory from an unreadable file.
     const HANDLE handle = ::CreateFileW(path.c_str(), GENERIC_READ, kAnyShare, nullptr, OPEN_EXISTING,
                                         FILE_ATTRIBUTE_NORMAL | FILE_FLAG_BACKUP_SEMANTICS, nullptr);
     if (handle == INVALID_HANDLE_VALUE) return last_reason();
