@@ -72,10 +72,7 @@ std::vector<Run> runs(const std::string& only) {
         all.push_back(run_of(technique.id, "diffuse", "closed_form"));
         all.push_back(run_of(technique.id, "normals", "sharp"));
         all.push_back(run_of(technique.id, "shadow", "plain"));
-        Run gathered = run_of(technique.id, "normals", "baked");
-        gathered.name += " shadow gathered";
-        if (!gathered.values.set("shadow", "gathered")) std::abort();  // a name of this technique
-        all.push_back(std::move(gathered));
+        all.push_back(run_of(technique.id, "shadow", "gathered"));
     }
     return all;
 }

@@ -17,7 +17,7 @@ constexpr std::string_view kSettings =
     "preintegrated[diffuse=closed_form,shadow=plain],"
     "preintegrated[diffuse=curve_2015,ambient=curve_2015],"
     "preintegrated[diffuse=curve_2015,ambient=curve_2015,shadow=plain],"
-    "preintegrated[construction=ring,shadow=plain],"
+    "preintegrated[diffuse=half_ring,shadow=plain],"
     "preintegrated[normals=sharp,shadow=plain],"
     "texture_space[light_map_size=2048],"
     "texture_space[detail=map],"

@@ -107,16 +107,12 @@ Result<std::vector<std::string>> check_skin_atlas(const Scene& scene) {
     return warnings;
 }
 
-std::optional<std::string> unfit_for_baked_maps(const Scene& scene) {
-    std::optional<std::string> reason = without_uvs(scene);
-    if (!reason)
-        if (const double overlap = overlap_of_skin(scene); overlap > kOverlapUnfit)
-            reason = percent(overlap) + " of the skin's UV atlas is covered by more than one triangle";
-    if (reason)
-        *reason +=
-            ": nothing is baked over it, and bumps scatter by a smaller level of the normal map; give each "
-            "place of the skin texels of its own";
-    return reason;
+std::string unfit_for_baked_maps(const Scene& scene) {
+    constexpr const char* kMend = "; give each place of the skin texels of its own";
+    if (const std::optional<std::string> reason = without_uvs(scene)) return *reason + kMend;
+    const double overlap = overlap_of_skin(scene);
+    if (overlap <= kOverlapUnfit) return "";
+    return percent(overlap) + " of the skin's UV atlas is covered by more than one triangle" + kMend;
 }
 
 bool has_skin_outside_atlas(const Scene& scene) {

@@ -15,10 +15,9 @@ namespace dermis::inline render {
 /// without UVs. Cost: 20 ms for 20,000 triangles.
 [[nodiscard]] Result<std::vector<std::string>> check_skin_atlas(const Scene& scene);
 
-/// Why maps over the skin's atlas cannot be used, and the fix; nothing if each
-/// place but 1 % has its own texels. UVs in other tiles are allowed: they have no texels, which a
-/// shader sees.
-[[nodiscard]] std::optional<std::string> unfit_for_baked_maps(const Scene& scene);
+/// Why maps over the skin's atlas cannot be used, and the fix; empty if each place but 1 % has its own
+/// texels. UVs in other tiles are allowed: they have no texels, which a shader sees.
+[[nodiscard]] std::string unfit_for_baked_maps(const Scene& scene);
 
 /// Some of the skin has UVs below 0 or above 1.
 [[nodiscard]] bool has_skin_outside_atlas(const Scene& scene);

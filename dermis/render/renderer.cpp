@@ -156,19 +156,26 @@ Result<const SkinContext*> Renderer::skin_context() {
     return &*skin_;
 }
 
-// The technique's list; where it asks for baked normals that for the skin's atlas as it is.
-PassList Renderer::passes_of(const Technique& technique, const ParameterValues& values, FrameContext frame) {
+// Where the technique asks for baked normals, a second list for the skin's atlas as it is.
+Result<PassList> Renderer::passes_of(const Technique& technique, const ParameterValues& values,
+                                     FrameContext frame) {
     PassList list = technique.build(values, frame);
-    if (!list.diffused_normals) return list;
-    if (!atlas_fit_) {
-        const std::optional<std::string> unfit = unfit_for_baked_maps(*scene_);
-        atlas_fit_ = !unfit;
-        skin_outside_atlas_ = unfit || has_skin_outside_atlas(*scene_);
-        if (unfit) warnings_.push_back(technique.id + ": " + *unfit);
+    if (list.diffused_normals) {
+        if (!atlas_fault_) {
+            atlas_fault_ = unfit_for_baked_maps(*scene_);
+            skin_outside_atlas_ = !atlas_fault_->empty() || has_skin_outside_atlas(*scene_);
+        }
+        frame.atlas_fault = *atlas_fault_;
+        frame.has_skin_outside_atlas = skin_outside_atlas_;
+        list = technique.build(values, frame);
     }
-    frame.has_skin_atlas = *atlas_fit_;
-    frame.has_skin_outside_atlas = skin_outside_atlas_;
-    return technique.build(values, frame);
+    if (!list.refusal.empty()) return Error{technique.id + ": " + list.refusal};
+    for (const std::string& notice : list.notices) warn(technique.id + ": " + notice);
+    return list;
+}
+
+void Renderer::warn(std::string warning) {
+    if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
 }
 
 // Once, for the first technique that draws into the skin's atlas.
@@ -184,9 +191,7 @@ Result<void> Renderer::check_atlas() {
 // Once for each material and map.
 void Renderer::check_maps() {
     for (const std::string& name : list_.needed_maps)
-        for (std::string& warning : missing_map_warnings(*scene_, name))
-            if (std::ranges::find(warnings_, warning) == warnings_.end())
-                warnings_.push_back(std::move(warning));
+        for (std::string& warning : missing_map_warnings(*scene_, name)) warn(std::move(warning));
 }
 
 Result<void> Renderer::prepare_seams() {
@@ -276,7 +281,8 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
                                        .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
                                        .has_cut_outs = uploaded_->has_cut_outs(),
                                        .gbuffer = settings.gbuffer};
-    list_ = frame_passes(passes_of(technique, values, frame), shared);
+    DERMIS_TRY_ASSIGN(const PassList own, passes_of(technique, values, frame));
+    list_ = frame_passes(own, shared);
     list_.constants = uploaded_->map_constants();
     list_.constants.emplace_back("one_light", scene_->lights.size() == 1);
     list_.constants.emplace_back("one_sample", settings.samples == 1);

@@ -71,8 +71,9 @@ class Renderer {
                                        const DrawSettings& settings);
     Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
     Result<void> prepare_legend(const std::string& view);
-    [[nodiscard]] PassList passes_of(const Technique& technique, const ParameterValues& values,
-                                     FrameContext frame);
+    [[nodiscard]] Result<PassList> passes_of(const Technique& technique, const ParameterValues& values,
+                                             FrameContext frame);
+    void warn(std::string warning);
     Result<void> check_atlas();
     void check_maps();
     Result<void> prepare_seams();
@@ -95,7 +96,7 @@ class Renderer {
     std::unique_ptr<gpu::Texture> legend_;
     std::vector<std::string> warnings_;
     bool atlas_checked_ = false;
-    std::optional<bool> atlas_fit_;  ///< for baked maps; empty: not asked yet
+    std::optional<std::string> atlas_fault_;  ///< FrameContext::atlas_fault; absent: not asked yet
     bool skin_outside_atlas_ = true;
     std::optional<SeamTextures> seams_;
     std::map<std::string, gpu::Texture> diffused_normals_;

@@ -149,6 +149,10 @@ struct PassList {
     /// Textures of material maps without which these settings show nothing; a skin material without one is a
     /// warning.
     std::vector<std::string> needed_maps;
+    /// Warnings: what is drawn instead of a setting's best, as the scene lacks something.
+    std::vector<std::string> notices;
+    /// Why the scene cannot be drawn with these settings, and what to change; empty: it can.
+    std::string refusal;
 
     [[nodiscard]] const ImageDeclaration* find_image(std::string_view name) const;
 };

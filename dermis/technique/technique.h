@@ -36,8 +36,8 @@ struct FrameContext {
     float densest_uv_per_mm = 0.004f;
     /// The median by area of the mean step over all directions.
     float typical_uv_per_mm = 0.003f;
-    /// Each place of the skin has texels of its own in its UV atlas, so that maps can be baked over it.
-    bool has_skin_atlas = true;
+    /// Why no map can be baked over the skin's UV atlas, and what to change; empty: one can.
+    std::string atlas_fault;
     bool has_skin_outside_atlas = true;  ///< some of the skin has UVs in other tiles than 0..1
     bool has_zonal_table = false;        ///< SkinContext::zonal_table is given
     GaussianSum skin_gaussians;          ///< of the scene's profile

@@ -1,5 +1,5 @@
-// Lambert 1760, Photometria: a surface whose radiance is the same in all directions. No scattering, so no
-// width to set; the baseline of every comparison.
+// Lambert 1760, Photometria: a surface whose radiance is the same in all directions. It does not scatter and
+// is the baseline of every comparison.
 
 #include "dermis/technique/forward.h"
 

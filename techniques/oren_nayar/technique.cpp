@@ -1,5 +1,5 @@
-// Oren, Nayar 1994: diffuse reflection of a surface made of Lambertian facets. Flattens the shading as rough
-// skin does; without scattering.
+// Oren, Nayar 1994: diffuse reflection of a surface made of Lambertian facets. It flattens the shading as
+// rough skin does and does not scatter.
 
 #include "dermis/technique/forward.h"
 

@@ -2,37 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include "dermis/mesh/primitives.h"
 #include "render/grid_scene.h"
-#include "techniques/preintegrated/occlusion_blend.h"
+#include "techniques/preintegrated/weights.h"
 
 using namespace dermis;
 
 namespace {
 
-class PreintegratedAmbient : public PreintegratedTest {
-  protected:
-    static Scene in_studio() {
-        Scene scene = make_grid_scene();
-        scene.lights.clear();
-        scene.environment = {.kind = EnvironmentKind::studio, .intensity = 1};
-        return scene;
-    }
-};
-
-// A normal map of fine stripes that lean left and right.
-ImageSource stripes() {
-    ImageSource map{.name = "stripes", .width = 256, .height = 256, .channels = 3};
-    for (int i = 0; i < 256 * 256; ++i)
-        for (const int value : {(i / 4) % 2 ? 190 : 65, 127, 215}) map.pixels.push_back(std::byte(value));
-    return map;
-}
+class PreintegratedAmbient : public PreintegratedTest {};
 
 }  // namespace
 
 TEST_F(PreintegratedAmbient, uses_the_smoothed_normals) {
-    Scene scene = in_studio();
-    scene.objects[0].mesh.materials[0].normal_map = stripes();
+    Scene scene = make_studio_grid_scene();
+    scene.objects[0].mesh.materials[0].normal_map = striped_normal_map();
     const Image sharp = draw_grid(scene, {{"normals", "sharp"}}),
                 smooth = draw_grid(scene, {{"normals", "smooth"}}),
                 blended = draw_grid(scene, {{"normals", "blended"}});
@@ -44,7 +27,7 @@ TEST_F(PreintegratedAmbient, uses_the_smoothed_normals) {
 // The left half of a plane sees everything around it, the right half nothing. The truth is the profile's
 // cumulative distribution along a line, a sum of error functions.
 TEST_F(PreintegratedAmbient, scatters_over_an_edge_of_its_occlusion) {
-    Scene scene = in_studio();
+    Scene scene = make_studio_grid_scene();
     Mesh& mesh = scene.objects[0].mesh;
     mesh = make_plane(64, 64, 192);
     mesh.materials[0].base_color_linear = {1, 1, 1};
@@ -77,7 +60,7 @@ TEST(OcclusionBlend, gives_a_gaussian_of_a_stored_variance_to_that_blur) {
                                                  {0.0, std::array{0.0, 0.0, 0.0}},
                                                  {1.25, std::array{0.5, 0.5, 0.0}}}) {
         const auto weights =
-            occlusion_blend({.terms = {{.variance_mm2 = variance_mm2, .weight = {2, 2, 2}}}});
+            preintegrated::occlusion_blend({.terms = {{.variance_mm2 = variance_mm2, .weight = {2, 2, 2}}}});
         for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(weights[i][1], expected[i], 1e-12) << variance_mm2;
     }
 }

@@ -1,5 +1,5 @@
-// normals=baked: on spheres it is the table as ever, silhouettes included, and without an atlas of the skin's
-// own it is normals=blended.
+// normals=baked: on spheres it is the table without it, silhouettes included. normals=auto is baked where the
+// head and the settings allow it, else blended.
 
 #include <gmock/gmock.h>
 
@@ -9,6 +9,7 @@
 #include "support/built_in.h"
 
 using namespace dermis;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -51,14 +52,20 @@ class BakedNormals : public PreintegratedTest {
 
 }  // namespace
 
-TEST_F(BakedNormals, are_the_default) {
+TEST_F(BakedNormals, are_the_default_where_head_and_settings_allow_it) {
     const Scene scene = two_balls();
     Renderer renderer = make_renderer(scene);
-    const ParameterValues defaults(technique().parameters);
-    const Image as_default = radiance(renderer, technique(), defaults, kSmall);
-    EXPECT_EQ(drawn(renderer, {{"normals", "baked"}}).bytes, as_default.bytes);
-    EXPECT_NE(drawn(renderer, {}).bytes, as_default.bytes);
+    const Image baked = drawn(renderer, {{"normals", "baked"}}), blended = drawn(renderer, {});
+    EXPECT_NE(baked.bytes, blended.bytes);
+    EXPECT_EQ(drawn(renderer, {{"normals", "auto"}}).bytes, baked.bytes);
     EXPECT_THAT(renderer.warnings(), IsEmpty());
+    for (const auto& [name, value] : Settings{{"curvature", "derivative"},
+                                              {"diffuse", "half_ring"},
+                                              {"ambient", "curve_2015"},
+                                              {"diffuse", "closed_form"}})
+        EXPECT_EQ(drawn(renderer, {{"normals", "auto"}, {name, value}}).bytes,
+                  drawn(renderer, {{name, value}}).bytes)
+            << name << " " << value;
 }
 
 // At a silhouette a pixel covers a wide part of the atlas, of which the narrow side chooses the level.
@@ -67,23 +74,26 @@ TEST_F(BakedNormals, of_spheres_give_the_table_at_the_middle_and_at_silhouettes)
     EXPECT_LT(difference(drawn(scene, {{"normals", "baked"}}), drawn(scene, {{"normals", "sharp"}})), 0.03);
 }
 
-TEST_F(BakedNormals, without_uvs_are_blended_and_a_warning_says_so) {
-    Scene scene = two_balls();
-    scene.objects[1].mesh.uvs.clear();
-    Renderer renderer = make_renderer(scene);
-    const Image baked = drawn(renderer, {{"normals", "baked"}});
-    EXPECT_THAT(renderer.warnings(), Contains(HasSubstr("has no UVs: nothing is baked over it")));
-    EXPECT_EQ(baked.bytes, drawn(scene, {}).bytes);
-}
-
-TEST_F(BakedNormals, over_an_atlas_that_two_places_share_are_blended) {
-    Scene scene = two_balls();
-    scene.objects[1].mesh.uvs = scene.objects[0].mesh.uvs;
-    Renderer renderer = make_renderer(scene);
-    const Image baked = drawn(renderer, {{"normals", "baked"}});
-    EXPECT_THAT(renderer.warnings(),
-                Contains(HasSubstr("covered by more than one triangle: nothing is baked")));
-    EXPECT_EQ(baked.bytes, drawn(scene, {}).bytes);
+TEST_F(BakedNormals, that_the_head_does_not_allow_are_refused_and_auto_says_why_it_is_blended) {
+    Scene without_uvs = two_balls(), shared_texels = two_balls();
+    without_uvs.objects[1].mesh.uvs.clear();
+    shared_texels.objects[1].mesh.uvs = shared_texels.objects[0].mesh.uvs;
+    for (const auto& [scene, reason] :
+         {std::pair{&without_uvs, "has no UVs"}, {&shared_texels, "covered by more than one triangle"}}) {
+        Renderer renderer = make_renderer(*scene);
+        const auto refused = renderer.draw(technique(), values_of({{"normals", "baked"}}), kSmall);
+        ASSERT_FALSE(refused) << reason;
+        EXPECT_THAT(refused.error().message, AllOf(HasSubstr(reason), HasSubstr("or set normals=auto")));
+        const Image blended = drawn(renderer, {{"normals", "auto"}});
+        EXPECT_THAT(renderer.warnings(),
+                    Contains(AllOf(HasSubstr("is blended, not baked"), HasSubstr(reason))));
+        EXPECT_EQ(blended.bytes, drawn(renderer, {}).bytes);
+    }
+    const FrameContext zonal = {.has_zonal_table = true};
+    EXPECT_THAT(technique().build(values_of({{"normals", "baked"}}), zonal).refusal,
+                HasSubstr("the scene's zonal_table"));
+    EXPECT_THAT(technique().build(values_of({{"normals", "auto"}}), zonal).notices,
+                Contains(HasSubstr("the scene's zonal_table")));
 }
 
 // In another tile no texel is read: there the skin is the sphere of its vertices' curvature.
@@ -91,16 +101,4 @@ TEST_F(BakedNormals, outside_the_atlas_scatter_by_the_curvature_of_the_vertices)
     Scene scene = two_balls();
     for (Vec2& uv : scene.objects[1].mesh.uvs) uv.x += 1;
     EXPECT_LT(difference(drawn(scene, {{"normals", "baked"}}), drawn(scene, {{"normals", "sharp"}})), 0.03);
-}
-
-TEST_F(BakedNormals, leave_other_sources_of_curvature_and_ambient_light_their_effect) {
-    const Scene scene = two_balls();
-    for (const Settings& other : {Settings{{"curvature", "derivative"}},
-                                  {{"construction", "ring"}},
-                                  {{"ambient", "curve_2015"}},
-                                  {{"diffuse", "closed_form"}}}) {
-        Settings baked = other;
-        baked.emplace_back("normals", "baked");
-        EXPECT_EQ(drawn(scene, baked).bytes, drawn(scene, other).bytes) << other[0].first;
-    }
 }

@@ -1,15 +1,15 @@
-// Skin around a point as baked normals have it: of each channel the mean of the normals over the profile
+// Diffuse light from baked normals: for each channel the mean of the normals over the profile
 // (dermis/render/diffused_normals.h).
 //
-// On a sphere of curvature k the mean is the point's own normal, A(k) long, A the mean cosine of the profile there. So
-// its direction gives N.L, and red's length, by the inverse of A, the curvature, with which the diffuse table is read: on a
-// sphere that is the table as ever. Elsewhere the odd part of the light, half of A N.L, is the mean's cosine itself, so it
-// is exact on any shape; the even part, which says how wide the terminator is, is that of a sphere whose normals spread
-// as much.
+// On a sphere of curvature k the mean is the point's own normal with length A(k), the mean cosine of the profile. So the
+// direction of the mean gives N.L, and the length of red's gives the curvature (the inverse of A). Both address the diffuse
+// table; on a sphere the result is the table without baked normals. On other shapes the odd part of the light, half of
+// A N.L, is the cosine of the mean and therefore exact. The even part, which sets the width of the terminator, is that of a
+// sphere whose normals spread as much.
 //
-// Where they spread more along one direction, as on a cylinder or a saddle, the spread along the light counts, as in
-// shaders/include/skin/curvature.glsl: k^2 times (the spread along L + (N.L)^2), the spread being 1 - (N.L)^2 on a sphere.
-// Curvature of the vertices is not read beside it: the mean has it already.
+// On a cylinder or a saddle the normals spread more along one direction. The spread along the light counts, as in
+// shaders/include/skin/curvature.glsl: k^2 times (the spread along L + (N.L)^2); on a sphere the spread is 1 - (N.L)^2.
+// The curvature of the vertices is not read, because the mean contains it.
 #ifndef DERMIS_DIFFUSED_NORMALS_GLSL
 #define DERMIS_DIFFUSED_NORMALS_GLSL
 
@@ -18,7 +18,7 @@
 
 uniform texture2D diffused_normals_red, diffused_normals_green, diffused_normals_uneven;
 
-// Where it is known to be 0, no curvature of the vertices is kept for it.
+// 0 where no skin lies outside the atlas: the compiler then drops the curvature of the vertices.
 layout(constant_id = 7) const int skin_outside_atlas = 1;
 
 struct DiffusedNormals {
@@ -26,14 +26,14 @@ struct DiffusedNormals {
     vec3 mean_length;
     float k_per_mm;  // of the sphere that has red's length
     vec3 band_2;     // what is left of the cosine lobe's second band
-    vec2 uneven;     // the spread around n[0] is [[1 + x, y], [y, 1 - x]] in its frame
+    vec2 uneven;     // the spread around n[0] is [[1 + x, y], [y, 1 - x]] in the frame of n[0]
 };
 
-// Texels that no skin lies on hold a direction of length 0; UVs in other tiles have none.
+// Texels without skin hold a direction of length 0. UVs in other tiles have no texel.
 const float kNoSkin = 0.25;
 
-// The mip level of the narrow side of the pixel's footprint. Along a silhouette the wide side covers the whole flank, whose
-// mean would be read; the maps are blurred by the profile, so that they hold little that is finer.
+// The mip level of the narrow side of the pixel's footprint. At a silhouette the wide side covers the whole flank, and its
+// level would hold the mean of that flank. The maps are blurred by the profile, so finer levels hardly alias.
 float diffused_normals_level(vec2 uv, float texels) {
     vec2 x = dFdx(uv) * texels, y = dFdy(uv) * texels;
     float area = x.x * y.y - x.y * y.x;
@@ -62,14 +62,14 @@ DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight, float green_sp
     }
     vec2 sphere = sphere_of_mean(d.mean_length.r);
     d.k_per_mm = skin_outside_atlas == 0 || in_atlas ? sphere.x : around_per_mm;
-    // Green's and blue's normals differ by little: of a lobe of mean cosine 1 - x to second order in x.
+    // The normals of green and blue differ little: the second band of a lobe of mean cosine 1 - x, to second order in x.
     vec3 less = 1.0 - d.mean_length;
     d.band_2 = vec3(sphere.y, 1.0 - 3.0 * less.gb + 3.0 * less.gb * less.gb);
     d.uneven = in_atlas ? uneven : vec2(0.0);
     return d;
 }
 
-// The spread along the light over that of the mean's sphere. The frame around n, without a seam but at n.y = -1
+// The spread along the light over the spread on the mean's sphere. The frame around n has a seam at n.y = -1 only
 // (Frisvad 2012, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization").
 float spread_towards(vec3 n, vec2 uneven, vec3 to_light_world) {
     float a = 1.0 / max(1.0 + n.y, 1e-4), b = -n.x * n.z * a;

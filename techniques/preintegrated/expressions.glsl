@@ -1,18 +1,18 @@
-// The functions of the profile as expressions: no table is read.
+// The functions of tables.glsl as expressions, without a table.
 #ifndef DERMIS_PREINTEGRATED_EXPRESSIONS_GLSL
 #define DERMIS_PREINTEGRATED_EXPRESSIONS_GLSL
 
 #include "shaders/include/skin/transmission.glsl"
-#include "techniques/preintegrated/closed_form.glsl"
+#include "techniques/preintegrated/skin.glsl"
 
 vec3 profile_falloff(float n_dot_l, float k) { return closed_form(vec3(n_dot_l), k); }
 void profile_zonal(float k, out vec3 zh[3]) { closed_form_zonal(k, zh); }
 vec3 profile_edge(float visibility) { return scattered_edge(visibility); }
 
-// The formula of techniques/preintegrated/normal_blend.h itself, once for each pixel. No return before the loop: the code that
-// lavapipe (Mesa 22.3) makes of one writes past its stack.
+// The formula of techniques/preintegrated/weights.h, once per pixel. There is no return before the loop, because lavapipe
+// (Mesa 22.3) compiles one to code that writes past its stack.
 vec4 normal_blend(float sharp_mm) {
-    float levels = clamp(log2(widest_blend_mm / sharp_mm), 0.0, normal_lod_bias);
+    float levels = clamp(log2(widest_blend_mm / sharp_mm), 0.0, kMostNormalLevels);
     float s0 = sharp_mm * sharp_mm / 12.0, s1 = s0 * exp2(2.0 * levels);
     vec3 kept = vec3(0.0);
     for (int i = 0; i < gaussian_count; ++i) {
@@ -24,7 +24,7 @@ vec4 normal_blend(float sharp_mm) {
     return levels < 1e-3 ? vec4(0.0) : vec4(weight, levels);
 }
 
-// dermis/technique/transmission.h: R per mm^2 over its integral, and the reach; of the Gaussians, not of the profile itself.
+// dermis/technique/transmission.h: R per mm^2 over its integral, and the reach. R is the sum of the Gaussians.
 vec3 transmission_profile(float distance_over_reach) {
     float d = transmission_reach_mm * max(distance_over_reach, transmission_nearest);
     vec3 r = vec3(0.0);

@@ -12,7 +12,5 @@ namespace dermis::preintegrated {
 
 /// Of Yeung 2015: curves beside tables, spheres, heads, environments; and the baselines.
 [[nodiscard]] std::vector<Figure> curve_figures();
-/// How the curves of 2015 are put together; one of curve_figures().
-[[nodiscard]] Figure construction_figure();
 
 }  // namespace dermis::preintegrated

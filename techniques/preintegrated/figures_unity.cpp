@@ -8,12 +8,12 @@ namespace {
 constexpr const char* kSource = "after a Unity implementation of Penner 2011";
 constexpr const char* kClose = "distance_mm=520";
 
-FigureCell table_cell(std::string id, std::string construction, CellEncoding encoding) {
+FigureCell table_cell(std::string id, std::string diffuse, CellEncoding encoding) {
     return {.label = encoding == CellEncoding::linear ? "linear values shown unchanged"
                                                       : "encoded for display (sRGB)",
             .id = std::move(id),
             .kind = CellKind::table,
-            .settings = {{"construction", std::move(construction)}, {"normals", "blended"}},
+            .settings = {{"diffuse", std::move(diffuse)}, {"normals", "blended"}},
             .table = "skin_lut",
             .encoding = encoding};
 }
@@ -32,7 +32,7 @@ Result<FigurePicture> unity_taps(const SkinContext&, int width, int height) {
 
 Figure table_figure() {
     const auto script = [](CellEncoding encoding, std::string id) {
-        FigureCell cell = table_cell(std::move(id), "ring", encoding);
+        FigureCell cell = table_cell(std::move(id), "half_ring", encoding);
         cell.kind = CellKind::computed;
         cell.table.clear();
         cell.settings.clear();
@@ -41,12 +41,12 @@ Figure table_figure() {
     };
     FigureRow published = {"The article's script: ring in steps of 0.05 rad, variances times 1.414",
                            {script(CellEncoding::linear, "script"), script(CellEncoding::srgb, "")}};
-    FigureRow ring = {
-        "The same ring, exact",
-        {table_cell("ring", "ring", CellEncoding::linear), table_cell("", "ring", CellEncoding::srgb)}};
+    FigureRow ring = {"The same ring, exact",
+                      {table_cell("ring", "half_ring", CellEncoding::linear),
+                       table_cell("", "half_ring", CellEncoding::srgb)}};
     FigureRow sphere = {
         "The closed sphere",
-        {table_cell("sphere", "sphere", CellEncoding::linear), table_cell("", "sphere", CellEncoding::srgb)}};
+        {table_cell("sphere", "lut", CellEncoding::linear), table_cell("", "lut", CellEncoding::srgb)}};
     ring.cells[0].compare_to = "script";
     sphere.cells[0].compare_to = "ring";
     return {.id = "table",

@@ -1,12 +1,12 @@
-// A shadow's edge as the light around the point has it: what enters there counts by the profile, where it is not blocked.
+// Shadow edges from the visibility around the point, weighted by the profile.
 //
-// In channel c the light that leaves is D = sum w V E over the places around, E the light that would enter, V the part of it
-// that nothing blocks and w the profile. The tables and baked normals have sum w E; so what is left to know is V averaged by
-// w E. The places lie on the quadric of the curvature tensor, where E is N.L of its normal.
+// The light that leaves in a channel is D = sum w V E over the places around: w is the profile, E the light that would
+// enter, V the visible part of it. The tables and the baked normals hold sum w E. So the shader needs V averaged with the
+// weights w E. The places lie on the quadric of the curvature tensor, and E is N.L of the quadric's normal.
 //
-// That quadric is no part of the mesh: its places are lifted off it, by more the farther they are, or bumps would shade
-// themselves, and a shadow's edge moves with the lift. So the average is not taken as it is: its difference from the same
-// average over the penumbra alone is added to the visibility at the point, whose edges are where they should be.
+// The quadric is not the mesh. The places are lifted off it, the farther ones by more, so that bumps do not shade
+// themselves. The lift moves the edge of a shadow. Therefore the shader adds only the difference between this average and
+// the same average over the penumbra alone to the visibility at the point.
 #ifndef DERMIS_GATHERED_SHADOW_GLSL
 #define DERMIS_GATHERED_SHADOW_GLSL
 
@@ -14,18 +14,18 @@
 #include "shaders/include/skin/curvature.glsl"
 #include "techniques/preintegrated/tables.glsl"
 
-// Of shares tried on the head scan and the bust; half as much or twice as much loses .01 to .05 of either.
+// Tuned for the captured share on the head scan and the bust; half or twice as much loses .01 to .05.
 const float kGatherLiftTexels = 2.25, kGatherLiftMm = 0.45;  // kGatherLiftSlope: constants.h
-// Where the quadric gets less light than this part of what comes straight down, the few places that are lit would decide: the
-// difference counts less. Half as much loses up to .01 of a head's share.
+// Where the quadric gets less than this part of the light of a facing surface, a few lit places would decide, so the
+// difference counts in proportion. Half as much loses up to .01 of the share.
 const float kGatherFaint = 0.3;
 // Pixels whose diagonal is shorter share their taps.
 const float kGatherTogetherMm = 0.7;
 
-// The surface around the point: x towards the light, as far as that goes along it, and y across.
+// The surface around the point: tangent x towards the light, tangent y across.
 struct Quadric {
     vec3 n, x, y;                  // world
-    vec2 cosine_sine;              // of the light to n
+    vec2 cosine_sine;              // of the angle between the light and n
     float xx_per_mm, yy_per_mm, xy_per_mm;  // the curvature tensor
 };
 
@@ -46,8 +46,8 @@ Quadric quadric_around(Surface s, vec3 to_light_world, vec3 across_light_world) 
     return q;
 }
 
-// All four pixels of a quad come here together. Where they are near each other each takes a quarter of the taps. Every fourth
-// comes first: where these and the filtered shadow agree that all is lit, or nothing, the others are not read.
+// All four pixels of a quad must call this together. Where they are near each other, each takes a quarter of the taps. Every
+// fourth tap comes first: if these taps and the filtered shadow agree that all or nothing is lit, the rest is skipped.
 vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
     LightSource source = light_source(light);
     vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
@@ -59,20 +59,20 @@ vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibi
     if (all_directional != 0) step_y.z = 0.0;  // across the light
     vec3 step_n = shadow_map_step(source.light_view_projection, s.p_world_mm, here, q.n);
     here += max(kGatherLiftTexels * shadow_texel_mm, kGatherLiftMm) * step_n;
-    // Beside the triangle a storage buffer is not everywhere loaded.
+    // Helper pixels beside the triangle may not load storage buffers.
     vec3 right_mm = dFdxCoarse(s.p_world_mm), down_mm = dFdyCoarse(s.p_world_mm);
     bool together = one_light != 0 && dot(right_mm, right_mm) + dot(down_mm, down_mm) < kGatherTogetherMm * kGatherTogetherMm;
     int lane = (int(gl_FragCoord.x) & 1) + 2 * (int(gl_FragCoord.y) & 1);
     int first = together ? lane : 0, stride = together ? 4 : 1;
-    vec4 lit = vec4(0.0);  // the fourth: of the penumbra alone, of whose weights the mean is 1
+    vec4 lit = vec4(0.0);  // alpha: of the penumbra alone, whose weights have the mean 1
     vec3 all = vec3(0.0);
     for (int i = first; i < kShadowGatherTaps; i += stride) {
         if (i - first == kShadowFirstTaps) {
-            // Red reaches farthest: its weight is 0 nowhere.
+            // Red reaches farthest, so its weight is never 0.
             if (any_of_quad(abs(lit.r - visibility * all.r)) == 0.0) return vec3(visibility);
         }
         vec4 weight = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapWeights), 0);
-        vec3 d_mm = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapPlaces), 0).xyz;  // z: how far it is lifted
+        vec3 d_mm = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapPlaces), 0).xyz;  // z: the lift
         vec2 bend = vec2(q.xx_per_mm * d_mm.x + q.xy_per_mm * d_mm.y, q.xy_per_mm * d_mm.x + q.yy_per_mm * d_mm.y);
         float n_dot_l = max(q.cosine_sine.x + q.cosine_sine.y * bend.x, 0.0);
         float rise_mm = d_mm.z - 0.5 * dot(d_mm.xy, bend);

@@ -6,13 +6,11 @@
 #include <numbers>
 
 #include "dermis/bake/shadow_ramp.h"
-#include "dermis/mesh/primitives.h"
-#include "dermis/optics/presets.h"
 #include "dermis/optics/shadow_edge.h"
 #include "render/grid_scene.h"
 #include "support/built_in.h"
 #include "techniques/preintegrated/constants.h"
-#include "techniques/preintegrated/shadow_taps.h"
+#include "techniques/preintegrated/weights.h"
 
 using namespace dermis;
 using namespace dermis::preintegrated;
@@ -49,22 +47,6 @@ double scattered_edge(double x_mm, size_t channel) {
     return light / total;
 }
 
-// A wall of 64 mm, of which a bar above it shadows a part.
-Scene wall_and_bar() {
-    Scene scene = make_grid_scene();
-    SceneObject& object = scene.objects[0];
-    object.mesh = make_plane(64, 64, 2);
-    object.mesh.materials[0].base_color_linear = {1, 1, 1};
-    object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1);
-    SceneObject bar = object;
-    bar.name = "bar";
-    for (Vec3& p : bar.mesh.positions_mm) p = {0.3f * p.x - 20, p.y, 12};
-    scene.objects.push_back(bar);
-    scene.camera = {.eye_mm = {0, 0, 1000}, .vertical_fov_rad = 2 * std::atan(32 / 1000.0f)};
-    scene.lights[0] = {.name = "key", .intensity = 3.14159265f, .to_light_world = normalize(Vec3{-1, 0, 1})};
-    return scene;
-}
-
 }  // namespace
 
 TEST_F(GatheredShadow, a_gaussian_over_a_disk_is_the_sum_over_its_points) {
@@ -95,7 +77,7 @@ TEST_F(GatheredShadow, each_channel_s_weights_have_the_whole_light) {
 }
 
 TEST_F(GatheredShadow, an_edge_on_flat_skin_is_the_exact_one) {
-    const Scene scene = wall_and_bar();
+    const Scene scene = make_wall_and_bar(-20, 12);
     const auto row = [&](const char* shadow) {
         const Image picture =
             draw_grid(scene, {{"transmission", "none"}, {"specular", "none"}, {"shadow", shadow}});

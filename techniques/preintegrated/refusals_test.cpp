@@ -54,6 +54,24 @@ class PreintegratedRefusals : public PreintegratedTest {
 
 }  // namespace
 
+TEST_F(PreintegratedRefusals, settings_that_exclude_each_other) {
+    for (const auto& [settings, mend] : std::initializer_list<std::pair<Settings, const char*>>{
+             {{{"normals", "baked"}, {"diffuse", "closed_form"}},
+              "needs diffuse=lut; set it, or normals=auto"},
+             {{{"normals", "baked"}, {"diffuse", "half_ring"}}, "needs diffuse=lut"},
+             {{{"normals", "baked"}, {"curvature", "derivative"}}, "needs curvature=vertex"},
+             {{{"normals", "baked"}, {"ambient", "curve_2015"}}, "needs ambient=profile"},
+             {{{"shadow", "gathered"}, {"diffuse", "closed_form"}},
+              "set diffuse=lut, or shadow=scattered"}}) {
+        const Result<void> checked = check_settings(technique(), values_of(settings));
+        ASSERT_FALSE(checked) << mend;
+        EXPECT_THAT(checked.error().message, HasSubstr(mend));
+    }
+    for (const Settings& sound :
+         {Settings{{"normals", "baked"}}, {{"shadow", "gathered"}, {"diffuse", "half_ring"}}})
+        EXPECT_TRUE(check_settings(technique(), values_of(sound)));
+}
+
 TEST_F(PreintegratedRefusals, a_fitting_table_is_read_instead_of_baking_one) {
     Scene scene = make_grid_scene();
     const Settings settings = {{"shadow", "plain"}};
@@ -95,7 +113,7 @@ TEST_F(PreintegratedRefusals, tables_for_another_skin_or_integral) {
     EXPECT_EQ(refusal(baked("own.exr", [](LutOptions&) {})), "");
     EXPECT_THAT(refusal(baked("skin1.exr", [](LutOptions& o) { o.profile.name = "somebody"; })),
                 HasSubstr("'profile' is 'somebody', this use needs 'gpu_gems_3'"));
-    EXPECT_THAT(refusal(path("own.exr"), {{"construction", "ring"}}),
+    EXPECT_THAT(refusal(path("own.exr"), {{"diffuse", "half_ring"}}),
                 HasSubstr("'construction' is 'sphere'"));
     EXPECT_THAT(refusal(path("absent.exr")), HasSubstr("absent.exr"));
 }

@@ -1,6 +1,6 @@
-// Pre-integrated skin: scattering as a function of N.L and curvature, of small bumps by one normal per channel, and of
-// shadow edges as a function of the position in the penumbra (Penner 2011). With DERMIS_TABLES these functions are read from
-// tables, without from expressions that are fitted to the same profile.
+// Pre-integrated skin (Penner 2011): scattering is a function of N.L and curvature, at small bumps by one normal per
+// channel, at shadow edges by the position in the penumbra. DERMIS_TABLES reads these functions from tables; without it they
+// are expressions that are fitted to the same profile.
 #ifndef DERMIS_PREINTEGRATED_SHADING_GLSL
 #define DERMIS_PREINTEGRATED_SHADING_GLSL
 
@@ -9,11 +9,7 @@
 
 layout(scalar) uniform Params {
     float curvature_gain;
-    float tune_curvature;
-    float normal_lod_bias;
     float shadow_width_mm;
-    float oiliness;
-    float roughness_scale;
 };
 layout(push_constant, scalar) uniform PassValues {
     vec3 occlusion_weight_0, occlusion_weight_1, occlusion_weight_2;  // of Surface::occlusion_blurred
@@ -23,7 +19,7 @@ layout(push_constant, scalar) uniform PassValues {
 #endif
 };
 layout(constant_id = 3) const int shadow = kShadowScattered;
-// shadow=plain filters the scene's penumbra; shadow=scattered the width that the shadow table was made for.
+// shadow=plain filters by the scene's penumbra, shadow=scattered by the width that the shadow table was made for.
 #define DERMIS_SHADOW_WIDTH_MM shadow_filter_mm(s.n_geometry_world, light.to_light_world)
 
 // At grazing light a wider filter than the penumbra would light skin that is in shadow.
@@ -47,13 +43,12 @@ float shadow_filter_mm(vec3 n_world, vec3 to_light_world) {
 #include "shaders/include/skin/curvature.glsl"
 #include "shaders/include/skin/curve_2015.glsl"
 #include "shaders/include/skin/normals.glsl"
-#include "techniques/preintegrated/closed_form.glsl"
-#include "techniques/preintegrated/zonal.glsl"
+#include "techniques/preintegrated/skin.glsl"
 
 layout(constant_id = 2) const int diffuse = kDiffuseLut;
 layout(constant_id = 4) const int curvature = kCurvatureVertex;
 layout(constant_id = 5) const int normals = kNormalsBlended;
-layout(constant_id = 6) const int ambient = kAmbientLut;
+layout(constant_id = 6) const int ambient = kAmbientProfile;
 
 #ifndef DERMIS_BAKED_NORMALS
 uniform sampler2D curvature_map;
@@ -61,13 +56,13 @@ uniform sampler2D curvature_map;
 // Set by prepare_geometry() and prepare_surface(); the same for every light.
 vec3 skin_diagonal_per_mm, skin_mixed_per_mm;  // the curvature tensor
 float curvature_around_per_mm;
-vec3 n_mean_world;    // of the normals that the smoother read covers: shorter than 1 where they differ
-vec3 smooth_weight;   // of the light that these normals get; the sharp normal's has the rest
-// Of what needs derivatives of the texture coordinates, which would be live from the geometry on.
-float sharp_normal_mm;  // on the skin, of the sharp read of the normal map
+vec3 n_mean_world;    // mean of the normals that the smoother read covers: shorter than 1 where they differ
+vec3 smooth_weight;   // of the light on these normals; the light on the sharp normal has the rest
+// Computed early, so that the derivatives of the texture coordinates do not stay in registers.
+float sharp_normal_mm;  // width on the skin of the sharp read of the normal map
 float normal_magnification, occlusion_magnification;  // magnification_levels()
 float smooth_levels;  // mip levels from the sharp normal to the smooth one
-float bumps;          // variance of the normals over which the smoother read means
+float bumps;          // variance of the normals that the smoother read averages
 
 #ifdef DERMIS_TABLES
 #include "techniques/preintegrated/tables.glsl"
@@ -93,7 +88,7 @@ void choose_curvature(Surface s) {
         skin_mixed_per_mm = curvature_gain * tangent_mixed(per_mm, t, b);
         return;
     }
-    float k = curvature_from_derivatives(fwidth(s.n_geometry_world), fwidth(s.p_world_mm)) / tune_curvature;
+    float k = curvature_from_derivatives(fwidth(s.n_geometry_world), fwidth(s.p_world_mm));
     skin_diagonal_per_mm = sphere_diagonal(curvature_gain * k, s.n_geometry_world);
     skin_mixed_per_mm = sphere_mixed(curvature_gain * k, s.n_geometry_world);
 #endif
@@ -118,12 +113,10 @@ void prepare_geometry(Surface s) {
 }
 
 void prepare_surface(inout Surface s) {
-    s.f0 *= oiliness;
-    s.roughness = clamp(s.roughness * roughness_scale, 0.03, 1.0);
     if (normals == kNormalsSharp) return;
     smooth_weight = vec3(1.0);
-    smooth_levels = normal_lod_bias;
-    if (normals == kNormalsBlended || normals == kNormalsLerp || normals == kNormalsBaked) {
+    smooth_levels = kMostNormalLevels;
+    if (normals == kNormalsBlended || normals == kNormalsLerp) {
         vec4 blend = normal_blend(sharp_normal_mm);
         smooth_weight = blend.rgb;
         smooth_levels = blend.a;
@@ -188,7 +181,7 @@ vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visib
     return mix(vec3(visibility), profile_edge(visibility), scattered_shadow_part(s.n_geometry_world, to_light_world));
 }
 
-// The chord of the sphere that is integrated.
+// The chord of the sphere of this curvature.
 float own_way_mm(Surface s, vec3 to_light_world) {
     float k = curvature_towards(skin_diagonal_per_mm, skin_mixed_per_mm, s.n_geometry_world, to_light_world);
     return 2.0 * max(-dot(s.n_geometry_world, to_light_world), 0.0) / max(k, 1e-4);
@@ -209,8 +202,8 @@ void ambient_bands(out vec3 band[3]) {
     for (int l = 0; l < 3; ++l) band[l] = sqrt(4.0 * kPi / float(2 * l + 1)) * zh[l];
 }
 
-// Occluded light scatters too: a crease is lit through its sides, in red farther than in blue. The occlusion of the
-// vertices is mixed by the weights of occlusion_blend.h, that of the material's map like the normals.
+// Occluded light scatters too: a crease is lit through its sides, in red farther than in blue. weights.h mixes the
+// occlusion of the vertices; the occlusion map is mixed like the normals.
 vec3 scattered_occlusion(Surface s) {
     vec3 weight_0 = occlusion_weight_0, weight_1 = occlusion_weight_1, weight_2 = occlusion_weight_2;
     vec3 of_vertices = (1.0 - weight_0 - weight_1 - weight_2) * s.occlusion_vertex + weight_0 * s.occlusion_blurred.x +
@@ -224,7 +217,7 @@ vec3 scattered_occlusion(Surface s) {
 }
 
 #ifdef DERMIS_BAKED_NORMALS
-// The mean of the lobe's first band is as long as the mean normal. Blue's normal is nearly green's.
+// The mean of the lobe's first band has the length of the mean normal. Blue takes green's direction, which is nearly its own.
 vec3 ambient_of_diffused_normals() {
     vec3 band_1 = 2.0 * kPi / 3.0 * diffused.mean_length, band_2 = 0.25 * kPi * diffused.band_2;
     return vec3(environment_convolved(diffused.n[0], vec3(kPi), band_1, band_2).r,
@@ -247,7 +240,7 @@ vec3 ambient_response(Surface s) {
 }
 #endif
 
-// The curvature that shades, from any source: radiance 1 is 0.25 per mm.
+// The curvature that shading uses: radiance 1 is 0.25 per mm.
 vec3 own_view(Surface s) { return vec3(4.0 * curvature_around_per_mm); }
 
 #endif

@@ -12,8 +12,7 @@
 #include "dermis/bake/zonal_table.h"
 #include "dermis/optics/gaussian_channels.h"
 #include "shaders/include/constants.h"
-#include "techniques/preintegrated/normal_blend.h"
-#include "techniques/preintegrated/shadow_taps.h"
+#include "techniques/preintegrated/weights.h"
 
 namespace dermis::preintegrated {
 namespace {
@@ -28,8 +27,8 @@ Texel texel(const Rgb& value, double alpha) {
     return {float(value[0]), float(value[1]), float(value[2]), float(alpha)};
 }
 
-// A table from a file, which is resampled at this technique's texels: its size, range, warp and encoding are
-// those of its convention. Kind, construction, axes and profile must be the same.
+// A table from a file, resampled at this technique's texels. Size, range, warp and encoding may differ; kind,
+// construction, axes and profile must be those of this use.
 Result<Table> own_table(const std::string& file, TableUse use, const TableSettings& settings,
                         const SkinContext& skin) {
     use.construction = settings.construction;
@@ -77,7 +76,7 @@ Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContex
     return table_image("skin_lut", kLutHeight, rgba);
 }
 
-// At even steps of curvature, both ends included. A file replaces the orders that it has: a remapped one
+// At even steps of curvature, both ends included. A file replaces the orders that it has; a remapped file
 // lacks the second, which scattering changes least.
 Result<Rows> zonal_rows(const TableSettings& settings, const SkinContext& skin) {
     Table own;
@@ -111,22 +110,22 @@ Result<Rows> shadow_row(const TableSettings& settings, const SkinContext& skin) 
 
 // Weights of the smoother normal, and in alpha its mip level above the sharp one's, over the logarithm of a
 // texel's size in mm.
-Result<Rows> normals_row(const TableSettings& settings, const SkinContext& skin) {
+Result<Rows> normals_row(const TableSettings&, const SkinContext& skin) {
     Rows row;
     for (int i = 0; i < kRowTexels; ++i) {
         const double log_mm = kMinLogMm + double(kMaxLogMm - kMinLogMm) * i / (kRowTexels - 1);
-        const NormalBlend blend = normal_blend(skin.gaussians, std::exp2(log_mm), settings.normal_lod_bias);
+        const NormalBlend blend = normal_blend(skin.gaussians, std::exp2(log_mm));
         row.push_back(texel(blend.weight, blend.lod_bias));
     }
     return row;
 }
 
-// Of red: curvature over kMaxCurvaturePerMm, and the mean of the second Legendre polynomial, over sqrt(1 -
-// A), A the mean cosine of the profile on its sphere, which falls with curvature; as at the largest curvature
-// where no sphere has it.
+// Red's curvature over kMaxCurvaturePerMm and mean of the second Legendre polynomial, over sqrt(1 - A). A is
+// the mean cosine of the profile on its sphere, which falls with curvature. Values beyond the largest
+// curvature repeat its texel.
 Result<Rows> row_of_mean(const TableSettings& settings, const SkinContext& skin) {
     constexpr int kSteps = 4 * kRowTexels;
-    constexpr double kSecondBand = 0.495415912;  // sqrt(5 pi) / 8: of a plane
+    constexpr double kSecondBand = 0.495415912;  // of a plane, sqrt(5 pi) / 8
     std::vector<double> place, second;           // place: sqrt(1 - A) at even steps of curvature
     for (int i = 0; i <= kSteps; ++i) {
         const double curvature = std::max(double(kMaxCurvaturePerMm) * i / kSteps, 1e-6);
@@ -147,8 +146,8 @@ Result<Rows> row_of_mean(const TableSettings& settings, const SkinContext& skin)
     return row;
 }
 
-// Weights, the penumbra's in alpha; places, turned from one to the next by the golden angle, and how far they
-// are lifted.
+// A row of weights, the penumbra's in alpha, and a row of places with their lift. Each place is turned by the
+// golden angle from the one before.
 Result<Rows> tap_rows(const TableSettings&, const SkinContext& skin) {
     Rows rows(size_t(kRowTexels) * 2);
     const std::vector<ShadowTap> taps = shadow_taps(skin.gaussians);

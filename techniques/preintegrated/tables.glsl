@@ -1,4 +1,4 @@
-// The functions of the profile as tables have them.
+// The functions of the profile, read from tables.
 #ifndef DERMIS_PREINTEGRATED_TABLES_GLSL
 #define DERMIS_PREINTEGRATED_TABLES_GLSL
 
@@ -6,10 +6,10 @@
 #include "shaders/include/skin/table.glsl"
 #include "techniques/preintegrated/constants.h"
 
-uniform texture2D skin_lut;       // N.L * .5 + .5, curvature
+uniform texture2D skin_lut;       // over N.L * .5 + .5 and curvature
 uniform texture2D skin_rows;      // constants.h
 #ifdef DERMIS_BECKMANN_TABLE
-uniform texture2D skin_beckmann;  // sqrt(1 - N.H), sqrt(alpha): tenth root
+uniform texture2D skin_beckmann;  // tenth root of the distribution over sqrt(1 - N.H), sqrt(alpha)
 #endif
 
 vec4 read_row(int row, float x) {
@@ -35,13 +35,13 @@ void profile_zonal(float k, out vec3 zh[3]) {
 
 vec3 profile_edge(float visibility) { return read_row(kRowShadow, visibility).rgb; }
 
-// techniques/preintegrated/normal_blend.h: weights of the smoother normal, and how many levels up it is.
+// techniques/preintegrated/weights.h: weights of the smoother normal; its level above the sharp one in alpha.
 vec4 normal_blend(float sharp_mm) {
     return read_row(kRowNormals, (log2(sharp_mm) - kMinLogMm) / (kMaxLogMm - kMinLogMm));
 }
 
-// Of a sphere over which red's normals have a mean of this length: curvature, and the mean of the second Legendre polynomial
-// of the angle between them.
+// The sphere on which red's mean normal has this length: its curvature, and the mean of the second Legendre polynomial of the
+// angle between the normals.
 vec2 sphere_of_mean(float mean_length) {
     return read_row(kRowOfMean, sqrt(max(1.0 - mean_length, 0.0))).rg * vec2(kMaxCurvaturePerMm, 1.0);
 }

@@ -1,7 +1,6 @@
 #pragma once
-// The tables that preintegrated.frag reads, baked for a profile.
+// What the shaders read about a profile: tables, and the block Skin for shaders without tables.
 
-#include "dermis/bake/shadow_ramp.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/technique/technique.h"
 #include "techniques/preintegrated/constants.h"
@@ -10,13 +9,18 @@ namespace dermis::preintegrated {
 
 struct TableSettings {
     Construction construction = Construction::sphere;  ///< of every table; the published ring is half_ring
-    double normal_lod_bias = 3;
-    double shadow_width_mm = kShadowWidthMm;
+    double shadow_width_mm = 2.5;
     bool needs_beckmann = false;  ///< otherwise the table is one texel
 };
 
 /// skin_lut, skin_rows, skin_beckmann; all 32-bit float with four channels but skin_beckmann, which has one.
 [[nodiscard]] Result<std::vector<TableImage>> bake_tables(const TableSettings& settings,
                                                           const SkinContext& skin);
+
+/// The values of the block Skin (skin.glsl). The expressions are fitted with `fit` only, in about 20 ms;
+/// otherwise they are 0. Errors: more Gaussians than kMaxGaussians, which profiles of other forms never have;
+/// what the fits refuse.
+[[nodiscard]] Result<std::vector<NamedValue>> skin_values(double shadow_width_mm, const SkinContext& skin,
+                                                          bool fit);
 
 }  // namespace dermis::preintegrated

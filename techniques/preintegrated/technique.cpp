@@ -8,124 +8,163 @@
 #include "dermis/technique/diffused_normals.h"
 #include "dermis/technique/forward.h"
 #include "dermis/technique/transmission.h"
-#include "techniques/preintegrated/expressions.h"
 #include "techniques/preintegrated/figures.h"
-#include "techniques/preintegrated/occlusion_blend.h"
 #include "techniques/preintegrated/tables.h"
+#include "techniques/preintegrated/weights.h"
 
 namespace dermis {
 namespace {
 
 enum class Diffuse : int32_t {
     lut = kDiffuseLut,
+    half_ring = kDiffuseHalfRing,
     curve_2015 = kDiffuseCurve2015,
     closed_form = kDiffuseClosedForm
 };
-enum class TableConstruction : int32_t { sphere, ring };
 enum class Curvature : int32_t {
     vertex = kCurvatureVertex,
     derivative = kCurvatureDerivative,
     image = kCurvatureImage
 };
 enum class Normals : int32_t {
-    sharp = kNormalsSharp,
-    smooth = kNormalsSmooth,
+    automatic = kNormalsAuto,
+    baked = kNormalsBaked,
     blended = kNormalsBlended,
     lerp = kNormalsLerp,
-    baked = kNormalsBaked
+    smooth = kNormalsSmooth,
+    sharp = kNormalsSharp
 };
 enum class Shadow : int32_t {
     plain = kShadowPlain,
     scattered = kShadowScattered,
     gathered = kShadowGathered
 };
-enum class Ambient : int32_t { exact = kAmbientExact, lut = kAmbientLut, curve_2015 = kAmbientCurve2015 };
+enum class Ambient : int32_t {
+    profile = kAmbientProfile,
+    exact = kAmbientExact,
+    curve_2015 = kAmbientCurve2015
+};
 
 constexpr const char* kOwnView = "skin_curvature";
 
 struct Params {
     Diffuse diffuse = Diffuse::lut;
-    TableConstruction construction = TableConstruction::sphere;
     Curvature curvature = Curvature::vertex;
     float curvature_gain = 1;
-    float tune_curvature = 1;
-    Normals normals = Normals::baked;
-    float normal_lod_bias = 3;
+    Normals normals = Normals::automatic;
     Shadow shadow = Shadow::scattered;
-    float shadow_width_mm =
-        2.5f;  // kShadowWidthMm lets light around a nose: green's share of the bust -.22 for .19
+    float shadow_width_mm = 2.5f;  // a wider filter lights the skin around a nose
     Transmission transmission = Transmission::shadow_map;
-    Ambient ambient = Ambient::lut;
+    Ambient ambient = Ambient::profile;
     SpecularModel specular = SpecularModel::ggx;
-    float oiliness = 1;
-    float roughness_scale = 1;
 };
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
-        .choice(
-            &Params::diffuse, "diffuse", {"lut", "curve_2015", "closed_form"},
-            "diffuse light over N.L and curvature: exact table; curves of 2015 or closed form, with which no "
-            "table is bound")
-        .choice(&Params::construction, "construction", {"sphere", "ring"},
-                "shape that is integrated; the ring is as published and does not conserve energy")
+        .choice(&Params::diffuse, "diffuse", {"lut", "half_ring", "curve_2015", "closed_form"},
+                "light over N.L and curvature: exact table of the sphere; table of the published half ring, "
+                "which "
+                "does not conserve energy; curves of 2015 or closed form, without any table")
         .choice(&Params::curvature, "curvature", {"vertex", "derivative", "image"},
                 "source of the curvature; derivative depends on facets and camera")
         .number(&Params::curvature_gain, "curvature_gain", "", 0, 10,
                 "factor on the curvature; 1 is physically right")
-        .number(&Params::tune_curvature, "tune_curvature", "", 0.01, 100,
-                "divides the curvature from derivatives; 1 is right for positions in mm")
-        .choice(
-            &Params::normals, "normals", {"sharp", "smooth", "blended", "lerp", "baked"},
-            "diffuse normal: as mapped, from a smaller mip level, or both by the profile's width in "
-            "each channel: their light blended, or as published the normals mixed; or the profile's mean "
-            "of the normals around each texel, baked once over the UV atlas (needs one, and the defaults of "
-            "diffuse, construction, curvature and ambient; else as blended)")
-        .number(&Params::normal_lod_bias, "normal_lod_bias", "mip levels", 0, 8,
-                "maximum difference of the smaller mip level")
-        .choice(
-            &Params::shadow, "shadow", {"plain", "scattered", "gathered"},
-            "penumbra as filtered; with scattered light by its width; or averaged over the places around by "
-            "the profile and the light that they would have (with a table; else as scattered)")
+        .choice(&Params::normals, "normals", {"auto", "baked", "blended", "lerp", "smooth", "sharp"},
+                "diffuse normal: mean over the profile, baked over the UV atlas; light of two mip levels, "
+                "mixed per channel; the two normals mixed, as published; the smaller level; as mapped. auto: "
+                "baked where head and settings allow it, else blended")
+        .choice(&Params::shadow, "shadow", {"plain", "scattered", "gathered"},
+                "penumbra as filtered; with scattered light by its width; or averaged over 64 places around "
+                "the point by the profile, which needs a table")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
-        .choice(&Params::ambient, "ambient", {"exact", "lut", "curve_2015"},
-                "zonal harmonics for light from the environment: closed form of the sphere; those of the "
-                "construction, from a table if diffuse is; curves of 2015")
+        .choice(
+            &Params::ambient, "ambient", {"profile", "exact", "curve_2015"},
+            "zonal harmonics for light from the environment: of the profile, on the ring with "
+            "diffuse=half_ring, else on the sphere; the sphere's in closed form per pixel; curves of 2015")
         .choice(&Params::specular, "specular", specular_model_names(),
                 "specular model; ksk reads its Beckmann distribution from a table")
-        .number(&Params::oiliness, "oiliness", "", 0, 4,
-                "factor on the specular reflectance of material and map")
-        .number(&Params::roughness_scale, "roughness_scale", "", 0.1, 3,
-                "factor on the roughness of material and map")
+        .preset("cheap", "no scattering at shadow edges, no transmission",
+                {.shadow = Shadow::plain, .transmission = Transmission::none})
+        .preset("best", "gathers scattered light at shadow edges", {.shadow = Shadow::gathered})
+        .preset("source", "Penner 2011 as implemented in Unity: ring, derivatives, mixed normals",
+                {.diffuse = Diffuse::half_ring,
+                 .curvature = Curvature::derivative,
+                 .normals = Normals::lerp,
+                 .shadow = Shadow::plain,
+                 .transmission = Transmission::none,
+                 .specular = SpecularModel::ksk})
+        .preset("curve_2015", "Yeung 2015: curves instead of tables, for few texture units",
+                {.diffuse = Diffuse::curve_2015,
+                 .normals = Normals::sharp,
+                 .shadow = Shadow::plain,
+                 .transmission = Transmission::none,
+                 .ambient = Ambient::curve_2015})
         .build();
 }
 
 bool reads_tables(const Params& params) {
-    return params.diffuse == Diffuse::lut;
+    return params.diffuse == Diffuse::lut || params.diffuse == Diffuse::half_ring;
 }
 
-// Baked normals hold the curvature and what light from all around sees: they are no part of other models of
-// these. The curvature is that of red's.
-bool reads_baked_normals(const Params& params, const FrameContext& frame) {
+// Baked normals hold the curvature and what light from all around sees, both of the sphere. Empty where the
+// settings agree with that.
+std::string settings_against_baked(const Params& params) {
+    if (params.diffuse != Diffuse::lut) return "diffuse=lut";
+    if (params.curvature != Curvature::vertex) return "curvature=vertex";
+    return params.ambient != Ambient::profile ? "ambient=profile" : "";
+}
+
+std::string refusal(const ParameterValues& values) {
+    const Params params = values.as<Params>();
+    const std::string needed = settings_against_baked(params);
+    if (params.normals == Normals::baked && !needed.empty())
+        return "normals=baked needs " + needed + "; set it, or normals=auto";
+    if (params.shadow == Shadow::gathered && !reads_tables(params))
+        return "shadow=gathered reads a table; set diffuse=lut, or shadow=scattered";
+    return "";
+}
+
+// Why the scene has no baked normals; empty where it has. The curvature that they hold is red's.
+std::string scene_against_baked(const FrameContext& frame) {
+    if (!frame.atlas_fault.empty()) return frame.atlas_fault;
+    if (frame.has_zonal_table) return "the scene's zonal_table replaces a part of them; drop it";
     const Vec3 own = own_normal_weights(frame.skin_gaussians, {});
-    return params.normals == Normals::baked && reads_tables(params) && frame.has_skin_atlas &&
-           params.construction == TableConstruction::sphere && params.curvature == Curvature::vertex &&
-           params.ambient == Ambient::lut && !frame.has_zonal_table && own.x < 1 &&
-           own.x <= std::min(own.y, own.z);
+    const bool red_scatters_farthest = own.x < 1 && own.x <= std::min(own.y, own.z);
+    return red_scatters_farthest ? "" : "red does not scatter farthest in the scene's profile";
+}
+
+void read_baked_normals(Pass& pass, PassList& list, const FrameContext& frame) {
+    const DiffusedNormalsRequest request;
+    list.diffused_normals = request;
+    pass.constants.emplace_back("skin_outside_atlas", int32_t(frame.has_skin_outside_atlas));
+    for (const char* texture : kDiffusedNormalsTextures) pass.reads.push_back(texture);
+    pass.values.emplace_back("own_normal_weight", own_normal_weights(frame.skin_gaussians, request));
+    pass.values.emplace_back("green_spread", green_spread(frame.skin_gaussians, request));
+    pass.values.emplace_back("diffused_texels", float(request.size));
 }
 
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
-    const bool tables = reads_tables(params), baked = reads_baked_normals(params, frame);
+    PassList list;
+    bool baked = (params.normals == Normals::automatic && settings_against_baked(params).empty()) ||
+                 params.normals == Normals::baked;
+    if (const std::string fault = baked ? scene_against_baked(frame) : ""; !fault.empty()) {
+        baked = false;
+        if (params.normals == Normals::baked)
+            list.refusal = "normals=baked: " + fault + ", or set normals=auto";
+        else
+            list.notices.push_back("normals=auto is blended, not baked: " + fault);
+    }
+    const bool tables = reads_tables(params);
     Pass pass = forward_skin_pass(!tables ? "preintegrated/textureless.frag"
                                   : baked ? "preintegrated/baked_normals.frag"
                                           : "preintegrated/preintegrated.frag",
                                   params.specular, frame, kOwnView);
-    pass.constants.emplace_back(
-        "shadow", int32_t(!tables && params.shadow == Shadow::gathered ? Shadow::scattered : params.shadow));
-    pass.constants.emplace_back(
-        "normals", int32_t(params.normals == Normals::baked ? Normals::blended : params.normals));
+    const bool chosen = params.normals != Normals::automatic && params.normals != Normals::baked;
+    pass.constants.insert(pass.constants.end(),
+                          {{"shadow", int32_t(params.shadow)},
+                           {"normals", int32_t(chosen ? params.normals : Normals::blended)}});
     if (!baked)
         pass.constants.insert(pass.constants.end(), {{"diffuse", int32_t(params.diffuse)},
                                                      {"curvature", int32_t(params.curvature)},
@@ -137,29 +176,19 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     } else {
         read_transmission_without_table(pass, params.transmission, frame);
     }
-    const std::array<Rgb, 3> weights = occlusion_blend(frame.skin_gaussians);
+    const std::array<Rgb, 3> weights = preintegrated::occlusion_blend(frame.skin_gaussians);
     for (size_t i = 0; i < weights.size(); ++i)
         pass.values.push_back({"occlusion_weight_" + std::to_string(i),
                                Vec3{float(weights[i][0]), float(weights[i][1]), float(weights[i][2])}});
-    PassList list;
-    if (baked) {
-        list.diffused_normals = DiffusedNormalsRequest{};
-        pass.constants.emplace_back("skin_outside_atlas", int32_t(frame.has_skin_outside_atlas));
-        for (const char* texture : kDiffusedNormalsTextures) pass.reads.push_back(texture);
-        pass.values.emplace_back("own_normal_weight",
-                                 own_normal_weights(frame.skin_gaussians, *list.diffused_normals));
-        pass.values.emplace_back("green_spread", green_spread(frame.skin_gaussians, *list.diffused_normals));
-        pass.values.emplace_back("diffused_texels", float(list.diffused_normals->size));
-    }
+    if (baked) read_baked_normals(pass, list, frame);
     list.passes = {std::move(pass)};
     if (params.curvature == Curvature::image) list.needed_maps = {"curvature_map"};
     return list;
 }
 
 preintegrated::TableSettings table_settings(const Params& params) {
-    const bool ring = params.construction == TableConstruction::full_ring;
-    return {.construction = ring ? Construction::half_ring : Construction::sphere,
-            .normal_lod_bias = params.normal_lod_bias,
+    const bool half_ring = params.diffuse == Diffuse::half_ring;
+    return {.construction = half_ring ? Construction::half_ring : Construction::sphere,
             .shadow_width_mm = params.shadow_width_mm,
             .needs_beckmann = params.specular == SpecularModel::ksk};
 }
@@ -176,7 +205,7 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
 
 Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
     const Params params = values.as<Params>();
-    return preintegrated::skin_values(table_settings(params), skin, !reads_tables(params));
+    return preintegrated::skin_values(params.shadow_width_mm, skin, !reads_tables(params));
 }
 
 std::vector<Figure> figures() {
@@ -193,6 +222,7 @@ Technique make_preintegrated_technique() {
             .source = "Penner 2011, Pre-Integrated Skin Shading, GPU Pro 2; curves: Yeung 2015",
             .parameters = parameters(),
             .views = {kOwnView},
+            .refusal = refusal,
             .build = build,
             .tables = tables,
             .skin_values = skin_values,

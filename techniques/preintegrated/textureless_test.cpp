@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "dermis/gpu/reflection.h"
-#include "dermis/mesh/primitives.h"
 #include "render/grid_scene.h"
 #include "support/built_in.h"
 
@@ -14,6 +11,7 @@ using namespace dermis;
 namespace {
 
 constexpr double kCode = 1.0 / 255;
+const Settings kClosed = {{"diffuse", "closed_form"}};
 
 class Textureless : public PreintegratedTest {
   protected:
@@ -62,8 +60,7 @@ TEST_F(Textureless, settings_bind_no_table) {
                                      {{"ambient", "curve_2015"}},
                                      {{"specular", "ksk"}},
                                      {{"normals", "lerp"}},
-                                     {{"shadow", "plain"}},
-                                     {{"construction", "ring"}}}) {
+                                     {{"shadow", "plain"}}}) {
             Settings settings = more;
             settings.emplace_back("diffuse", diffuse);
             EXPECT_EQ(tables(settings), 0) << diffuse;
@@ -77,42 +74,19 @@ TEST_F(Textureless, settings_bind_no_table) {
 }
 
 TEST_F(Textureless, light_from_all_around_is_that_of_the_table) {
-    Scene scene = make_grid_scene();
-    scene.lights.clear();
-    scene.environment = {.kind = EnvironmentKind::studio, .intensity = 1};
-    for (const char* construction : {"sphere", "ring"})
-        EXPECT_LT(difference(scene, {{"construction", construction}},
-                             {{"construction", construction}, {"diffuse", "closed_form"}}),
-                  kCode)
-            << construction;
+    EXPECT_LT(difference(make_studio_grid_scene(), {}, kClosed), kCode);
 }
 
 TEST_F(Textureless, bumps_are_blended_by_the_weights_of_the_table) {
     Scene scene = make_grid_scene();
     scene.lights[0].to_light_world = {0.8f, 0.6f, 0};
-    ImageSource map{.name = "stripes", .width = 256, .height = 256, .channels = 3};
-    for (int i = 0; i < 256 * 256; ++i)
-        for (const int value : {(i / 4) % 2 ? 190 : 65, 127, 215}) map.pixels.push_back(std::byte(value));
-    scene.objects[0].mesh.materials[0].normal_map = map;
-    const Settings closed = {{"diffuse", "closed_form"}};
-    EXPECT_LT(difference(scene, {}, closed), 2 * kCode);
-    EXPECT_GT(difference(scene, {{"normals", "sharp"}}, closed), 10 * kCode) << "bumps matter here";
+    scene.objects[0].mesh.materials[0].normal_map = striped_normal_map();
+    EXPECT_LT(difference(scene, {}, kClosed), 2 * kCode);
+    EXPECT_GT(difference(scene, {{"normals", "sharp"}}, kClosed), 10 * kCode) << "bumps matter here";
 }
 
 TEST_F(Textureless, shadow_edges_are_those_of_the_table) {
-    // A wall of 64 mm, of which a bar above it shadows a part.
-    Scene scene = make_grid_scene();
-    SceneObject& object = scene.objects[0];
-    object.mesh = make_plane(64, 64, 2);
-    object.mesh.materials[0].base_color_linear = {1, 1, 1};
-    object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1);
-    SceneObject bar = object;
-    bar.name = "bar";
-    for (Vec3& p : bar.mesh.positions_mm) p = {0.3f * p.x + 5, p.y, 8};
-    scene.objects.push_back(bar);
-    scene.camera = {.eye_mm = {0, 0, 1000}, .vertical_fov_rad = 2 * std::atan(32 / 1000.0f)};
-    scene.lights[0] = {.name = "key", .intensity = 3.14159265f, .to_light_world = normalize(Vec3{-1, 0, 1})};
-    const Settings closed = {{"diffuse", "closed_form"}};
-    EXPECT_LT(difference(scene, {}, closed), 2 * kCode);
-    EXPECT_GT(difference(scene, {{"shadow", "plain"}}, closed), 10 * kCode) << "an edge is in the picture";
+    const Scene scene = make_wall_and_bar(5, 8);
+    EXPECT_LT(difference(scene, {}, kClosed), 2 * kCode);
+    EXPECT_GT(difference(scene, {{"shadow", "plain"}}, kClosed), 10 * kCode) << "an edge is in the picture";
 }

@@ -14,8 +14,8 @@ using Texel = std::array<float, 4>;
 /// The radius within which 99.7 % of the light leaves in every channel, in mm; 1 for a profile without width.
 [[nodiscard]] double reach_mm(const Profile& profile);
 
-/// 2 pi r R(r) over the albedo, 1/mm, at r = reach (i / (count - 1))^2. The profile within the reach counts
-/// as all of it, so each channel integrates to 1. A channel without reflectance has 0 everywhere.
+/// 2 pi r R(r) over the albedo, 1/mm, at r = reach (i / (count - 1))^2, scaled so that each channel
+/// integrates to 1 within the reach. A channel without reflectance has 0 everywhere.
 [[nodiscard]] std::vector<Texel> radial_density(const Profile& profile, double reach_mm, int count);
 
 /// The part of the light that leaves within the same radii.

@@ -5,10 +5,10 @@
 namespace dermis::screen_space_separable {
 #endif
 
-// The kernel reaches so many standard deviations of the widest Gaussian.
+// Reach of the kernel in standard deviations of the widest Gaussian.
 const float kReachSigma = 3.0;
 
-// Specialisation constant `follow`: what the distance to a tap is.
+// Specialisation constant `follow`: how the distance to a tap is measured.
 const int kFollowNone = 0, kFollowSurface = 1;
 
 #ifdef __cplusplus

@@ -13,27 +13,27 @@ struct TwoGaussians {
     Vec3 far_share = {0.6f, 0.35f, 0.2f};
 };
 
-/// As a profile, whose weights sum to 1 in each channel.
+/// As a profile whose weights sum to 1 in each channel.
 [[nodiscard]] GaussianSum to_gaussian_sum(const TwoGaussians& kernel);
 
-/// The kernel of the source's own code: `strength` of the light is spread by the five wide Gaussians of GPU
-/// Gems 3 in red, widened by 0.001 + falloff, the rest stays where it is.
+/// The kernel of the source's own code: the part `strength` of the light is spread by the five wide Gaussians
+/// that GPU Gems 3 has for red, widened by 0.001 + falloff. The rest is not spread.
 struct Artistic {
     Vec3 strength = {0.48f, 0.41f, 0.28f};
     Vec3 falloff = {1, 0.37f, 0.3f};
 };
 
-/// As shares of the light along a line, summing to 1 in each channel: the published code takes Gaussians that
-/// are normalised over the plane, 1 / (2 pi v), on a line, so each counts as w / sqrt(v).
+/// As shares of the light along a line, which sum to 1 in each channel. The published code uses Gaussians
+/// that are normalised over the plane, 1 / (2 pi v), along a line, so each counts as w / sqrt(v).
 [[nodiscard]] GaussianSum to_gaussian_sum(const Artistic& kernel);
 
 /// Where the kernel is cut off: a multiple of its widest standard deviation; 1 without any Gaussian.
 [[nodiscard]] float reach_mm(const GaussianSum& profile, float width);
 
-/// The part of the light that a line spread function leaves within `distance_mm` on both sides: the profile
-/// integrated over one direction, which is what an edge of a shadow shows. Sum of w erf(d / sqrt(2 v)) over
-/// sum of w. Lengths of the profile are multiplied by `width`. Source: Jimenez et al. 2015, Separable
-/// Subsurface Scattering, section 4 (pre-integrated kernel).
+/// The part of the light that the line spread function has within `distance_mm` on both sides: sum of
+/// w erf(d / sqrt(2 v)) over sum of w. The line spread function is the profile integrated over one direction;
+/// a shadow's edge shows it. Lengths of the profile are multiplied by `width`. Source: Jimenez et al. 2015,
+/// Separable Subsurface Scattering, section 4 (pre-integrated kernel).
 [[nodiscard]] double share_within(const GaussianSum& profile, float width, int channel, double distance_mm);
 
 }  // namespace dermis::screen_space_separable

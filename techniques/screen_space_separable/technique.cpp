@@ -1,7 +1,7 @@
 // Jimenez, Zsolnai, Jarabo, Freude, Auzinger, Wu, von der Pahlen, Wimmer, Gutierrez 2015, "Separable
 // Subsurface Scattering" (Computer Graphics Forum 34): the skin's diffuse light on the picture, before the
 // base colour, is blurred along x and then along y by a one-dimensional kernel of the profile. Changed:
-// distances are those of the points on the skin, and a tap's weight is the kernel's integral over its cell
+// distances are between points on the skin, and the weight of a tap is the kernel's integral over its cell
 // (blur.frag).
 
 #include "dermis/technique/screen_light.h"
@@ -49,6 +49,9 @@ ParameterTable parameters() {
                 "distance to a tap: on the picture's plane, or between the points on the skin")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .preset("cheap", "fewer taps", {.taps = Taps::taps_11})
+        .preset("source_artists", "the source's own code: a kernel by strength and falloff",
+                {.kernel = Kernel::artistic, .transmission = Transmission::none})
         .build();
 }
 

@@ -5,7 +5,7 @@
 namespace dermis::spherical_gaussians {
 #endif
 
-// Of the uniform block Skin.
+// Lobes that the uniform block Skin has room for.
 const int kMaxLobes = 6;
 
 #ifdef __cplusplus

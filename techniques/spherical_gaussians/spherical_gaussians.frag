@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Scattered light of one direction as lobes around it, whose sharpness follows from the profile and the curvature
-// (Pettineo 2020). On a sphere each Gaussian of the profile is such a lobe exactly; what is approximate is its irradiance.
+// Scattered light of one direction as lobes around that direction (Pettineo 2020). Their sharpness follows from the profile
+// and the curvature. On a sphere each Gaussian of the profile is exactly such a lobe; its irradiance is approximate.
 #define DERMIS_TRANSMISSION
 #define DERMIS_OWN_BODY
 #include "shaders/include/forward.glsl"
@@ -24,7 +24,7 @@ vec3 direct_response(Surface s, vec3 to_light_world) {
     float n_dot_l = dot(s.n_world, to_light_world), k = curvature_towards_per_mm(s, to_light_world);
     vec3 light = vec3(0.0), total = vec3(0.0);
     for (int i = 0; i < lobe_count; ++i) {
-        // In this order it needs no register beyond 64.
+        // This order keeps the shader within 64 registers.
         vec3 kappa = lobe_kappa(k, lobe_variance_mm2[i]), of_lobe = lobe_light(n_dot_l, kappa);
         vec3 weight = lobe_weight[i] * lobe_part(kappa);
         light += weight * of_lobe;
@@ -39,7 +39,7 @@ float own_way_mm(Surface s, vec3 to_light_world) {
            max(curvature_towards_per_mm(s, to_light_world), 1e-4);
 }
 
-// The lobes' own zonal harmonics, which are exact, in place of Hill's fit.
+// The zonal harmonics of the lobes, which are exact; Hill's fit is not used here.
 vec3 ambient_response(Surface s) {
     float k = curvature_around(s.curvature_diagonal_per_mm, s.curvature_mixed_per_mm);
     vec3 total = vec3(0.0), sum_1 = vec3(0.0), sum_2 = vec3(0.0);

@@ -1,13 +1,12 @@
 // Pettineo 2020, "Approximating Subsurface Scattering with Spherical Gaussians": scattered light of one
-// direction is a spherical Gaussian around that direction, as sharp as radius and profile say, and its
-// irradiance is Hill's fit. Changed: the sharpness follows from the profile and the curvature at the point,
-// and any number of lobes add up to the profile.
+// direction is a spherical Gaussian around that direction; its irradiance is Hill's fit. Changed: the
+// sharpness follows from the profile and the curvature at the point, and any number of lobes add up to the
+// profile.
 
 #include "dermis/optics/gaussian_lobes.h"
 #include "dermis/technique/forward.h"
 #include "dermis/technique/transmission.h"
 #include "techniques/spherical_gaussians/constants.h"
-#include "techniques/spherical_gaussians/figures.h"
 
 namespace dermis {
 namespace {
@@ -30,6 +29,8 @@ ParameterTable parameters() {
                 "deviation, so that the terminator has the right light, or their variance")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .preset("cheap", "one lobe, no transmission", {.lobes = 1, .transmission = Transmission::none})
+        .preset("best", "a lobe for each Gaussian of the profile", {.lobes = kMaxLobes})
         .build();
 }
 
@@ -45,7 +46,7 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
     return transmission_tables(values.as<Params>().transmission, skin);
 }
 
-// A profile may have fewer Gaussians than there are lobes: the rest have no weight.
+// Lobes beyond the Gaussians of the profile get no weight.
 Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
     const auto params = values.as<Params>();
     std::vector<ChannelGaussians> lobes = lobes_of(skin.gaussians, params.lobes, params.width);
@@ -58,6 +59,45 @@ Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const
         block.emplace_back("lobe_variance_mm2" + index, to_vec3(lobes[i].variance_mm2));
     }
     return block;
+}
+
+std::vector<Figure> figures() {
+    struct Column {
+        const char* label;
+        const char* technique;
+        std::vector<std::pair<std::string, std::string>> settings;
+    };
+    const Column columns[] = {
+        {"integral over the sphere", "preintegrated", {}},
+        {"Lambert", "lambert", {}},
+        {"one lobe, the variance", "spherical_gaussians", {{"lobes", "1"}, {"width", "variance"}}},
+        {"one lobe, the deviation", "spherical_gaussians", {{"lobes", "1"}}},
+        {"two lobes", "spherical_gaussians", {{"lobes", "2"}}},
+        {"six lobes", "spherical_gaussians", {{"lobes", "6"}}}};
+    Figure figure = {.id = "spheres",
+                     .title = "Spheres under one light",
+                     .source = "Pettineo 2020: spheres by lobes of several widths beside a reference",
+                     .note =
+                         "One lobe cannot have both the narrow and the wide part of the profile: with the "
+                         "profile's variance its light reaches too far past the terminator.",
+                     .scene = "builtin:spheres",
+                     .only_in_its_scene = true};
+    for (const char* radius : {"2", "4", "8"}) {
+        FigureRow row = {.label = std::string("r = ") + radius + " mm"};
+        for (const Column& column : columns) {
+            const bool exact = row.cells.empty();
+            row.cells.push_back({.label = column.label,
+                                 .id = exact ? std::string("exact") + radius : "",
+                                 .technique = column.technique,
+                                 .settings = column.settings,
+                                 .view = "diffuse",
+                                 .object = std::string("sphere_") + radius + "mm",
+                                 .environment = "none",
+                                 .compare_to = exact ? "" : std::string("exact") + radius});
+        }
+        figure.rows.push_back(std::move(row));
+    }
+    return {figure};
 }
 
 }  // namespace

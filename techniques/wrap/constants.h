@@ -1,5 +1,4 @@
-// What technique.cpp and wrap.frag agree on. Valid C++ and GLSL, compiled by both, so that a number is
-// written once; a change needs a build, as hot reload follows .glsl only.
+// What technique.cpp and wrap.frag agree on. Valid C++ and GLSL, compiled by both.
 #ifndef DERMIS_WRAP_CONSTANTS_H
 #define DERMIS_WRAP_CONSTANTS_H
 #ifdef __cplusplus

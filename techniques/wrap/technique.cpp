@@ -1,6 +1,6 @@
 // Wrapped diffuse: the cheapest imitation of scattering (Green 2004), with the energy-conserving scale of
-// McAuley 2010. How far light reaches past the terminator follows from the skin's profile and the curvature,
-// for each colour, or is set by eye as Green has it, with a colour shift at the terminator.
+// McAuley 2010. The reach past the terminator follows from the skin's profile and the curvature, for each
+// colour, or is set by eye with a colour shift at the terminator, as in the source.
 
 #include "dermis/optics/wrap_reach.h"
 #include "dermis/technique/forward.h"
@@ -35,6 +35,8 @@ ParameterTable parameters() {
                "width=source: added irradiance in the middle of the band")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .preset("source", "Green 2004: widths and colour by eye",
+                {.width = Width::source, .transmission = Transmission::none})
         .build();
 }
 

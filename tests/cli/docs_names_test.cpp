@@ -83,7 +83,7 @@ const std::vector<std::string>& source_files() {
     return kFiles;
 }
 
-// "normal_blend.h" and "preintegrated/normal_blend.h" name techniques/preintegrated/normal_blend.h.
+// "weights.h" and "preintegrated/weights.h" name techniques/preintegrated/weights.h.
 bool is_source(const std::string& name) {
     return std::ranges::any_of(source_files(),
                                [&](const std::string& file) { return file.ends_with("/" + name); });

@@ -1,15 +1,12 @@
-// The numbers of docs/sources.md, and the errors on the page of preintegrated, are what the code computes,
-// within half a unit of their last digit.
+// The numbers of docs/sources.md are what the code computes, within half a unit of their last digit.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <regex>
 
 #include "dermis/bake/beckmann_table.h"
-#include "dermis/bake/fit_errors.h"
 #include "dermis/bake/table.h"
 #include "dermis/base/file.h"
 #include "dermis/optics/curvature_expressions.h"
@@ -108,42 +105,6 @@ TEST_F(SourcesPage, states_the_mean_light_of_every_construction) {
         "sphere of any radius ([0-9.]+)",
         {curve_2015_zonal(0.5)[0][0], zh_0(kPublishedHalfRing),
          zh_0({.construction = Construction::full_ring}), zh_0({})});
-}
-
-TEST(PreintegratedPage, states_the_error_of_the_zonal_harmonics) {
-    const Result<std::string> page = read_text_file(DERMIS_SOURCE_DIR "/techniques/preintegrated/README.md");
-    ASSERT_TRUE(page);
-    std::smatch stated;
-    ASSERT_TRUE(std::regex_search(
-        *page, stated, std::regex("zonal harmonics \\| polynomials of curvature \\| ([0-9.]+) of")));
-    double largest = 0;
-    for (const std::string& name : profile_names()) {
-        const GaussianSum profile = to_gaussian_sum(*find_profile(name)).sum;
-        if (!check_preintegrable(profile)) continue;
-        for (const Construction construction : {Construction::sphere, Construction::half_ring})
-            largest = std::max(
-                largest, fit_curvature_expressions(profile, {.construction = construction})->max_zonal_error);
-    }
-    EXPECT_NEAR(std::stod(stated[1]), largest, half_a_digit(stated[1]));
-}
-
-// Rows of four numbers: radius in mm, closed form, curve of 2015, the same against its ring.
-TEST(PreintegratedPage, states_the_errors_of_closed_form_and_curves) {
-    const Result<std::string> page = read_text_file(DERMIS_SOURCE_DIR "/techniques/preintegrated/README.md");
-    ASSERT_TRUE(page);
-    const Result<ClosedForm> form = fit_closed_form(skin(), 1, 257);
-    ASSERT_TRUE(form);
-    static const std::regex row("\n\\| ([0-9.]+) \\| (0\\.[0-9]+) \\| (0\\.[0-9]+) \\| (0\\.[0-9]+) \\|");
-    int rows = 0;
-    for (std::sregex_iterator it(page->begin(), page->end(), row), end; it != end; ++it, ++rows) {
-        const double radius_mm = std::stod((*it)[1]);
-        const FitErrors e = measure_fit_errors(*form, skin(), std::array{radius_mm})[0];
-        const Rgb* computed[] = {&e.closed_form, &e.curve_sphere, &e.curve_ring};
-        for (size_t i = 0; i < 3; ++i)
-            EXPECT_NEAR(std::stod((*it)[i + 2]), std::ranges::max(*computed[i]), half_a_digit((*it)[i + 2]))
-                << radius_mm << " mm";
-    }
-    EXPECT_EQ(rows, 8);
 }
 
 // Towards N.H = 1 a table over N.H has no texel, and the highlight's peak is cut.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "dermis/mesh/primitives.h"
 #include "dermis/scene/environment.h"
 #include "render/render_test.h"
 #include "support/built_in.h"
@@ -58,6 +59,38 @@ inline Scene make_grid_scene() {
     scene.background_linear = {};
     scene.camera = {.eye_mm = {0, 0, 1000}, .vertical_fov_rad = 2 * std::atan(kGrid / 2 / 1000.0f)};
     scene.bounds_radius_mm = 50;
+    return scene;
+}
+
+/// A normal map of fine stripes that lean left and right.
+inline ImageSource striped_normal_map() {
+    ImageSource map{.name = "stripes", .width = 256, .height = 256, .channels = 3};
+    for (int i = 0; i < 256 * 256; ++i)
+        for (const int value : {(i / 4) % 2 ? 190 : 65, 127, 215}) map.pixels.push_back(std::byte(value));
+    return map;
+}
+
+/// The grid's place lit by the studio alone.
+inline Scene make_studio_grid_scene() {
+    Scene scene = make_grid_scene();
+    scene.lights.clear();
+    scene.environment = {.kind = EnvironmentKind::studio, .intensity = 1};
+    return scene;
+}
+
+/// A wall of 64 mm that faces the camera, lit from the left at 45 degrees. A bar above it shadows a part.
+inline Scene make_wall_and_bar(float bar_x_mm, float bar_z_mm) {
+    Scene scene = make_grid_scene();
+    SceneObject& object = scene.objects[0];
+    object.mesh = make_plane(64, 64, 2);
+    object.mesh.materials[0].base_color_linear = {1, 1, 1};
+    object.mesh.occlusions.assign(object.mesh.positions_mm.size(), 1);
+    SceneObject bar = object;
+    bar.name = "bar";
+    for (Vec3& p : bar.mesh.positions_mm) p = {0.3f * p.x + bar_x_mm, p.y, bar_z_mm};
+    scene.objects.push_back(bar);
+    scene.camera = {.eye_mm = {0, 0, 1000}, .vertical_fov_rad = 2 * std::atan(32 / 1000.0f)};
+    scene.lights[0] = {.name = "key", .intensity = 3.14159265f, .to_light_world = normalize(Vec3{-1, 0, 1})};
     return scene;
 }
 

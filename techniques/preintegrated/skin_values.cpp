@@ -1,5 +1,3 @@
-#include "techniques/preintegrated/expressions.h"
-
 #include <algorithm>
 #include <functional>
 #include <numbers>
@@ -9,7 +7,8 @@
 #include "dermis/optics/curvature_expressions.h"
 #include "dermis/optics/edge_expression.h"
 #include "dermis/technique/transmission.h"
-#include "techniques/preintegrated/normal_blend.h"
+#include "techniques/preintegrated/tables.h"
+#include "techniques/preintegrated/weights.h"
 
 namespace dermis::preintegrated {
 namespace {
@@ -48,8 +47,8 @@ void add_expressions(std::vector<NamedValue>& values, const CurvatureExpressions
     add_array(values, "edge_width2", squares(edge.width));
 }
 
-// The two narrowest become one, of their mean variance, until few enough are left: light that comes through
-// skin is of the wide ones.
+// Joins the two narrowest Gaussians, at their mean variance, until kTransmissionGaussians are left: the wide
+// ones carry the light that comes through skin.
 std::vector<GaussianTerm> few_gaussians(std::vector<GaussianTerm> terms) {
     std::ranges::sort(terms, std::greater(), &GaussianTerm::variance_mm2);
     while (terms.size() > size_t(kTransmissionGaussians)) {
@@ -64,47 +63,39 @@ std::vector<GaussianTerm> few_gaussians(std::vector<GaussianTerm> terms) {
     return terms;
 }
 
-void add_transmission_gaussians(std::vector<NamedValue>& values, const GaussianSum& sum) {
-    const std::vector<GaussianTerm> terms = few_gaussians(sum.terms);
+// Weights over their sum in each channel; 0 in a channel without light.
+std::vector<GaussianTerm> normalised(std::vector<GaussianTerm> terms) {
     Rgb total = {};
     for (const GaussianTerm& term : terms)
         for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
-    for (size_t i = 0; i < size_t(kTransmissionGaussians); ++i) {
-        Vec4 value = {};
-        if (i < terms.size()) {
-            const double v = terms[i].variance_mm2;
-            const auto height = [&](size_t c) {
-                return total[c] > 0 ? float(terms[i].weight[c] / total[c] / (2 * std::numbers::pi * v))
-                                    : 0.0f;
-            };
-            value = {height(0), height(1), height(2), float(-0.5 / v * std::numbers::log2e)};
-        }
-        values.emplace_back("transmission_gaussians[" + std::to_string(i) + "]", value);
-    }
+    for (GaussianTerm& term : terms)
+        for (size_t c = 0; c < 3; ++c) term.weight[c] = total[c] > 0 ? term.weight[c] / total[c] : 0;
+    return terms;
 }
 
 void add_gaussians(std::vector<NamedValue>& values, const GaussianSum& sum) {
-    Rgb total = {};
-    for (const GaussianTerm& term : sum.terms)
-        for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
-    for (size_t i = 0; i < size_t(kMaxGaussians); ++i) {
-        Vec4 value = {0, 0, 0, 1};
-        if (i < sum.terms.size()) {
-            const GaussianTerm& term = sum.terms[i];
-            const auto weight = [&](size_t c) {
-                return total[c] > 0 ? float(term.weight[c] / total[c]) : 0.0f;
-            };
-            value = {weight(0), weight(1), weight(2), float(term.variance_mm2)};
-        }
-        values.emplace_back("gaussians[" + std::to_string(i) + "]", value);
-    }
+    const auto add = [&](const std::string& name, std::vector<Vec4> list, int count, Vec4 unused) {
+        list.resize(size_t(count), unused);
+        for (size_t i = 0; i < list.size(); ++i)
+            values.emplace_back(name + "[" + std::to_string(i) + "]", list[i]);
+    };
+    std::vector<Vec4> all, transmitted;
+    const auto colour = [](const GaussianTerm& term, double divisor, double alpha) {
+        return Vec4{float(term.weight[0] / divisor), float(term.weight[1] / divisor),
+                    float(term.weight[2] / divisor), float(alpha)};
+    };
+    for (const GaussianTerm& term : normalised(sum.terms)) all.push_back(colour(term, 1, term.variance_mm2));
+    for (const GaussianTerm& term : normalised(few_gaussians(sum.terms)))
+        transmitted.push_back(colour(term, 2 * std::numbers::pi * term.variance_mm2,
+                                     -0.5 / term.variance_mm2 * std::numbers::log2e));
+    add("gaussians", std::move(all), kMaxGaussians, {0, 0, 0, 1});
+    add("transmission_gaussians", std::move(transmitted), kTransmissionGaussians, {});
     values.emplace_back("gaussian_count", int32_t(sum.terms.size()));
 }
 
 }  // namespace
 
-Result<std::vector<NamedValue>> skin_values(const TableSettings& settings, const SkinContext& skin,
-                                            bool fit) {
+Result<std::vector<NamedValue>> skin_values(double shadow_width_mm, const SkinContext& skin, bool fit) {
     if (skin.gaussians.terms.size() > size_t(kMaxGaussians))
         return Error{"profile '" + skin.profile.name + "' has " +
                      std::to_string(skin.gaussians.terms.size()) + " Gaussians; preintegrated takes " +
@@ -112,10 +103,9 @@ Result<std::vector<NamedValue>> skin_values(const TableSettings& settings, const
     CurvatureExpressions form;
     EdgeExpression edge;
     if (fit) {
-        const auto fitted =
-            fit_curvature_expressions(skin.gaussians, {.construction = settings.construction});
+        const auto fitted = fit_curvature_expressions(skin.gaussians);
         if (!fitted) return fitted.error();
-        const auto ramp = shadow_ramp(skin.profile, settings.shadow_width_mm, kRampSteps);
+        const auto ramp = shadow_ramp(skin.profile, shadow_width_mm, kRampSteps);
         if (!ramp) return ramp.error();
         form = *fitted;
         edge = fit_edge_expression(*ramp);
@@ -126,7 +116,6 @@ Result<std::vector<NamedValue>> skin_values(const TableSettings& settings, const
     values.emplace_back("widest_blend_mm", float(widest_blend_mm(skin.gaussians)));
     values.emplace_back("transmission_reach_mm", float(transmission_reach_mm(skin.profile)));
     values.emplace_back("transmission_nearest", float(kTransmissionNearest));
-    add_transmission_gaussians(values, skin.gaussians);
     return values;
 }
 
