@@ -73,11 +73,11 @@ nlohmann::ordered_json settings_json(const ToolSettings& settings) {
 
 }  // namespace
 
-ChannelValues of_channels(const Profile& profile, double (*property)(const Profile&, int)) {
+Rgb of_channels(const Profile& profile, double (*property)(const Profile&, int)) {
     return {property(profile, 0), property(profile, 1), property(profile, 2)};
 }
 
-ChannelValues radii_at(const Profile& profile, double fraction) {
+Rgb radii_at(const Profile& profile, double fraction) {
     return {inverse_cdf_mm(profile, 0, fraction), inverse_cdf_mm(profile, 1, fraction),
             inverse_cdf_mm(profile, 2, fraction)};
 }

@@ -17,11 +17,9 @@ inline constexpr NumberRange kTermsRange = {1, kMaxGaussianFitTerms};
 [[nodiscard]] Result<GaussianFit> fit_gaussians(const Profile& profile, int terms);
 [[nodiscard]] nlohmann::ordered_json profile_json(const Profile& profile, const GaussianFit& fit);
 
-/// One number for each channel.
-using ChannelValues = std::array<double, 3>;
-[[nodiscard]] ChannelValues of_channels(const Profile& profile, double (*property)(const Profile&, int));
+[[nodiscard]] Rgb of_channels(const Profile& profile, double (*property)(const Profile&, int));
 /// Within which such a part of the light leaves.
-[[nodiscard]] ChannelValues radii_at(const Profile& profile, double fraction);
+[[nodiscard]] Rgb radii_at(const Profile& profile, double fraction);
 
 struct Conversion {
     BurleyProfile source;

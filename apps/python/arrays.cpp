@@ -161,13 +161,13 @@ std::vector<uint32_t> indices_from(const py::object& object, const std::string& 
     return indices;
 }
 
-std::vector<std::array<double, 3>> triples_of(const std::vector<double>& numbers) {
-    std::vector<std::array<double, 3>> triples(numbers.size() / 3);
+std::vector<Rgb> triples_of(const std::vector<double>& numbers) {
+    std::vector<Rgb> triples(numbers.size() / 3);
     for (size_t i = 0; i < numbers.size(); ++i) triples[i / 3][i % 3] = numbers[i];
     return triples;
 }
 
-std::array<double, 3> triple_from(const py::object& object, const std::string& name) {
+Rgb triple_from(const py::object& object, const std::string& name) {
     const std::vector<double> numbers = numbers_from(object, name);
     if (numbers.size() != 3)
         throw refused(name, std::to_string(numbers.size()) + " numbers, must be red, green, blue");

@@ -51,7 +51,7 @@ py::array_t<T> view_of(const T* data, std::vector<py::ssize_t> shape, const py::
 [[nodiscard]] std::vector<uint32_t> indices_from(const py::object& array, const std::string& name,
                                                  size_t columns);
 
-[[nodiscard]] std::vector<std::array<double, 3>> triples_of(const std::vector<double>& numbers);
-[[nodiscard]] std::array<double, 3> triple_from(const py::object& array, const std::string& name);
+[[nodiscard]] std::vector<Rgb> triples_of(const std::vector<double>& numbers);
+[[nodiscard]] Rgb triple_from(const py::object& array, const std::string& name);
 
 }  // namespace dermis::python

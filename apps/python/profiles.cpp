@@ -13,7 +13,6 @@
 namespace dermis::python {
 namespace {
 
-using Channels = std::array<double, 3>;
 using Curve = double (*)(const Profile&, int, double);
 using Property = double (*)(const Profile&, int);
 
@@ -32,7 +31,7 @@ constexpr std::pair<std::string_view, Property> kProperties[] = {
     {"mean_radius_mm", mean_radius_mm},
     {"mean_square_radius_mm2", mean_square_radius_mm2}};
 
-py::array_t<double> channels_array(const Channels& values) {
+py::array_t<double> channels_array(const Rgb& values) {
     return array_of(std::vector<double>(values.begin(), values.end()), {3});
 }
 
@@ -43,7 +42,7 @@ Profile checked(Profile profile) {
 
 Profile of_gaussians(const std::string& name, const py::object& variances_mm2, const py::object& weights) {
     const std::vector<double> variances = numbers_from(variances_mm2, "variances_mm2");
-    const std::vector<Channels> colours = triples_of(numbers_from(weights, "weights", 3));
+    const std::vector<Rgb> colours = triples_of(numbers_from(weights, "weights", 3));
     if (variances.size() != colours.size())
         throw Failure({"weights: " + std::to_string(colours.size()) + " rows for " +
                        std::to_string(variances.size()) + " variances"});
@@ -60,7 +59,7 @@ Profile of_burley(const std::string& name, const py::object& d_mm, const py::obj
 
 Profile of_table(const std::string& name, const py::object& r_mm, const py::object& reflectance) {
     const std::vector<double> radii = numbers_from(r_mm, "r_mm");
-    const std::vector<Channels> values = triples_of(numbers_from(reflectance, "reflectance_per_mm2", 3));
+    const std::vector<Rgb> values = triples_of(numbers_from(reflectance, "reflectance_per_mm2", 3));
     if (radii.size() != values.size())
         throw Failure({"reflectance_per_mm2: " + std::to_string(values.size()) + " rows for " +
                        std::to_string(radii.size()) + " radii"});

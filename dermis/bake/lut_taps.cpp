@@ -31,9 +31,7 @@ Rgb gaussian_line_profile(const GaussianSum& sum, double distance_mm, double var
 // The published programs have one profile, whose weights sum to 1 in each channel; others' sum to the albedo,
 // which a table does not contain.
 GaussianSum without_albedo(GaussianSum sum) {
-    Rgb total = {};
-    for (const GaussianTerm& term : sum.terms)
-        for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
+    const Rgb total = total_weight(sum.terms);
     for (GaussianTerm& term : sum.terms)
         for (size_t c = 0; c < 3; ++c)
             if (total[c] > 0) term.weight[c] /= total[c];

@@ -54,7 +54,7 @@ std::string presets_table() {
         const Profile profile = *find_profile(name);
         const GaussianFit fit = to_gaussian_sum(profile);
         const bool exact = std::holds_alternative<GaussianSum>(profile.model);
-        std::array<double, 3> r90;
+        Rgb r90;
         for (int c = 0; c < 3; ++c) r90[size_t(c)] = inverse_cdf_mm(profile, c, 0.9);
         out += "| `" + name + "` | " + model_name(profile) + " | " + of_channels(diffuse_albedo, profile) +
                " | " + of_channels(mean_radius_mm, profile) + " | " +
@@ -109,7 +109,7 @@ std::string number_text(double value) {
     return std::string(buffer, end.ptr);
 }
 
-std::string value_text(const std::array<double, 3>& value, int count) {
+std::string value_text(const Rgb& value, int count) {
     if (count == 1) return number_text(value[0]);
     return number_text(value[0]) + ", " + number_text(value[1]) + ", " + number_text(value[2]);
 }

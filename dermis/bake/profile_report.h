@@ -22,7 +22,7 @@ inline constexpr double kReportedFractions[] = {0.5, 0.9, 0.99, 0.997};
 
 /// "2.675" and "0.36, 0.072, 0.036": four significant digits, one number or three.
 [[nodiscard]] std::string number_text(double value);
-[[nodiscard]] std::string value_text(const std::array<double, 3>& value, int count = 3);
+[[nodiscard]] std::string value_text(const Rgb& value, int count = 3);
 
 /// The generated part of docs/profiles.md: presets, tool conventions, one skin in all tools, fit errors.
 /// Takes about a second.

@@ -27,13 +27,11 @@ double blurred_disk_share(double x_mm, double radius_mm, double sigma_mm) {
 }
 
 Rgb scattered_edge(const GaussianSum& profile, double x_mm, double radius_mm) {
-    Rgb light = {}, total = {};
+    Rgb light = {};
+    const Rgb total = total_weight(profile.terms);
     for (const GaussianTerm& term : profile.terms) {
         const double lit = blurred_disk_share(x_mm, radius_mm, std::sqrt(term.variance_mm2));
-        for (size_t c = 0; c < 3; ++c) {
-            light[c] += term.weight[c] * lit;
-            total[c] += term.weight[c];
-        }
+        for (size_t c = 0; c < 3; ++c) light[c] += term.weight[c] * lit;
     }
     for (size_t c = 0; c < 3; ++c) light[c] /= total[c];
     return light;

@@ -68,9 +68,7 @@ Result<Table> bake_shadow(const ShadowOptions& options) {
                         .tool = tool_version()};
     DERMIS_TRY(check_axis(table.convention.axes[1], 0.01, 10000));
     const GaussianSum sum = to_gaussian_sum(options.profile, kShadowGaussians).sum;
-    Rgb total = {};
-    for (const GaussianTerm& term : sum.terms)
-        for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
+    const Rgb total = total_weight(sum.terms);
 
     table.data.resize(size_t(table.width) * size_t(table.height) * 3);
     parallel_for(size_t(table.height), 1, [&](size_t begin, size_t end) {

@@ -36,9 +36,7 @@ std::vector<Rgb> exact_zonal(const Convention& convention, const Profile& profil
 
 std::vector<Rgb> exact_shadow(const Convention& convention, const GaussianSum& sum, std::span<const double> u,
                               double width_mm) {
-    Rgb total = {};
-    for (const GaussianTerm& term : sum.terms)
-        for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
+    const Rgb total = total_weight(sum.terms);
     std::vector<Rgb> values(u.size());
     for (size_t i = 0; i < u.size(); ++i)
         for (const GaussianTerm& term : sum.terms) {

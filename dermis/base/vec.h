@@ -1,6 +1,7 @@
 #pragma once
 // Plain vectors for public interfaces. A name says the space a vector is in: p_world, n_view, uv.
 
+#include <array>
 #include <cmath>
 
 namespace dermis::inline base {
@@ -14,6 +15,9 @@ struct Vec3 {
     float x = 0, y = 0, z = 0;
     friend bool operator==(const Vec3&, const Vec3&) = default;
 };
+
+/// Linear red, green, blue where a float is too coarse.
+using Rgb = std::array<double, 3>;
 
 struct Vec4 {
     float x = 0, y = 0, z = 0, w = 0;

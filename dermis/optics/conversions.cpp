@@ -86,7 +86,7 @@ Result<BurleyProfile> to_canonical(const ToolSettings& settings) {
 }
 
 ScatteringMedium medium_of(const BurleyProfile& burley, double g, double eta) {
-    std::array<double, 3> path_mm;
+    Rgb path_mm;
     for (size_t c = 0; c < 3; ++c) {
         const double alpha = single_scatter_albedo_of(burley.albedo[c], g);
         // 1 / sigma_t' = s(A) d and sigma_t' = sigma_t (1 - alpha g).

@@ -36,7 +36,7 @@ enum class ToolId {
 struct ToolKey {
     std::string_view name;
     int count;  ///< 1, or 3 for red, green, blue
-    std::array<double, 3> default_value;
+    Rgb default_value;
     double min, max;
     std::string_view unit;  ///< "" for ratios and colours
     std::string_view meaning;
@@ -54,7 +54,7 @@ struct ToolConvention {
 
 struct ToolSettings {
     ToolId tool;
-    std::vector<std::array<double, 3>> values;  ///< in the order of the convention's keys
+    std::vector<Rgb> values;  ///< in the order of the convention's keys
 };
 
 [[nodiscard]] const std::vector<ToolConvention>& tool_conventions();

@@ -20,8 +20,8 @@ struct GaussianFit {
     /// Largest and root-mean-square |S - S_fit| per channel, over 200 radii from the 0.1 % to the 99.99 %
     /// radius evenly in log r: the part of the light at a wrong distance. 0 for what is a sum of Gaussians
     /// already.
-    std::array<double, 3> max_error = {0, 0, 0};
-    std::array<double, 3> rms_error = {0, 0, 0};
+    Rgb max_error = {0, 0, 0};
+    Rgb rms_error = {0, 0, 0};
 };
 
 /// 1 to kMaxGaussianFitTerms Gaussians per channel. Sums of Gaussians come back as they are, whatever their

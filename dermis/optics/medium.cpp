@@ -65,8 +65,7 @@ double single_scatter_albedo_of(double multiscatter_albedo, double g) {
     return (1 - s_clamped * s_clamped) / (1 - g * s_clamped * s_clamped);
 }
 
-ScatteringMedium medium_of(const std::array<double, 3>& albedo,
-                           const std::array<double, 3>& mean_free_path_mm, double g, double eta) {
+ScatteringMedium medium_of(const Rgb& albedo, const Rgb& mean_free_path_mm, double g, double eta) {
     ScatteringMedium medium{.g = g, .eta = eta};
     for (size_t c = 0; c < 3; ++c) {
         const double sigma_t = 1 / mean_free_path_mm[c];

@@ -7,14 +7,15 @@
 #include <array>
 
 #include "dermis/base/result.h"
+#include "dermis/base/vec.h"
 
 namespace dermis::inline optics {
 
 /// sigma_s: scattering, sigma_a: absorption, per mm and channel (linear red, green, blue); g: mean cosine of
 /// the (Henyey-Greenstein) phase function, -1..1; eta: index of refraction relative to the outside, 1..3.
 struct ScatteringMedium {
-    std::array<double, 3> sigma_s_per_mm = {1, 1, 1};
-    std::array<double, 3> sigma_a_per_mm = {0.1, 0.1, 0.1};
+    Rgb sigma_s_per_mm = {1, 1, 1};
+    Rgb sigma_a_per_mm = {0.1, 0.1, 0.1};
     double g = 0;
     double eta = 1.4;
 };
@@ -44,8 +45,7 @@ struct ScatteringMedium {
 [[nodiscard]] double single_scatter_albedo_of(double multiscatter_albedo, double g);
 
 /// The medium that shows `albedo` (0..1) at the mean free path 1 / sigma_t, per channel.
-[[nodiscard]] ScatteringMedium medium_of(const std::array<double, 3>& albedo,
-                                         const std::array<double, 3>& mean_free_path_mm, double g,
+[[nodiscard]] ScatteringMedium medium_of(const Rgb& albedo, const Rgb& mean_free_path_mm, double g,
                                          double eta);
 
 }  // namespace dermis::inline optics

@@ -50,8 +50,6 @@ struct Preintegration {
     double variance_scale = 1;
 };
 
-using Rgb = std::array<double, 3>;
-
 /// F(n_dot_l, kappa); concentration kappa >= 0, infinity allowed. About 1 microsecond.
 [[nodiscard]] double blurred_cosine(Construction construction, double n_dot_l, double concentration);
 

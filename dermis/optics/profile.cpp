@@ -24,12 +24,6 @@ double square(double x) {
 
 // ---- Sums of Gaussians -----------------------------------------------------------------------------------
 
-double weight_sum(const GaussianSum& sum, int channel) {
-    double total = 0;
-    for (const GaussianTerm& term : sum.terms) total += term.weight[size_t(channel)];
-    return total;
-}
-
 template <class OfVariance>
 double weighted(const GaussianSum& sum, int channel, OfVariance of_variance) {
     double total = 0;
@@ -58,7 +52,7 @@ Result<void> check_model(const GaussianSum& sum) {
 }
 
 double albedo_of(const GaussianSum& sum, int channel) {
-    return weight_sum(sum, channel);
+    return total_weight(sum.terms)[size_t(channel)];
 }
 double reflectance_of(const GaussianSum& sum, int channel, double r_mm) {
     return weighted(sum, channel, [&](double v) { return std::exp(-square(r_mm) / (2 * v)) / (2 * pi * v); });
@@ -306,14 +300,19 @@ Profile scaled(const Profile& profile, double factor) {
     return result;
 }
 
+Rgb total_weight(std::span<const GaussianTerm> terms) {
+    Rgb total = {};
+    for (const GaussianTerm& term : terms)
+        for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
+    return total;
+}
+
 Vec3 profile_transfer(const GaussianSum& profile, double x) {
-    double sum[3] = {0, 0, 0}, total[3] = {0, 0, 0};
-    for (const GaussianTerm& term : profile.terms)
-        for (size_t c = 0; c < 3; ++c) {
-            sum[c] += term.weight[c] * std::exp(-term.variance_mm2 * x);
-            total[c] += term.weight[c];
-        }
-    const auto share = [&](int c) { return total[c] > 0 ? float(sum[c] / total[c]) : 1.0f; };
+    const Rgb total = total_weight(profile.terms);
+    const auto share = [&](int c) {
+        const double left = weighted(profile, c, [&](double v) { return std::exp(-v * x); });
+        return total[size_t(c)] > 0 ? float(left / total[size_t(c)]) : 1.0f;
+    };
     return {share(0), share(1), share(2)};
 }
 

@@ -14,6 +14,7 @@
 // assert it.
 
 #include <array>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,7 +31,7 @@ inline constexpr int kRed = 0, kGreen = 1, kBlue = 2;
 /// One Gaussian; weights are linear red, green, blue and may be zero.
 struct GaussianTerm {
     double variance_mm2 = 1;
-    std::array<double, 3> weight = {1, 1, 1};
+    Rgb weight = {1, 1, 1};
 };
 
 /// R(r) = sum_i weight_i exp(-r^2 / (2 variance_i)) / (2 pi variance_i). The weights of a channel sum to its
@@ -39,6 +40,9 @@ struct GaussianSum {
     std::string name;
     std::vector<GaussianTerm> terms;
 };
+
+/// The sum of the weights of each channel: its diffuse albedo.
+[[nodiscard]] Rgb total_weight(std::span<const GaussianTerm> terms);
 
 /// The share of a wave of light that the profile leaves, 1 for a colour that the skin does not reflect: the
 /// sum of the weights times exp(-variance x), x = 2 pi^2 / wavelength^2 in 1/mm^2, over the sum of the
@@ -52,8 +56,8 @@ struct GaussianSum {
 /// R(r) = A (exp(-r/d) + exp(-r/3d)) / (8 pi d r), infinite at r = 0 but integrable. Source: Christensen,
 /// Burley 2015, Approximate Reflectance Profiles for Efficient Subsurface Scattering, equation 3.
 struct BurleyProfile {
-    std::array<double, 3> albedo = {1, 1, 1};  ///< 0..1
-    std::array<double, 3> d_mm = {1, 1, 1};    ///< > 0
+    Rgb albedo = {1, 1, 1};  ///< 0..1
+    Rgb d_mm = {1, 1, 1};    ///< > 0
 };
 
 /// The dipole of Jensen, Marschner, Levoy, Hanrahan 2001, A Practical Model for Subsurface Light Transport,

@@ -14,7 +14,7 @@ constexpr std::string_view kTableHeader = "r_mm,r,g,b", kSumHeader = "variance_m
 struct Rows {
     bool is_sum = false;
     std::vector<double> first;  // r_mm or variance_mm2
-    std::vector<std::array<double, 3>> rgb;
+    std::vector<Rgb> rgb;
 };
 
 std::string without_spaces(std::string_view text) {
@@ -69,7 +69,7 @@ Result<Rows> parse_rows(std::string_view text, std::string_view place) {
     return rows;
 }
 
-std::string row_text(double first, const std::array<double, 3>& rgb) {
+std::string row_text(double first, const Rgb& rgb) {
     return to_text(first) + "," + to_text(rgb[0]) + "," + to_text(rgb[1]) + "," + to_text(rgb[2]) + "\n";
 }
 
@@ -105,7 +105,7 @@ std::string profile_csv(const Profile& profile, std::span<const double> radii_mm
     }
     out += std::string(kTableHeader) + "\n";
     for (const double r : radii_mm) {
-        std::array<double, 3> rgb;
+        Rgb rgb;
         for (int c = 0; c < 3; ++c) rgb[size_t(c)] = reflectance_per_mm2(profile, c, r);
         out += row_text(r, rgb);
     }

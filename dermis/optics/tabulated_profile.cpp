@@ -25,8 +25,7 @@ double linear_moment(double at_from, double at_to, int power, double from, doubl
 
 }  // namespace
 
-Result<TabulatedProfile> TabulatedProfile::make(std::span<const double> r_mm,
-                                                std::span<const std::array<double, 3>> r_per_mm2,
+Result<TabulatedProfile> TabulatedProfile::make(std::span<const double> r_mm, std::span<const Rgb> r_per_mm2,
                                                 std::string_view place) {
     const auto wrong = [&](const Error& error) { return Error{std::string(place) + ": " + error.message}; };
     if (r_mm.size() != r_per_mm2.size() || r_mm.size() < 2 || r_mm.size() > kMaxProfileRows)
@@ -57,7 +56,7 @@ Result<TabulatedProfile> TabulatedProfile::make(std::span<const double> r_mm,
     return profile;
 }
 
-TabulatedProfile::TabulatedProfile(std::vector<double> r_mm, std::vector<std::array<double, 3>> values)
+TabulatedProfile::TabulatedProfile(std::vector<double> r_mm, std::vector<Rgb> values)
     : r_mm_(std::move(r_mm)), values_(std::move(values)), moments_(r_mm_.size()) {
     for (int power = 0; power < 3; ++power)
         for (int c = 0; c < 3; ++c) {
@@ -98,7 +97,7 @@ double TabulatedProfile::moment_within(int channel, int power, double r_mm) cons
 
 TabulatedProfile TabulatedProfile::scaled(double factor) const {
     std::vector<double> r_mm = r_mm_;
-    std::vector<std::array<double, 3>> values = values_;
+    std::vector<Rgb> values = values_;
     for (double& r : r_mm) r *= factor;
     for (auto& row : values)
         for (double& value : row) value /= factor * factor;

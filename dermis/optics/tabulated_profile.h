@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/base/vec.h"
 
 namespace dermis::inline optics {
 
@@ -21,11 +22,11 @@ class TabulatedProfile {
     /// At least two rows; radii finite, >= 0, strictly increasing, the last 1e-6 to 1e6; R finite and >= 0,
     /// not all zero in every channel. `place` begins the error ("skin.csv"). At most kMaxProfileRows rows.
     [[nodiscard]] static Result<TabulatedProfile> make(std::span<const double> r_mm,
-                                                       std::span<const std::array<double, 3>> r_per_mm2,
+                                                       std::span<const Rgb> r_per_mm2,
                                                        std::string_view place);
 
     [[nodiscard]] const std::vector<double>& r_mm() const { return r_mm_; }
-    [[nodiscard]] const std::vector<std::array<double, 3>>& reflectance_per_mm2() const { return values_; }
+    [[nodiscard]] const std::vector<Rgb>& reflectance_per_mm2() const { return values_; }
 
     [[nodiscard]] double reflectance_at(int channel, double r_mm) const;
     /// 2 pi times the integral of R(r) r^(1 + power) from 0 to r_mm, power 0 (light), 1 or 2 (its moments).
@@ -34,12 +35,12 @@ class TabulatedProfile {
     [[nodiscard]] TabulatedProfile scaled(double factor) const;
 
   private:
-    TabulatedProfile(std::vector<double> r_mm, std::vector<std::array<double, 3>> values);
+    TabulatedProfile(std::vector<double> r_mm, std::vector<Rgb> values);
     [[nodiscard]] double segment_moment(size_t segment, int channel, int power, double r_mm) const;
 
     std::vector<double> r_mm_;
-    std::vector<std::array<double, 3>> values_;
-    std::vector<std::array<std::array<double, 3>, 3>> moments_;  // [row][power][channel], up to that row
+    std::vector<Rgb> values_;
+    std::vector<std::array<Rgb, 3>> moments_;  // [row][power][channel], up to that row
 };
 
 }  // namespace dermis::inline optics

@@ -9,7 +9,7 @@
 namespace dermis::inline optics {
 
 /// In the order of the convention's keys; scalars in element 0.
-using ToolValues = std::vector<std::array<double, 3>>;
+using ToolValues = std::vector<Rgb>;
 
 struct ToolRow {
     ToolConvention convention;

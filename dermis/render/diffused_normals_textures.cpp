@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "dermis/base/parallel.h"
-#include "dermis/technique/diffused_normals.h"
+#include "dermis/optics/diffused_normals.h"
 
 namespace dermis::inline render {
 namespace {

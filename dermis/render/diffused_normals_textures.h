@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "dermis/gpu/device.h"
-#include "dermis/render/diffused_normals.h"
+#include "dermis/rays/diffused_normals.h"
 
 namespace dermis::inline render {
 
-/// The textures of kDiffusedNormalsTextures (technique/diffused_normals.h) with all mip levels. A mean is
+/// The textures of kDiffusedNormalsTextures (optics/diffused_normals.h) with all mip levels. A mean is
 /// kept as its direction and sqrt(1 - its length), since the length of a vector of 8 or 10 bits would say
 /// nothing of the curvature of a head: 1 - length is 5e-4 at a radius of 50 mm. Levels are means of the
 /// vectors of the skin in them, so that bumps that a level no longer shows are in its length. Errors: .001 of

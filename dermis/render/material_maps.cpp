@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "dermis/image/dilate.h"
-#include "dermis/render/atlas_mask.h"
 #include "dermis/render/normal_map_check.h"
+#include "dermis/scene/atlas_mask.h"
 #include "dermis/scene/image_source.h"
 
 namespace dermis::inline render {

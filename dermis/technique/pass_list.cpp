@@ -5,7 +5,6 @@
 #include <set>
 
 #include "dermis/base/text.h"
-#include "dermis/technique/diffused_normals.h"
 
 namespace dermis::inline technique {
 namespace {

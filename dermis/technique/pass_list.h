@@ -19,6 +19,7 @@
 
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
+#include "dermis/optics/diffused_normals.h"
 
 namespace dermis::inline technique {
 
@@ -130,13 +131,13 @@ struct SeamRequest {
     friend bool operator==(const SeamRequest&, const SeamRequest&) = default;
 };
 
-/// Asks for the textures of technique/diffused_normals.h over the skin's atlas, `size` texels a side.
-struct DiffusedNormalsRequest {
-    int size = 1024;
-    /// Along an axis; what is narrower is left to the pixel's own normal.
-    float finest_variance_mm2 = 0.1f;
-    friend bool operator==(const DiffusedNormalsRequest&, const DiffusedNormalsRequest&) = default;
-};
+/// The textures that PassList::diffused_normals asks for. Red's mean normal: its direction, n * .5 + .5, in
+/// rgb; of length 0 where there is no skin. Green's direction less red's: of each part the root with its
+/// sign, from -1 at 1 / 255 to 1, in rgb; in alpha sqrt(1 - length) of red's mean. How unevenly red's normals
+/// spread: p and q of rays/diffused_normals.h, x
+/// * .5 + .5.
+inline constexpr std::array<const char*, 3> kDiffusedNormalsTextures = {
+    "diffused_normals_red", "diffused_normals_green", "diffused_normals_uneven"};
 
 struct PassList {
     std::vector<ImageDeclaration> images;

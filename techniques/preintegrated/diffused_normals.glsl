@@ -1,5 +1,5 @@
 // Diffuse light from baked normals: for each channel the mean of the normals over the profile
-// (dermis/render/diffused_normals.h).
+// (dermis/rays/diffused_normals.h).
 //
 // On a sphere of curvature k the mean is the point's own normal with length A(k), the mean cosine of the profile. So the
 // direction of the mean gives N.L, and the length of red's gives the curvature (the inverse of A). Both address the diffuse
@@ -40,7 +40,7 @@ float diffused_normals_level(vec2 uv, float texels) {
     return 0.5 * log2(area * area / max(max(dot(x, x), dot(y, y)), 1e-12));
 }
 
-// own_weight, green_spread: dermis/technique/diffused_normals.h. Outside the atlas the surface is a sphere of around_per_mm.
+// own_weight, green_spread: dermis/optics/diffused_normals.h. Outside the atlas the surface is a sphere of around_per_mm.
 DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight, float green_spread, float around_per_mm, float level) {
     vec3 red = 2.0 * textureLod(sampler2D(diffused_normals_red, trilinear_clamp), s.uv, level).rgb - 1.0;
     vec4 green = textureLod(sampler2D(diffused_normals_green, trilinear_clamp), s.uv, level);

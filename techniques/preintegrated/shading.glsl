@@ -14,7 +14,7 @@ layout(scalar) uniform Params {
 layout(push_constant, scalar) uniform PassValues {
     vec3 occlusion_weight_0, occlusion_weight_1, occlusion_weight_2;  // of Surface::occlusion_blurred
 #ifdef DERMIS_BAKED_NORMALS
-    vec3 own_normal_weight;  // dermis/technique/diffused_normals.h
+    vec3 own_normal_weight;  // dermis/optics/diffused_normals.h
     float green_spread, diffused_texels;
 #endif
 };

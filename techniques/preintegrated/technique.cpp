@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "dermis/technique/diffused_normals.h"
+#include "dermis/optics/diffused_normals.h"
 #include "dermis/technique/forward.h"
 #include "dermis/technique/transmission.h"
 #include "techniques/preintegrated/figures.h"

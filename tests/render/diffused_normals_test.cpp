@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "dermis/optics/diffused_normals.h"
 #include "dermis/optics/preintegration.h"
-#include "dermis/technique/diffused_normals.h"
 #include "support/built_in.h"
 
 using namespace dermis;

@@ -9,8 +9,8 @@
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
+#include "dermis/rays/diffused_normals_file.h"
 #include "dermis/render/atlas_check.h"
-#include "dermis/render/diffused_normals_file.h"
 #include "dermis/scene/load_scene.h"
 #include "scene_choice.h"
 

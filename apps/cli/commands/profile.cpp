@@ -29,7 +29,7 @@ void print(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
 
-void print_row(const std::string& what, const ChannelValues& value) {
+void print_row(const std::string& what, const Rgb& value) {
     std::printf("  %-34s %10s %10s %10s\n", what.c_str(), number_text(value[0]).c_str(),
                 number_text(value[1]).c_str(), number_text(value[2]).c_str());
 }
@@ -70,12 +70,12 @@ void print_profile(const Profile& profile, const GaussianFit& fit) {
         print_row("radius of " + number_text(100 * fraction) + " % of the light (mm)",
                   radii_at(profile, fraction));
     for (const double thickness_mm : {1.0, 3.0}) {
-        ChannelValues passed;
+        Rgb passed;
         for (int c = 0; c < 3; ++c) passed[size_t(c)] = slab_transmittance(profile, c, thickness_mm);
         print_row("transmittance of " + number_text(thickness_mm) + " mm", passed);
     }
     if (const auto* dipole = std::get_if<DipoleProfile>(&profile.model)) {
-        ChannelValues length;
+        Rgb length;
         for (int c = 0; c < 3; ++c) length[size_t(c)] = diffuse_mean_free_path_mm(dipole->medium, c);
         print_row("diffuse mean free path (mm)", length);
     }
@@ -154,7 +154,7 @@ Result<int> convert(const ProfileOptions& options) {
     if (!converted->origin.empty()) print("from " + converted->origin + "\n");
     print("albedo " + value_text(source.albedo) + ", Burley d " + value_text(source.d_mm) +
           " mm (red, green, blue)\n");
-    if (source.albedo == ChannelValues{1, 1, 1})
+    if (source.albedo == Rgb{1, 1, 1})
         print(
             "This profile is a pure blur (albedo 1). Lengths that depend on the albedo need that of the "
             "surface: --albedo R,G,B\n");

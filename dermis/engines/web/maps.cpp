@@ -5,8 +5,8 @@
 #include "dermis/image/colour.h"
 #include "dermis/image/dilate.h"
 #include "dermis/image/resample.h"
-#include "dermis/render/atlas_mask.h"
 #include "dermis/render/material_maps.h"
+#include "dermis/scene/atlas_mask.h"
 #include "dermis/scene/image_source.h"
 
 namespace dermis::inline engines::web {

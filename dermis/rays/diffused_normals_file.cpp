@@ -1,4 +1,4 @@
-#include "dermis/render/diffused_normals_file.h"
+#include "dermis/rays/diffused_normals_file.h"
 
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -7,9 +7,8 @@
 #include "dermis/base/text.h"
 #include "dermis/image/image.h"
 #include "dermis/image/io.h"
-#include "dermis/technique/diffused_normals.h"
 
-namespace dermis::inline render {
+namespace dermis::inline rays {
 namespace {
 
 std::string sidecar_text(const DiffusedNormals& normals, const DiffusedNormalsOrigin& origin, bool green,
@@ -92,4 +91,4 @@ Result<void> write_diffused_normals(const std::filesystem::path& path, const Dif
     return write_files(files);
 }
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline rays

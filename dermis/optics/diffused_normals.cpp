@@ -1,14 +1,14 @@
-#include "dermis/technique/diffused_normals.h"
+#include "dermis/optics/diffused_normals.h"
 
 #include <algorithm>
 #include <array>
 
-namespace dermis::inline technique {
+namespace dermis::inline optics {
 namespace {
 
 // Per channel, weight and weight times variance: of all Gaussians, and of those that are stored.
 struct Spreads {
-    std::array<double, 3> total = {}, spread_mm2 = {}, wide = {}, wide_spread_mm2 = {};
+    Rgb total = {}, spread_mm2 = {}, wide = {}, wide_spread_mm2 = {};
 };
 
 Spreads spreads_of(const GaussianSum& profile, const DiffusedNormalsRequest& request) {
@@ -44,4 +44,4 @@ float green_spread(const GaussianSum& profile, const DiffusedNormalsRequest& req
     return float(sum.wide_spread_mm2[1] / sum.wide[1] / (sum.wide_spread_mm2[0] / sum.wide[0]));
 }
 
-}  // namespace dermis::inline technique
+}  // namespace dermis::inline optics

@@ -1,4 +1,4 @@
-#include "dermis/render/skin_texels.h"
+#include "dermis/rays/skin_texels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include "dermis/rays/flesh.h"
 #include "dermis/rays/texture.h"
 #include "dermis/rays/uv_raster.h"
-#include "dermis/render/atlas_mask.h"
+#include "dermis/scene/atlas_mask.h"
 #include "dermis/scene/image_source.h"
 
-namespace dermis::inline render {
+namespace dermis::inline rays {
 namespace {
 
 // As mean_normal_world() of shaders/include/surface.glsl.
@@ -117,4 +117,4 @@ float typical_texel_mm(const SkinTexels& skin) {
     return 0;
 }
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline rays

@@ -1,21 +1,19 @@
 #pragma once
-// How a technique reads the normals that it asks for by PassList::diffused_normals (render/diffused_normals.h
-// bakes them).
-
-#include <array>
+// Which part of a profile a map of mean normals holds (rays/diffused_normals.h bakes it), and how a shader
+// mixes it with the pixel's own normal.
 
 #include "dermis/base/vec.h"
 #include "dermis/optics/profile.h"
-#include "dermis/technique/pass_list.h"
 
-namespace dermis::inline technique {
+namespace dermis::inline optics {
 
-/// Red's mean normal: its direction, n * .5 + .5, in rgb; of length 0 where there is no skin. Green's
-/// direction less red's: of each part the root with its sign, from -1 at 1 / 255 to 1, in rgb; in alpha
-/// sqrt(1 - length) of red's mean. How unevenly red's normals spread: p and q of render/diffused_normals.h, x
-/// * .5 + .5.
-inline constexpr std::array<const char*, 3> kDiffusedNormalsTextures = {
-    "diffused_normals_red", "diffused_normals_green", "diffused_normals_uneven"};
+/// Which map of mean normals to bake over the skin's atlas (rays/diffused_normals.h): `size` texels a side.
+struct DiffusedNormalsRequest {
+    int size = 1024;
+    /// Along an axis; what is narrower is left to the pixel's own normal.
+    float finest_variance_mm2 = 0.1f;
+    friend bool operator==(const DiffusedNormalsRequest&, const DiffusedNormalsRequest&) = default;
+};
 
 /// The weight of the pixel's own normal in each channel's mean, the stored one having the rest. To first
 /// order the mean on a sphere is then as long as with the whole profile: the normals spread less over the
@@ -28,4 +26,4 @@ inline constexpr std::array<const char*, 3> kDiffusedNormalsTextures = {
 /// large against the profile: the ratio of what the stored Gaussians spread. 0 where green has none.
 [[nodiscard]] float green_spread(const GaussianSum& profile, const DiffusedNormalsRequest& request);
 
-}  // namespace dermis::inline technique
+}  // namespace dermis::inline optics

@@ -15,11 +15,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "dermis/optics/profile.h"
-#include "dermis/render/skin_texels.h"
-#include "dermis/technique/pass_list.h"
+#include "dermis/optics/diffused_normals.h"
+#include "dermis/rays/skin_texels.h"
 
-namespace dermis::inline render {
+namespace dermis::inline rays {
 
 /// Texels by which each chart is grown.
 inline constexpr int kDiffusedNormalsGutter = 16;
@@ -39,4 +38,4 @@ struct DiffusedNormals {
 [[nodiscard]] Result<DiffusedNormals> bake_diffused_normals(const Scene& scene, const GaussianSum& profile,
                                                             const DiffusedNormalsRequest& request);
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline rays

@@ -1,9 +1,9 @@
-#include "dermis/render/atlas_mask.h"
+#include "dermis/scene/atlas_mask.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace dermis::inline render {
+namespace dermis::inline scene {
 namespace {
 
 // Rows of the triangle's box, each from the first to the last covered centre by the three edges.
@@ -46,4 +46,4 @@ Image atlas_mask(const Mesh& mesh, int width, int height) {
     return mask;
 }
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline scene

@@ -1,11 +1,11 @@
-#include "dermis/render/skin_points.h"
+#include "dermis/rays/skin_points.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "dermis/base/parallel.h"
 
-namespace dermis::inline render {
+namespace dermis::inline rays {
 namespace {
 
 using Cube = std::array<int, 3>;
@@ -161,4 +161,4 @@ void SkinPoints::for_each_cube(const SkinPoints& others, float reach_mm, size_t 
     });
 }
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline rays

@@ -2,7 +2,7 @@
 // its result is smooth. From the points of the widest the sums are interpolated at those of the next, and so
 // on down to the texels. Merging and interpolating blur too; the Gaussians are narrower by that.
 
-#include "dermis/render/diffused_normals.h"
+#include "dermis/rays/diffused_normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,9 @@
 #include "dermis/base/parallel.h"
 #include "dermis/base/progress.h"
 #include "dermis/image/dilate.h"
-#include "dermis/render/skin_points.h"
+#include "dermis/rays/skin_points.h"
 
-namespace dermis::inline render {
+namespace dermis::inline rays {
 namespace {
 
 constexpr int kProfileSteps = 2048;
@@ -89,10 +89,8 @@ struct Reached {
     float squared_mm2;
 };
 
-std::array<double, 3> totals(const GaussianSum& profile) {
-    std::array<double, 3> total = {};
-    for (const GaussianTerm& term : profile.terms)
-        for (size_t c = 0; c < 3; ++c) total[c] += term.weight[c];
+Rgb totals(const GaussianSum& profile) {
+    Rgb total = total_weight(profile.terms);
     for (double& sum : total) sum = sum > 0 ? sum : 1;
     return total;
 }
@@ -100,7 +98,7 @@ std::array<double, 3> totals(const GaussianSum& profile) {
 // Of red and green: what the Gaussians that the map does not hold have of the profile.
 Vec2 narrow_weights(const GaussianSum& profile, float finest_mm2) {
     std::array<double, 2> narrow = {};
-    const std::array<double, 3> total = totals(profile);
+    const Rgb total = totals(profile);
     for (const GaussianTerm& term : profile.terms)
         if (term.variance_mm2 < double(finest_mm2))
             for (size_t c = 0; c < 2; ++c) narrow[c] += term.weight[c] / total[c];
@@ -133,7 +131,7 @@ double uncut_variance_mm2(double variance_mm2, double squared_reach_mm2) {
 }
 
 // `blurred_mm2` is left out of each Gaussian's variance.
-SetOfGaussians set_of_gaussians(const std::vector<GaussianTerm>& terms, const std::array<double, 3>& total,
+SetOfGaussians set_of_gaussians(const std::vector<GaussianTerm>& terms, const Rgb& total,
                                 double blurred_mm2) {
     const auto left_mm2 = [&](const GaussianTerm& term) {
         return std::max(term.variance_mm2 - blurred_mm2, 0.25 * term.variance_mm2);
@@ -426,4 +424,4 @@ Result<DiffusedNormals> bake_diffused_normals(const Scene& scene, const Gaussian
     return normals;
 }
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline rays

@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "dermis/render/skin_texels.h"
+#include "dermis/rays/skin_texels.h"
 
-namespace dermis::inline render {
+namespace dermis::inline rays {
 
 /// One texel, or all of a small cube that face about the same way: their mass centre, and means by area.
 struct SkinPoint {
@@ -72,4 +72,4 @@ class SkinPoints {
     std::unordered_map<uint64_t, size_t> index_;
 };
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline rays

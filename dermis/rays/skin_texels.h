@@ -10,7 +10,7 @@
 #include "dermis/image/image.h"
 #include "dermis/scene/scene.h"
 
-namespace dermis::inline render {
+namespace dermis::inline rays {
 
 struct SkinTexel {
     uint32_t index = 0;  ///< in the map, rows from the top
@@ -44,4 +44,4 @@ class SkinTexelReader {
 /// Median by area of a texel's side on the skin; 0 without texels.
 [[nodiscard]] float typical_texel_mm(const SkinTexels& skin);
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline rays

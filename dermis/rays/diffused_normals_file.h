@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "dermis/render/diffused_normals.h"
+#include "dermis/rays/diffused_normals.h"
 
-namespace dermis::inline render {
+namespace dermis::inline rays {
 
 /// Origin of the maps, for their sidecar.
 struct DiffusedNormalsOrigin {
@@ -31,4 +31,4 @@ struct DiffusedNormalsOrigin {
                                                   const DiffusedNormals& normals,
                                                   const DiffusedNormalsOrigin& origin);
 
-}  // namespace dermis::inline render
+}  // namespace dermis::inline rays
