@@ -4,8 +4,8 @@
 //     build/bench/pixel_points_bench [SIZE] [NOISE] [SCENE...]     128 pixels, 0.08 of the effect, three
 //     scenes
 //
-// Each number of points has its own ground truth, as in a comparison: maps are read at another level of
-// detail too. Truths are kept in the cache.
+// Each number of points has its own reference, as in a comparison: maps are read at another level of
+// detail too. References are kept in the cache.
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +30,12 @@ int fail(const std::string& message) {
     return 1;
 }
 
-Result<EffectTruth> truth_of(const Scene& scene, int size, int grid, double noise) {
+Result<EffectReference> reference_of(const Scene& scene, int size, int grid, double noise) {
     const ComparisonSettings settings = comparison_settings(size, size);
-    EffectTruthSettings truth{.reference = settings.reference, .noise = noise, .samples = 65536};
-    truth.reference.probes = settings.probes;
-    truth.reference.grid = grid;
-    return make_effect_truth(scene, truth);
+    EffectReferenceSettings wanted{.reference = settings.reference, .noise = noise, .samples = 65536};
+    wanted.reference.probes = settings.probes;
+    wanted.reference.grid = grid;
+    return make_effect_reference(scene, wanted);
 }
 
 PictureMaker maker_of(Renderer& renderer, int size, int grid) {
@@ -53,16 +53,16 @@ PictureMaker maker_of(Renderer& renderer, int size, int grid) {
 Result<std::vector<CapturedShare>> shares_of(Renderer& renderer, const Scene& scene,
                                              std::span<const Contestant> contestants, int size, int grid,
                                              double noise) {
-    const Result<EffectTruth> truth = truth_of(scene, size, grid, noise);
-    if (!truth) return truth.error();
+    const Result<EffectReference> reference = reference_of(scene, size, grid, noise);
+    if (!reference) return reference.error();
     PictureMaker maker = maker_of(renderer, size, grid);
-    const Result<SkinMasks> masks = maker.masks(truth->skin);
+    const Result<SkinMasks> masks = maker.masks(reference->skin);
     if (!masks) return masks.error();
     std::vector<CapturedShare> shares;
     for (const Contestant& contestant : contestants) {
         const Result<TechniquePictures> pictures = maker.make(contestant);
         if (!pictures) return pictures.error();
-        const Result<Captured> share = captured(pictures->effect, truth->effect, masks->skin);
+        const Result<Captured> share = captured(pictures->effect, reference->effect, masks->skin);
         if (!share) return share.error();
         shares.push_back(share->all);
     }

@@ -1,4 +1,4 @@
-// Rays per second of the ground truth's queries against Embree alone: the same rays in the same order, once
+// Rays per second of the reference's queries against Embree alone: the same rays in the same order, once
 // by RayScene, once by rtcIntersect1 and rtcOccluded1 on a scene built with the same flags. One thread.
 //
 //     build/bench/rays_bench [SCENE] [RAYS]

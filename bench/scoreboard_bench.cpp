@@ -1,4 +1,4 @@
-// All techniques against the ground truth, as docs/scoreboard.csv, .md and .svg. Run it by tools/scoreboard.
+// All techniques against the reference, as docs/scoreboard.csv, .md and .svg. Run it by tools/scoreboard.
 //
 //     build/bench/scoreboard_bench DIRECTORY [SIZE] [SCENE...] [--techniques LIST] [--models]
 //
@@ -6,7 +6,7 @@
 // all rows and computes their modelled costs again, in minutes; SIZE is then the one that the board was made
 // with. A missing scene is skipped with a message and its old rows are kept. The rows of a scene are cached
 // under a hash of this program, the scene and the settings: a run that was stopped continues with the scene
-// it was at, and with its ground truth.
+// it was at, and with its reference.
 
 #include <algorithm>
 #include <chrono>
@@ -43,10 +43,10 @@ constexpr const char* kText =
     "# Scoreboard\n\n"
     "**captured**: how much of the effect of scattering a technique has "
     "([definition](ground_truth.md#comparing)): 1 for the\n"
-    "ground truth, 0 for `lambert`, below 0 if worse than `lambert`; ± is half of the 95 %% interval. R, G, "
+    "reference, 0 for `lambert`, below 0 if worse than `lambert`; ± is half of the 95 %% interval. R, G, "
     "B: the\n"
     "channels. Green and blue scatter a few tenths of a millimetre, less than a pixel here. noise: the "
-    "ground truth is not\n"
+    "reference is not\n"
     "fine enough. **Measured**: a frame over lambert's in one run, %s,\n"
     "%d x %d (unit scenes 96 x 96). **Modelled**: the same for a %s at %d x %d, a model\n"
     "([assumptions](performance.md)); empty where Mesa's RADV was not installed. Memory: tables and images "
@@ -63,13 +63,13 @@ int fail(const std::string& message) {
 Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& name, const Scene& scene,
                                       const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings) {
-    Progress line("ground truth of " + name, 0);
+    Progress line("reference of " + name, 0);
     std::optional<Progress> techniques;
     const Result<Comparison> comparison = compare_techniques(
         device, built_in_catalog(), scene, contestants, settings,
         {.reference =
              [&](double done, bool first_samples) {
-                 line.set(done, "ground truth of " + name + (first_samples ? ", first samples" : ""));
+                 line.set(done, "reference of " + name + (first_samples ? ", first samples" : ""));
              },
          .techniques =
              [&](double done, const std::string& technique) {
@@ -77,11 +77,11 @@ Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& na
                  techniques->set(done, name + ": " + technique);
              }});
     if (!comparison) return comparison.error();
-    const EffectTruth& truth = comparison->truth;
-    std::printf("%s: ground truth of %d samples a pixel in %.0f s%s, noise %.2f of the effect%s\n",
-                name.c_str(), truth.samples, truth.time_ms / 1000,
-                truth.from_cache ? " (from the cache)" : "", truth.noise.noise_rms / truth.noise.effect_rms,
-                truth.reached ? "" : ": not as fine as asked for");
+    const EffectReference& reference = comparison->reference;
+    std::printf("%s: reference of %d samples a pixel in %.0f s%s, noise %.2f of the effect%s\n", name.c_str(),
+                reference.samples, reference.time_ms / 1000, reference.from_cache ? " (from the cache)" : "",
+                reference.noise.noise_rms / reference.noise.effect_rms,
+                reference.reached ? "" : ": not as fine as asked for");
     return score_rows(name, *comparison);
 }
 
@@ -94,12 +94,11 @@ Result<std::string> rows_hash(const Scene& scene, const std::vector<Contestant>&
     ReferenceSettings reference = settings.reference;
     reference.width = settings.width;
     reference.height = settings.height;
-    const Result<std::string> truth = reference_hash(scene, reference);
-    if (!truth) return truth.error();
+    DERMIS_TRY_ASSIGN(const std::string hash, reference_hash(scene, reference));
     Hasher hasher;
     for (const Contestant& contestant : contestants) hasher.add(std::string_view(contestant.name()));
     return hasher.add(std::span(*program))
-        .add(std::string_view(*truth))
+        .add(std::string_view(hash))
         .add(settings.grid)
         .add(settings.noise)
         .add(settings.samples)

@@ -1,7 +1,7 @@
 # A cache entry is valid while the code that made it is the same.
-# dermis_source_version(judge truth_version FOLDERS base rays FILES effect_truth.cpp) defines
-# `std::string_view dermis::truth_version()` for the folder judge: a hash of these folders of dermis/ and these files,
-# without line comments and line breaks, made anew by the build when one of them changes. dermis/judge/truth_version.h
+# dermis_source_version(judge reference_version FOLDERS base rays FILES effect_reference.cpp) defines
+# `std::string_view dermis::reference_version()` for the folder judge: a hash of these folders of dermis/ and these files,
+# without line comments and line breaks, made anew by the build when one of them changes. dermis/judge/reference_version.h
 # declares it.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
     include_guard()

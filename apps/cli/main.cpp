@@ -15,7 +15,7 @@ namespace {
 int run(int argc, char** argv) {
     CommandLine line("dermis " DERMIS_VERSION,
                      "Human skin in real time: renders it with several techniques, bakes their tables, "
-                     "measures them against a ground truth.",
+                     "measures them against a reference.",
                      "dermis render scenes/spheres.toml --technique lambert -o out/spheres.png");
     add_all_commands(line);
     if (const std::optional<int> exit_code = line.parse(argc, argv)) return *exit_code;

@@ -24,13 +24,13 @@ Result<ComparisonSettings> CompareChoice::settings() const {
     settings.samples = samples;
     settings.grid = int(std::lround(std::sqrt(double(std::max(samples_per_pixel, 0)))));
     for (const Result<void>& in_range : {check_number("--frames", frames, kTimedFramesRange),
-                                         check_number("--noise", noise, kTruthNoiseRange),
-                                         check_number("--samples", samples, kTruthSamplesRange)})
+                                         check_number("--noise", noise, kReferenceNoiseRange),
+                                         check_number("--samples", samples, kReferenceSamplesRange)})
         if (!in_range) return in_range.error();
     if (settings.grid < 1 || settings.grid > kMostGrid || settings.grid * settings.grid != samples_per_pixel)
         return Error{"--samples-per-pixel " + std::to_string(samples_per_pixel) +
                      ": a square number, 1, 4, 9, 16 ... " + std::to_string(kMostGrid * kMostGrid)};
-    // Each half of the ground truth has two samples a pixel or more.
+    // Each half of the reference has two samples a pixel or more.
     if (samples < 2 * samples_per_pixel)
         return Error{"--samples " + std::to_string(samples) + ": at least twice --samples-per-pixel, " +
                      std::to_string(2 * samples_per_pixel)};
@@ -52,10 +52,10 @@ Result<std::vector<Contestant>> CompareChoice::contestants() const {
 }
 
 std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {
-    std::vector<std::string> warnings = comparison.truth.warnings;
-    const EffectNoise& noise = comparison.truth.noise;
-    if (!comparison.truth.reached)
-        warnings.push_back("the ground truth stopped at its limit of " + std::to_string(settings.samples) +
+    std::vector<std::string> warnings = comparison.reference.warnings;
+    const EffectNoise& noise = comparison.reference.noise;
+    if (!comparison.reference.reached)
+        warnings.push_back("the reference stopped at its limit of " + std::to_string(settings.samples) +
                            " samples a pixel with a noise of " +
                            to_text(float(std::round(1000 * noise.noise_rms / noise.effect_rms) / 1000)) +
                            " of the effect, not " + to_text(settings.noise) + "; raise --samples");

@@ -9,8 +9,8 @@
 
 namespace dermis::cli {
 
-inline constexpr NumberRange kTruthNoiseRange = {1e-6, 1}, kTimedFramesRange = {1, 1000},
-                             kTruthSamplesRange = {4, 1 << 20};
+inline constexpr NumberRange kReferenceNoiseRange = {1e-6, 1}, kTimedFramesRange = {1, 1000},
+                             kReferenceSamplesRange = {4, 1 << 20};
 
 struct CompareChoice {
     SceneChoice scene;

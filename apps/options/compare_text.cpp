@@ -47,11 +47,11 @@ void print_table(const Comparison& comparison) {
                 comparison.rows.front().captured.channels[1].effect_rms,
                 comparison.rows.front().captured.channels[2].effect_rms);
     std::printf(
-        "the ground truth's noise: rms %.5f in the effect (%.2f of it), %.5f in the picture; %d samples a "
+        "the reference's noise: rms %.5f in the effect (%.2f of it), %.5f in the picture; %d samples a "
         "pixel, %s\n",
-        all.truth_noise, all.effect_rms > 0 ? all.truth_noise / all.effect_rms : 0.0,
-        comparison.reference_rmse, comparison.truth.samples,
-        comparison.truth.from_cache ? "from the cache" : "made now");
+        all.reference_noise, all.effect_rms > 0 ? all.reference_noise / all.effect_rms : 0.0,
+        comparison.reference_rmse, comparison.reference.samples,
+        comparison.reference.from_cache ? "from the cache" : "made now");
 }
 
 void print_set_table(const std::vector<SubjectCase>& cases, const std::vector<Comparison>& comparisons) {
@@ -91,10 +91,10 @@ nlohmann::ordered_json to_json(const std::string& output, const SubjectCase& one
     }
     return {{"scene", one.scene.name},
             {"output", output},
-            {"truth_samples", comparison.truth.samples},
-            {"truth_reached", comparison.truth.reached},
-            {"reference_from_cache", comparison.truth.from_cache},
-            {"reference_time_ms", comparison.truth.time_ms},
+            {"reference_samples", comparison.reference.samples},
+            {"reference_reached", comparison.reference.reached},
+            {"reference_from_cache", comparison.reference.from_cache},
+            {"reference_time_ms", comparison.reference.time_ms},
             {"rows", rows},
             {"credit", one.scene.credit}};
 }

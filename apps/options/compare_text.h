@@ -10,7 +10,8 @@ namespace dermis::cli {
 
 void print_table(const Comparison& comparison);
 
-/// A row a scene, a column a technique; the exact answer beside them shows how far the truth can be trusted.
+/// A row a scene, a column a technique; the exact answer beside them shows how far the reference can be
+/// trusted.
 void print_set_table(const std::vector<SubjectCase>& cases, const std::vector<Comparison>& comparisons);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const std::string& output, const SubjectCase& one,

@@ -28,7 +28,7 @@ def _version():
 def _metadata():
     return (f"Metadata-Version: 2.1\nName: dermis\nVersion: {_version()}\nLicense: MIT\nRequires-Python: >=3.9\n"
             "Requires-Dist: numpy\n"
-            "Summary: Human skin in real time: several techniques, measured against a ground truth\n")
+            "Summary: Human skin in real time: several techniques, measured against a reference\n")
 
 
 def _tag():

@@ -1,4 +1,4 @@
-// compare(): techniques against the ground truth.
+// compare(): techniques against the reference.
 
 #include <nlohmann/json.hpp>
 
@@ -16,30 +16,32 @@ namespace {
 
 struct OneComparison {
     Comparison comparison;
-    Image truth_effect;  ///< the mean of its halves
-    std::string json;    ///< an object of `dermis compare --json`
+    Image reference_effect;  ///< the mean of its halves
+    std::string json;        ///< an object of `dermis compare --json`
     std::vector<std::string> warnings;
 };
 
 Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
                                   const std::vector<Contestant>& contestants, ComparisonSettings settings,
                                   Watch& watch, double from, double share) {
-    // The ground truth takes most of the time.
-    constexpr double kTruth = 0.8;
+    // The reference takes most of the time.
+    constexpr double kReferenceShare = 0.8;
     settings.exact = one.exact;
     DERMIS_TRY_ASSIGN(
         Comparison compared,
         compare_techniques(
             device, built_in_catalog(), one.scene, contestants, settings,
-            {.reference = [&](double done, bool) { watch.report(from + share * kTruth * done); },
+            {.reference = [&](double done, bool) { watch.report(from + share * kReferenceShare * done); },
              .techniques =
                  [&](double done, const std::string&) {
-                     watch.report(from + share * (kTruth + (1 - kTruth) * done));
+                     watch.report(from + share * (kReferenceShare + (1 - kReferenceShare) * done));
                  },
              .stop = &watch.stopped()}));
-    OneComparison made{
-        .comparison = std::move(compared), .truth_effect = {}, .json = {}, .warnings = one.scene.warnings};
-    made.truth_effect = mean_effect(made.comparison.truth.effect);
+    OneComparison made{.comparison = std::move(compared),
+                       .reference_effect = {},
+                       .json = {},
+                       .warnings = one.scene.warnings};
+    made.reference_effect = mean_effect(made.comparison.reference.effect);
     made.json =
         cli::to_json("", one, made.comparison).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     for (std::string& warning : cli::warnings_of(made.comparison, settings))
@@ -81,14 +83,14 @@ std::vector<OneComparison> compare(const SceneArguments& scene, const std::strin
     return watched(progress, [&](Watch& watch) { return compare_all(choice, settings, watch); });
 }
 
-// Picture of a technique's row, or of the ground truth.
+// Picture of a technique's row, or of the reference.
 py::array picture(const py::object& self, int row, const std::string& name) {
     const OneComparison& made = self.cast<const OneComparison&>();
     const Comparison& comparison = made.comparison;
     if (row < 0)
         return view_of(name == "skin"     ? comparison.masks.skin
-                       : name == "effect" ? made.truth_effect
-                                          : comparison.truth_radiance,
+                       : name == "effect" ? made.reference_effect
+                                          : comparison.reference_radiance,
                        self);
     const Compared& compared = comparison.rows.at(size_t(row));
     return view_of(name == "effect" ? compared.effect

@@ -73,7 +73,7 @@ void write_rendered(const RenderedPicture& picture, const std::string& path) {
 // ---- reference
 // -----------------------------------------------------------------------------------------------
 
-struct TruePicture {
+struct MadeReference {
     ReferencePicture picture;
     PictureFacts facts;
 };
@@ -101,20 +101,20 @@ cli::ReferenceOptions options_of(const SceneArguments& scene, const py::dict& gi
     return options;
 }
 
-TruePicture reference(const SceneArguments& scene, const py::dict& given, const py::object& progress) {
+MadeReference reference(const SceneArguments& scene, const py::dict& given, const py::object& progress) {
     const cli::ReferenceOptions options = options_of(scene, given);
     const ReferenceSettings settings = value_of(options.settings());
-    return watched(progress, [&](Watch& watch) -> Result<TruePicture> {
+    return watched(progress, [&](Watch& watch) -> Result<MadeReference> {
         DERMIS_TRY_ASSIGN(const Scene loaded, options.load_scene());
         DERMIS_TRY_ASSIGN(ReferencePicture picture,
                           render_reference(
                               loaded, settings, [&](double done) { watch.report(done); }, &watch.stopped()));
-        return TruePicture{std::move(picture), options.facts(settings, loaded)};
+        return MadeReference{std::move(picture), options.facts(settings, loaded)};
     });
 }
 
 // The same files as `dermis reference -o PATH --preview PREVIEW` writes.
-void write_true(const TruePicture& made, const std::string& path, const std::string& preview) {
+void write_reference(const MadeReference& made, const std::string& path, const std::string& preview) {
     check(check_outputs(value_of(picture_files(path, preview))));
     check(unlocked([&] {
         return write_picture_file(path, made.facts, made.picture, described(made.facts, made.picture, false));
@@ -124,7 +124,7 @@ void write_true(const TruePicture& made, const std::string& path, const std::str
 }
 
 py::array layer(const py::object& self, const std::string& name) {
-    const ReferencePicture& picture = self.cast<const TruePicture&>().picture;
+    const ReferencePicture& picture = self.cast<const MadeReference&>().picture;
     const std::pair<std::string_view, const Image*> layers[] = {
         {"radiance", &picture.radiance}, {"diffuse", &picture.diffuse}, {"specular", &picture.specular},
         {"variance", &picture.variance}, {"samples", &picture.samples}, {"skin", &picture.skin}};
@@ -149,14 +149,15 @@ void add_pictures(py::module_& module) {
     module.def("render", render);
     py::module_::import("atexit").attr("register")(py::cpp_function(close_kept_device));
     module.def("write_rendered", write_rendered);
-    py::class_<TruePicture>(module, "ReferencePicture")
+    py::class_<MadeReference>(module, "ReferencePicture")
         .def_property_readonly(
-            "description", [](const TruePicture& made) { return described(made.facts, made.picture, false); })
-        .def_property_readonly("credit", [](const TruePicture& made) { return made.facts.credit; })
-        .def_property_readonly("time_ms", [](const TruePicture& made) { return made.picture.time_ms; });
+            "description",
+            [](const MadeReference& made) { return described(made.facts, made.picture, false); })
+        .def_property_readonly("credit", [](const MadeReference& made) { return made.facts.credit; })
+        .def_property_readonly("time_ms", [](const MadeReference& made) { return made.picture.time_ms; });
     module.def("reference", reference);
     module.def("reference_layer", layer);
-    module.def("write_reference", write_true);
+    module.def("write_reference", write_reference);
 }
 
 }  // namespace dermis::python

@@ -25,7 +25,7 @@ std::string described(const PictureFacts& facts, const ReferencePicture& picture
 Result<FileUse> picture_files(const std::filesystem::path& picture, const std::filesystem::path& preview,
                               std::vector<std::filesystem::path> inputs) {
     if (to_lower(picture.extension().string()) != ".exr")
-        return Error{"-o " + picture.string() + ": the ground truth is linear and layered; name a .exr file"};
+        return Error{"-o " + picture.string() + ": the reference is linear and layered; name a .exr file"};
     FileUse files = {.outputs = {picture}, .inputs = std::move(inputs)};
     if (preview.empty()) return files;
     if (const auto encoded =

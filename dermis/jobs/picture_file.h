@@ -1,5 +1,5 @@
 #pragma once
-// The file of a ground truth: layers, and what was rendered as JSON. One run and a merge of parts write it
+// The file of a reference: layers, and what was rendered as JSON. One run and a merge of parts write it
 // here, so that both write the same bytes.
 
 #include <filesystem>

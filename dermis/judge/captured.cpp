@@ -36,15 +36,15 @@ struct Texel {
 
 // A technique without noise has one picture for both halves.
 struct Pictures {
-    const Image &technique_a, &technique_b, &truth_a, &truth_b, &mask;
+    const Image &technique_a, &technique_b, &reference_a, &reference_b, &mask;
 
     template <class Use>
     void each(size_t channel, Use use) const {
         for (size_t i = 0; i < mask.pixel_count(); ++i) {
             if (mask.floats()[i] <= 0) continue;
             const size_t at = 3 * i + channel;
-            use(Texel{technique_a.floats()[at], technique_b.floats()[at], truth_a.floats()[at],
-                      truth_b.floats()[at]});
+            use(Texel{technique_a.floats()[at], technique_b.floats()[at], reference_a.floats()[at],
+                      reference_b.floats()[at]});
         }
     }
 };
@@ -86,7 +86,7 @@ double share_of_ratio(double ratio) {
 
 CapturedShare share_of(const Sums& sums, double variance) {
     CapturedShare result{.effect_rms = std::sqrt(std::max(sums.effect / sums.count, 0.0)),
-                         .truth_noise = std::sqrt(sums.halves_squared / sums.count / 4)};
+                         .reference_noise = std::sqrt(sums.halves_squared / sums.count / 4)};
     result.share = share_of_ratio(sums.ratio());
     const double reach = sums.effect > 0 ? kInterval * std::sqrt(variance) / sums.effect
                                          : std::numeric_limits<double>::infinity();
@@ -95,7 +95,7 @@ CapturedShare share_of(const Sums& sums, double variance) {
 }
 
 Result<void> check(const Pictures& p) {
-    for (const Image* image : {&p.technique_a, &p.technique_b, &p.truth_a, &p.truth_b}) {
+    for (const Image* image : {&p.technique_a, &p.technique_b, &p.reference_a, &p.reference_b}) {
         if (image->width != p.mask.width || image->height != p.mask.height || image->channels != 3)
             return Error{"effects and mask differ in size or are not RGB"};
         if (!std::ranges::all_of(image->floats(), [](float v) { return std::isfinite(v); }))
@@ -128,17 +128,18 @@ bool CapturedShare::known() const {
     return std::isfinite(share) && error <= kKnownError * std::max(1.0, 1 - share);
 }
 
-Result<Captured> captured(const Image& technique_effect, const EffectHalves& truth, const Image& mask) {
-    return captured_of({technique_effect, technique_effect, truth.a, truth.b, mask});
+Result<Captured> captured(const Image& technique_effect, const EffectHalves& reference, const Image& mask) {
+    return captured_of({technique_effect, technique_effect, reference.a, reference.b, mask});
 }
 
-Result<Captured> captured(const EffectHalves& technique, const EffectHalves& truth, const Image& mask) {
-    return captured_of({technique.a, technique.b, truth.a, truth.b, mask});
+Result<Captured> captured(const EffectHalves& technique, const EffectHalves& reference, const Image& mask) {
+    return captured_of({technique.a, technique.b, reference.a, reference.b, mask});
 }
 
-EffectNoise effect_noise(const EffectHalves& truth, const Image& mask) {
+EffectNoise effect_noise(const EffectHalves& reference, const Image& mask) {
     Sums all;
-    for (size_t c = 0; c < 3; ++c) all += sums_of({truth.a, truth.a, truth.a, truth.b, mask}, c);
+    for (size_t c = 0; c < 3; ++c)
+        all += sums_of({reference.a, reference.a, reference.a, reference.b, mask}, c);
     if (all.count == 0) return {};
     return {.effect_rms = std::sqrt(std::max(all.effect / all.count, 0.0)),
             .noise_rms = std::sqrt(all.halves_squared / all.count / 4)};
@@ -153,10 +154,10 @@ Image difference(const Image& a, const Image& b) {
     return result;
 }
 
-Image mean_effect(const EffectHalves& truth) {
-    Image mean = truth.a;
+Image mean_effect(const EffectHalves& reference) {
+    Image mean = reference.a;
     for (size_t i = 0; i < mean.floats().size(); ++i)
-        mean.floats()[i] = 0.5f * (truth.a.floats()[i] + truth.b.floats()[i]);
+        mean.floats()[i] = 0.5f * (reference.a.floats()[i] + reference.b.floats()[i]);
     return mean;
 }
 

@@ -1,14 +1,15 @@
 #pragma once
 // Captured share: how much of what scattering does to a picture a technique does too.
 //
-//     S = S_t - L_t     effect of scattering: the truth with the skin's profile less the truth of width 0
-//     T = T_r - L_r     effect of the technique: its picture less the baseline's, by the same renderer
-//     share = 1 - sqrt((<|T - S|^2> - n^2) / (<|S|^2> - n^2))
+//     S = S_t - L_t     effect of scattering: the reference with the skin's profile less the reference of
+//     width 0 T = T_r - L_r     effect of the technique: its picture less the baseline's, by the same
+//     renderer share = 1 - sqrt((<|T - S|^2> - n^2) / (<|S|^2> - n^2))
 //
-// <> is the mean over pixels and channels, n^2 the variance of S. the baseline has 0, the truth 1, a
+// <> is the mean over pixels and channels, n^2 the variance of S. the baseline has 0, the reference 1, a
 // technique that does harm less than 0; what both renderers get wrong cancels in the differences.
 //
-// The truth comes in two independent halves, S_a and S_b, of equal size. With S = (S_a + S_b) / 2 and n^2 =
+// The reference comes in two independent halves, S_a and S_b, of equal size. With S = (S_a + S_b) / 2 and n^2
+// =
 // <|S_a - S_b|^2> / 4 both brackets are exactly
 //
 //     <|T - S|^2> - n^2 = <(T - S_a) (T - S_b)>        <|S|^2> - n^2 = <S_a S_b>
@@ -31,14 +32,14 @@ struct EffectHalves {
 
 struct CapturedShare {
     double share = 0;
-    /// Half the width of its 95 % interval: how far another seed of the truth may move it. From the spread
-    /// of the halves at every pixel, whose noise is independent.
+    /// Half the width of its 95 % interval: how far another seed of the reference may move it. From the
+    /// spread of the halves at every pixel, whose noise is independent.
     double error = 0;
-    double effect_rms = 0;   ///< of S, its noise taken out
-    double truth_noise = 0;  ///< n
+    double effect_rms = 0;       ///< of S, its noise taken out
+    double reference_noise = 0;  ///< n
 
-    /// Whether it may be printed: the truth is fine enough for an interval of at most 0.05 to each side, or a
-    /// twentieth of 1 - share where that is more.
+    /// Whether it may be printed: the reference is fine enough for an interval of at most 0.05 to each side,
+    /// or a twentieth of 1 - share where that is more.
     [[nodiscard]] bool known() const;
 };
 
@@ -50,23 +51,23 @@ struct Captured {
 };
 
 /// Errors: sizes that differ, NaN, an empty mask.
-[[nodiscard]] Result<Captured> captured(const Image& technique_effect, const EffectHalves& truth,
+[[nodiscard]] Result<Captured> captured(const Image& technique_effect, const EffectHalves& reference,
                                         const Image& mask);
 
-/// Share of a technique that is noisy itself, such as another truth; its noise drops out too.
-[[nodiscard]] Result<Captured> captured(const EffectHalves& technique, const EffectHalves& truth,
+/// Share of a technique that is noisy itself, such as another reference; its noise drops out too.
+[[nodiscard]] Result<Captured> captured(const EffectHalves& technique, const EffectHalves& reference,
                                         const Image& mask);
 
-/// RMS of the effect and of its noise alone, for deciding how long the truth must go on.
+/// RMS of the effect and of its noise alone, for deciding how long the reference must go on.
 struct EffectNoise {
     double effect_rms = 0, noise_rms = 0;
 };
-[[nodiscard]] EffectNoise effect_noise(const EffectHalves& truth, const Image& mask);
+[[nodiscard]] EffectNoise effect_noise(const EffectHalves& reference, const Image& mask);
 
 /// a - b of the first three channels of linear f32 images, as RGB.
 [[nodiscard]] Image difference(const Image& a, const Image& b);
 
 /// The mean of both halves.
-[[nodiscard]] Image mean_effect(const EffectHalves& truth);
+[[nodiscard]] Image mean_effect(const EffectHalves& reference);
 
 }  // namespace dermis::inline judge

@@ -20,46 +20,46 @@ Result<void> check_grid(const ComparisonSettings& settings) {
                  std::to_string(kMaxImageSide) + "; take fewer, or a smaller picture"};
 }
 
-EffectTruthSettings truth_settings(const ComparisonSettings& settings) {
-    EffectTruthSettings truth{
+EffectReferenceSettings reference_settings(const ComparisonSettings& settings) {
+    EffectReferenceSettings wanted{
         .reference = settings.reference, .noise = settings.noise, .samples = settings.samples};
-    truth.reference.width = settings.width;
-    truth.reference.height = settings.height;
-    truth.reference.grid = settings.grid;
-    truth.reference.probes = settings.probes;
-    return truth;
+    wanted.reference.width = settings.width;
+    wanted.reference.height = settings.height;
+    wanted.reference.grid = settings.grid;
+    wanted.reference.probes = settings.probes;
+    return wanted;
 }
 
 Result<void> judge(const Comparison& comparison, const Scene& scene, Compared& row) {
-    const Image& truth = comparison.truth_radiance;
+    const Image& reference = comparison.reference_radiance;
     const Display display{scene.tone_map, std::exp2(scene.exposure_ev)};
     const auto failed = [&](const Error& error) {
         return Error{row.contestant.name() + ": " + error.message};
     };
-    const Result<Captured> share = captured(row.effect, comparison.truth.effect, comparison.masks.skin);
+    const Result<Captured> share = captured(row.effect, comparison.reference.effect, comparison.masks.skin);
     if (!share) return failed(share.error());
     row.captured = *share;
     Result<std::vector<RegionShare>> regions =
-        captured_by_region(row.effect, comparison.truth.effect, comparison.regions);
+        captured_by_region(row.effect, comparison.reference.effect, comparison.regions);
     if (!regions) return failed(regions.error());
     row.regions = std::move(*regions);
-    const Result<Scores> scores = score(row.radiance, truth, comparison.masks, display);
+    const Result<Scores> scores = score(row.radiance, reference, comparison.masks, display);
     if (!scores) return failed(scores.error());
     row.scores = *scores;
-    const Image light = masked_radiance(row.radiance, truth, comparison.masks.skin);
+    const Image light = masked_radiance(row.radiance, reference, comparison.masks.skin);
     Result<Image> flip = flip_map(tone_mapped(light, display.tone_map, display.exposure),
-                                  tone_mapped(truth, display.tone_map, display.exposure));
+                                  tone_mapped(reference, display.tone_map, display.exposure));
     if (!flip) return failed(flip.error());
-    Result<Image> distance = abs_difference_map(light, truth);
+    Result<Image> distance = abs_difference_map(light, reference);
     if (!distance) return failed(distance.error());
     row.flip = std::move(*flip);
     row.distance = std::move(*distance);
     return {};
 }
 
-// Half the difference of the halves is as far from 0 as their mean is from the truth.
-double noise_rmse(const EffectTruth& truth, const Image& mask) {
-    const Image halves = difference(truth.halves[0], truth.halves[1]);
+// Half the difference of the halves is as far from 0 as their mean is from the reference.
+double noise_rmse(const EffectReference& reference, const Image& mask) {
+    const Image halves = difference(reference.halves[0], reference.halves[1]);
     double sum = 0, count = 0;
     for (size_t i = 0; i < mask.pixel_count(); ++i) {
         if (mask.floats()[i] <= 0) continue;
@@ -124,7 +124,7 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
     if (settings.exact)
         if (Result<void> added = add_exact(maker, *baseline, scene, settings, comparison); !added)
             return added;
-    Result<SkinMasks> masks = maker.masks(comparison.truth.skin);
+    Result<SkinMasks> masks = maker.masks(comparison.reference.skin);
     if (!masks) return masks.error();
     comparison.masks = std::move(*masks);
     DERMIS_TRY_ASSIGN(const std::vector<TechniqueCost> costs,
@@ -160,11 +160,11 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
     DERMIS_TRY_ASSIGN(Renderer renderer,
                       Renderer::create(device, gpu::embedded_shaders(catalog.shaders), scene));
     Comparison comparison{.device = device.info().name};
-    Result<EffectTruth> truth =
-        make_effect_truth(scene, truth_settings(settings), hooks.reference, hooks.stop);
-    if (!truth) return truth.error();
-    comparison.truth = std::move(*truth);
-    comparison.truth_radiance = comparison.truth.radiance();
+    Result<EffectReference> reference =
+        make_effect_reference(scene, reference_settings(settings), hooks.reference, hooks.stop);
+    if (!reference) return reference.error();
+    comparison.reference = std::move(*reference);
+    comparison.reference_radiance = comparison.reference.radiance();
     if (Result<void> drawn =
             draw_techniques(renderer, catalog, scene, contestants, settings, hooks, comparison);
         !drawn)
@@ -172,7 +172,7 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
     Result<RegionMasks> regions = find_regions(scene, comparison.masks.skin);
     if (!regions) return regions.error();
     comparison.regions = std::move(*regions);
-    comparison.reference_rmse = noise_rmse(comparison.truth, comparison.masks.skin);
+    comparison.reference_rmse = noise_rmse(comparison.reference, comparison.masks.skin);
     const TechniqueWork work(contestants.size(), settings);
     for (size_t i = 0; i < comparison.rows.size(); ++i) {
         const double judged = double(i) / double(comparison.rows.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Techniques compared with the ground truth of the same scene: captured share, pictures, errors, times,
+// Techniques compared with the reference of the same scene: captured share, pictures, errors, times,
 // bytes.
 //
 // Both sides share lights, shadows, GGX reflection and the renderer's approximation of the environment
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "dermis/gpu/device.h"
-#include "dermis/judge/effect_truth.h"
+#include "dermis/judge/effect_reference.h"
 #include "dermis/judge/regions.h"
 #include "dermis/judge/scores.h"
 #include "dermis/judge/technique_cost.h"
@@ -28,15 +28,15 @@ struct ComparisonSettings {
     /// bias; frames are timed with the renderer's own.
     int shadow_map_size = 4096;
     int grid = 6;  ///< both sides take grid x grid points of a pixel; docs/ground_truth.md says how many
-    double noise = 0.2;  ///< of the effect's RMS at which the truth is fine enough
-    int samples = 2048;  ///< of the truth a pixel, at most
-    /// Probes per sample of the truth. The bias of its quotient is below a hundredth of the effect.
+    double noise = 0.2;  ///< of the effect's RMS at which the reference is fine enough
+    int samples = 2048;  ///< of the reference a pixel, at most
+    /// Probes per sample of the reference. The bias of its quotient is below a hundredth of the effect.
     int probes = 64;
     int frames = 5;  ///< timed ones, after one that compiles; 0: none are
-    /// Integrator, lighting and seed of the truth. Its size is the comparison's. The defaults are
-    /// for a truth that is compared with one frame without multisampling.
+    /// Integrator, lighting and seed of the reference. Its size is the comparison's. The defaults are
+    /// for a reference that is compared with one frame without multisampling.
     ReferenceSettings reference;
-    /// Given: the exact answer is a row too, after the techniques, so that the truth is held against it.
+    /// Given: the exact answer is a row too, after the techniques, so that the reference is held against it.
     ExactExitance exact;
 };
 
@@ -59,11 +59,11 @@ struct Compared {
 };
 
 struct Comparison {
-    EffectTruth truth;
-    Image truth_radiance;  ///< mean of its halves
+    EffectReference reference;
+    Image reference_radiance;  ///< mean of its halves
     SkinMasks masks;
     RegionMasks regions;
-    double reference_rmse = 0;  ///< standard error of the ground truth over the skin: no rmse is known better
+    double reference_rmse = 0;  ///< standard error of the reference over the skin: no rmse is known better
     std::vector<Compared> rows;
     std::string device;
 };
@@ -76,7 +76,7 @@ struct ComparisonHooks {
 };
 
 /// The scene must be complete (complete_scene). `lambert` is the technique without scattering, which every
-/// effect is measured from. Errors: whatever make_effect_truth and Renderer say, no skin in sight.
+/// effect is measured from. Errors: whatever make_effect_reference and Renderer say, no skin in sight.
 [[nodiscard]] Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalog,
                                                     const Scene& scene,
                                                     const std::vector<Contestant>& contestants,
@@ -86,8 +86,8 @@ struct ComparisonHooks {
 [[nodiscard]] std::vector<ScoreRow> score_rows(const std::string& scene, const Comparison& comparison);
 
 /// scene,technique,settings,region,pixels,captured,captured_r,captured_g,captured_b,captured_error,effect_rms,
-/// truth_noise: a row for every technique and region that the scene has; a share whose truth is too noisy is
-/// empty.
+/// reference_noise: a row for every technique and region that the scene has; a share whose reference is too
+/// noisy is empty.
 [[nodiscard]] std::string regions_csv(const std::string& scene, const Comparison& comparison);
 
 }  // namespace dermis::inline judge

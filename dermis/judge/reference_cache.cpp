@@ -5,7 +5,7 @@
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
-#include "dermis/judge/truth_version.h"
+#include "dermis/judge/reference_version.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/scene_hash.h"
 
@@ -89,7 +89,7 @@ std::optional<ReferencePicture> unpack(const std::vector<std::byte>& bytes,
 
 Result<std::string> reference_hash(const Scene& scene, const ReferenceSettings& settings) {
     Hasher hasher;
-    hasher.add(truth_version());
+    hasher.add(reference_version());
     DERMIS_TRY_ASSIGN(const std::string content, hash_of(scene));
     hasher.add(content);
     DERMIS_TRY_ASSIGN(const Profile profile, find_profile(scene.skin.profile));

@@ -1,5 +1,5 @@
 #pragma once
-// The ground truth once for every scene and setting: kept in the disk cache by the content of all it depends
+// The reference once for every scene and setting: kept in the disk cache by the content of all it depends
 // on.
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace dermis::inline judge {
 
-/// A hash of everything that the ground truth's picture depends on: meshes, materials, the bytes of map
+/// A hash of everything that the reference's picture depends on: meshes, materials, the bytes of map
 /// files, lights, camera, environment, profile, and the settings. Not names, exposure or tone map. Errors: a
 /// map file or profile that cannot be read.
 [[nodiscard]] Result<std::string> reference_hash(const Scene& scene, const ReferenceSettings& settings);

@@ -95,14 +95,15 @@ Image region_picture(const RegionMasks& regions, const Image& skin) {
     return picture;
 }
 
-Result<std::vector<RegionShare>> captured_by_region(const Image& technique_effect, const EffectHalves& truth,
+Result<std::vector<RegionShare>> captured_by_region(const Image& technique_effect,
+                                                    const EffectHalves& reference,
                                                     const RegionMasks& regions) {
     std::vector<RegionShare> shares;
     for (const Region region : kRegions) {
         const Image& mask = regions[size_t(region)];
         RegionShare share{.region = region};
         if (std::ranges::any_of(mask.floats(), [](float v) { return v > 0; })) {
-            DERMIS_TRY_ASSIGN(const Captured found, captured(technique_effect, truth, mask));
+            DERMIS_TRY_ASSIGN(const Captured found, captured(technique_effect, reference, mask));
             share.captured = found;
         }
         shares.push_back(std::move(share));

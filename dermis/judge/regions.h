@@ -1,6 +1,6 @@
 #pragma once
 // Where a captured share is decided: parts of the skin that ask different things of a technique. Cut from the
-// ground truth's own data, by rays through the middles of the pixels; a pixel may be in several or in none.
+// reference's own data, by rays through the middles of the pixels; a pixel may be in several or in none.
 
 #include <array>
 #include <optional>
@@ -53,7 +53,7 @@ struct RegionShare {
     std::optional<Captured> captured;
 };
 [[nodiscard]] Result<std::vector<RegionShare>> captured_by_region(const Image& technique_effect,
-                                                                  const EffectHalves& truth,
+                                                                  const EffectHalves& reference,
                                                                   const RegionMasks& regions);
 
 }  // namespace dermis::inline judge

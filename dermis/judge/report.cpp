@@ -59,7 +59,7 @@ double common_full(const Comparison& comparison, Image Compared::*map) {
     return rounded_up(full);
 }
 
-// Scale of the truth's effect of scattering; the techniques' effects use the same.
+// Scale of the reference's effect of scattering; the techniques' effects use the same.
 double effect_full(const Comparison& comparison, const Image& effect) {
     Image size(effect.width, effect.height, 1);
     for (size_t i = 0; i < size.pixel_count(); ++i) {
@@ -89,11 +89,11 @@ Result<Json> images_of(const Scene& scene, const Comparison& comparison, const I
     };
     const Image& skin = comparison.masks.skin;
     const auto signed_uri = [&](const Image& map) { return data_uri(signed_map(map, scales.effect, skin)); };
-    add("picture", "ground truth", picture_uri(comparison.truth_radiance, scene));
+    add("picture", "reference", picture_uri(comparison.reference_radiance, scene));
     for (const Compared& row : comparison.rows)
         add("picture", row.contestant.name(), picture_uri(row.radiance, scene));
     add("regions", "regions of the skin", data_uri(region_picture(comparison.regions, skin)));
-    add("effect", "ground truth", signed_uri(effect));
+    add("effect", "reference", signed_uri(effect));
     for (const Compared& row : comparison.rows) add("effect", row.contestant.name(), signed_uri(row.effect));
     for (const Compared& row : comparison.rows)
         add("what is left", row.contestant.name(), signed_uri(difference(row.effect, effect)));
@@ -162,11 +162,11 @@ Json facts_of(const Scene& scene, const Comparison& comparison, const Comparison
             {"profile", scene.skin.profile},
             {"integrator", integrator_text(reference.integrator)},
             {"ambient", traced ? "traced" : "as the renderer approximates it, on both sides"},
-            {"samples", comparison.truth.samples},
+            {"samples", comparison.reference.samples},
             {"grid", settings.grid},
             {"probes", settings.probes},
-            {"effect_rms", comparison.truth.noise.effect_rms},
-            {"truth_noise", comparison.truth.noise.noise_rms},
+            {"effect_rms", comparison.reference.noise.effect_rms},
+            {"reference_noise", comparison.reference.noise.noise_rms},
             {"reference_rmse", comparison.reference_rmse},
             {"camera", camera_text(scene.camera)},
             {"light", light_text(scene.key_light())},
@@ -194,7 +194,7 @@ Json scales_json(const Scales& scales) {
     const Json heat = color_stops(heat_color, 0), both = color_stops(signed_color, -1);
     return Json::array({{{"label",
                           "effect: darker or brighter than without scattering; what is left: than the ground "
-                          "truth; mean of the channels"},
+                          "reference; mean of the channels"},
                          {"stops", both},
                          {"from", -scales.effect},
                          {"to", scales.effect}},
@@ -227,7 +227,7 @@ std::string base64(std::span<const std::byte> bytes) {
 
 Result<std::string> report_html(const Scene& scene, const Comparison& comparison,
                                 const ComparisonSettings& settings) {
-    const Image effect = mean_effect(comparison.truth.effect);
+    const Image effect = mean_effect(comparison.reference.effect);
     const Scales scales{.flip = common_full(comparison, &Compared::flip),
                         .distance = common_full(comparison, &Compared::distance),
                         .effect = effect_full(comparison, effect)};

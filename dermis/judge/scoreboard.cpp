@@ -173,7 +173,7 @@ std::string scoreboard_markdown(const std::vector<ScoreRow>& rows) {
         const CapturedShare& effect = own.front().captured.all;
         text += "## " + scene + "\n\nScattering changes the picture by " +
                 figures(effect.effect_rms, "%.2g") +
-                " (RMS); noise of the ground truth: " + figures(effect.truth_noise, "%.2g") +
+                " (RMS); noise of the reference: " + figures(effect.reference_noise, "%.2g") +
                 ".\n\n| technique | captured | R | G | B | × lambert measured | modelled | memory |\n"
                 "|---|---|---|---|---|---|---|---|\n";
         for (const ScoreRow& row : own) text += markdown_row(row);

@@ -1,5 +1,5 @@
 #pragma once
-// One picture of skin against the ground truth in numbers: the captured share and the raw errors, over all
+// One picture of skin against the reference in numbers: the captured share and the raw errors, over all
 // skin and where scattering shows.
 
 #include <optional>
@@ -27,7 +27,7 @@ struct SkinMasks {
 
 /// Sources of the masks. `light`: uv, n.l and visibility through a filter kPenumbraBandMm wide (the
 /// G-buffer's gbuffer_light); `drawn`: the share of the pixel where the renderer drew a surface, one channel;
-/// `skin`: the ground truth's share of skin. Only pixels that are wholly skin in both count.
+/// `skin`: the reference's share of skin. Only pixels that are wholly skin in both count.
 [[nodiscard]] SkinMasks make_masks(const Image& light, const Image& drawn, const Image& skin);
 
 /// rmse and rel_mse on linear radiance; the rest on the tone-mapped picture. The parts are missing where a
@@ -58,12 +58,12 @@ struct ScoreRow {
     double time_ms = 0;
     size_t bytes = 0;
     double time_ratio = 0;      ///< frame time over the baseline's in the same rounds; 0: not known
-    double reference_rmse = 0;  ///< noise of the ground truth that the raw errors are measured with
+    double reference_rmse = 0;  ///< noise of the reference that the raw errors are measured with
     /// A frame over the baseline's by the model of dermis/report; missing where it was not computed.
     std::optional<double> model_ratio;
 };
 
-/// A numeric column of scores.csv. A missing value is a share whose truth is too noisy, a part that the
+/// A numeric column of scores.csv. A missing value is a share whose reference is too noisy, a part that the
 /// scene has not, or a cost that was not modelled.
 struct ScoreColumn {
     std::string_view name;
@@ -73,7 +73,7 @@ struct ScoreColumn {
 };
 
 /// In order: captured, captured_r, captured_g, captured_b, captured_error (half of the 95 % interval of
-/// captured), effect_rms, truth_noise, rmse, rel_mse, psnr_db, ssim, delta_e_2000, flip, terminator_rmse,
+/// captured), effect_rms, reference_noise, rmse, rel_mse, psnr_db, ssim, delta_e_2000, flip, terminator_rmse,
 /// penumbra_rmse, time_ms, bytes, time_ratio, reference_rmse, model_ratio.
 [[nodiscard]] std::span<const ScoreColumn> score_columns();
 

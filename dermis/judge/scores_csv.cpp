@@ -65,7 +65,7 @@ constexpr ScoreColumn kColumns[] = {
     {"captured_error", [](const ScoreRow& row) { return told(row.captured.all, row.captured.all.error); },
      [](ScoreRow& row, Value value) { row.captured.all.error = value.value_or(0); }, true},
     effect_column<&CapturedShare::effect_rms>("effect_rms"),
-    effect_column<&CapturedShare::truth_noise>("truth_noise"),
+    effect_column<&CapturedShare::reference_noise>("reference_noise"),
     error_column<&Scores::rmse>("rmse"),
     error_column<&Scores::rel_mse>("rel_mse"),
     error_column<&Scores::psnr_db>("psnr_db"),
@@ -127,6 +127,9 @@ std::vector<std::string> csv_fields(std::string_view line) {
 }
 
 // The columns of a file in order. None: the heading lacks one that no row may be without, or has another.
+// The name of the column reference_noise in files of earlier versions.
+constexpr std::string_view kOldReferenceNoise = "reference_noise";
+
 std::vector<const ScoreColumn*> columns_of(std::string_view line) {
     const std::vector<std::string_view> names = split(line, ',');
     size_t at = 0;
@@ -137,7 +140,7 @@ std::vector<const ScoreColumn*> columns_of(std::string_view line) {
     }
     std::vector<const ScoreColumn*> columns;
     for (const ScoreColumn& column : kColumns) {
-        if (next_is(column.name)) {
+        if (next_is(column.name) || (column.name == "reference_noise" && next_is(kOldReferenceNoise))) {
             columns.push_back(&column);
             ++at;
         } else if (!column.may_be_missing) {
@@ -189,7 +192,7 @@ std::string scores_csv(const std::vector<ScoreRow>& rows) {
 }
 
 std::string regions_csv(const std::string& scene, const Comparison& comparison) {
-    constexpr size_t kShareColumns = 7;  // captured to truth_noise
+    constexpr size_t kShareColumns = 7;  // captured to reference_noise
     std::string text = "scene,technique,settings,region,pixels";
     for (const ScoreColumn& column : score_columns().first(kShareColumns))
         text += "," + std::string(column.name);

@@ -34,7 +34,7 @@ class PictureMaker {
     /// Errors name the contestant.
     [[nodiscard]] Result<TechniquePictures> make(const Contestant& contestant);
 
-    /// The parts of the skin, from the baseline's G-buffer and the truth's share of skin.
+    /// The parts of the skin, from the baseline's G-buffer and the reference's share of skin.
     [[nodiscard]] Result<SkinMasks> masks(const Image& skin);
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// A triangle mesh as the renderer, the bakers and the ground truth take it: millimetres, indexed, welded by
+// A triangle mesh as the renderer, the bakers and the reference take it: millimetres, indexed, welded by
 // attribute.
 
 #include <cstdint>

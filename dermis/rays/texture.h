@@ -1,5 +1,5 @@
 #pragma once
-// Maps as the ground truth reads them: bilinear, beyond their edges as their material states. Where a pixel's
+// Maps as the reference reads them: bilinear, beyond their edges as their material states. Where a pixel's
 // footprint is averaged by its samples that is level 0; where every sample goes through the pixel's middle, a
 // footprint picks from the same chain of smaller levels that a renderer without anisotropic filtering reads.
 

@@ -1,5 +1,5 @@
 #pragma once
-// The environment for the ground truth: radiance from a direction, and directions drawn where it is
+// The environment for the reference: radiance from a direction, and directions drawn where it is
 // bright.
 
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// The ground truth of a scene as a picture: the same camera, lights, materials and meaning as the renderer's,
+// The reference of a scene as a picture: the same camera, lights, materials and meaning as the renderer's,
 // with the diffuse transport integrated instead of approximated.
 //
 //     radiance = albedo_linear * exitance / pi + specular + emission

@@ -1,5 +1,5 @@
 #pragma once
-// A scene as the renderer and the ground truth take it: everything in mm and linear, world space, Y up.
+// A scene as the renderer and the reference take it: everything in mm and linear, world space, Y up.
 
 #include <filesystem>
 #include <map>
@@ -109,7 +109,7 @@ struct Scene {
 
     [[nodiscard]] const Light& key_light() const;
     /// Shadow map index of each light, -1 for none: the key light first, then the others in their
-    /// order, as far as the budget goes. Renderer and ground truth both use it.
+    /// order, as far as the budget goes. Renderer and reference both use it.
     [[nodiscard]] std::vector<int> shadow_maps() const;
 };
 

@@ -40,7 +40,7 @@ Result<void> add(Hasher& hasher, const Material& m) {
          {&m.base_color_map, &m.emission_map, &m.normal_map, &m.metallic_roughness_map, &m.specular_map,
           &m.occlusion_map, &m.opacity_map, &m.roughness_map, &m.metallic_map})
         if (Result<void> added = add(hasher, *source); !added) return added;
-    // Only where it counts, so that the cached ground truth of other scenes is found.
+    // Only where it counts, so that the cached reference of other scenes is found.
     if (cutoff_of_map(m) == 0) return {};
     hasher.add("cut out").add(cutoff_of_map(m));
     return add(hasher, m.alpha_map);

@@ -236,7 +236,7 @@ const KeyTable<Skin>& skin_keys() {
                 &Skin::specular_reduces_diffuse,
                 {.name = "specular_reduces_diffuse",
                  .doc = "what the surface reflects is taken from the diffuse light, by the angles of light "
-                        "and view, in every technique and in the ground truth"})
+                        "and view, in every technique and in the reference"})
             .color(&Skin::albedo_tint_linear, {.name = "albedo_tint",
                                                .unit = "linear",
                                                .doc = "multiplies the colour of every skin material",

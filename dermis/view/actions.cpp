@@ -22,7 +22,7 @@ constexpr Shortcut kShortcuts[] = {
     {{{'['}, {}}, Action::darker, "lower the exposure by a third of a stop"},
     {{{'C'}, {}}, Action::compare, "compare two techniques: off, wipe, side by side"},
     {{{'X'}, {}}, Action::swap_sides, "exchange left and right side"},
-    {{{'G'}, {}}, Action::ground_truth, "compare with the ground truth of this view; again: stop"},
+    {{{'G'}, {}}, Action::reference, "compare with the reference of this view; again: stop"},
     {{{'C'}, kCtrl}, Action::copy_view, "copy this view as a command line"},
     {{{'V'}, kCtrl}, Action::paste_view, "paste a view"},
     {{{'S'}, kCtrl}, Action::save_scene, "save the scene with what was changed"},

@@ -24,7 +24,7 @@ enum class Action {
     darker,
     compare,
     swap_sides,
-    ground_truth,
+    reference,
     copy_view,
     paste_view,
     save_scene,

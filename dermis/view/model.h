@@ -59,9 +59,9 @@ struct Model {
     std::string view = "final";
     int tone = 0;  ///< 0: as the maps are; 1 to 6: OpenPBR's skins
     Compare compare = Compare::off;
-    float split = 0.5f;      ///< of the picture's width
-    std::string truth_path;  ///< a picture that is shown on the right side instead of a technique
-    bool truth_is_of_another_view = false;
+    float split = 0.5f;          ///< of the picture's width
+    std::string reference_path;  ///< a picture that is shown on the right side instead of a technique
+    bool reference_is_of_another_view = false;
     std::vector<std::string> recent;
     bool show_panels = true, show_help = false, vsync = true;
     float user_scale = 1;  ///< of the interface, on top of the display's

@@ -31,13 +31,13 @@ void Opener::open(const std::string& path) {
     const std::string extension = to_lower(fs::path(path).extension().string());
     if (extension == ".hdr") return open_panorama(path);
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
-        return to_.truth.open(path, to_.model);
+        return to_.reference.open(path, to_.model);
     if (extension != ".exr") return load(path);
     // An EXR twice as wide as high is a panorama; any other is a rendered picture.
     const Result<LoadedImage> loaded = read_image(path, ImageUse::color);
     if (!loaded) return to_.model.notices.report_error("open", loaded.error().message);
     if (loaded->image.width == 2 * loaded->image.height) return open_panorama(path);
-    to_.truth.open(path, to_.model);
+    to_.reference.open(path, to_.model);
 }
 
 void Opener::open_panorama(const std::string& path) {
@@ -103,7 +103,7 @@ void Opener::take_start(const Start& start) {
     if (start.handed) {
         model = start.handed->model;
         model.notices = {};
-        to_.truth.take_over(start.handed->truth, start.handed->truth_view);
+        to_.reference.take_over(start.handed->reference, start.handed->reference_view);
         return;
     }
     if (start.technique) {
@@ -112,7 +112,7 @@ void Opener::take_start(const Start& start) {
         model.choices[1].choose(compared_with(*start.technique, model.catalog.techniques));
     }
     model.view = start.view;
-    if (!options_.truth.empty()) to_.truth.open(options_.truth, model);
+    if (!options_.reference.empty()) to_.reference.open(options_.reference, model);
 }
 
 // Applies the file's technique and settings; after a reload only those that changed.

@@ -7,7 +7,7 @@
 #include "dermis/view/clock.h"
 #include "dermis/view/loader.h"
 #include "dermis/view/pictures.h"
-#include "dermis/view/truth.h"
+#include "dermis/view/reference.h"
 #include "dermis/view/viewer.h"
 
 namespace dermis::view {
@@ -18,7 +18,7 @@ struct OpenTargets {
     const Clock& clock;
     Model& model;
     Pictures& pictures;
-    Truth& truth;
+    Reference& reference;
 };
 
 class Opener {

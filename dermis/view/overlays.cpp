@@ -43,10 +43,10 @@ void help_table(const char* id, std::span<const std::pair<std::string, std::stri
 void show_side_names(const Model& model, const PanelFacts& facts) {
     if (!model.compares() || !model.scene) return;
     const Region picture = picture_region(model, facts.width, facts.height, facts.scale);
-    const std::string right = model.truth_path.empty()
+    const std::string right = model.reference_path.empty()
                                   ? model.choices[1].technique().id
-                                  : std::filesystem::path(model.truth_path).filename().string();
-    const std::string stale = model.truth_is_of_another_view ? ", of another view (G: of this one)" : "";
+                                  : std::filesystem::path(model.reference_path).filename().string();
+    const std::string stale = model.reference_is_of_another_view ? ", of another view (G: of this one)" : "";
     const float split = model.compare == Compare::wipe ? model.split : 0.5f;
     const float line = picture.x + picture.width * split, gap = 6 * facts.scale;
     show_side_name(model.choices[0].technique().id, line - gap, facts.scale, true);

@@ -15,8 +15,9 @@ Parts::Parts(const ViewerOptions& o, const Clock& running, Window opened, gpu::D
                         TechniqueChoice(o.catalog.techniques.front())}},
       pictures(gpu::embedded_shaders(o.catalog.shaders),
                o.shader_root.empty() ? std::string(DERMIS_SOURCE_DIR) : o.shader_root),
-      opener(o, std::move(first),
-             {.device = device, .clock = clock, .model = model, .pictures = pictures, .truth = truth}),
+      opener(
+          o, std::move(first),
+          {.device = device, .clock = clock, .model = model, .pictures = pictures, .reference = reference}),
       input(!o.script.empty()),
       player(o.script, o.script_name) {}
 
@@ -58,7 +59,7 @@ PictureSize Parts::picture_size() const {
 }
 
 bool Parts::is_settled() const {
-    return has_final_pictures() && !opener.is_loading() && !truth.is_making();
+    return has_final_pictures() && !opener.is_loading() && !reference.is_making();
 }
 
 }  // namespace dermis::view

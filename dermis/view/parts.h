@@ -11,8 +11,8 @@
 #include "dermis/view/opener.h"
 #include "dermis/view/pictures.h"
 #include "dermis/view/presenter.h"
+#include "dermis/view/reference.h"
 #include "dermis/view/script_player.h"
-#include "dermis/view/truth.h"
 #include "dermis/view/viewer.h"
 
 namespace dermis::view {
@@ -34,7 +34,7 @@ struct Parts {
     std::optional<Interface> interface;
     Model model;
     Pictures pictures;
-    Truth truth;  ///< the reference job
+    Reference reference;  ///< the reference job
     Opener opener;
     Input input;
     ScriptPlayer player;
@@ -44,7 +44,7 @@ struct Parts {
     /// The window's part that has the pictures, and the size of one.
     [[nodiscard]] Region picture_area() const;
     [[nodiscard]] PictureSize picture_size() const;
-    [[nodiscard]] bool has_final_pictures() const { return pictures.are_final(model, truth.texture()); }
+    [[nodiscard]] bool has_final_pictures() const { return pictures.are_final(model, reference.texture()); }
     /// They are final, and nothing is on its way that would change them.
     [[nodiscard]] bool is_settled() const;
 };

@@ -59,7 +59,7 @@ void add_exposure(Parts& p, float stops) {
 }
 
 void swap_sides(Parts& p) {
-    if (!p.truth.texture()) std::swap(p.model.choices[0], p.model.choices[1]);
+    if (!p.reference.texture()) std::swap(p.model.choices[0], p.model.choices[1]);
 }
 
 void copy_view(Parts& p) {
@@ -124,7 +124,7 @@ constexpr Performer kPerformers[] = {
     {Action::darker, [](Parts& p) { add_exposure(p, -1.0f / 3); }},
     {Action::compare, [](Parts& p) { p.model.compare = Compare((int(p.model.compare) + 1) % 3); }},
     {Action::swap_sides, swap_sides},
-    {Action::ground_truth, [](Parts& p) { p.truth.ask(p.model, p.picture_size()); }},
+    {Action::reference, [](Parts& p) { p.reference.ask(p.model, p.picture_size()); }},
     {Action::copy_view, copy_view},
     {Action::paste_view, paste_view},
     {Action::save_scene, save_shown_scene},

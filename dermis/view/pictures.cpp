@@ -5,8 +5,8 @@ namespace {
 
 constexpr const char* kShaderTopic = "shader ";
 
-size_t drawn_sides(const Model& model, const gpu::Texture* truth) {
-    return model.compares() && !truth ? 2 : 1;
+size_t drawn_sides(const Model& model, const gpu::Texture* reference) {
+    return model.compares() && !reference ? 2 : 1;
 }
 
 }  // namespace
@@ -35,11 +35,11 @@ void Pictures::take_times(Notices& notices) {
     }
 }
 
-void Pictures::refresh(Model& model, const gpu::Texture* truth, PictureSize size, double now_s) {
+void Pictures::refresh(Model& model, const gpu::Texture* reference, PictureSize size, double now_s) {
     drew_ = false;
     if (!scene_.is_there()) return;
     scene_.follow_skin();
-    for (size_t side = 0; side < drawn_sides(model, truth); ++side) {
+    for (size_t side = 0; side < drawn_sides(model, reference); ++side) {
         const Result<bool> drew = scene_.stage().refresh(model, side, size, now_s);
         const std::string topic = "picture " + std::to_string(side);
         if (!drew) {
@@ -58,17 +58,17 @@ void Pictures::refresh(Model& model, const gpu::Texture* truth, PictureSize size
     }
 }
 
-ShownPictures Pictures::shown(const Model& model, const gpu::Texture* truth) const {
-    ShownPictures pictures = {.truth = truth};
+ShownPictures Pictures::shown(const Model& model, const gpu::Texture* reference) const {
+    ShownPictures pictures = {.reference = reference};
     if (!scene_.is_there()) return pictures;
     pictures.a = scene_.stage().image(0);
-    if (drawn_sides(model, truth) == 2) pictures.b = scene_.stage().image(1);
+    if (drawn_sides(model, reference) == 2) pictures.b = scene_.stage().image(1);
     return pictures;
 }
 
-bool Pictures::are_final(const Model& model, const gpu::Texture* truth) const {
+bool Pictures::are_final(const Model& model, const gpu::Texture* reference) const {
     if (!scene_.is_there() || drew_) return false;
-    return scene_.stage().is_final(0) && (drawn_sides(model, truth) == 1 || scene_.stage().is_final(1));
+    return scene_.stage().is_final(0) && (drawn_sides(model, reference) == 1 || scene_.stage().is_final(1));
 }
 
 void Pictures::describe(PanelFacts& facts) const {

@@ -31,12 +31,13 @@ class Pictures {
 
     /// Takes the times of drawings that are done by now.
     void take_times(Notices& notices);
-    /// Draws what is due; what cannot be drawn is a notice. `truth`: the right side, when it is a picture.
-    void refresh(Model& model, const gpu::Texture* truth, PictureSize size, double now_s);
-    [[nodiscard]] ShownPictures shown(const Model& model, const gpu::Texture* truth) const;
+    /// Draws what is due; what cannot be drawn is a notice. `reference`: the right side, when it is a
+    /// picture.
+    void refresh(Model& model, const gpu::Texture* reference, PictureSize size, double now_s);
+    [[nodiscard]] ShownPictures shown(const Model& model, const gpu::Texture* reference) const;
 
     /// They are as good as they get, and the last refresh drew none.
-    [[nodiscard]] bool are_final(const Model& model, const gpu::Texture* truth) const;
+    [[nodiscard]] bool are_final(const Model& model, const gpu::Texture* reference) const;
     /// The next refresh is awaited before they count as final.
     void await_refresh() { drew_ = true; }
     /// No refresh comes, the window being minimised.

@@ -41,7 +41,7 @@ Result<bool> Presenter::show(const InterfaceDraws& draws, const ShownPictures& p
         swapchain_.reset();
         DERMIS_TRY(make_swapchain());
     }
-    const bool two = model.compares() && (pictures.b || pictures.truth);
+    const bool two = model.compares() && (pictures.b || pictures.reference);
     gpu::FrameInputs inputs = {.width = size_.width, .height = size_.height, .draws = draws.draws};
     Arrangement arrangement = Arrangement::none;
     if (pictures.a) {
@@ -49,8 +49,8 @@ Result<bool> Presenter::show(const InterfaceDraws& draws, const ShownPictures& p
         if (two && model.compare == Compare::wipe) arrangement = Arrangement::wipe;
         if (two && model.compare == Compare::side_by_side) arrangement = Arrangement::side_by_side;
         inputs.images["picture_a"] = *pictures.a;
-        if (pictures.truth)
-            inputs.textures["picture_b"] = pictures.truth;
+        if (pictures.reference)
+            inputs.textures["picture_b"] = pictures.reference;
         else
             inputs.images["picture_b"] = pictures.b ? *pictures.b : *pictures.a;
     }

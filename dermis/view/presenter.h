@@ -12,11 +12,11 @@
 
 namespace dermis::view {
 
-/// Content of the window: one picture, or two with a technique's (`b`) or any other (`truth`) on the
+/// Content of the window: one picture, or two with a technique's (`b`) or any other (`reference`) on the
 /// right.
 struct ShownPictures {
     std::optional<gpu::ForeignImage> a, b;
-    const gpu::Texture* truth = nullptr;
+    const gpu::Texture* reference = nullptr;
 };
 
 class Presenter {

@@ -31,8 +31,9 @@ std::string state_text(Parts& p) {
     for (const Parameter& parameter : choice.technique().parameters.parameters)
         text += "set " + parameter.name + "=" + choice.values().text(parameter) + "\n";
     if (model.compares())
-        text += "right " + (p.truth.texture() ? model.truth_path : model.choices[1].technique().id) + "\n";
-    if (model.truth_is_of_another_view) text += "stale truth\n";
+        text += "right " + (p.reference.texture() ? model.reference_path : model.choices[1].technique().id) +
+                "\n";
+    if (model.reference_is_of_another_view) text += "stale reference\n";
     text += "profile " + model.scene->skin.profile + "\n";
     text += "view " + model.view + "\ncamera " + camera_text(model.scene->camera) + "\n";
     const auto key = std::ranges::find(model.scene->lights, true, &Light::is_key);

@@ -37,7 +37,8 @@ void Session::hand_over(ViewerOptions& options) const {
         .scene = *p.model.scene,
         .loading_words = p.model.loading_words,
         .file_look = p.pictures.scene().file_look(),
-        .handed = Handed{.model = p.model, .truth = p.truth.picture(), .truth_view = p.truth.view()}};
+        .handed = Handed{
+            .model = p.model, .reference = p.reference.picture(), .reference_view = p.reference.view()}};
     start.handed->model.scene = nullptr;
     options.load = [start = std::move(start)]() -> Result<Start> { return start; };
     options.scene_path = p.model.scene_path;

@@ -46,8 +46,8 @@ PanelFacts panel_facts(Parts& p) {
 std::vector<Event> gather_events(Parts& p) {
     const bool busy = p.input.is_awake() || p.opener.is_loading() || p.player.has_script() ||
                       !p.has_final_pictures() || p.options.frames > 0 || p.input.has_waiting();
-    // While a ground truth is computed, the window leaves the processor to it.
-    return p.input.gather(p.window, busy ? 0 : p.truth.is_making() ? kShortSleepS : kSleepS);
+    // While a reference is computed, the window leaves the processor to it.
+    return p.input.gather(p.window, busy ? 0 : p.reference.is_making() ? kShortSleepS : kSleepS);
 }
 
 // No event and no work in progress: a new frame would be the same as the last.
@@ -82,7 +82,7 @@ Result<void> Session::frame() {
     const std::vector<Event> events = gather_events(p);
     if (Result<void> taken = take_scene(); !taken) return taken;
     if (p.opener.follow_files()) p.input.wake();
-    if (p.truth.take(p.model, p.clock.now_s())) p.input.wake();
+    if (p.reference.take(p.model, p.clock.now_s())) p.input.wake();
     p.pictures.take_times(p.model.notices);
     if (is_idle(p, events)) return {};
     const WindowSize size = p.window.framebuffer();
@@ -137,9 +137,9 @@ Result<PanelRequests> Session::show_interface(const std::vector<Event>& events, 
 
 Result<void> Session::show_pictures(const InterfaceDraws& draws) {
     Parts& p = *parts_;
-    if (Result<void> made = p.truth.refresh(p.device, p.model); !made) return made;
-    p.pictures.refresh(p.model, p.truth.texture(), p.picture_size(), p.clock.now_s());
-    const ShownPictures pictures = p.pictures.shown(p.model, p.truth.texture());
+    if (Result<void> made = p.reference.refresh(p.device, p.model); !made) return made;
+    p.pictures.refresh(p.model, p.reference.texture(), p.picture_size(), p.clock.now_s());
+    const ShownPictures pictures = p.pictures.shown(p.model, p.reference.texture());
     DERMIS_TRY_ASSIGN(const bool shown, p.presenter->show(draws, pictures, p.model, p.interface->scale()));
     if (!shown || !pictures.a || report_.first_picture_s) return {};
     const Result<void> done = p.device.finish();

@@ -70,14 +70,14 @@ void show_compare(Model& model, PanelRequests& requests, WidgetMap& widgets) {
     if (rows.choice({.name = "mode", .doc = "two techniques on one head; drag the white line"}, kModes, mode))
         model.compare = Compare(mode);
     if (!model.compares()) return;
-    if (model.truth_path.empty()) {
+    if (model.reference_path.empty()) {
         if (ImGui::Button("Swap sides  (X)")) requests.actions.push_back(Action::swap_sides);
         ImGui::TextDisabled("right side");
         show_technique(model, 1, requests, widgets);
         return;
     }
-    ImGui::TextDisabled("right side: %s", model.truth_path.c_str());
-    if (ImGui::Button("Compare with a technique")) model.truth_path.clear();
+    ImGui::TextDisabled("right side: %s", model.reference_path.c_str());
+    if (ImGui::Button("Compare with a technique")) model.reference_path.clear();
 }
 
 }  // namespace dermis::view

@@ -18,8 +18,8 @@ namespace dermis::view {
 /// State that a window with a lost device passes to the next one.
 struct Handed {
     Model model;  ///< without its scene
-    Image truth;
-    std::string truth_view;
+    Image reference;
+    std::string reference_view;
 };
 
 /// Options of the window.
@@ -47,8 +47,8 @@ struct ViewerOptions {
     int frames = 0;             ///< end after this number of frames; 0: when the user closes the window
     std::vector<ScriptCommand> script;
     std::string
-        shader_root;    ///< with shaders/ and techniques/, to follow their changes; empty: the source tree
-    std::string truth;  ///< a picture to compare with
+        shader_root;  ///< with shaders/ and techniques/, to follow their changes; empty: the source tree
+    std::string reference;                               ///< a picture to compare with
     bool keeps_state = true;                             ///< window size and recent scenes
     std::string script_name;                             ///< for messages
     std::function<void(const std::string& line)> print;  ///< what the script's print says

@@ -33,14 +33,14 @@ def main(scene="bust", size=160):
     rows.sort(key=lambda pair: pair[1]["captured"])
     best = rows[-1][0]
 
-    figure, (bars, truth, picture, rest) = plt.subplots(1, 4, figsize=(13, 3.6), layout="constrained",
+    figure, (bars, reference, picture, rest) = plt.subplots(1, 4, figsize=(13, 3.6), layout="constrained",
                                                         width_ratios=(1.5, 1, 1, 1))
     bars.barh([name for name, _ in rows], [row["captured"] for _, row in rows],
               xerr=[row["captured_error"] for _, row in rows], color="tab:orange")
     bars.set(title="captured share of scattering", xlim=(min(0, rows[0][1]["captured"]), 1))
-    left = (compared.radiance(best) - compared.truth) * (compared.skin > 0)[..., None]
+    left = (compared.radiance(best) - compared.reference) * (compared.skin > 0)[..., None]
     limit = max(float(numpy.percentile(abs(left), 99.5)), 1e-6)
-    for axes, pixels, title in ((truth, shown(compared.truth), "ground truth"),
+    for axes, pixels, title in ((reference, shown(compared.reference), "reference"),
                                 (picture, shown(compared.radiance(best)), best),
                                 (rest, (0.5 + left / (2 * limit)).clip(0, 1), f"difference, ± {limit:.3f}")):
         axes.imshow(pixels)

@@ -39,7 +39,7 @@ const int kTransmissionTexels = 1025;  // of the table skin_transmission
 // Specialisation constant view. Own: the technique's own debug view.
 const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
 
-// The disk of a filtered shadow, in the renderer and in the ground truth (shadow.glsl says what it is).
+// The disk of a filtered shadow, in the renderer and in the reference (shadow.glsl says what it is).
 const float kShadowConcavity = 0.1;  // curvature times the disk's radius, up to which the disk is lifted
 const float kShadowFacetLift = 0.3;  // in radii: the tangent plane of a smooth normal cuts through the facets
 const float kShadowMaxSlope = 4.0;   // of the plane against the light: 76 degrees

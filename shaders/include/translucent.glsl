@@ -1,5 +1,5 @@
 // What a translucent surface lets through: its opacity map's colour, or else base colour times what is not covered. The
-// ground truth has the same rule (MaterialSet::transmittance_at).
+// reference has the same rule (MaterialSet::transmittance_at).
 #ifndef DERMIS_TRANSLUCENT_GLSL
 #define DERMIS_TRANSLUCENT_GLSL
 

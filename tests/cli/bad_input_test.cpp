@@ -106,9 +106,9 @@ TEST_F(BadInput, comparisons_that_cannot_be_made_leave_nothing) {
     expect_error("compare builtin:spheres -o " + file("plain", "x"), "is a file; name a directory");
 }
 
-TEST_F(BadInput, ground_truths_that_cannot_be_made_leave_nothing) {
-    const std::string to = " -o " + path("truth.exr");
-    expect_error("reference builtin:spheres -o truth.png", "name a .exr file");
+TEST_F(BadInput, references_that_cannot_be_made_leave_nothing) {
+    const std::string to = " -o " + path("reference.exr");
+    expect_error("reference builtin:spheres -o reference.png", "name a .exr file");
     expect_error("reference builtin:spheres --integrator wolk" + to, "did you mean 'walk'?");
     expect_error("reference builtin:spheres --medium 'sigma=1'" + to, "--medium: 'sigma=1'");
     expect_error("reference builtin:spheres --medium 'g=0.5'" + to, "add --integrator walk");
@@ -118,13 +118,13 @@ TEST_F(BadInput, ground_truths_that_cannot_be_made_leave_nothing) {
     expect_error("reference builtin:spheres --profile jensen" + to, "jensen");
     // A picture that would take hours is not begun when it cannot be written.
     const std::string hours = "reference builtin:spheres --samples 65536 --size 1024x1024 ";
-    expect_error(hours + "-o /proc/truth.exr", "/proc/truth.exr: cannot write");
-    expect_error(hours + "--preview " + path("truth.gif") + to, "--preview");
+    expect_error(hours + "-o /proc/reference.exr", "/proc/reference.exr: cannot write");
+    expect_error(hours + "--preview " + path("reference.gif") + to, "--preview");
     fs::create_directory(path("folder.exr"));
     expect_error(hours + "-o " + path("folder.exr"), "is a directory");
     fs::create_directory(path("folder.png"));
     expect_error(hours + "--preview " + path("folder.png") + to, "is a directory");
-    EXPECT_FALSE(fs::exists(path("truth.exr")));
+    EXPECT_FALSE(fs::exists(path("reference.exr")));
 }
 
 TEST_F(BadInput, scenes_and_meshes_that_cannot_be_read_are_named) {
@@ -229,7 +229,7 @@ TEST_F(BadInput, a_camera_that_looks_nowhere_is_refused) {
 }
 
 TEST_F(BadInput, viewers_that_would_wait_for_ever_or_show_something_else_are_refused) {
-    expect_error("view spheres --truth " + path("missing.exr"), "--truth: ");
+    expect_error("view spheres --reference " + path("missing.exr"), "--reference: ");
     expect_error("view spheres --frames 0", "--frames: 0 is not in its range, 1 to 1000000000");
 }
 

@@ -66,7 +66,7 @@ TEST_F(Commands, sixteen_bit_png_and_layered_exr_come_out) {
     EXPECT_EQ(read_image(path("l.exr"), ImageUse::color)->image.width, 16);
 }
 
-TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_truth_once) {
+TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_reference_once) {
     const std::string command =
         "compare builtin:spheres --techniques 'lambert,preintegrated[diffuse=closed_form]' "
         "--size 32x32 --samples-per-pixel 4 --samples 16 --noise 0.0001 --frames 1 --json -o " +
@@ -81,8 +81,8 @@ TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_truth_once) {
     EXPECT_EQ(json["reference_from_cache"], true);
     EXPECT_EQ(json["rows"].size(), 2u);
     EXPECT_EQ(json["rows"][0]["captured"], 0) << "lambert";
-    EXPECT_EQ(json["truth_samples"], 16);
-    EXPECT_THAT(first.err, HasSubstr("the ground truth stopped at its limit of 16 samples a pixel"));
+    EXPECT_EQ(json["reference_samples"], 16);
+    EXPECT_THAT(first.err, HasSubstr("the reference stopped at its limit of 16 samples a pixel"));
     EXPECT_THAT(slurp(path("report/report.html")), HasSubstr("Content-Security-Policy"));
     EXPECT_THAT(slurp(path("report/scores.csv")),
                 HasSubstr("\nbuiltin:spheres,preintegrated,diffuse=closed_form,"));
@@ -128,9 +128,10 @@ TEST_F(Commands, a_signal_leaves_the_picture_so_far_and_says_how_noisy_it_is) {
     }
 }
 
-TEST_F(Commands, a_ground_truth_that_misses_its_noise_is_written_and_says_so) {
-    const std::string file = path("truth.exr"), line = std::string(DERMIS_PROGRAM) +
-                                                       " reference builtin:spheres --size 16x16 -o " + file;
+TEST_F(Commands, a_reference_that_misses_its_noise_is_written_and_says_so) {
+    const std::string file = path("reference.exr"),
+                      line =
+                          std::string(DERMIS_PROGRAM) + " reference builtin:spheres --size 16x16 -o " + file;
     const ProgramResult missed = shell(line + " --noise 0.0001 --samples 16");
     EXPECT_EQ(missed.exit_code, 3) << missed.err;
     EXPECT_THAT(missed.err, HasSubstr("after 16 samples a pixel, not the 0.0001 of --noise"));

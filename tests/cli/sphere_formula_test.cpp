@@ -40,7 +40,7 @@ class SphereFormula : public testing::Test {
 
 }  // namespace
 
-TEST_F(SphereFormula, is_what_the_ground_truth_draws) {
+TEST_F(SphereFormula, is_what_the_reference_draws) {
     EXPECT_GT(
         share_of("reference builtin:unit --size 40x40 --filter center --specular none --ambient renderer "
                  "--penumbra-mm 0 --probes 64 --samples 64",

@@ -49,8 +49,8 @@ Image everywhere() {
     return mask;
 }
 
-Captured share(const Image& technique, const EffectHalves& truth) {
-    const auto result = captured(technique, truth, everywhere());
+Captured share(const Image& technique, const EffectHalves& reference) {
+    const auto result = captured(technique, reference, everywhere());
     EXPECT_TRUE(result) << result.error().message;
     return *result;
 }
@@ -77,7 +77,7 @@ TEST(Captured, an_effect_scaled_by_nine_tenths_has_nine_tenths_whatever_the_nois
     EXPECT_NEAR(share(scaled(effect(), -1), halves(effect(), kNoise, 7)).all.share, -1, 0.01);
 }
 
-TEST(Captured, the_truth_itself_by_another_seed_has_over_99_hundredths) {
+TEST(Captured, the_reference_itself_by_another_seed_has_over_99_hundredths) {
     const auto itself =
         captured(halves(effect(), 0.1f * kNoise, 3), halves(effect(), 0.1f * kNoise, 4), everywhere());
     ASSERT_TRUE(itself);
@@ -90,20 +90,20 @@ TEST(Captured, the_truth_itself_by_another_seed_has_over_99_hundredths) {
 }
 
 TEST(Captured, effect_and_noise_are_what_was_put_in) {
-    const EffectHalves truth = halves(effect(), kNoise, 5);
+    const EffectHalves reference = halves(effect(), kNoise, 5);
     double squares = 0;
     const Image clean = effect();
     for (const float v : clean.floats()) squares += double(v) * v;
     const double rms = std::sqrt(squares / double(clean.floats().size()));
-    const Captured none = share(Image(kEffectSide, kEffectSide, 3), truth);
+    const Captured none = share(Image(kEffectSide, kEffectSide, 3), reference);
     EXPECT_NEAR(none.all.effect_rms, rms, 0.01 * rms);
     // Of the mean of two halves.
-    EXPECT_NEAR(none.all.truth_noise, kNoise / std::sqrt(2.0), 0.02 * kNoise);
+    EXPECT_NEAR(none.all.reference_noise, kNoise / std::sqrt(2.0), 0.02 * kNoise);
     EXPECT_GT(none.channels[0].effect_rms, 5 * none.channels[1].effect_rms);
-    EXPECT_NEAR(effect_noise(truth, everywhere()).noise_rms, none.all.truth_noise, 1e-12);
+    EXPECT_NEAR(effect_noise(reference, everywhere()).noise_rms, none.all.reference_noise, 1e-12);
 }
 
-// 200 truths of the same scene: the stated interval holds the share of 95 % of them, within what 200 can
+// 200 references of the same scene: the stated interval holds the share of 95 % of them, within what 200 can
 // tell.
 TEST(Captured, the_interval_holds_the_share_of_other_seeds) {
     for (const float part : {0.3f, 0.8f}) {
@@ -118,7 +118,7 @@ TEST(Captured, the_interval_holds_the_share_of_other_seeds) {
     }
 }
 
-TEST(Captured, a_share_of_a_truth_that_is_too_noisy_is_not_printed) {
+TEST(Captured, a_share_of_a_reference_that_is_too_noisy_is_not_printed) {
     EXPECT_TRUE(share(scaled(effect(), 0.5f), halves(effect(), kNoise, 1)).all.known());
     const Captured noisy = share(scaled(effect(), 0.5f), halves(effect(), 60 * kNoise, 1));
     EXPECT_FALSE(noisy.all.known());
@@ -142,11 +142,12 @@ TEST(Captured, only_the_mask_counts) {
 }
 
 TEST(Captured, what_cannot_be_measured_is_refused) {
-    const EffectHalves truth = {effect(), effect()};
-    EXPECT_THAT(captured(Image(8, 8, 3), truth, everywhere()).error().message, HasSubstr("differ in size"));
-    EXPECT_THAT(captured(effect(), truth, Image(kEffectSide, kEffectSide, 1)).error().message,
+    const EffectHalves reference = {effect(), effect()};
+    EXPECT_THAT(captured(Image(8, 8, 3), reference, everywhere()).error().message,
+                HasSubstr("differ in size"));
+    EXPECT_THAT(captured(effect(), reference, Image(kEffectSide, kEffectSide, 1)).error().message,
                 HasSubstr("mask is empty"));
     Image broken = effect();
     broken.set(1, 1, 1, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_THAT(captured(broken, truth, everywhere()).error().message, HasSubstr("NaN"));
+    EXPECT_THAT(captured(broken, reference, everywhere()).error().message, HasSubstr("NaN"));
 }

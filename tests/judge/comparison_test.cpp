@@ -1,4 +1,4 @@
-// The whole of it on a small picture: truth, techniques, page.
+// The whole of it on a small picture: reference, techniques, page.
 
 #include "dermis/judge/comparison.h"
 
@@ -51,22 +51,22 @@ class Comparisons : public RenderTest {
 
 }  // namespace
 
-TEST_F(Comparisons, the_truth_is_made_once_and_the_page_holds_every_picture) {
+TEST_F(Comparisons, the_reference_is_made_once_and_the_page_holds_every_picture) {
     Scene scene = load("builtin:spheres");
     scene.name = "</script><b>\"spheres\"";
     const auto list = contestants("lambert,preintegrated[diffuse=closed_form]");
     const auto first = compare_techniques(device(), built_in_catalog(), scene, list, quick());
     ASSERT_TRUE(first) << first.error().message;
-    EXPECT_FALSE(first->truth.from_cache);
+    EXPECT_FALSE(first->reference.from_cache);
     const auto second = compare_techniques(device(), built_in_catalog(), scene, list, quick());
     ASSERT_TRUE(second);
-    EXPECT_TRUE(second->truth.from_cache);
+    EXPECT_TRUE(second->reference.from_cache);
     EXPECT_EQ(first->rows[1].scores.rmse, second->rows[1].scores.rmse);
-    EXPECT_EQ(first->truth.effect.b.bytes, second->truth.effect.b.bytes);
+    EXPECT_EQ(first->reference.effect.b.bytes, second->reference.effect.b.bytes);
     EXPECT_EQ(first->rows[0].captured.all.share, 0) << "lambert is where the share begins";
     EXPECT_GT(first->rows[1].captured.all.share, 0.3);
     EXPECT_LT(first->rows[1].scores.terminator_rmse, first->rows[0].scores.terminator_rmse)
-        << "scattering should come closer to the truth than none";
+        << "scattering should come closer to the reference than none";
     EXPECT_EQ(first->rows[0].cost.bytes(), 0u);
     EXPECT_EQ(first->rows[0].cost.time_ratio, 1);
     EXPECT_GT(first->rows[1].cost.time_ms, 0);
@@ -109,7 +109,7 @@ TEST_F(Comparisons, progress_rises_from_0_through_pictures_frames_and_scores) {
     EXPECT_EQ(names.back(), "scores");
 }
 
-TEST_F(Comparisons, a_finer_truth_of_another_run_is_taken_as_it_is) {
+TEST_F(Comparisons, a_finer_reference_of_another_run_is_taken_as_it_is) {
     const Scene scene = load("builtin:spheres");
     ComparisonSettings fine = quick(), coarse = quick();
     fine.noise = 1e-6;
@@ -120,11 +120,11 @@ TEST_F(Comparisons, a_finer_truth_of_another_run_is_taken_as_it_is) {
     const auto second =
         compare_techniques(device(), built_in_catalog(), scene, contestants("lambert"), coarse);
     ASSERT_TRUE(second) << second.error().message;
-    EXPECT_TRUE(second->truth.from_cache);
-    EXPECT_EQ(second->truth.samples, first->truth.samples);
+    EXPECT_TRUE(second->reference.from_cache);
+    EXPECT_EQ(second->reference.samples, first->reference.samples);
 }
 
-TEST_F(Comparisons, whatever_the_truth_depends_on_changes_its_hash) {
+TEST_F(Comparisons, whatever_the_reference_depends_on_changes_its_hash) {
     const Scene scene = load("builtin:spheres");
     const ReferenceSettings settings = quick().reference;
     const std::string before = *reference_hash(scene, settings);

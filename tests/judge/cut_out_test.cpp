@@ -1,4 +1,4 @@
-// Cards of hair and lashes, maps of emission and vertex colours: the renderer and the ground truth show the
+// Cards of hair and lashes, maps of emission and vertex colours: the renderer and the reference show the
 // same, and both what the material says.
 
 #include "dermis/mesh/primitives.h"
@@ -48,7 +48,7 @@ Scene card_over_skin(const std::function<void(Material&)>& make_card) {
 class CutOut : public RenderTest {
   protected:
     struct Pictures {
-        Image drawn, truth;
+        Image drawn, reference;
         Mat4 view_projection;
     };
 
@@ -65,9 +65,9 @@ class CutOut : public RenderTest {
             .integrator = Integrator::lambert, .width = kPictureSide, .height = kPictureSide, .samples = 4};
         settings.filter = PixelFilter::center;
         settings.lighting = {.ambient = AmbientModel::renderer, .specular = SpecularReflection::none};
-        auto truth = render_reference(scene, settings);
-        EXPECT_TRUE(truth) << truth.error().message;
-        return {std::move(drawn), std::move(truth->radiance),
+        auto reference = render_reference(scene, settings);
+        EXPECT_TRUE(reference) << reference.error().message;
+        return {std::move(drawn), std::move(reference->radiance),
                 camera_matrices(scene.camera, 1).view_projection};
     }
 
@@ -78,10 +78,10 @@ class CutOut : public RenderTest {
         };
         const int x = int((row(0) / row(3) * 0.5f + 0.5f) * kPictureSide),
                   y = int((row(1) / row(3) * 0.5f + 0.5f) * kPictureSide);
-        for (const Image* image : {&pictures.drawn, &pictures.truth})
+        for (const Image* image : {&pictures.drawn, &pictures.reference})
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(image->at(x, y, c), (&expected.x)[c], 0.01f)
-                    << (image == &pictures.drawn ? "renderer" : "ground truth") << " at " << p_mm.x
+                    << (image == &pictures.drawn ? "renderer" : "reference") << " at " << p_mm.x
                     << ", channel " << c;
     }
 };
@@ -208,7 +208,7 @@ TEST_F(CutOut, a_map_of_metal_counts_by_its_red_channel) {
         m.metallic_roughness_map = halves("replaced", {0, 255, 0}, {0, 255, 255});
     });
     const Pictures p = pictures(scene);
-    EXPECT_LT(p.truth.at(24, 32, 0), 0.01f);
+    EXPECT_LT(p.reference.at(24, 32, 0), 0.01f);
     expect_at(p, {10, 0, 20}, kCardColor * kLit);
 }
 

@@ -1,4 +1,4 @@
-// With a profile of no width the ground truth is Lambert's picture: both renderers then agree on cameras,
+// With a profile of no width the reference is Lambert's picture: both renderers then agree on cameras,
 // lights, shadows, maps, normals and reflections, so that all that differs at a real width is the transport
 // in the skin.
 
@@ -58,13 +58,13 @@ class LambertLimit : public RenderTest {
         settings.lighting = {.ambient = AmbientModel::renderer,
                              .specular = view == "final" ? SpecularReflection::ggx : SpecularReflection::none,
                              .penumbra_mm = DrawSettings{}.penumbra_mm};
-        const auto truth = render_reference(scene, settings);
-        EXPECT_TRUE(truth) << truth.error().message;
+        const auto reference = render_reference(scene, settings);
+        EXPECT_TRUE(reference) << reference.error().message;
         Renderer renderer = make_renderer(scene);
         const Image drawn = radiance(
             renderer, built_in_technique("lambert"),
             {.width = side, .height = side, .view = view, .deep = true, .shadow_map_size = shadow_map_size});
-        const Difference d = difference(drawn, truth->radiance, truth->skin);
+        const Difference d = difference(drawn, reference->radiance, reference->skin);
         return d;
     }
 };
@@ -108,7 +108,7 @@ TEST_F(LambertLimit, of_the_bust_under_its_environment_is_the_lambert_picture) {
 }
 
 // The shadow map's receiver is lifted by one and a half of its texels, so its shadows come closer to the
-// rays' as it gets finer; what is left is the noise of the ground truth.
+// rays' as it gets finer; what is left is the noise of the reference.
 TEST_F(LambertLimit, of_the_bust_has_the_lambert_picture_s_shadows) {
     Scene scene = load("bust");
     plain(scene);

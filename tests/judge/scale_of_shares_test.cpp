@@ -1,8 +1,8 @@
-// The scale of the measure on real truths: another seed of the truth has all of the effect, nine tenths of
-// the effect have nine tenths, lambert has none.
+// The scale of the measure on real references: another seed of the reference has all of the effect, nine
+// tenths of the effect have nine tenths, lambert has none.
 //
-// The root in the share makes a ratio of 1e-4 a hundredth, so that this takes a truth that is much finer than
-// one that techniques are held against. For the same work fewer pixels tell more here.
+// The root in the share makes a ratio of 1e-4 a hundredth, so that this takes a reference that is much finer
+// than one that techniques are held against. For the same work fewer pixels tell more here.
 
 #include <filesystem>
 
@@ -19,16 +19,16 @@ constexpr int kSide = 6, kGrid = 2;
 
 class ScaleOfShares : public RenderTest {
   protected:
-    static EffectTruth truth_of(const Scene& scene, double noise, uint32_t seed) {
-        EffectTruthSettings settings{
+    static EffectReference reference_of(const Scene& scene, double noise, uint32_t seed) {
+        EffectReferenceSettings settings{
             .reference = comparison_settings(kSide, kSide).reference, .noise = noise, .samples = 4096};
         settings.reference.grid = kGrid;
         settings.reference.probes = 512;
         settings.reference.seed = seed;
-        auto truth = make_effect_truth(scene, settings);
-        EXPECT_TRUE(truth) << truth.error().message;
-        EXPECT_TRUE(truth->reached);
-        return std::move(*truth);
+        auto reference = make_effect_reference(scene, settings);
+        EXPECT_TRUE(reference) << reference.error().message;
+        EXPECT_TRUE(reference->reached);
+        return std::move(*reference);
     }
 
     static Image scaled(Image image, float by) {
@@ -45,15 +45,16 @@ class ScaleOnScene : public ScaleOfShares {
   protected:
     static Shares shares_on(const std::string& name, double noise) {
         const SubjectCase one = unit_case(name);
-        const EffectTruth truth = truth_of(one.scene, noise, 1), other = truth_of(one.scene, noise, 2);
-        Image skin = truth.skin;
+        const EffectReference reference = reference_of(one.scene, noise, 1),
+                              other = reference_of(one.scene, noise, 2);
+        Image skin = reference.skin;
         for (float& v : skin.floats()) v = v >= 1 ? 1 : 0;
         const float penumbra_mm = comparison_settings(kSide, kSide).reference.lighting.penumbra_mm;
         const auto exact = exact_effect(one.scene, one.exact, kSide, kSide, kGrid, penumbra_mm);
         const EffectHalves& effect = other.effect;
-        const auto itself = captured(effect, truth.effect, skin);
-        const auto part = captured({scaled(effect.a, 0.9f), scaled(effect.b, 0.9f)}, truth.effect, skin);
-        const auto part_of_exact = captured(scaled(*exact, 0.9f), truth.effect, skin);
+        const auto itself = captured(effect, reference.effect, skin);
+        const auto part = captured({scaled(effect.a, 0.9f), scaled(effect.b, 0.9f)}, reference.effect, skin);
+        const auto part_of_exact = captured(scaled(*exact, 0.9f), reference.effect, skin);
         EXPECT_TRUE(itself && part && part_of_exact);
         return {itself->all, part->all, part_of_exact->all};
     }
@@ -68,7 +69,8 @@ TEST_F(ScaleOnScene, a_slab_lit_from_behind) {
     EXPECT_NEAR(shares.nine_tenths_of_exact.share, 0.9, 0.005) << "+- " << shares.nine_tenths_of_exact.error;
 }
 
-// Its red light reaches all of the sphere of 2 mm: the hardest of the unit scenes for the truth's quotient.
+// Its red light reaches all of the sphere of 2 mm: the hardest of the unit scenes for the reference's
+// quotient.
 TEST_F(ScaleOnScene, a_sphere_lit_from_behind) {
     const Shares shares = shares_on("sphere_behind", 0.012);
     EXPECT_GT(shares.itself.share, 0.98) << "+- " << shares.itself.error;

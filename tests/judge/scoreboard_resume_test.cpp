@@ -82,7 +82,7 @@ TEST_F(ScoreboardProgram, goes_on_where_it_was_stopped) {
     if (!std::filesystem::exists(kProgram)) GTEST_SKIP() << "built without benchmarks";
     const Run first = run("1 of 2 scenes are left");
     EXPECT_TRUE(WIFSIGNALED(first.status)) << first.output;
-    EXPECT_THAT(first.output, HasSubstr("spheres: ground truth of"));
+    EXPECT_THAT(first.output, HasSubstr("spheres: reference of"));
     EXPECT_THAT(first.output, HasSubstr("1 of 2 scenes are left, about"));
     EXPECT_EQ(rows_of("spheres"), 2u);
     EXPECT_EQ(rows_of("backlit"), 0u);
@@ -90,9 +90,9 @@ TEST_F(ScoreboardProgram, goes_on_where_it_was_stopped) {
     const Run second = run();
     EXPECT_EQ(second.status, 0);
     EXPECT_THAT(second.output, HasSubstr("spheres: was made before"));
-    EXPECT_THAT(second.output, Not(HasSubstr("spheres: ground truth of")));
+    EXPECT_THAT(second.output, Not(HasSubstr("spheres: reference of")));
     EXPECT_THAT(second.output, HasSubstr("1 of 2 scenes are left\n")) << "the cache is no measure of time";
-    EXPECT_THAT(second.output, HasSubstr("backlit: ground truth of"));
+    EXPECT_THAT(second.output, HasSubstr("backlit: reference of"));
     EXPECT_EQ(rows_of("spheres"), 2u);
     EXPECT_EQ(rows_of("backlit"), 2u);
 

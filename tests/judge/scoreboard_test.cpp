@@ -204,7 +204,7 @@ TEST_F(Scoreboards, no_technique_captures_less_than_it_did) {
     expect_no_less_than_recorded(made, device().info().driver);
 }
 
-// The truth has to be the exact answer where one is known, and no technique captures less than it did.
+// The reference has to be the exact answer where one is known, and no technique captures less than it did.
 TEST_F(Scoreboards, unit_scenes_have_their_exact_answers_and_no_technique_captures_less_than_it_did) {
     const auto unit = find_subject(built_in_catalog().subjects, "unit");
     ASSERT_TRUE(unit);
@@ -214,7 +214,7 @@ TEST_F(Scoreboards, unit_scenes_have_their_exact_answers_and_no_technique_captur
     size_t exact_answers = 0;
     for (const SubjectCase& one : *cases) {
         ComparisonSettings settings = small(32, one.name == "unit/sphere_far" ? 0.06 : 0.12);
-        settings.probes = 64;  // fewer bias the truth by a few hundredths of the effect
+        settings.probes = 64;  // fewer bias the reference by a few hundredths of the effect
         settings.exact = one.exact;
         const auto comparison =
             compare_techniques(device(), built_in_catalog(), one.scene, ratcheted_techniques(), settings);
@@ -238,7 +238,7 @@ TEST_F(Scoreboards, unit_scenes_have_their_exact_answers_and_no_technique_captur
 }
 
 // Of the records, which the tests above compare with what is measured now. oren_nayar is no model of
-// scattering: it changes the picture by the roughness of the surface, which the truth has not.
+// scattering: it changes the picture by the roughness of the surface, which the reference has not.
 TEST(Scoreboard, no_techniques_default_is_worse_than_lambert) {
     constexpr double kRounding = 1e-6;  // of pictures: a technique that changes nothing has shares of 1e-8
     const auto text = read_text_file(kRecorded);

@@ -93,7 +93,7 @@ TEST(Scores, an_error_counts_where_it_is_and_nowhere_else) {
     EXPECT_LT(scores->ssim, 1);
 }
 
-TEST(Scores, of_the_truth_itself_are_perfect) {
+TEST(Scores, of_the_reference_itself_are_perfect) {
     const Image reference = even(0.25f, 4);
     const auto scores = score(reference, reference, masks(), {});
     ASSERT_TRUE(scores);
@@ -116,16 +116,28 @@ TEST(Scores, nan_and_other_sizes_are_refused) {
 TEST(Scores, the_table_has_the_stated_columns_and_quotes_settings) {
     ScoreRow row{
         .scene = "head, scanned", .technique = "wrap", .settings = "wrap=0.4,specular=ggx", .bytes = 7};
-    row.captured.all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .truth_noise = 0.125};
+    row.captured.all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .reference_noise = 0.125};
     row.captured.channels[1].error = 1;  // too noisy to tell
     row.scores.terminator_rmse = 0.125;
     row.scores.psnr_db = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(scores_csv({row}),
-              "scene,technique,settings,captured,captured_r,captured_g,captured_b,captured_error,effect_rms,"
-              "truth_noise,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,time_ms,"
-              "bytes,time_ratio,reference_rmse,model_ratio\n"
-              "\"head, scanned\",wrap,\"wrap=0.4,specular=ggx\",0.25,0,,0,0.01,0.5,0.125,0,0,inf,0,0,0,0.125,"
-              ",0,7,0,0,\n");
+    EXPECT_EQ(
+        scores_csv({row}),
+        "scene,technique,settings,captured,captured_r,captured_g,captured_b,captured_error,effect_rms,"
+        "reference_noise,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,time_ms,"
+        "bytes,time_ratio,reference_rmse,model_ratio\n"
+        "\"head, scanned\",wrap,\"wrap=0.4,specular=ggx\",0.25,0,,0,0.01,0.5,0.125,0,0,inf,0,0,0,0.125,"
+        ",0,7,0,0,\n");
+}
+
+TEST(Scores, a_table_of_an_earlier_version_is_read) {
+    ScoreRow row{.scene = "spheres", .technique = "wrap"};
+    row.captured.all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .reference_noise = 0.125};
+    std::string text = scores_csv({row});
+    const std::string_view name = "reference_noise";
+    text.replace(text.find(name), name.size(), "reference_noise");
+    const auto rows = parse_scores(text);
+    ASSERT_TRUE(rows) << rows.error().message;
+    EXPECT_EQ(rows->at(0).captured.all.reference_noise, 0.125);
 }
 
 TEST(HeatMap, lightness_rises_with_the_value_and_what_is_outside_is_grey) {

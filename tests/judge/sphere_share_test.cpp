@@ -40,7 +40,7 @@ class SphereShares : public RenderTest {
 
 }  // namespace
 
-// The truth, the technique and the formula are three codes; any two of them have to agree.
+// The reference, the technique and the formula are three codes; any two of them have to agree.
 TEST_F(SphereShares, preintegrated_captures_all_of_the_effect_on_a_sphere) {
     constexpr size_t kSphere = 1;
     const Scene scene = one_sphere(kSphere);
@@ -55,12 +55,12 @@ TEST_F(SphereShares, preintegrated_captures_all_of_the_effect_on_a_sphere) {
     ASSERT_TRUE(comparison) << comparison.error().message;
     const Image& skin = comparison->masks.skin;
     const Image exact = exact_effect_of(scene, kSphereRadiiMm[kSphere], settings);
-    const auto formula = captured(exact, comparison->truth.effect, skin);
+    const auto formula = captured(exact, comparison->reference.effect, skin);
     ASSERT_TRUE(formula);
-    EXPECT_GT(formula->all.share, 0.97) << "the formula against the truth";
+    EXPECT_GT(formula->all.share, 0.97) << "the formula against the reference";
     EXPECT_LT(formula->all.error, 0.03);
     EXPECT_EQ(comparison->rows[0].captured.all.share, 0);
-    EXPECT_GT(comparison->rows[1].captured.all.share, 0.97) << "the technique against the truth";
+    EXPECT_GT(comparison->rows[1].captured.all.share, 0.97) << "the technique against the reference";
     const auto table = captured(comparison->rows[1].effect, {exact, exact}, skin);
     ASSERT_TRUE(table);
     EXPECT_GT(table->all.share, 0.98) << "the technique against the formula";
@@ -80,8 +80,9 @@ TEST_F(SphereShares, preintegrated_captures_all_of_the_effect_on_the_four_sphere
     ASSERT_TRUE(list);
     const auto comparison = compare_techniques(device(), built_in_catalog(), scene, *list, settings);
     ASSERT_TRUE(comparison) << comparison.error().message;
-    EXPECT_TRUE(comparison->truth.reached);
+    EXPECT_TRUE(comparison->reference.reached);
     const CapturedShare& share = comparison->rows[0].captured.all;
-    EXPECT_GT(share.share, 0.97) << "+- " << share.error << ", " << comparison->truth.samples << " samples";
+    EXPECT_GT(share.share, 0.97) << "+- " << share.error << ", " << comparison->reference.samples
+                                 << " samples";
     EXPECT_LT(share.error, 0.03);
 }

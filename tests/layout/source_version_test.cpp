@@ -20,10 +20,11 @@ std::string version_of(const std::string& text) {
     const TemporaryDirectory directory;
     const std::string folder = directory.path.string(), output = folder + "/version.cpp";
     std::ofstream(folder + "/code.cpp") << text;
-    const ProgramResult made = run_shell("cmake -D files=" + folder + "/code.cpp -D root=" + folder +
-                                             " -D folder=judge -D name=truth_version -D output=" + output +
-                                             " -P " DERMIS_SOURCE_DIR "/cmake/SourceVersion.cmake",
-                                         folder);
+    const ProgramResult made =
+        run_shell("cmake -D files=" + folder + "/code.cpp -D root=" + folder +
+                      " -D folder=judge -D name=reference_version -D output=" + output +
+                      " -P " DERMIS_SOURCE_DIR "/cmake/SourceVersion.cmake",
+                  folder);
     EXPECT_EQ(made.exit_code, 0) << made.err;
     const std::string source = slurp(output);
     std::smatch found;

@@ -32,19 +32,19 @@ class Compare(TestCase):
 
     def check_pictures(self, compared):
         lambert, wrap = compared.radiance("lambert"), compared.radiance("wrap[wrap=0.4]")
-        self.assertEqual((compared.truth.dtype, compared.truth.shape), (numpy.float32, (48, 48, 3)))
+        self.assertEqual((compared.reference.dtype, compared.reference.shape), (numpy.float32, (48, 48, 3)))
         numpy.testing.assert_allclose(compared.effect("wrap[wrap=0.4]"), wrap - lambert, atol=1e-6)
         self.assertFalse(compared.effect("lambert").any())
-        self.assertAlmostEqual(dermis.rmse(wrap, compared.truth, compared.skin), compared.rows[1]["rmse"], places=6)
+        self.assertAlmostEqual(dermis.rmse(wrap, compared.reference, compared.skin), compared.rows[1]["rmse"], places=6)
         with self.assertRaises(KeyError):
             compared.radiance("wrapp")
 
     def test_effects_give_the_share(self):
-        """As docs/ground_truth.md defines it, but for the truth's noise."""
+        """As docs/ground_truth.md defines it, but for the reference's noise."""
         compared = dermis.compare("spheres", "wrap[wrap=0.4]", size=48, samples_per_pixel=4, noise=0.05, frames=1)
         counts = compared.skin > 0.5
-        truth, wrap = compared.truth_effect[counts], compared.effect("wrap[wrap=0.4]")[counts]
-        share = 1 - numpy.sqrt(((wrap - truth) ** 2).sum() / (truth**2).sum())
+        reference, wrap = compared.reference_effect[counts], compared.effect("wrap[wrap=0.4]")[counts]
+        share = 1 - numpy.sqrt(((wrap - reference) ** 2).sum() / (reference**2).sum())
         self.assertAlmostEqual(share, compared.rows[0]["captured"], delta=0.02)
 
     def test_a_set_of_scenes_is_a_list(self):

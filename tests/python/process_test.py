@@ -82,7 +82,7 @@ sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
             growths.append(resident_kib() - before)
         return growths
 
-    def test_ctrl_c_ends_the_ground_truth(self):
+    def test_ctrl_c_ends_the_reference(self):
         # Without a function for the progress: Python's own code would see the signal too.
         code = ("import dermis\n"
                 "dermis.reference('bust', size=16, samples=2)\n"

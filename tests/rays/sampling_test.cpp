@@ -166,7 +166,7 @@ TEST(Random, every_power_of_two_of_owen_points_fills_the_elementary_boxes) {
             }
 }
 
-// Ground truths that are kept, and parts that are merged, were made with these points.
+// References that are kept, and parts that are merged, were made with these points.
 TEST(Random, owen_points_stay_what_they_are) {
     const struct {
         uint32_t index;

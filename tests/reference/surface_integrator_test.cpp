@@ -56,15 +56,15 @@ double worst_deviation(const Profile& profile, float radius_mm, int estimates, E
     for (const float t : {-0.5f, 0.0f, 0.3f, 1.0f}) {
         const Vec3 from{std::sqrt(1 - t * t) * 0.6f, std::sqrt(1 - t * t) * 0.8f, t};
         const Estimate m = estimate_exitance(integrator, stage.point_towards(from), estimates, 17);
-        const Rgb truth = exact(t);
+        const Rgb reference = exact(t);
         const float mean[3] = {m.mean.x, m.mean.y, m.mean.z};
         const float error[3] = {m.standard_error.x, m.standard_error.y, m.standard_error.z};
         for (size_t c = 0; c < 3; ++c) {
-            // Facets of 0.017 radii displace the truth by some 1e-5; an exact 0 has no error of its own.
-            const double z = (mean[c] - truth[c]) / std::hypot(error[c], 5e-5);
+            // Facets of 0.017 radii displace the reference by some 1e-5; an exact 0 has no error of its own.
+            const double z = (mean[c] - reference[c]) / std::hypot(error[c], 5e-5);
             EXPECT_LT(error[c], 0.02) << "t " << t << " channel " << c;
             EXPECT_LT(std::abs(z), 4.5)
-                << "t " << t << " channel " << c << ": " << mean[c] << " against " << truth[c];
+                << "t " << t << " channel " << c << ": " << mean[c] << " against " << reference[c];
             worst = std::max(worst, std::abs(z));
         }
     }

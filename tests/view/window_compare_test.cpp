@@ -32,7 +32,7 @@ TEST_F(ViewWindow, two_techniques_and_a_picture_are_shown_side_by_side) {
         drop DIR/left.png
         settle
         print
-        capture DIR/truth.png
+        capture DIR/reference.png
         key C
         settle
         capture DIR/off.png
@@ -44,10 +44,10 @@ TEST_F(ViewWindow, two_techniques_and_a_picture_are_shown_side_by_side) {
     EXPECT_NEAR(wiped.at(60, 5, 0), 0.85, 0.01);  // and where it was dragged
     EXPECT_LT(off.at(140, 5, 0), 0.5);
     EXPECT_THAT(value_of(result, "right"), HasSubstr("left.png"));
-    EXPECT_NE(image("beside.png").bytes, image("truth.png").bytes);
+    EXPECT_NE(image("beside.png").bytes, image("reference.png").bytes);
 }
 
-TEST_F(ViewWindow, the_ground_truth_comes_beside_the_picture_and_can_be_stopped) {
+TEST_F(ViewWindow, the_reference_comes_beside_the_picture_and_can_be_stopped) {
     const ProgramResult result = view("builtin:spheres --size 170x130 --samples 1 -t lambert", R"(
         key tab
         key G
@@ -66,10 +66,11 @@ TEST_F(ViewWindow, the_ground_truth_comes_beside_the_picture_and_can_be_stopped)
         quit
     )");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(value_of(result, "right"), "ground truth");
+    EXPECT_EQ(value_of(result, "right"), "reference");
     const std::string first = result.out.substr(0, result.out.rfind("technique "));
-    EXPECT_THAT(first, Not(HasSubstr("stale truth")));
-    EXPECT_THAT(last_state(result), HasSubstr("stale truth"));  // stopped: the one of the old view is kept
+    EXPECT_THAT(first, Not(HasSubstr("stale reference")));
+    EXPECT_THAT(last_state(result),
+                HasSubstr("stale reference"));  // stopped: the one of the old view is kept
     EXPECT_THAT(result.out, Not(HasSubstr("notice ")));
     // The right half shows the same spheres with more light from bounces and less from approximations.
     const Image picture = image("picture.png"), beside = image("beside.png");

@@ -53,7 +53,7 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_other_files_make_a_n
 TEST_F(ViewWindow, dropped_panoramas_become_the_environment_and_other_pictures_the_right_side) {
     ASSERT_TRUE(write_image(path("red.hdr"), plain(16, 8, {2, 0, 0})));
     ASSERT_TRUE(write_image(path("green.exr"), plain(16, 8, {0, 2, 0})));
-    ASSERT_TRUE(write_image(path("truth.exr"), plain(16, 16, {0.5f, 0.5f, 0.5f})));
+    ASSERT_TRUE(write_image(path("reference.exr"), plain(16, 16, {0.5f, 0.5f, 0.5f})));
     ASSERT_TRUE(write_text_file(path("torn.exr"), "no picture"));
     const ProgramResult result = view(square() + " --size 560x320 --samples 1 -t lambert", R"(
         drop DIR/red.hdr
@@ -65,7 +65,7 @@ TEST_F(ViewWindow, dropped_panoramas_become_the_environment_and_other_pictures_t
         drop DIR/torn.exr
         settle
         print
-        drop DIR/truth.exr
+        drop DIR/reference.exr
         settle
         print
         quit
@@ -77,7 +77,7 @@ TEST_F(ViewWindow, dropped_panoramas_become_the_environment_and_other_pictures_t
     EXPECT_LT(red.at(x, y, 1), green.at(x, y, 1) - 0.05f);
     EXPECT_EQ(value_of(result, "environment"), path("green.exr"));
     EXPECT_THAT(value_of(result, "notice"), HasSubstr("torn.exr"));
-    EXPECT_THAT(last_state(result), HasSubstr("right " + path("truth.exr") + "\n"));
+    EXPECT_THAT(last_state(result), HasSubstr("right " + path("reference.exr") + "\n"));
     EXPECT_THAT(last_state(result), HasSubstr("environment " + path("green.exr") + "\n"));
 }
 

@@ -1,4 +1,4 @@
-// dermis compare: techniques compared with the ground truth, as a page and a table.
+// dermis compare: techniques compared with the reference, as a page and a table.
 
 #include <algorithm>
 #include <cstdio>
@@ -38,16 +38,16 @@ Result<FileUse> files_of(const CompareOptions& options) {
         .inputs = {options.choice.scene.name}};
 }
 
-// One line of progress for the truth and one for the techniques; for a set, with the scene's name.
+// One line of progress for the reference and one for the techniques; for a set, with the scene's name.
 Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const std::string& prefix,
                            const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
-    Progress line(prefix + "ground truth", 0);
+    Progress line(prefix + "reference", 0);
     std::optional<Progress> techniques;
     return compare_techniques(
         device, built_in_catalog(), one.scene, contestants, settings,
         {.reference =
              [&](double done, bool first_samples) {
-                 line.set(done, prefix + "ground truth" + (first_samples ? ", first samples" : ""));
+                 line.set(done, prefix + "reference" + (first_samples ? ", first samples" : ""));
              },
          .techniques =
              [&](double done, const std::string& name) {
@@ -143,7 +143,7 @@ Result<int> run(const CompareOptions& options) {
     return 0;
 }
 
-// One job: the techniques share the ground truth.
+// One job: the techniques share the reference.
 Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::string>& words) {
     if (const Result<ComparisonSettings> settings = options.choice.settings(); !settings)
         return settings.error();
@@ -164,11 +164,10 @@ Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::strin
 
 void add_compare_command(CommandLine& line) {
     auto options = std::make_shared<CompareOptions>();
-    Command* command =
-        line.add("compare",
-                 "Compares techniques with the ground truth: captured shares, errors, a report with pictures",
-                 "dermis compare head_scan -t \"wrap,preintegrated[shadow=plain]\" -o out/compare\n"
-                 "  dermis compare unit -o out/unit   (small scenes with exact answers)");
+    Command* command = line.add(
+        "compare", "Compares techniques with the reference: captured shares, errors, a report with pictures",
+        "dermis compare head_scan -t \"wrap,preintegrated[shadow=plain]\" -o out/compare\n"
+        "  dermis compare unit -o out/unit   (small scenes with exact answers)");
     options->choice.scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->choice.techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
@@ -179,23 +178,23 @@ void add_compare_command(CommandLine& line) {
                         "WIDTHxHEIGHT in pixels (512x512; of the unit scenes 96x96)");
     command
         ->add_option("--integrator", options->choice.integrator,
-                     "integrator of the ground truth: surface or walk")
+                     "integrator of the reference: surface or walk")
         ->capture_default_str();
     command
         ->add_option("--ambient", options->choice.ambient,
-                     "environment in the ground truth: renderer (the renderer's approximation) or traced")
+                     "environment in the reference: renderer (the renderer's approximation) or traced")
         ->capture_default_str();
     command
         ->add_option("--samples-per-pixel", options->choice.samples_per_pixel, {1, 256},
                      "sample points in each pixel, the same in both pictures; a square number")
         ->capture_default_str();
     command
-        ->add_option("--noise", options->choice.noise, kTruthNoiseRange,
-                     "noise at which the ground truth stops, over the effect of scattering")
+        ->add_option("--noise", options->choice.noise, kReferenceNoiseRange,
+                     "noise at which the reference stops, over the effect of scattering")
         ->capture_default_str();
     command
-        ->add_option("--samples,--spp", options->choice.samples, kTruthSamplesRange,
-                     "maximum samples a pixel of the ground truth")
+        ->add_option("--samples,--spp", options->choice.samples, kReferenceSamplesRange,
+                     "maximum samples a pixel of the reference")
         ->capture_default_str();
     command
         ->add_option("--frames", options->choice.frames, kTimedFramesRange,

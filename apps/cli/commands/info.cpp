@@ -136,15 +136,15 @@ void print_uv(const UvReport& uv) {
         fmt::print("    degenerate    {} triangles without UV area\n", uv.degenerate_triangles);
 }
 
-// The openings that the ground truth closes and the faces that it leaves out.
+// The openings that the reference closes and the faces that it leaves out.
 void print_flesh(const Flesh& flesh) {
     if (flesh.hidden_triangles > 0)
         fmt::print(
-            "  hidden skin: {} triangles, {:.1f} of {:.1f} cm2, not visible from outside; the ground truth "
+            "  hidden skin: {} triangles, {:.1f} of {:.1f} cm2, not visible from outside; the reference "
             "treats the cavities behind it as flesh\n",
             flesh.hidden_triangles, flesh.hidden_area_mm2 / 100, flesh.skin_area_mm2 / 100);
     if (flesh.mesh_openings > 0)
-        fmt::print("  {} opening{} in the surface; the walks of the ground truth are reflected there\n",
+        fmt::print("  {} opening{} in the surface; the walks of the reference are reflected there\n",
                    flesh.mesh_openings, flesh.mesh_openings == 1 ? "" : "s");
 }
 

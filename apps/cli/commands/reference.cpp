@@ -1,4 +1,4 @@
-// `dermis reference`: the ground truth of a scene as a layered EXR.
+// `dermis reference`: the reference of a scene as a layered EXR.
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +11,7 @@
 #include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/jobs/part.h"
-#include "dermis/judge/truth_version.h"
+#include "dermis/judge/reference_version.h"
 #include "picture_text.h"
 #include "reference_options.h"
 #include "stop_on_signals.h"
@@ -26,7 +26,7 @@ constexpr int kNoiseMissed = 3;
 template <class Work>
 auto with_progress(Work work) {
     constexpr double kSteps = 1000;
-    Progress line("ground truth", size_t(kSteps));
+    Progress line("reference", size_t(kSteps));
     size_t shown = 0;
     return work([&](double done) {
         const auto now = size_t(done * kSteps);
@@ -63,7 +63,7 @@ Result<int> run_part(const ReferenceOptions& options, const ReferenceSettings& s
     if (!sums) return sums.error();
     if (Result<void> written = write_part(options.output,
                                           {.picture = options.facts(settings, scene),
-                                           .version = std::string(truth_version()),
+                                           .version = std::string(reference_version()),
                                            .content = *content,
                                            .command = command_of(words),
                                            .range = range,
@@ -175,8 +175,8 @@ Result<JobPlan> plan(const ReferenceOptions& options, const std::vector<std::str
 void add_reference_command(CommandLine& line) {
     auto options = std::make_shared<ReferenceOptions>();
     Command* command = line.add(
-        "reference", "Renders the ground truth of a scene: surface integral of the profile, or random walks",
-        "dermis reference head_scan -o truth.exr --noise 0.01\n"
+        "reference", "Renders the reference of a scene: surface integral of the profile, or random walks",
+        "dermis reference head_scan -o reference.exr --noise 0.01\n"
         "  dermis reference head_scan --integrator walk --samples 256 -o walk.exr\n"
         "  dermis reference head_scan --samples 64 --sample-range 0:16 -o part.exr\n"
         "  layers: R,G,B,A radiance and coverage; diffuse; specular; variance of the mean; samples; skin\n"

@@ -19,7 +19,7 @@ namespace {
 struct ViewOptions {
     RenderOptions render;
     Turntable turntable;
-    std::string script, truth, shader_root;
+    std::string script, reference, shader_root;
     int frames = 0, turn_frames = 0;
     float interface_scale = 0;
 };
@@ -35,8 +35,8 @@ Turntable turntable_of(const ViewOptions& options) {
 Result<FileUse> files_of(const ViewOptions& options) {
     if (options.turn_frames == 0) return FileUse{};
     for (const auto& [flag, given] :
-         {std::pair("--script", !options.script.empty()), std::pair("--truth", !options.truth.empty()),
-          std::pair("--frames", options.frames != 0)})
+         {std::pair("--script", !options.script.empty()),
+          std::pair("--reference", !options.reference.empty()), std::pair("--frames", options.frames != 0)})
         if (given) return Error{std::string(flag) + " has no effect on --turntable, which opens no window"};
     return turntable_files(turntable_of(options));
 }
@@ -80,12 +80,12 @@ Result<int> view_scene(ViewOptions options) {
                                   .interface_scale = options.interface_scale,
                                   .frames = options.frames,
                                   .shader_root = options.shader_root,
-                                  .truth = options.truth,
+                                  .reference = options.reference,
                                   .script_name = options.script,
                                   .print = [](const std::string& text) { std::printf("%s", text.c_str()); }};
-    if (!options.truth.empty())
-        if (const Result<LoadedImage> picture = read_image(options.truth, ImageUse::color); !picture)
-            return picture.error().within("--truth");
+    if (!options.reference.empty())
+        if (const Result<LoadedImage> picture = read_image(options.reference, ImageUse::color); !picture)
+            return picture.error().within("--reference");
     if (!options.script.empty()) {
         DERMIS_TRY_ASSIGN(const std::string text, read_text_file(options.script));
         Result<std::vector<view::ScriptCommand>> script = view::parse_script(text, options.script);
@@ -110,7 +110,7 @@ void add_view_command(CommandLine& line) {
     options->render.add_to(*command);
     command->add_option("--interface-scale", options->interface_scale, {0.25, 8},
                         "factor on the size of text and controls (default: from the display)");
-    command->add_option("--truth", options->truth,
+    command->add_option("--reference", options->reference,
                         "picture to compare with, for example one of dermis reference");
     command->add_option("--turntable", options->turn_frames, {1, 100000},
                         "no window: write one full turn of the camera in this number of frames");

@@ -1,4 +1,4 @@
-"""Human skin in real time: profiles, tables, meshes, pictures, ground truth and comparison.
+"""Human skin in real time: profiles, tables, meshes, pictures, reference and comparison.
 
 Lengths are millimetres and names say so (width_mm, curvature_per_mm). Light is linear, red, green, blue with the
 primaries of sRGB. Pictures are float32 arrays of height x width x 3, rows from the top.

@@ -18,7 +18,7 @@ class Error(Exception):
 
 
 class Comparison:
-    """Techniques and the ground truth of one scene. The arrays are read-only views, no copies."""
+    """Techniques and the reference of one scene. The arrays are read-only views, no copies."""
 
     @property
     def scene(self) -> str:
@@ -28,7 +28,7 @@ class Comparison:
     def rows(self) -> list[dict]:
         """A dict for each technique: captured (the share of the effect of scattering), captured_error, rmse, ...
 
-        The same as the rows of `dermis compare --json`. A share whose ground truth is too noisy is None.
+        The same as the rows of `dermis compare --json`. A share whose reference is too noisy is None.
         """
 
     @property
@@ -44,12 +44,12 @@ class Comparison:
         """What limits the numbers, a line each."""
 
     @property
-    def truth(self) -> NDArray[numpy.float32]:
-        """The ground truth, linear radiance, float32, height x width x 3."""
+    def reference(self) -> NDArray[numpy.float32]:
+        """The reference, linear radiance, float32, height x width x 3."""
 
     @property
-    def truth_effect(self) -> NDArray[numpy.float32]:
-        """What scattering changes in the ground truth, float32, height x width x 3: what `effect` is compared with."""
+    def reference_effect(self) -> NDArray[numpy.float32]:
+        """What scattering changes in the reference, float32, height x width x 3: what `effect` is compared with."""
 
     @property
     def skin(self) -> NDArray[numpy.float32]:
@@ -62,16 +62,16 @@ class Comparison:
         """That picture less lambert's, float32, height x width x 3."""
 
     def flip(self, name: str) -> NDArray[numpy.float32]:
-        """FLIP of the tone-mapped picture against the ground truth's, 0 to 1, float32, height x width."""
+        """FLIP of the tone-mapped picture against the reference's, 0 to 1, float32, height x width."""
 
 
 def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: Size | None=None, integrator: str='surface', ambient: str='renderer', samples_per_pixel: int=36, noise: float=0.2, samples: int=2048, frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None, progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison]:
-    """Techniques compared with the ground truth of the same scene, as `dermis compare`.
+    """Techniques compared with the reference of the same scene, as `dermis compare`.
 
     techniques: "lambert,wrap[wrap=0.4]", a list of such texts, or None for all. size: pixels (512x512, of a set
-    of test scenes 96x96). noise: of the ground truth at which it stops, over the effect of scattering. samples:
-    of the ground truth a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
-    number. frames: that are timed. The ground truth is kept in the cache. Returns a Comparison; of a set of
+    of test scenes 96x96). noise: of the reference at which it stops, over the effect of scattering. samples:
+    of the reference a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
+    number. frames: that are timed. The reference is kept in the cache. Returns a Comparison; of a set of
     scenes, such as "unit", a list.
     """
 
@@ -324,7 +324,7 @@ class ReferencePicture:
 
 
 def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', samples: int | None=None, noise: float | None=None, seed: int=1, probes: int=16, profile: str | None=None, medium: Words=None, width_scale: float=1.0, normalisation: str='area', cavities: str='flesh', filter: str='box', shadows: str='scene', ambient: str='traced', specular: str='ggx', penumbra_mm: float=2.0, camera: Words=None, light: Words=None, keys: Words=None, progress: Callable[[float], object] | None=None) -> ReferencePicture:
-    """The ground truth of a scene, as `dermis reference`. The same seed gives the same picture.
+    """The reference of a scene, as `dermis reference`. The same seed gives the same picture.
 
     integrator: surface, walk, lambert. samples: at most so many a pixel (64; with noise as many as it needs).
     noise: stop at this relative error, such as 0.01. probes: for each sample, even. profile: a name instead of

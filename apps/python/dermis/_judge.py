@@ -1,4 +1,4 @@
-"""Techniques against the ground truth, and metrics."""
+"""Techniques against the reference, and metrics."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Comparison:
-    """Techniques and the ground truth of one scene. The arrays are read-only views, no copies."""
+    """Techniques and the reference of one scene. The arrays are read-only views, no copies."""
 
     __slots__ = ("_comparison", "_json")
 
@@ -35,7 +35,7 @@ class Comparison:
     def rows(self) -> list[dict]:
         """A dict for each technique: captured (the share of the effect of scattering), captured_error, rmse, ...
 
-        The same as the rows of `dermis compare --json`. A share whose ground truth is too noisy is None.
+        The same as the rows of `dermis compare --json`. A share whose reference is too noisy is None.
         """
         return self._json["rows"]
 
@@ -55,13 +55,13 @@ class Comparison:
         return self._comparison.warnings
 
     @property
-    def truth(self) -> NDArray[numpy.float32]:
-        """The ground truth, linear radiance, float32, height x width x 3."""
+    def reference(self) -> NDArray[numpy.float32]:
+        """The reference, linear radiance, float32, height x width x 3."""
         return _dermis.comparison_picture(self._comparison, -1, "radiance")[..., :3]
 
     @property
-    def truth_effect(self) -> NDArray[numpy.float32]:
-        """What scattering changes in the ground truth, float32, height x width x 3: what `effect` is compared with."""
+    def reference_effect(self) -> NDArray[numpy.float32]:
+        """What scattering changes in the reference, float32, height x width x 3: what `effect` is compared with."""
         return _dermis.comparison_picture(self._comparison, -1, "effect")
 
     @property
@@ -78,7 +78,7 @@ class Comparison:
         return _dermis.comparison_picture(self._comparison, self._row(name), "effect")
 
     def flip(self, name: str) -> NDArray[numpy.float32]:
-        """FLIP of the tone-mapped picture against the ground truth's, 0 to 1, float32, height x width."""
+        """FLIP of the tone-mapped picture against the reference's, 0 to 1, float32, height x width."""
         return _dermis.comparison_picture(self._comparison, self._row(name), "flip")
 
     def _row(self, name):
@@ -91,12 +91,12 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
             integrator: str='surface', ambient: str='renderer', samples_per_pixel: int=36, noise: float=0.2,
             samples: int=2048, frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None,
             progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison]:
-    """Techniques compared with the ground truth of the same scene, as `dermis compare`.
+    """Techniques compared with the reference of the same scene, as `dermis compare`.
 
     techniques: "lambert,wrap[wrap=0.4]", a list of such texts, or None for all. size: pixels (512x512, of a set
-    of test scenes 96x96). noise: of the ground truth at which it stops, over the effect of scattering. samples:
-    of the ground truth a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
-    number. frames: that are timed. The ground truth is kept in the cache. Returns a Comparison; of a set of
+    of test scenes 96x96). noise: of the reference at which it stops, over the effect of scattering. samples:
+    of the reference a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
+    number. frames: that are timed. The reference is kept in the cache. Returns a Comparison; of a set of
     scenes, such as "unit", a list.
     """
     listed = techniques if isinstance(techniques, str) else ",".join(techniques or [])

@@ -159,7 +159,7 @@ def reference(scene: Path, *, size: Size='512x512', integrator: str='surface', s
               shadows: str='scene', ambient: str='traced', specular: str='ggx', penumbra_mm: float=2.0,
               camera: Words=None, light: Words=None, keys: Words=None,
               progress: Callable[[float], object] | None=None) -> ReferencePicture:
-    """The ground truth of a scene, as `dermis reference`. The same seed gives the same picture.
+    """The reference of a scene, as `dermis reference`. The same seed gives the same picture.
 
     integrator: surface, walk, lambert. samples: at most so many a pixel (64; with noise as many as it needs).
     noise: stop at this relative error, such as 0.01. probes: for each sample, even. profile: a name instead of

@@ -1,5 +1,5 @@
 #pragma once
-// The right side when it is a picture: a file, or the ground truth, which is rendered in the background.
+// The right side when it is a picture: a file, or the reference, which is rendered in the background.
 
 #include <atomic>
 #include <future>
@@ -13,17 +13,17 @@
 
 namespace dermis::view {
 
-class Truth {
+class Reference {
   public:
-    Truth() = default;
+    Reference() = default;
     /// Stops what is being made and waits for it.
-    ~Truth() { stop_ = true; }
-    Truth(const Truth&) = delete;
-    Truth& operator=(const Truth&) = delete;
+    ~Reference() { stop_ = true; }
+    Reference(const Reference&) = delete;
+    Reference& operator=(const Reference&) = delete;
 
     /// Any picture; a notice when it cannot be read.
     void open(const std::string& path, Model& model);
-    /// Begins to make the ground truth of what is seen, or stops making it.
+    /// Begins to make the reference of what is seen, or stops making it.
     void ask(const Model& model, PictureSize size);
     /// True when one has come, or failed to.
     [[nodiscard]] bool take(Model& model, double now_s);

@@ -1,4 +1,4 @@
-#include "dermis/view/truth.h"
+#include "dermis/view/reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,22 +32,22 @@ gpu::TextureData texture_data(const Image& display) {
 
 }  // namespace
 
-void Truth::put(Image picture, std::string view, const std::string& name, Model& model) {
+void Reference::put(Image picture, std::string view, const std::string& name, Model& model) {
     picture_ = std::move(picture);
     view_ = std::move(view);
     texture_key_.clear();
-    model.truth_path = name;
+    model.reference_path = name;
     if (!model.compares()) model.compare = Compare::wipe;
 }
 
-void Truth::open(const std::string& path, Model& model) {
+void Reference::open(const std::string& path, Model& model) {
     Result<LoadedImage> loaded = read_image(path, ImageUse::color);
     if (!loaded) return model.notices.report_error("open", loaded.error().message);
     put(std::move(loaded->image), "", path, model);
 }
 
 // Computed from a copy of the scene, or read from the cache.
-void Truth::ask(const Model& model, PictureSize size) {
+void Reference::ask(const Model& model, PictureSize size) {
     if (!model.scene) return;
     if (making_.valid()) {
         stop_ = true;
@@ -63,32 +63,32 @@ void Truth::ask(const Model& model, PictureSize size) {
     });
 }
 
-bool Truth::take(Model& model, double now_s) {
+bool Reference::take(Model& model, double now_s) {
     if (!making_.valid()) return false;
     if (making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-        model.notices.inform("truth", "ground truth: " + std::to_string(int(done_ * 100)) + " %   (G stops)",
+        model.notices.inform("reference", "reference: " + std::to_string(int(done_ * 100)) + " %   (G stops)",
                              now_s);
         return false;
     }
     Result<CachedReference> made = making_.get();
-    model.notices.clear("truth");
+    model.notices.clear("reference");
     if (made)
-        put(std::move(made->picture.radiance), asked_view_, "ground truth", model);
+        put(std::move(made->picture.radiance), asked_view_, "reference", model);
     else if (!stop_)
-        model.notices.report_error("truth", made.error().message);
+        model.notices.report_error("reference", made.error().message);
     return true;
 }
 
-Result<void> Truth::refresh(gpu::Device& device, Model& model) {
-    if (model.truth_path.empty()) picture_ = Image();
+Result<void> Reference::refresh(gpu::Device& device, Model& model) {
+    if (model.reference_path.empty()) picture_ = Image();
     if (picture_.empty() || !model.scene) {
         texture_.reset();
-        model.truth_is_of_another_view = false;
+        model.reference_is_of_another_view = false;
         return {};
     }
-    model.truth_is_of_another_view = !view_.empty() && view_ != hash_of_views(*model.scene);
+    model.reference_is_of_another_view = !view_.empty() && view_ != hash_of_views(*model.scene);
     const std::string key =
-        model.truth_path + to_text(model.scene->exposure_ev) + std::to_string(int(model.scene->tone_map));
+        model.reference_path + to_text(model.scene->exposure_ev) + std::to_string(int(model.scene->tone_map));
     if (texture_ && key == texture_key_) return {};
     DERMIS_TRY_ASSIGN(gpu::Texture texture,
                       gpu::Texture::upload(device, texture_data(for_display(picture_, *model.scene))));

@@ -1,4 +1,4 @@
-#include "dermis/judge/effect_truth.h"
+#include "dermis/judge/effect_reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,17 +27,18 @@ struct EffectHeader {
 
 struct State {
     EffectHeader header;
-    EffectTruth truth;
+    EffectReference reference;
 
     explicit State(const ReferenceSettings& s) {
         header.width = s.width;
         header.height = s.height;
-        truth.effect = {Image(s.width, s.height, 3), Image(s.width, s.height, 3)};
-        truth.halves = {Image(s.width, s.height, 4), Image(s.width, s.height, 4)};
-        truth.skin = Image(s.width, s.height, 1);
+        reference.effect = {Image(s.width, s.height, 3), Image(s.width, s.height, 3)};
+        reference.halves = {Image(s.width, s.height, 4), Image(s.width, s.height, 4)};
+        reference.skin = Image(s.width, s.height, 1);
     }
     [[nodiscard]] std::array<Image*, 5> images() {
-        return {&truth.effect.a, &truth.effect.b, &truth.halves[0], &truth.halves[1], &truth.skin};
+        return {&reference.effect.a, &reference.effect.b, &reference.halves[0], &reference.halves[1],
+                &reference.skin};
     }
 };
 
@@ -89,15 +90,15 @@ Result<void> add_batch(const Scene& scene, ReferenceSettings settings, int half,
     DERMIS_TRY_ASSIGN(const ReferencePicture none, render_reference(scene, settings, {}, stop));
     if (stop && stop->load()) return Error{"stopped"};
     const float share = float(settings.samples) / float(state.header.passes + settings.samples);
-    add_weighted(half == 0 ? state.truth.effect.a : state.truth.effect.b,
+    add_weighted(half == 0 ? state.reference.effect.a : state.reference.effect.b,
                  difference(skin->diffuse, none.diffuse), share);
-    add_weighted(state.truth.halves[size_t(half)], skin->radiance, share);
-    state.truth.skin = skin->skin;
+    add_weighted(state.reference.halves[size_t(half)], skin->radiance, share);
+    state.reference.skin = skin->skin;
     state.header.time_ms += skin->time_ms + none.time_ms;
     ++state.header.batches;
     for (const std::string& warning : skin->warnings)
-        if (std::ranges::find(state.truth.warnings, warning) == state.truth.warnings.end())
-            state.truth.warnings.push_back(warning);
+        if (std::ranges::find(state.reference.warnings, warning) == state.reference.warnings.end())
+            state.reference.warnings.push_back(warning);
     return {};
 }
 
@@ -108,23 +109,23 @@ Image whole_skin(const Image& skin) {
 }
 
 // Passes a half that the wanted noise takes, by what it is now: the square falls as one over the work.
-double passes_wanted(const State& state, const EffectTruthSettings& settings) {
-    const EffectNoise& now = state.truth.noise;
+double passes_wanted(const State& state, const EffectReferenceSettings& settings) {
+    const EffectNoise& now = state.reference.noise;
     const double most = settings.samples / 2.0;
     if (now.effect_rms <= 0) return most;
     const double ratio = now.noise_rms / (settings.noise * now.effect_rms);
     return std::min(most, state.header.passes * ratio * ratio * (ratio > 1 ? kMargin : 1));
 }
 
-bool fine_enough(const State& state, const EffectTruthSettings& settings) {
+bool fine_enough(const State& state, const EffectReferenceSettings& settings) {
     return state.header.passes > 0 &&
-           state.truth.noise.noise_rms <= settings.noise * state.truth.noise.effect_rms;
+           state.reference.noise.noise_rms <= settings.noise * state.reference.noise.effect_rms;
 }
 
 // The next batch of a half, in passes: whole rounds over the grid; 0 when the limit leaves none.
-int next_passes(const State& state, const EffectTruthSettings& settings) {
+int next_passes(const State& state, const EffectReferenceSettings& settings) {
     const int cells = settings.reference.grid * settings.reference.grid;
-    // The cache may hold a finer truth, of a run with a higher limit.
+    // The cache may hold a finer reference, of a run with a higher limit.
     const int left = std::max(0, settings.samples / 2 - state.header.passes) / cells;
     if (state.header.passes == 0) return cells * std::min(left, 1);
     const double wanted = (passes_wanted(state, settings) - state.header.passes) / cells;
@@ -133,31 +134,31 @@ int next_passes(const State& state, const EffectTruthSettings& settings) {
 
 }  // namespace
 
-Image EffectTruth::radiance() const {
+Image EffectReference::radiance() const {
     Image mean = halves[0];
     for (size_t i = 0; i < mean.floats().size(); ++i)
         mean.floats()[i] = 0.5f * (halves[0].floats()[i] + halves[1].floats()[i]);
     return mean;
 }
 
-Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSettings& settings,
-                                      const ReferenceDone& progress, const std::atomic<bool>* stop) {
+Result<EffectReference> make_effect_reference(const Scene& scene, const EffectReferenceSettings& settings,
+                                              const ReferenceDone& progress, const std::atomic<bool>* stop) {
     ReferenceSettings reference = settings.reference;
     reference.filter = PixelFilter::grid;
     reference.noise = {};
     const int cells = reference.grid * reference.grid;
     if (settings.samples < 2 * cells)
         return Error{"at most " + std::to_string(settings.samples) +
-                     " samples a pixel: both halves of the truth need " + std::to_string(2 * cells)};
+                     " samples a pixel: both halves of the reference need " + std::to_string(2 * cells)};
     DERMIS_TRY_ASSIGN(const std::string hash, state_hash(scene, reference));
     State state(reference);
     if (const auto bytes = cache_load("effect", hash); bytes && unpack(*bytes, state))
-        state.truth.noise = effect_noise(state.truth.effect, whole_skin(state.truth.skin));
-    state.truth.from_cache = true;
+        state.reference.noise = effect_noise(state.reference.effect, whole_skin(state.reference.skin));
+    state.reference.from_cache = true;
     while (!fine_enough(state, settings)) {
         reference.samples = next_passes(state, settings);
         if (reference.samples == 0) break;
-        state.truth.from_cache = false;
+        state.reference.from_cache = false;
         for (int half = 0; half < 2; ++half) {
             const auto done = [&](double share) {
                 if (!progress) return;
@@ -169,16 +170,16 @@ Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSetti
             DERMIS_TRY(add_batch(scene, reference, half, state, done, stop));
         }
         state.header.passes += reference.samples;
-        const Image mask = whole_skin(state.truth.skin);
+        const Image mask = whole_skin(state.reference.skin);
         if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
             return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
-        state.truth.noise = effect_noise(state.truth.effect, mask);
+        state.reference.noise = effect_noise(state.reference.effect, mask);
         cache_store("effect", hash, pack(state));
     }
-    state.truth.reached = fine_enough(state, settings);
-    state.truth.samples = 2 * state.header.passes;
-    state.truth.time_ms = state.header.time_ms;
-    return std::move(state.truth);
+    state.reference.reached = fine_enough(state, settings);
+    state.reference.samples = 2 * state.header.passes;
+    state.reference.time_ms = state.header.time_ms;
+    return std::move(state.reference);
 }
 
 }  // namespace dermis::inline judge

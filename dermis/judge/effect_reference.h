@@ -1,5 +1,5 @@
 #pragma once
-// The ground truth of a scene and of the same scene without scattering, in two independent halves, made until
+// The reference of a scene and of the same scene without scattering, in two independent halves, made until
 // its noise is small beside the effect. Kept in the disk cache and refined there.
 
 #include <atomic>
@@ -12,14 +12,14 @@
 
 namespace dermis::inline judge {
 
-struct EffectTruthSettings {
+struct EffectReferenceSettings {
     /// Its size, grid, integrator, lighting, probes and seed; `samples`, `noise` and `filter` are not read.
     ReferenceSettings reference;
-    double noise = 0.2;  ///< of the effect's RMS at which the truth is fine enough; above 0
+    double noise = 0.2;  ///< of the effect's RMS at which the reference is fine enough; above 0
     int samples = 2048;  ///< a pixel at most, of both halves together; at least twice the grid's cells
 };
 
-struct EffectTruth {
+struct EffectReference {
     EffectHalves effect;
     std::array<Image, 2> halves;  ///< linear radiance, RGBA, of the skin as it is; alpha is coverage
     Image skin;                   ///< the share of the pixel that is skin
@@ -42,8 +42,9 @@ using ReferenceDone = std::function<void(double done, bool first_samples)>;
 /// that a run that was stopped loses little. Width 0 takes the same places in the pixels and the same
 /// reflections as the skin's width, so that their noise cancels. Errors: as render_reference; stopped; no
 /// skin in sight.
-[[nodiscard]] Result<EffectTruth> make_effect_truth(const Scene& scene, const EffectTruthSettings& settings,
-                                                    const ReferenceDone& progress = {},
-                                                    const std::atomic<bool>* stop = nullptr);
+[[nodiscard]] Result<EffectReference> make_effect_reference(const Scene& scene,
+                                                            const EffectReferenceSettings& settings,
+                                                            const ReferenceDone& progress = {},
+                                                            const std::atomic<bool>* stop = nullptr);
 
 }  // namespace dermis::inline judge
