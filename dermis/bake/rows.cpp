@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "dermis/base/cache.h"
@@ -15,42 +14,7 @@ namespace dermis::inline bake {
 namespace {
 
 // Raise with every change to the quadrature: old cache entries are then not found.
-constexpr std::string_view kCacheKind = "radial_rows_1";
-
-struct ProfileHash {
-    Hasher& hasher;
-    void add(std::span<const double> values) { hasher.add(std::as_bytes(values)); }
-    void operator()(const GaussianSum& sum) {
-        for (const GaussianTerm& term : sum.terms) {
-            hasher.add(term.variance_mm2);
-            add(term.weight);
-        }
-    }
-    void operator()(const BurleyProfile& burley) {
-        add(burley.albedo);
-        add(burley.d_mm);
-    }
-    void operator()(const DipoleProfile& dipole) {
-        add(dipole.medium.sigma_s_per_mm);
-        add(dipole.medium.sigma_a_per_mm);
-        hasher.add(dipole.medium.g).add(dipole.medium.eta);
-    }
-    void operator()(const TabulatedProfile& table) {
-        add(table.r_mm());
-        for (const Rgb& value : table.reflectance_per_mm2()) add(value);
-    }
-};
-
-std::string hash_of(const Profile& profile, std::span<const double> n_dot_l,
-                    std::span<const double> radii_mm) {
-    Hasher hasher;
-    hasher.add(profile.model.index());
-    ProfileHash add{hasher};
-    std::visit(add, profile.model);
-    add.add(n_dot_l);
-    add.add(radii_mm);
-    return hasher.hex();
-}
+constexpr std::string_view kCacheKind = "radial_rows_2";
 
 // D is a function of |N.L| and an odd part, so mirrored columns are integrated once.
 std::vector<double> distinct_magnitudes(std::span<const double> n_dot_l) {
@@ -93,17 +57,10 @@ std::vector<float> radial_rows(const RadialProfile& profile, std::span<const dou
 
 Result<std::vector<float>> cached_radial_rows(const Profile& profile, std::span<const double> n_dot_l,
                                               std::span<const double> radii_mm) {
-    const size_t count = 3 * n_dot_l.size() * radii_mm.size();
-    const auto make = [&]() -> Result<std::vector<std::byte>> {
-        const std::vector<float> data = radial_rows(radial_profile(profile), n_dot_l, radii_mm);
-        const std::span<const std::byte> bytes = std::as_bytes(std::span(data));
-        return std::vector<std::byte>(bytes.begin(), bytes.end());
-    };
-    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes,
-                      cached(kCacheKind, hash_of(profile, n_dot_l, radii_mm), count * sizeof(float), make));
-    std::vector<float> data(count);
-    std::memcpy(data.data(), bytes.data(), bytes.size());
-    return data;
+    const auto make = [&] { return Result(radial_rows(radial_profile(profile), n_dot_l, radii_mm)); };
+    const std::string hash =
+        Hasher().add(hash_of(profile)).add(std::as_bytes(n_dot_l)).add(std::as_bytes(radii_mm)).hex();
+    return cached(kCacheKind, hash, std::vector<float>(3 * n_dot_l.size() * radii_mm.size()), make);
 }
 
 }  // namespace

@@ -51,13 +51,4 @@ bool cache_store(std::string_view kind, std::string_view hash, const std::vector
     return write_file(path, file).ok();
 }
 
-Result<std::vector<std::byte>> cached(std::string_view kind, std::string_view hash, size_t expected_bytes,
-                                      const std::function<Result<std::vector<std::byte>>()>& make) {
-    if (auto found = cache_load(kind, hash); found && found->size() == expected_bytes)
-        return std::move(*found);
-    Result<std::vector<std::byte>> made = make();
-    if (made) cache_store(kind, hash, *made);
-    return made;
-}
-
 }  // namespace dermis::inline base

@@ -4,11 +4,13 @@
 // file cannot be written, the caller goes on and computes the result again next time.
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "dermis/base/bytes.h"
 #include "dermis/base/result.h"
 
 namespace dermis::inline base {
@@ -22,10 +24,34 @@ namespace dermis::inline base {
 /// Best effort; false when nothing could be stored (a full disk, a read-only home).
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);
 
-/// Loads, or makes and stores. An entry of another size than `expected_bytes` is made again. For content that
-/// can be wrong in other ways: cache_load, decode, and cache_store again if that fails.
-[[nodiscard]] Result<std::vector<std::byte>> cached(
-    std::string_view kind, std::string_view hash, size_t expected_bytes,
-    const std::function<Result<std::vector<std::byte>>()>& make);
+/// The same of values, as a std::tie() of them. Vectors that are not empty say how long a stored one has to
+/// be; false, with some of the values changed, where there is no such entry.
+template <class... T>
+[[nodiscard]] bool cache_load(std::string_view kind, std::string_view hash, std::tuple<T&...> values) {
+    const auto bytes = cache_load(kind, hash);
+    return bytes && std::apply([&](T&... value) { return unpack(*bytes, value...); }, values);
+}
+template <class... T>
+bool cache_store(std::string_view kind, std::string_view hash, std::tuple<T&...> values) {
+    return cache_store(kind, hash, std::apply([](const T&... value) { return pack(value...); }, values));
+}
+
+/// Loads into `blank`, or makes and stores. `parts` gives the members of a T that are stored, as a
+/// std::tie().
+template <class T, class Make, class Parts>
+[[nodiscard]] Result<T> cached(std::string_view kind, std::string_view hash, T blank, const Make& make,
+                               const Parts& parts) {
+    if (cache_load(kind, hash, parts(blank))) return blank;
+    Result<T> made = make();
+    if (made) cache_store(kind, hash, parts(*made));
+    return made;
+}
+
+/// Of a vector, which is stored itself.
+template <class T, class Make>
+[[nodiscard]] Result<std::vector<T>> cached(std::string_view kind, std::string_view hash,
+                                            std::vector<T> blank, const Make& make) {
+    return cached(kind, hash, std::move(blank), make, [](auto& values) { return std::tie(values); });
+}
 
 }  // namespace dermis::inline base

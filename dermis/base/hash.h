@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace dermis::inline base {
 
@@ -24,6 +25,11 @@ class Hasher {
     template <class T>
     requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) Hasher& add(T value) {
         return add(std::as_bytes(std::span(&value, 1)));
+    }
+    /// Elements must have no padding.
+    template <class T>
+    requires std::is_trivially_copyable_v<T> Hasher& add(const std::vector<T>& values) {
+        return add(std::as_bytes(std::span(values)));
     }
 
     /// 32 hexadecimal digits of all that was added so far.

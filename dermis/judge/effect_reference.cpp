@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
@@ -17,28 +16,21 @@ constexpr int kMostRounds = 8;
 // Factor on the estimated number of passes, so that the wanted noise is not missed by a small amount.
 constexpr double kMargin = 1.05;
 
-// Stored: the header, then the floats of every image in the order of images().
-struct EffectHeader {
-    int32_t width = 0, height = 0;
-    int32_t passes = 0;  // a half
-    uint32_t batches = 0;
-    double time_ms = 0;
-};
-
 struct State {
-    EffectHeader header;
+    int passes = 0;  // a half
+    uint32_t batches = 0;
     EffectReference reference;
 
     explicit State(const ReferenceSettings& s) {
-        header.width = s.width;
-        header.height = s.height;
         reference.effect = {Image(s.width, s.height, 3), Image(s.width, s.height, 3)};
         reference.halves = {Image(s.width, s.height, 4), Image(s.width, s.height, 4)};
         reference.skin = Image(s.width, s.height, 1);
     }
-    [[nodiscard]] std::array<Image*, 5> images() {
-        return {&reference.effect.a, &reference.effect.b, &reference.halves[0], &reference.halves[1],
-                &reference.skin};
+    // What is stored.
+    [[nodiscard]] auto parts() {
+        return std::tie(passes, batches, reference.time_ms, reference.effect.a.bytes,
+                        reference.effect.b.bytes, reference.halves[0].bytes, reference.halves[1].bytes,
+                        reference.skin.bytes);
     }
 };
 
@@ -49,31 +41,6 @@ Result<std::string> state_hash(const Scene& scene, const ReferenceSettings& sett
     return Hasher().add(std::string_view("effect")).add(hash).hex();
 }
 
-std::vector<std::byte> pack(State& state) {
-    std::vector<std::byte> bytes(sizeof(EffectHeader));
-    std::memcpy(bytes.data(), &state.header, sizeof(EffectHeader));
-    for (const Image* image : state.images())
-        bytes.insert(bytes.end(), image->bytes.begin(), image->bytes.end());
-    return bytes;
-}
-
-// False, and the state as new, when the bytes are of something else.
-bool unpack(const std::vector<std::byte>& bytes, State& state) {
-    size_t expected = sizeof(EffectHeader);
-    for (const Image* image : state.images()) expected += image->bytes.size();
-    EffectHeader header;
-    if (bytes.size() != expected) return false;
-    std::memcpy(&header, bytes.data(), sizeof header);
-    if (header.width != state.header.width || header.height != state.header.height) return false;
-    state.header = header;
-    size_t at = sizeof header;
-    for (Image* image : state.images()) {
-        std::memcpy(image->bytes.data(), bytes.data() + at, image->bytes.size());
-        at += image->bytes.size();
-    }
-    return true;
-}
-
 void add_weighted(Image& mean, const Image& value, float share) {
     for (size_t i = 0; i < mean.floats().size(); ++i)
         mean.floats()[i] += (value.floats()[i] - mean.floats()[i]) * share;
@@ -82,20 +49,20 @@ void add_weighted(Image& mean, const Image& value, float share) {
 // One batch of both widths goes to one half.
 Result<void> add_batch(const Scene& scene, ReferenceSettings settings, int half, State& state,
                        const ReferenceProgress& progress, const std::atomic<bool>* stop) {
-    settings.seed = hash_u32(settings.seed, state.header.batches);
+    settings.seed = hash_u32(settings.seed, state.batches);
     // Width 0 takes a small part of the time.
     const Result<ReferencePicture> skin = render_reference(scene, settings, progress, stop);
     if (!skin) return skin.error();
     settings.integrator = Integrator::lambert;
     DERMIS_TRY_ASSIGN(const ReferencePicture none, render_reference(scene, settings, {}, stop));
     if (stop && stop->load()) return Error{"stopped"};
-    const float share = float(settings.samples) / float(state.header.passes + settings.samples);
+    const float share = float(settings.samples) / float(state.passes + settings.samples);
     add_weighted(half == 0 ? state.reference.effect.a : state.reference.effect.b,
                  difference(skin->diffuse, none.diffuse), share);
     add_weighted(state.reference.halves[size_t(half)], skin->radiance, share);
     state.reference.skin = skin->skin;
-    state.header.time_ms += skin->time_ms + none.time_ms;
-    ++state.header.batches;
+    state.reference.time_ms += skin->time_ms + none.time_ms;
+    ++state.batches;
     for (const std::string& warning : skin->warnings)
         if (std::ranges::find(state.reference.warnings, warning) == state.reference.warnings.end())
             state.reference.warnings.push_back(warning);
@@ -114,11 +81,11 @@ double passes_wanted(const State& state, const EffectReferenceSettings& settings
     const double most = settings.samples / 2.0;
     if (now.effect_rms <= 0) return most;
     const double ratio = now.noise_rms / (settings.noise * now.effect_rms);
-    return std::min(most, state.header.passes * ratio * ratio * (ratio > 1 ? kMargin : 1));
+    return std::min(most, state.passes * ratio * ratio * (ratio > 1 ? kMargin : 1));
 }
 
 bool fine_enough(const State& state, const EffectReferenceSettings& settings) {
-    return state.header.passes > 0 &&
+    return state.passes > 0 &&
            state.reference.noise.noise_rms <= settings.noise * state.reference.noise.effect_rms;
 }
 
@@ -126,9 +93,9 @@ bool fine_enough(const State& state, const EffectReferenceSettings& settings) {
 int next_passes(const State& state, const EffectReferenceSettings& settings) {
     const int cells = settings.reference.grid * settings.reference.grid;
     // The cache may hold a finer reference, of a run with a higher limit.
-    const int left = std::max(0, settings.samples / 2 - state.header.passes) / cells;
-    if (state.header.passes == 0) return cells * std::min(left, 1);
-    const double wanted = (passes_wanted(state, settings) - state.header.passes) / cells;
+    const int left = std::max(0, settings.samples / 2 - state.passes) / cells;
+    if (state.passes == 0) return cells * std::min(left, 1);
+    const double wanted = (passes_wanted(state, settings) - state.passes) / cells;
     return cells * std::min({left, kMostRounds, std::max(1, int(std::ceil(wanted)))});
 }
 
@@ -152,8 +119,10 @@ Result<EffectReference> make_effect_reference(const Scene& scene, const EffectRe
                      " samples a pixel: both halves of the reference need " + std::to_string(2 * cells)};
     DERMIS_TRY_ASSIGN(const std::string hash, state_hash(scene, reference));
     State state(reference);
-    if (const auto bytes = cache_load("effect", hash); bytes && unpack(*bytes, state))
+    if (cache_load("effect", hash, state.parts()))
         state.reference.noise = effect_noise(state.reference.effect, whole_skin(state.reference.skin));
+    else
+        state = State(reference);
     state.reference.from_cache = true;
     while (!fine_enough(state, settings)) {
         reference.samples = next_passes(state, settings);
@@ -162,23 +131,22 @@ Result<EffectReference> make_effect_reference(const Scene& scene, const EffectRe
         for (int half = 0; half < 2; ++half) {
             const auto done = [&](double share) {
                 if (!progress) return;
-                const bool first = state.header.passes == 0;
-                const double passes = state.header.passes + (half + share) / 2 * reference.samples;
+                const bool first = state.passes == 0;
+                const double passes = state.passes + (half + share) / 2 * reference.samples;
                 const double wanted = first ? reference.samples : passes_wanted(state, settings);
                 progress(std::min(1.0, passes / std::max(wanted, 1.0)), first);
             };
             DERMIS_TRY(add_batch(scene, reference, half, state, done, stop));
         }
-        state.header.passes += reference.samples;
+        state.passes += reference.samples;
         const Image mask = whole_skin(state.reference.skin);
         if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
             return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
         state.reference.noise = effect_noise(state.reference.effect, mask);
-        cache_store("effect", hash, pack(state));
+        cache_store("effect", hash, state.parts());
     }
     state.reference.reached = fine_enough(state, settings);
-    state.reference.samples = 2 * state.header.passes;
-    state.reference.time_ms = state.header.time_ms;
+    state.reference.samples = 2 * state.passes;
     return std::move(state.reference);
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dermis/base/hash.h"
 #include "dermis/optics/check_value.h"
 #include "dermis/optics/fresnel.h"
 
@@ -225,6 +226,30 @@ double bisected_inverse_cdf_mm(const Profile& profile, int channel, double u) {
     return high;
 }
 
+struct ProfileHash {
+    Hasher& hasher;
+    void add(std::span<const double> values) const { hasher.add(std::as_bytes(values)); }
+    void operator()(const GaussianSum& sum) const {
+        for (const GaussianTerm& term : sum.terms) {
+            hasher.add(term.variance_mm2);
+            add(term.weight);
+        }
+    }
+    void operator()(const BurleyProfile& burley) const {
+        add(burley.albedo);
+        add(burley.d_mm);
+    }
+    void operator()(const DipoleProfile& dipole) const {
+        add(dipole.medium.sigma_s_per_mm);
+        add(dipole.medium.sigma_a_per_mm);
+        hasher.add(dipole.medium.g).add(dipole.medium.eta);
+    }
+    void operator()(const TabulatedProfile& table) const {
+        add(table.r_mm());
+        for (const Rgb& value : table.reflectance_per_mm2()) add(value);
+    }
+};
+
 }  // namespace
 
 std::string model_name(const Profile& profile) {
@@ -291,6 +316,13 @@ BurleyProfile burley_equivalent(const Profile& profile) {
         burley.d_mm[size_t(c)] = mean_radius_mm(profile, c) / 2.5;
     }
     return burley;
+}
+
+std::string hash_of(const Profile& profile) {
+    Hasher hasher;
+    hasher.add(profile.model.index());
+    std::visit(ProfileHash{hasher}, profile.model);
+    return hasher.hex();
 }
 
 Profile scaled(const Profile& profile, double factor) {

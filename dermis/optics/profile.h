@@ -107,6 +107,9 @@ struct Profile {
 /// The Burley profile of the same albedo and mean radius: d = mean / 2.5. The common currency of conversions.
 [[nodiscard]] BurleyProfile burley_equivalent(const Profile& profile);
 
+/// Of the model and its numbers, not of names: for keys of the cache.
+[[nodiscard]] std::string hash_of(const Profile& profile);
+
 /// All lengths times `factor` (> 0): R(r) becomes R(r / factor) / factor^2.
 [[nodiscard]] Profile scaled(const Profile& profile, double factor);
 

@@ -11,12 +11,12 @@
 #include <span>
 
 #include "dermis/base/cache.h"
-#include "dermis/base/file.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
 #include "dermis/base/progress.h"
 #include "dermis/image/dilate.h"
 #include "dermis/rays/skin_points.h"
+#include "dermis/scene/scene_hash.h"
 
 namespace dermis::inline rays {
 namespace {
@@ -377,24 +377,16 @@ DiffusedNormals bake(const SkinTexelReader& reader, const GaussianSum& profile,
 Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
                                  const DiffusedNormalsRequest& request) {
     Hasher hasher;
-    hasher.add("diffused normals 8").add(request.size).add(request.finest_variance_mm2);
+    hasher.add("diffused normals 9").add(request.size).add(request.finest_variance_mm2);
     for (const GaussianTerm& term : profile.terms)
         hasher.add(std::as_bytes(std::span(&term.variance_mm2, 1)))
             .add(std::as_bytes(std::span(term.weight)));
     for (const SceneObject& object : scene.objects) {
-        const Mesh& mesh = object.mesh;
-        hasher.add(std::as_bytes(std::span(mesh.positions_mm))).add(std::as_bytes(std::span(mesh.normals)));
-        hasher.add(std::as_bytes(std::span(mesh.tangents))).add(std::as_bytes(std::span(mesh.uvs)));
-        hasher.add(std::as_bytes(std::span(mesh.indices))).add(std::as_bytes(std::span(object.classes)));
-        for (const Submesh& submesh : mesh.submeshes)
-            hasher.add(submesh.first_index).add(submesh.index_count).add(submesh.material);
-        for (const Material& material : mesh.materials) {
-            const ImageSource& map = material.normal_map;
+        add_shape(hasher, object);
+        hasher.add(object.mesh.tangents).add(object.mesh.uvs);
+        for (const Material& material : object.mesh.materials) {
             hasher.add(material.normal_space).add(material.normal_scale).add(material.dilate_texels);
-            hasher.add(map.wrap_u).add(map.wrap_v).add(std::span(map.encoded)).add(std::span(map.pixels));
-            if (!map.encoded.empty() || !map.pixels.empty() || map.name.empty()) continue;
-            DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(map.name));
-            hasher.add(std::span(file));
+            DERMIS_TRY(add_image(hasher, material.normal_map));
         }
     }
     return hasher.hex();
@@ -405,23 +397,14 @@ Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
 Result<DiffusedNormals> bake_diffused_normals(const Scene& scene, const GaussianSum& profile,
                                               const DiffusedNormalsRequest& request) {
     DERMIS_TRY_ASSIGN(const std::string hash, content_hash(scene, profile, request));
-    const size_t texels = size_t(request.size) * size_t(request.size);
-    const size_t bytes = texels * sizeof(DiffusedNormals::Texel);
-    DERMIS_TRY_ASSIGN(const std::vector<std::byte> stored,
-                      cached("diffused_normals", hash, 2 * bytes, [&]() -> Result<std::vector<std::byte>> {
-                          DERMIS_TRY_ASSIGN(const SkinTexelReader reader, SkinTexelReader::create(scene));
-                          const DiffusedNormals made = bake(reader, profile, request);
-                          std::vector<std::byte> both(2 * bytes);
-                          std::memcpy(both.data(), made.red.data(), bytes);
-                          std::memcpy(both.data() + bytes, made.green.data(), bytes);
-                          return both;
-                      }));
-    DiffusedNormals normals{.size = request.size,
-                            .red = std::vector<DiffusedNormals::Texel>(texels),
-                            .green = std::vector<DiffusedNormals::Texel>(texels)};
-    std::memcpy(normals.red.data(), stored.data(), bytes);
-    std::memcpy(normals.green.data(), stored.data() + bytes, bytes);
-    return normals;
+    const std::vector<DiffusedNormals::Texel> texels(size_t(request.size) * size_t(request.size));
+    return cached(
+        "diffused_normals", hash, DiffusedNormals{.size = request.size, .red = texels, .green = texels},
+        [&]() -> Result<DiffusedNormals> {
+            DERMIS_TRY_ASSIGN(const SkinTexelReader reader, SkinTexelReader::create(scene));
+            return bake(reader, profile, request);
+        },
+        [](auto& normals) { return std::tie(normals.red, normals.green); });
 }
 
 }  // namespace dermis::inline rays

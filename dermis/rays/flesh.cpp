@@ -1,7 +1,6 @@
 #include "dermis/rays/flesh.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
@@ -13,6 +12,7 @@
 #include "dermis/rays/ray_scene.h"
 #include "dermis/rays/rays_version.h"
 #include "dermis/rays/sampling.h"
+#include "dermis/scene/scene_hash.h"
 
 namespace dermis::inline rays {
 namespace {
@@ -242,70 +242,23 @@ Result<Flesh> make_flesh(const SceneObject& object, Cavities cavities) {
     return flesh;
 }
 
-std::string content_hash(const SceneObject& object, Cavities cavities) {
-    const Mesh& mesh = object.mesh;
-    Hasher hasher;
-    hasher.add(rays_version()).add(cavities);
-    hasher.add(std::as_bytes(std::span(mesh.positions_mm))).add(std::as_bytes(std::span(mesh.indices)));
-    for (const Submesh& part : mesh.submeshes)
-        hasher.add(part.first_index).add(part.index_count).add(part.material);
-    hasher.add(std::as_bytes(std::span(object.classes)));
-    return hasher.hex();
-}
-
-// The stored form: the numbers, one byte per triangle, then the caps.
-struct Header {
-    uint64_t triangles = 0, hidden = 0, caps = 0, cavity_caps = 0, openings = 0;
-    double hidden_area_mm2 = 0, skin_area_mm2 = 0;
-};
-
-std::vector<std::byte> pack(const Flesh& flesh) {
-    const Header header{flesh.faces.size(),  flesh.hidden_triangles, flesh.caps.size(),  flesh.cavity_caps,
-                        flesh.mesh_openings, flesh.hidden_area_mm2,  flesh.skin_area_mm2};
-    std::vector<std::byte> bytes(sizeof header);
-    std::memcpy(bytes.data(), &header, sizeof header);
-    const auto faces = std::as_bytes(std::span(flesh.faces)), caps = std::as_bytes(std::span(flesh.caps));
-    bytes.insert(bytes.end(), faces.begin(), faces.end());
-    bytes.insert(bytes.end(), caps.begin(), caps.end());
-    return bytes;
-}
-
-std::optional<Flesh> unpack(std::span<const std::byte> bytes, size_t triangles) {
-    Header header;
-    if (bytes.size() < sizeof header) return std::nullopt;
-    std::memcpy(&header, bytes.data(), sizeof header);
-    using Cap = std::array<Vec3, 3>;
-    const size_t rest = bytes.size() - sizeof header;
-    if (header.triangles != triangles || rest < triangles || (rest - triangles) % sizeof(Cap) != 0 ||
-        (rest - triangles) / sizeof(Cap) != header.caps || header.cavity_caps > header.caps)
-        return std::nullopt;
-    Flesh flesh{.faces = std::vector<SkinFace>(triangles),
-                .caps = std::vector<Cap>(header.caps),
-                .cavity_caps = header.cavity_caps,
-                .hidden_triangles = header.hidden,
-                .hidden_area_mm2 = header.hidden_area_mm2,
-                .skin_area_mm2 = header.skin_area_mm2,
-                .mesh_openings = header.openings};
-    if (triangles > 0) std::memcpy(flesh.faces.data(), &bytes[sizeof header], triangles);
-    if (header.caps > 0) std::memcpy(flesh.caps.data(), &bytes[sizeof header + triangles], rest - triangles);
-    return flesh;
-}
-
 }  // namespace
 
 Result<std::vector<Flesh>> find_flesh(std::span<const SceneObject> objects, Cavities cavities) {
     std::vector<Flesh> all;
     for (const SceneObject& object : objects) {
-        const std::string hash = content_hash(object, cavities);
-        std::optional<Flesh> stored;
-        if (const auto bytes = cache_load("flesh", hash))
-            stored = unpack(*bytes, object.mesh.triangle_count());
-        if (!stored) {
-            DERMIS_TRY_ASSIGN(Flesh made, make_flesh(object, cavities));
-            cache_store("flesh", hash, pack(made));
-            stored = std::move(made);
-        }
-        all.push_back(std::move(*stored));
+        Hasher hasher;
+        add_shape(hasher.add(rays_version()).add(cavities), object);
+        DERMIS_TRY_ASSIGN(
+            Flesh flesh,
+            cached(
+                "flesh", hasher.hex(), Flesh{.faces = std::vector<SkinFace>(object.mesh.triangle_count())},
+                [&] { return make_flesh(object, cavities); },
+                [](auto& f) {
+                    return std::tie(f.faces, f.caps, f.cavity_caps, f.hidden_triangles, f.hidden_area_mm2,
+                                    f.skin_area_mm2, f.mesh_openings);
+                }));
+        all.push_back(std::move(flesh));
     }
     return all;
 }

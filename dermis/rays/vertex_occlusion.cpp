@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
@@ -11,28 +10,10 @@
 #include "dermis/rays/random.h"
 #include "dermis/rays/rays_version.h"
 #include "dermis/rays/sampling.h"
+#include "dermis/scene/scene_hash.h"
 
 namespace dermis::inline rays {
 namespace {
-
-template <class T>
-std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-    return std::as_bytes(std::span(values));
-}
-
-void add_mesh(Hasher& hasher, const Mesh& mesh, std::span<const MaterialClass> classes) {
-    hasher.add(bytes_of(mesh.positions_mm)).add(bytes_of(mesh.normals)).add(bytes_of(mesh.indices));
-    for (const Submesh& submesh : mesh.submeshes)
-        hasher.add(submesh.first_index).add(submesh.index_count).add(submesh.material);
-    hasher.add(std::as_bytes(classes));
-}
-
-std::string content_hash(std::span<const SceneObject> objects, const OcclusionSettings& settings) {
-    Hasher hasher;
-    hasher.add(rays_version()).add(settings.rays).add(settings.max_mm);
-    for (const SceneObject& object : objects) add_mesh(hasher, object.mesh, object.classes);
-    return hasher.hex();
-}
 
 // The hash does not cover alpha maps.
 bool has_cut_outs(std::span<const SceneObject> objects) {
@@ -64,25 +45,14 @@ std::vector<float> mesh_occlusion(const RayScene& scene, const Mesh& mesh, const
     return occlusion;
 }
 
-std::vector<std::byte> pack(const std::vector<std::vector<float>>& objects) {
-    std::vector<std::byte> bytes;
-    for (const std::vector<float>& values : objects)
-        bytes.insert(bytes.end(), bytes_of(values).begin(), bytes_of(values).end());
-    return bytes;
-}
-
-// Empty when the size is not that of these objects.
-std::optional<std::vector<std::vector<float>>> unpack(std::span<const std::byte> bytes,
-                                                      std::span<const SceneObject> objects) {
+std::vector<std::vector<float>> occlusion_of(const RayScene& scene, std::span<const SceneObject> objects,
+                                             const OcclusionSettings& settings) {
+    size_t vertices = 0;
+    for (const SceneObject& object : objects) vertices += object.mesh.positions_mm.size();
+    Progress progress("occlusion at the vertices", vertices);
     std::vector<std::vector<float>> values;
-    for (const SceneObject& object : objects) {
-        values.emplace_back(object.mesh.positions_mm.size());
-        const size_t size = values.back().size() * sizeof(float);
-        if (bytes.size() < size) return std::nullopt;
-        if (size > 0) std::memcpy(values.back().data(), bytes.data(), size);
-        bytes = bytes.subspan(size);
-    }
-    if (!bytes.empty()) return std::nullopt;
+    for (const SceneObject& object : objects)
+        values.push_back(mesh_occlusion(scene, object.mesh, settings, progress));
     return values;
 }
 
@@ -108,20 +78,19 @@ Result<std::vector<std::vector<float>>> compute_vertex_occlusion(std::span<const
                                                                  const OcclusionSettings& settings) {
     if (settings.rays < 1 || settings.rays > 65536)
         return Error{"occlusion rays: " + std::to_string(settings.rays) + " is outside 1..65536"};
-    const std::string hash = content_hash(objects, settings);
-    const bool use_cache = settings.use_cache && !has_cut_outs(objects);
-    if (use_cache)
-        if (const auto stored = cache_load("occlusion", hash))
-            if (auto values = unpack(*stored, objects)) return std::move(*values);
-    DERMIS_TRY_ASSIGN(RayScene scene, RayScene::build(objects));
-    size_t vertices = 0;
-    for (const SceneObject& object : objects) vertices += object.mesh.positions_mm.size();
-    Progress progress("occlusion at the vertices", vertices);
-    std::vector<std::vector<float>> values;
-    for (const SceneObject& object : objects)
-        values.push_back(mesh_occlusion(scene, object.mesh, settings, progress));
-    if (use_cache) cache_store("occlusion", hash, pack(values));
-    return values;
+    const auto make = [&]() -> Result<std::vector<std::vector<float>>> {
+        DERMIS_TRY_ASSIGN(const RayScene scene, RayScene::build(objects));
+        return occlusion_of(scene, objects, settings);
+    };
+    if (!settings.use_cache || has_cut_outs(objects)) return make();
+    Hasher hasher;
+    hasher.add(rays_version()).add(settings.rays).add(settings.max_mm);
+    std::vector<std::vector<float>> blank;
+    for (const SceneObject& object : objects) {
+        add_shape(hasher, object);
+        blank.emplace_back(object.mesh.positions_mm.size());
+    }
+    return cached("occlusion", hasher.hex(), std::move(blank), make);
 }
 
 Result<std::vector<float>> compute_vertex_occlusion(const Mesh& mesh, const OcclusionSettings& settings) {

@@ -1,7 +1,6 @@
 #include "dermis/render/complete_scene.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
@@ -9,32 +8,17 @@
 #include "dermis/mesh/blur_vertices.h"
 #include "dermis/mesh/curvature.h"
 #include "dermis/rays/vertex_occlusion.h"
+#include "dermis/scene/scene_hash.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline render {
 namespace {
 
-std::string curvature_hash(const Mesh& mesh) {
+Result<std::vector<CurvatureTensor>> cached_curvature(const SceneObject& object) {
     Hasher hasher;
-    hasher.add("curvature 2").add(kCurvatureSmoothingMm);
-    hasher.add(std::as_bytes(std::span(mesh.positions_mm)));
-    hasher.add(std::as_bytes(std::span(mesh.normals)));
-    hasher.add(std::as_bytes(std::span(mesh.indices)));
-    return hasher.hex();
-}
-
-Result<std::vector<CurvatureTensor>> cached_curvature(const Mesh& mesh) {
-    const size_t count = mesh.positions_mm.size();
-    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes,
-                      cached("curvature", curvature_hash(mesh), count * sizeof(CurvatureTensor),
-                             [&]() -> Result<std::vector<std::byte>> {
-                                 const auto tensors = compute_curvature_tensors(mesh, kCurvatureSmoothingMm);
-                                 const auto view = std::as_bytes(std::span(tensors));
-                                 return std::vector<std::byte>(view.begin(), view.end());
-                             }));
-    std::vector<CurvatureTensor> tensors(count);
-    std::memcpy(tensors.data(), bytes.data(), bytes.size());
-    return tensors;
+    add_shape(hasher.add("curvature 3").add(kCurvatureSmoothingMm), object);
+    return cached("curvature", hasher.hex(), std::vector<CurvatureTensor>(object.mesh.positions_mm.size()),
+                  [&] { return Result(compute_curvature_tensors(object.mesh, kCurvatureSmoothingMm)); });
 }
 
 bool has_occlusion(const SceneObject& object) {
@@ -48,7 +32,7 @@ Result<void> complete_scene(Scene& scene) {
     for (SceneObject& object : scene.objects) {
         progress.advance();
         if (object.mesh.curvatures_per_mm.size() == object.mesh.positions_mm.size()) continue;
-        DERMIS_TRY_ASSIGN(object.mesh.curvatures_per_mm, cached_curvature(object.mesh));
+        DERMIS_TRY_ASSIGN(object.mesh.curvatures_per_mm, cached_curvature(object));
     }
     if (std::ranges::all_of(scene.objects, has_occlusion)) return {};
     Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(scene.objects);

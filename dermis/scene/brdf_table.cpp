@@ -117,9 +117,10 @@ std::vector<std::byte> make_brdf_table(int size) {
 
 Result<std::vector<std::byte>> stored_brdf_table() {
     // Raise with every change to what the table holds.
-    constexpr int kVersion = 2;
-    return cached("brdf", Hasher().add(kVersion).add(kBrdfTableSize).hex(), table_bytes(kBrdfTableSize),
-                  []() -> Result<std::vector<std::byte>> { return make_brdf_table(kBrdfTableSize); });
+    constexpr int kVersion = 3;
+    return cached("brdf", Hasher().add(kVersion).add(kBrdfTableSize).hex(),
+                  std::vector<std::byte>(table_bytes(kBrdfTableSize)),
+                  [] { return Result(make_brdf_table(kBrdfTableSize)); });
 }
 
 Result<BrdfTable> BrdfTable::load() {

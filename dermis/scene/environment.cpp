@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/file.h"
@@ -17,7 +16,7 @@ namespace dermis::inline scene {
 namespace {
 
 // Raise with every change to the studio, the prefilter or the layout of what is cached.
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr int kPanoramaWidth = 1024;
 constexpr int kStudioWidth = 512;  // enough: its lights have soft edges
 
@@ -29,23 +28,6 @@ Result<Image> decode_panorama(std::span<const std::byte> bytes, const std::files
                      std::to_string(image.height) +
                      " texels; a latitude-longitude panorama is twice as wide as high"};
     return clean_panorama(to_linear_float(image), kPanoramaWidth);
-}
-
-std::vector<std::byte> to_bytes(const EnvironmentLight& light) {
-    constexpr size_t kShBytes = sizeof light.radiance_sh;
-    std::vector<std::byte> bytes(kShBytes + light.cube.size());
-    std::memcpy(bytes.data(), light.radiance_sh.data(), kShBytes);
-    std::memcpy(bytes.data() + kShBytes, light.cube.data(), light.cube.size());
-    return bytes;
-}
-
-std::optional<EnvironmentLight> from_bytes(const std::vector<std::byte>& bytes) {
-    EnvironmentLight light{.base_size = kEnvironmentBaseSize, .mips = kEnvironmentMips};
-    const size_t cube_bytes = prefiltered_bytes(light.base_size, light.mips);
-    if (bytes.size() != sizeof light.radiance_sh + cube_bytes) return std::nullopt;
-    std::memcpy(light.radiance_sh.data(), bytes.data(), sizeof light.radiance_sh);
-    light.cube.assign(bytes.end() - std::ptrdiff_t(cube_bytes), bytes.end());
-    return light;
 }
 
 }  // namespace
@@ -86,15 +68,16 @@ Result<EnvironmentLight> prepare_environment(const Environment& environment) {
         file = std::move(read);
         hasher.add(file);
     }
-    const std::string hash = hasher.hex();
-    if (const auto stored = cache_load("environment", hash))
-        if (std::optional<EnvironmentLight> light = from_bytes(*stored)) return std::move(*light);
-    DERMIS_TRY_ASSIGN(Image panorama, environment.kind == EnvironmentKind::file
-                                          ? decode_panorama(file, environment.file)
-                                          : Result<Image>(make_studio_panorama(kStudioWidth)));
-    EnvironmentLight light = bake_environment(panorama);
-    cache_store("environment", hash, to_bytes(light));
-    return light;
+    const auto make = [&]() -> Result<EnvironmentLight> {
+        DERMIS_TRY_ASSIGN(const Image panorama, environment.kind == EnvironmentKind::file
+                                                    ? decode_panorama(file, environment.file)
+                                                    : Result<Image>(make_studio_panorama(kStudioWidth)));
+        return bake_environment(panorama);
+    };
+    EnvironmentLight blank{.base_size = kEnvironmentBaseSize, .mips = kEnvironmentMips};
+    blank.cube.resize(prefiltered_bytes(blank.base_size, blank.mips));
+    return cached("environment", hasher.hex(), std::move(blank), make,
+                  [](auto& light) { return std::tie(light.radiance_sh, light.cube); });
 }
 
 }  // namespace dermis::inline scene

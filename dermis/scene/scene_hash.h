@@ -1,7 +1,8 @@
 #pragma once
-// The one hash of a scene. Two scenes of one hash have the same light in every pixel: exposure, tone map,
-// names and credits are not in it.
+// The hash of a scene, and of the parts of it that a cached result depends on. Two scenes of one hash have
+// the same light in every pixel: exposure, tone map, names and credits are not in it.
 
+#include "dermis/base/hash.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::inline scene {
@@ -13,5 +14,12 @@ namespace dermis::inline scene {
 /// The same without the objects and with the panorama's path instead of its bytes: some microseconds, for a
 /// scene whose files have not changed since.
 [[nodiscard]] std::string hash_of_views(const Scene& scene);
+
+/// Vertices, normals, triangles and the classes of their materials: what curvature, occlusion and flesh are
+/// made of.
+void add_shape(Hasher& hasher, const SceneObject& object);
+
+/// Pixels, or the bytes of the file. Errors: a file that cannot be read.
+[[nodiscard]] Result<void> add_image(Hasher& hasher, const ImageSource& source);
 
 }  // namespace dermis::inline scene

@@ -1,8 +1,5 @@
 #include "subjects/bust/bust.h"
 
-#include <cstring>
-#include <optional>
-
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
@@ -70,75 +67,14 @@ Mesh to_mesh(const Atlas& atlas, const BustField& field) {
     return mesh;
 }
 
-// The byte string of the cache: the mesh's arrays, then the images' texels.
-class Writer {
-  public:
-    template <class T>
-    void array(const std::vector<T>& values) {
-        const uint64_t count = values.size();
-        raw(&count, sizeof count);
-        raw(values.data(), values.size() * sizeof(T));
-    }
-    void raw(const void* data, size_t size) {
-        const auto* first = static_cast<const std::byte*>(data);
-        bytes.insert(bytes.end(), first, first + size);
-    }
-    std::vector<std::byte> bytes;
-};
-
-class Reader {
-  public:
-    explicit Reader(const std::vector<std::byte>& bytes) : bytes_(bytes) {}
-    template <class T>
-    [[nodiscard]] bool array(std::vector<T>& values) {
-        uint64_t count = 0;
-        if (!raw(&count, sizeof count) || count > (bytes_.size() - at_) / sizeof(T)) return false;
-        values.resize(count);
-        return raw(values.data(), count * sizeof(T));
-    }
-    [[nodiscard]] bool raw(void* data, size_t size) {
-        if (size > bytes_.size() - at_) return false;
-        if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
-        at_ += size;
-        return true;
-    }
-
-  private:
-    const std::vector<std::byte>& bytes_;
-    size_t at_ = 0;
-};
-
-std::vector<std::byte> pack(const Bust& b) {
-    Writer out;
-    out.array(b.mesh.positions_mm);
-    out.array(b.mesh.normals);
-    out.array(b.mesh.tangents);
-    out.array(b.mesh.uvs);
-    out.array(b.mesh.indices);
-    for (const Image* image : {&b.albedo, &b.normal, &b.roughness, &b.specular, &b.kernel_size})
-        out.array(image->bytes);
-    return std::move(out.bytes);
-}
-
-std::optional<Bust> unpack(const std::vector<std::byte>& bytes) {
+Bust blank_bust() {
     const int side = kBustMapSide;
-    Bust b = {.mesh = {},
-              .albedo = Image(side, side, 3, PixelFormat::u8, Encoding::srgb),
-              .normal = Image(side, side, 3, PixelFormat::u8),
-              .roughness = Image(side, side, 1, PixelFormat::u8),
-              .specular = Image(side, side, 1, PixelFormat::u8),
-              .kernel_size = Image(side, side, 1, PixelFormat::u8)};
-    Reader in(bytes);
-    Mesh& m = b.mesh;
-    if (!in.array(m.positions_mm) || !in.array(m.normals) || !in.array(m.tangents) || !in.array(m.uvs) ||
-        !in.array(m.indices))
-        return std::nullopt;
-    for (Image* image : {&b.albedo, &b.normal, &b.roughness, &b.specular, &b.kernel_size}) {
-        const size_t expected = image->bytes.size();
-        if (!in.array(image->bytes) || image->bytes.size() != expected) return std::nullopt;
-    }
-    add_material(m);
-    return b;
+    return {.mesh = {},
+            .albedo = Image(side, side, 3, PixelFormat::u8, Encoding::srgb),
+            .normal = Image(side, side, 3, PixelFormat::u8),
+            .roughness = Image(side, side, 1, PixelFormat::u8),
+            .specular = Image(side, side, 1, PixelFormat::u8),
+            .kernel_size = Image(side, side, 1, PixelFormat::u8)};
 }
 
 std::string cache_key(const BustParams& params) {
@@ -180,11 +116,14 @@ Result<Bust> build_bust(const BustParams& params, int map_side) {
 
 Result<Bust> make_bust(const BustParams& params) {
     DERMIS_TRY(check_bust_params(params));
-    const std::string key = cache_key(params);
-    if (const auto stored = cache_load("bust", key))
-        if (std::optional<Bust> bust = unpack(*stored)) return std::move(*bust);
-    Result<Bust> bust = build_bust(params, kBustMapSide);
-    if (bust) cache_store("bust", key, pack(*bust));
+    Result<Bust> bust = cached(
+        "bust", cache_key(params), blank_bust(), [&] { return build_bust(params, kBustMapSide); },
+        [](auto& b) {
+            return std::tie(b.mesh.positions_mm, b.mesh.normals, b.mesh.tangents, b.mesh.uvs, b.mesh.indices,
+                            b.albedo.bytes, b.normal.bytes, b.roughness.bytes, b.specular.bytes,
+                            b.kernel_size.bytes);
+        });
+    if (bust) add_material(bust->mesh);
     return bust;
 }
 

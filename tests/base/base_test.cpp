@@ -148,16 +148,38 @@ TEST(Cache, an_entry_under_anothers_name_is_made_again) {
 TEST(Cache, an_entry_of_another_size_is_made_again) {
     const TemporaryDirectory dir;
     const EnvironmentVariable cache("DERMIS_CACHE", dir.path.string());
-    ASSERT_TRUE(cache_store("kind", "hash", std::vector<std::byte>(3)));
-    int made = 0;
-    const auto make = [&]() -> Result<std::vector<std::byte>> {
-        ++made;
-        return std::vector<std::byte>(8, std::byte{7});
-    };
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_EQ(cached("kind", "hash", 8, make)->size(), 8u);
+    const std::vector<int> right(8, 7);
+    for (const std::vector<std::byte>& wrong :
+         {std::vector<std::byte>(), pack(std::vector<int>(7)), pack(right, 1)}) {
+        ASSERT_TRUE(cache_store("kind", "hash", wrong));
+        int made = 0;
+        const auto make = [&] { return ++made, Result(right); };
+        for (int i = 0; i < 2; ++i) EXPECT_EQ(*cached("kind", "hash", std::vector<int>(8), make), right);
         EXPECT_EQ(made, 1);
     }
+}
+
+TEST(Bytes, come_back_as_they_were_and_every_prefix_is_refused) {
+    const std::vector<std::vector<float>> nested = {{1, 2}, {}, {3}};
+    const std::vector<std::byte> bytes = pack(7, nested, 2.5);
+    int whole = 0;
+    std::vector<std::vector<float>> lists;
+    double real = 0;
+    ASSERT_TRUE(unpack(bytes, whole, lists, real));
+    EXPECT_EQ(whole, 7);
+    EXPECT_EQ(lists, nested);
+    EXPECT_EQ(real, 2.5);
+    for (size_t size = 0; size < bytes.size(); ++size) {
+        lists.clear();
+        EXPECT_FALSE(unpack(std::span(bytes).first(size), whole, lists, real)) << size;
+    }
+}
+
+TEST(Bytes, a_count_beyond_the_content_is_refused) {
+    std::vector<int> values;
+    EXPECT_FALSE(unpack(pack(uint64_t(1) << 62), values));
+    std::vector<std::vector<int>> lists;
+    EXPECT_FALSE(unpack(pack(uint64_t(1) << 62), lists));
 }
 
 TEST(ParallelFor, visits_every_item_once_for_any_thread_count) {

@@ -1,0 +1,72 @@
+#pragma once
+// Values as bytes, one after the other, vectors with their length: what an entry of the cache holds.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace dermis::inline base {
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto view = std::as_bytes(std::span(&value, 1));
+    bytes.insert(bytes.end(), view.begin(), view.end());
+}
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
+    append(bytes, uint64_t(values.size()));
+    if constexpr (std::is_trivially_copyable_v<T>) {
+        const auto view = std::as_bytes(std::span(values));
+        bytes.insert(bytes.end(), view.begin(), view.end());
+    } else {
+        for (const T& value : values) append(bytes, value);
+    }
+}
+
+template <class T>
+[[nodiscard]] bool take(std::span<const std::byte>& bytes, T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (bytes.size() < sizeof value) return false;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    bytes = bytes.subspan(sizeof value);
+    return true;
+}
+
+/// A vector that is not empty keeps its length: another one is refused.
+template <class T>
+[[nodiscard]] bool take(std::span<const std::byte>& bytes, std::vector<T>& values) {
+    uint64_t count = 0;
+    if (!take(bytes, count) || (!values.empty() && count != values.size())) return false;
+    constexpr bool kPlain = std::is_trivially_copyable_v<T>;
+    if (count > bytes.size() / (kPlain ? sizeof(T) : sizeof count)) return false;
+    values.resize(count);
+    if constexpr (kPlain) {
+        if (count > 0) std::memcpy(values.data(), bytes.data(), count * sizeof(T));
+        bytes = bytes.subspan(count * sizeof(T));
+        return true;
+    } else {
+        return std::ranges::all_of(values, [&](T& value) { return take(bytes, value); });
+    }
+}
+
+template <class... T>
+[[nodiscard]] std::vector<std::byte> pack(const T&... values) {
+    std::vector<std::byte> bytes;
+    (append(bytes, values), ...);
+    return bytes;
+}
+
+/// The values that pack() made bytes of. False, with some of the values changed, where `bytes` are not exactly
+/// such values.
+template <class... T>
+[[nodiscard]] bool unpack(std::span<const std::byte> bytes, T&... values) {
+    return (take(bytes, values) && ...) && bytes.empty();
+}
+
+}  // namespace dermis::inline base
