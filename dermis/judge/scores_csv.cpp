@@ -42,7 +42,7 @@ void set_share(CapturedShare& share, Value value) {
     share.share = value.value_or(std::nan(""));
 }
 
-Value told(const CapturedShare& share, double value) {
+Value if_known(const CapturedShare& share, double value) {
     return share.known() ? Value(value) : Value();
 }
 
@@ -51,18 +51,18 @@ constexpr ScoreColumn channel_column(std::string_view name) {
     return {name,
             [](const ScoreRow& row) {
                 const CapturedShare& share = row.captured.channels[channel];
-                return told(share, share.share);
+                return if_known(share, share.share);
             },
             [](ScoreRow& row, Value value) { set_share(row.captured.channels[channel], value); }, true};
 }
 
 constexpr ScoreColumn kColumns[] = {
-    {"captured", [](const ScoreRow& row) { return told(row.captured.all, row.captured.all.share); },
+    {"captured", [](const ScoreRow& row) { return if_known(row.captured.all, row.captured.all.share); },
      [](ScoreRow& row, Value value) { set_share(row.captured.all, value); }, true},
     channel_column<0>("captured_r"),
     channel_column<1>("captured_g"),
     channel_column<2>("captured_b"),
-    {"captured_error", [](const ScoreRow& row) { return told(row.captured.all, row.captured.all.error); },
+    {"captured_error", [](const ScoreRow& row) { return if_known(row.captured.all, row.captured.all.error); },
      [](ScoreRow& row, Value value) { row.captured.all.error = value.value_or(0); }, true},
     effect_column<&CapturedShare::effect_rms>("effect_rms"),
     effect_column<&CapturedShare::reference_noise>("reference_noise"),

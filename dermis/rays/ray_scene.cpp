@@ -34,7 +34,7 @@ struct TriangleSet {
 };
 
 bool bounds_flesh(RaySet set) {
-    return set == RaySet::flesh || set == RaySet::folds;
+    return set == RaySet::flesh || set == RaySet::capped_cavities;
 }
 
 bool belongs(RaySet set, MaterialClass material_class) {
@@ -125,7 +125,7 @@ std::vector<Vec3> cap_corners(RaySet which, std::span<const Flesh> flesh) {
     std::vector<Vec3> corners;
     for (const Flesh& one : flesh)
         for (const std::array<Vec3, 3>& cap :
-             std::span(one.caps).first(which == RaySet::folds ? one.cavity_caps : one.caps.size()))
+             std::span(one.caps).first(which == RaySet::capped_cavities ? one.cavity_caps : one.caps.size()))
             corners.insert(corners.end(), cap.begin(), cap.end());
     return corners;
 }
@@ -270,7 +270,7 @@ struct RayScene::Impl {
         device.reset(rtcNewDevice(nullptr));
         if (!device) return Error{"the ray library (Embree) does not start on this machine"};
         for (const RaySet which :
-             {RaySet::opaque, RaySet::skin, RaySet::translucent, RaySet::flesh, RaySet::folds})
+             {RaySet::opaque, RaySet::skin, RaySet::translucent, RaySet::flesh, RaySet::capped_cavities})
             if ((!bounds_flesh(which) || !flesh.empty()) && !add_set(which, classes, flesh))
                 return Error{"the ray library (Embree) has not enough memory for this scene"};
         return {};

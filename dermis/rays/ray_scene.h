@@ -20,9 +20,13 @@
 
 namespace dermis::inline rays {
 
-/// Skin and other | skin that is not hidden | translucent | the skin that encloses flesh, with all caps | the
-/// same with the caps of cavities alone, because an open sheet encloses no volume.
-enum class RaySet { opaque, skin, translucent, flesh, folds };
+enum class RaySet {
+    opaque,  ///< skin and other
+    skin,    ///< that is not hidden
+    translucent,
+    flesh,           ///< what encloses it: skin without the inner faces of cavities, and all caps
+    capped_cavities  ///< the same without the caps of the mesh's openings: an open sheet encloses nothing
+};
 
 /// RayHit::object of a cap, which belongs to no mesh.
 inline constexpr uint32_t kCapObject = ~0u;
@@ -76,7 +80,7 @@ class RayScene {
     /// Rays pass what the alpha maps of materials of class `other` cut out.
     /// Errors: no triangle at all, the ray library cannot start, or an alpha map cannot be read.
     /// With `flesh` (one per object, from find_flesh) hidden skin is excluded, and the sets `flesh` and
-    /// `folds` exist; without it all skin is.
+    /// `capped_cavities` exist; without it all skin is.
     [[nodiscard]] static Result<RayScene> build(std::span<const SceneObject> objects,
                                                 std::span<const Flesh> flesh = {});
     /// One mesh, all of it skin.

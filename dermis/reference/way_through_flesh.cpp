@@ -21,7 +21,7 @@ class FleshWays {
   public:
     FleshWays(const RayScene& rays, float longest_mm)
         : rays_(rays),
-          boundary_(rays.has(RaySet::folds) ? RaySet::folds : RaySet::skin),
+          boundary_(rays.has(RaySet::capped_cavities) ? RaySet::capped_cavities : RaySet::skin),
           longest_mm_(longest_mm),
           margin_mm_(10 * rays.epsilon_mm()) {}
 

@@ -19,9 +19,9 @@ using namespace unit;
 constexpr float kSlope = 0.05f;  // of the reliefs: its square is what their limit neglects
 constexpr float kFar = 2;        // times the distance of the camera
 
-enum class Shape : int32_t { sphere };
+enum class UnitScene : int32_t {};  // the number of one of kCases
 struct UnitParams {
-    Shape shape = Shape::sphere;
+    UnitScene shape = {};
 };
 
 Vec3 light_from(float yaw_deg, float pitch_deg = 0) {
