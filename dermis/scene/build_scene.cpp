@@ -38,7 +38,7 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
         read_mesh(path, {.unit_mm = mesh.unit_mm,
                          .scale_after = mesh.scale,
                          .subdivision_level = mesh.subdivision,
-                         .ignore_missing_materials = description.maps.albedo.given()});
+                         .ignore_missing_materials = description.maps.files.contains("albedo")});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());
@@ -48,37 +48,18 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
     return made;
 }
 
-// Each map of the description, and its member of a material.
-struct MapRow {
-    NamedFile MapsDescription::*from;
-    ImageSource Material::*to;
-};
-constexpr MapRow kMapRows[] = {
-    {&MapsDescription::albedo, &Material::base_color_map},
-    {&MapsDescription::normal, &Material::normal_map},
-    {&MapsDescription::specular, &Material::specular_map},
-    {&MapsDescription::roughness, &Material::roughness_map},
-    {&MapsDescription::occlusion, &Material::occlusion_map},
-    {&MapsDescription::thickness, &Material::thickness_map},
-    {&MapsDescription::kernel_size, &Material::kernel_size_map},
-    {&MapsDescription::curvature, &Material::curvature_map},
-    {&MapsDescription::displacement, &Material::displacement_map},
-    {&MapsDescription::opacity, &Material::opacity_map},
-};
-
-template <class Value, class Stored>
-void assign(const std::optional<Value>& given, Stored& stored) {
-    if (given) stored = *given;
+void apply(const MaterialChanges& changes, Material& material) {
+    for (const auto& [key, change] : changes) change(material);
 }
 
 // The sidecar that `dermis bake curvature` writes beside a map states a unit; a map without one needs its
 // scale.
 Result<void> check_curvature_unit(const SceneDescription& description, const MapsDescription& maps,
-                                  const fs::path& map) {
-    if (!maps.curvature.given() || maps.curvature_scale_per_mm) return {};
+                                  const NamedFile& file, const fs::path& map) {
+    if (maps.changes.contains("curvature_scale_per_mm")) return {};
     const Result<std::string> sidecar = read_text_file(map.string() + ".json");
     if (!sidecar)
-        return error_at(description, maps.curvature,
+        return error_at(description, file,
                         map.string() +
                             " has no unit; give curvature_scale_per_mm, the curvature in 1/mm of a map "
                             "value of 1, or bake the map with `dermis bake curvature`");
@@ -86,7 +67,7 @@ Result<void> check_curvature_unit(const SceneDescription& description, const Map
     const auto unit = json.is_object() ? json.find("unit") : json.end();
     const bool stated = json.is_object() && unit != json.end();
     if (!stated || *unit != "1/mm")
-        return error_at(description, maps.curvature,
+        return error_at(description, file,
                         map.string() + ".json: the unit is " + (stated ? unit->dump() : "not stated") +
                             "; a curvature map is in \"1/mm\"");
     return {};
@@ -94,47 +75,26 @@ Result<void> check_curvature_unit(const SceneDescription& description, const Map
 
 Result<void> apply_maps(const SceneDescription& description, const MapsDescription& maps,
                         Material& material) {
-    for (const MapRow& row : kMapRows) {
-        const NamedFile& file = maps.*row.from;
-        if (!file.given()) continue;
-        DERMIS_TRY_ASSIGN(const fs::path path, resolve_file(description, file));
-        if (row.from == &MapsDescription::curvature)
-            if (Result<void> known = check_curvature_unit(description, maps, path); !known) return known;
-        material.*row.to = {.name = path.string(), .encoded = {}};
+    for (const auto& [key, map] : maps.files) {
+        DERMIS_TRY_ASSIGN(const fs::path path, resolve_file(description, map.file));
+        if (key == "curvature") DERMIS_TRY(check_curvature_unit(description, maps, map.file, path));
+        material.*map.to = {.name = path.string(), .encoded = {}};
     }
     // A map multiplies the constant beside it; the grey that mesh files write there is not meant as a tint.
-    if (maps.albedo.given()) material.base_color_linear = {1, 1, 1};
-    assign(maps.normal_space, material.normal_space);
-    assign(maps.normal_scale, material.normal_scale);
-    assign(maps.thickness_scale_mm, material.thickness_scale_mm);
-    assign(maps.curvature_scale_per_mm, material.curvature_scale_per_mm);
-    assign(maps.curvature_mid, material.curvature_mid);
-    assign(maps.displacement_mid, material.displacement_mid);
-    assign(maps.displacement_amplitude_mm, material.displacement_amplitude_mm);
-    assign(maps.dilate_texels, material.dilate_texels);
+    if (maps.files.contains("albedo")) material.base_color_linear = {1, 1, 1};
+    apply(maps.changes, material);
     return {};
-}
-
-void apply_constants(const MaterialDescription& given, Material& material) {
-    assign(given.albedo_linear, material.base_color_linear);
-    assign(given.roughness, material.roughness);
-    assign(given.specular, material.specular);
-    assign(given.metallic, material.metallic);
-    assign(given.ior, material.ior);
-    assign(given.opacity, material.opacity);
-    assign(given.emission_linear, material.emission_linear);
 }
 
 Result<void> apply_material(const SceneDescription& description, const MaterialDescription* given,
                             MaterialClass material_class, Material& material) {
     if (material_class == MaterialClass::skin) {
         apply_skin(description.skin, material);
-        if (const Result<void> applied = apply_maps(description, description.maps, material); !applied)
-            return applied;
+        DERMIS_TRY(apply_maps(description, description.maps, material));
     }
     if (!given) return {};
-    if (const Result<void> applied = apply_maps(description, given->maps, material); !applied) return applied;
-    apply_constants(*given, material);
+    DERMIS_TRY(apply_maps(description, given->maps, material));
+    apply(given->changes, material);
     return {};
 }
 
@@ -197,8 +157,8 @@ bool lacks_asset(const SceneDescription& description) {
         return is_asset(file.text) && !resolve_path(file.text, description.file);
     };
     return std::ranges::any_of(description.meshes, lacks, &MeshDescription::file) ||
-           std::ranges::any_of(kMapRows,
-                               [&](const MapRow& row) { return lacks(description.maps.*row.from); });
+           std::ranges::any_of(description.maps.files,
+                               [&](const auto& entry) { return lacks(entry.second.file); });
 }
 
 Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject> subjects) {

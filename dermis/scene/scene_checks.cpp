@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dermis/scene/scene_keys.h"
+
 namespace dermis::inline scene {
 namespace {
 
@@ -78,29 +80,6 @@ Result<void> check_camera(const SceneDescription& scene) {
     return {};
 }
 
-// A key of [maps] and the map without which it is nothing.
-struct MapKey {
-    const char* key;
-    bool (*given)(const MapsDescription& maps);
-    ImageSource Material::*map;
-};
-constexpr MapKey kMapKeys[] = {
-    {"normal_space", [](const MapsDescription& m) { return m.normal_space.has_value(); },
-     &Material::normal_map},
-    {"normal_scale", [](const MapsDescription& m) { return m.normal_scale.has_value(); },
-     &Material::normal_map},
-    {"thickness_scale_mm", [](const MapsDescription& m) { return m.thickness_scale_mm.has_value(); },
-     &Material::thickness_map},
-    {"curvature_scale_per_mm", [](const MapsDescription& m) { return m.curvature_scale_per_mm.has_value(); },
-     &Material::curvature_map},
-    {"curvature_mid", [](const MapsDescription& m) { return m.curvature_mid.has_value(); },
-     &Material::curvature_map},
-    {"displacement_mid", [](const MapsDescription& m) { return m.displacement_mid.has_value(); },
-     &Material::displacement_map},
-    {"displacement_amplitude_mm",
-     [](const MapsDescription& m) { return m.displacement_amplitude_mm.has_value(); },
-     &Material::displacement_map}};
-
 bool any_material(const Scene& scene, const auto& holds) {
     return std::ranges::any_of(scene.objects, [&](const SceneObject& object) {
         return std::ranges::any_of(object.mesh.materials, holds);
@@ -127,9 +106,12 @@ void warn_of_sections(const SceneDescription& description, const Scene& scene,
     if (environment && environment->kind == EnvironmentKind::none &&
         (environment->yaw_deg != 0 || environment->intensity != 1 || environment->visible))
         warnings.emplace_back("the keys of [environment] have no effect beside kind = \"none\"");
-    for (const auto& [name, material] : description.materials)
-        if (material.metallic.value_or(0) > 0 && is_skin(scene, name))
+    for (const auto& [name, material] : description.materials) {
+        Material changed;
+        for (const auto& [key, change] : material.changes) change(changed);
+        if (changed.metallic > 0 && is_skin(scene, name))
             warnings.push_back("material." + name + ".metallic has no effect: skin is no metal");
+    }
 }
 
 }  // namespace
@@ -138,11 +120,13 @@ std::vector<std::string> keys_without_effect(const SceneDescription& description
     std::vector<const MapsDescription*> sections = {&description.maps};
     for (const auto& [name, material] : description.materials) sections.push_back(&material.maps);
     std::vector<std::string> warnings;
-    for (const MapKey& row : kMapKeys)
-        if (std::ranges::any_of(sections, [&](const MapsDescription* maps) { return row.given(*maps); }) &&
-            !any_material(scene, [&](const Material& m) { return (m.*row.map).present(); }))
-            warnings.push_back(std::string("maps.") + row.key +
+    for (const Key<MapsDescription>& key : maps_keys().keys()) {
+        const auto gives = [&](const MapsDescription* maps) { return maps->changes.contains(key.info.name); };
+        const auto has_map = [&](const Material& m) { return (m.*key.info.needs).present(); };
+        if (key.info.needs && std::ranges::any_of(sections, gives) && !any_material(scene, has_map))
+            warnings.push_back("maps." + key.info.name +
                                " has no effect: no material has the map that it is for");
+    }
     const auto is_flat = [](const Material& m) {
         return m.displacement_map.present() && m.displacement_amplitude_mm == 0;
     };

@@ -2,6 +2,7 @@
 // A parsed scene file as plain data: nothing is loaded yet, and every file that it names has its line.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,21 +21,23 @@ struct NamedFile {
     [[nodiscard]] bool given() const { return !text.empty(); }
 };
 
+/// By key: what a section changes of each material that it is about.
+using MaterialChanges = std::map<std::string, std::function<void(Material&)>>;
+
 struct MapsDescription {
-    NamedFile albedo, normal, specular, roughness, occlusion, thickness, kernel_size, curvature, displacement,
-        opacity;
-    std::optional<NormalSpace> normal_space;
-    std::optional<float> normal_scale, thickness_scale_mm, curvature_scale_per_mm, curvature_mid,
-        displacement_mid, displacement_amplitude_mm;
-    std::optional<int> dilate_texels;
+    struct Map {
+        NamedFile file;
+        ImageSource Material::*to = nullptr;
+    };
+    std::map<std::string, Map> files;  ///< by key
+    MaterialChanges changes;
 };
 
 struct MaterialDescription {
     int line = 0;
     std::optional<MaterialClass> material_class;
-    std::optional<Vec3> albedo_linear, emission_linear;
-    std::optional<float> roughness, specular, metallic, ior, opacity;
     std::optional<bool> visible;
+    MaterialChanges changes;
     MapsDescription maps;
 };
 

@@ -22,8 +22,9 @@ struct KeyInfo {
     double min = 0, max = 1;
     std::vector<std::string> choices;
     std::string default_text;
-    bool changeable =
-        false;  ///< of the root and [skin]: also on a loaded scene, as all of light, environment, camera
+    /// Of the root and [skin]: also on a loaded scene, as all of light, environment, camera.
+    bool changeable = false;
+    ImageSource Material::*needs = nullptr;  ///< a map without which the key has no effect
 };
 
 /// A value that passed its row's checks. A choice is its index.
@@ -111,9 +112,32 @@ class KeyTable {
             [member](const Target& t, KeyValue& v) { return !(v.text = (t.*member).text).empty(); });
     }
 
-    /// A row whose value goes somewhere else than into a member of Target.
-    KeyTable& row(KeyInfo info, std::function<void(Target&, const KeyValue&)> set) {
-        keys_.push_back({std::move(info), std::move(set), {}});
+    /// A member of each material that the section is about: such a row is all that the key needs here.
+    template <class Member>
+    KeyTable& of_material(Member Material::*member, KeyInfo info) {
+        info.kind = std::is_same_v<Member, Vec3> ? KeyKind::color
+                    : std::is_enum_v<Member>     ? KeyKind::choice
+                    : std::is_integral_v<Member> ? KeyKind::integer
+                                                 : KeyKind::number;
+        const auto set = [member, name = info.name](Target& t, const KeyValue& v) {
+            t.changes[name] = [member, v](Material& material) {
+                if constexpr (std::is_same_v<Member, Vec3>)
+                    material.*member = {float(v.numbers[0]), float(v.numbers[1]), float(v.numbers[2])};
+                else
+                    material.*member =
+                        std::is_same_v<Member, float> ? Member(v.numbers[0]) : Member(v.integer);
+            };
+        };
+        keys_.push_back({std::move(info), set, {}});
+        return *this;
+    }
+    KeyTable& map(ImageSource Material::*member, KeyInfo info) {
+        info.kind = KeyKind::file;
+        const auto set = [member, name = info.name](Target& t, const KeyValue& v) {
+            t.files[name] = {{.text = v.text, .key = v.full_name, .line = v.line}, member};
+            if (v.text.empty()) t.files.erase(name);
+        };
+        keys_.push_back({std::move(info), set, {}});
         return *this;
     }
 

@@ -135,55 +135,66 @@ const KeyTable<MapsDescription>& maps_keys() {
     using D = MapsDescription;
     static const KeyTable<D> table =
         KeyTable<D>()
-            .file(&D::albedo, {.name = "albedo", .doc = "diffuse colour, sRGB"})
-            .file(&D::normal, {.name = "normal", .doc = "normals as n * 0.5 + 0.5"})
-            .choice<NormalSpace>(&D::normal_space,
-                                 {.name = "normal_space",
-                                  .doc = "`object`: in the axes of the scene, after rotate_deg",
-                                  .choices = {"tangent", "object"}})
-            .number(&D::normal_scale,
-                    {.name = "normal_scale", .doc = "scales the slope; tangent space only", .max = 10})
-            .file(&D::specular,
-                  {.name = "specular", .doc = "scales the reflectance at normal incidence; red channel"})
-            .file(&D::roughness, {.name = "roughness", .doc = "perceptual roughness; red channel"})
-            .file(&D::occlusion, {.name = "occlusion", .doc = "visibility of the environment; red channel"})
-            .file(&D::thickness,
-                  {.name = "thickness", .doc = "thickness of the body behind the surface; green channel"})
-            .number(&D::thickness_scale_mm, {.name = "thickness_scale_mm",
-                                             .unit = "mm",
-                                             .doc = "thickness of a map value of 1",
-                                             .max = 1e3})
-            .file(&D::kernel_size,
-                  {.name = "kernel_size",
-                   .doc =
-                       "0 on thick skin, up to 1 where it is thin and texture-space blurs grow; red channel"})
-            .file(
-                &D::curvature,
-                {.name = "curvature",
-                 .doc = "map of `dermis bake curvature`, positive where convex; grey: mean curvature alone"})
-            .number(&D::curvature_scale_per_mm, {.name = "curvature_scale_per_mm",
-                                                 .unit = "1/mm",
-                                                 .doc = "curvature of a map value of 1",
-                                                 .min = -1e3,
-                                                 .max = 1e3})
-            .file(&D::displacement,
-                  {.name = "displacement", .doc = "moves vertices along the normal; red channel"})
-            .number(&D::curvature_mid,
-                    {.name = "curvature_mid",
-                     .doc = "map value of flat skin; 0.5 for maps in which mid-grey is flat"})
-            .number(&D::displacement_mid,
-                    {.name = "displacement_mid", .doc = "map value (0..1) of no displacement"})
-            .number(&D::displacement_amplitude_mm, {.name = "displacement_amplitude_mm",
-                                                    .unit = "mm",
-                                                    .doc = "displacement for a difference of 1 in map value",
-                                                    .min = -100,
-                                                    .max = 100})
-            .file(&D::opacity, {.name = "opacity", .doc = "coloured transmittance of translucent materials"})
-            .integer(&D::dilate_texels,
-                     {.name = "dilate_texels",
-                      .unit = "texels",
-                      .doc = "width of the gutter that is added around the UV islands of maps without one",
-                      .max = 64});
+            .map(&Material::base_color_map, {.name = "albedo", .doc = "diffuse colour, sRGB"})
+            .map(&Material::normal_map, {.name = "normal", .doc = "normals as n * 0.5 + 0.5"})
+            .of_material(&Material::normal_space,
+                         {.name = "normal_space",
+                          .doc = "`object`: in the axes of the scene, after rotate_deg",
+                          .choices = {"tangent", "object"},
+                          .needs = &Material::normal_map})
+            .of_material(&Material::normal_scale, {.name = "normal_scale",
+                                                   .doc = "scales the slope; tangent space only",
+                                                   .max = 10,
+                                                   .needs = &Material::normal_map})
+            .map(&Material::specular_map,
+                 {.name = "specular", .doc = "scales the reflectance at normal incidence; red channel"})
+            .map(&Material::roughness_map, {.name = "roughness", .doc = "perceptual roughness; red channel"})
+            .map(&Material::occlusion_map,
+                 {.name = "occlusion", .doc = "visibility of the environment; red channel"})
+            .map(&Material::thickness_map,
+                 {.name = "thickness", .doc = "thickness of the body behind the surface; green channel"})
+            .of_material(&Material::thickness_scale_mm, {.name = "thickness_scale_mm",
+                                                         .unit = "mm",
+                                                         .doc = "thickness of a map value of 1",
+                                                         .max = 1e3,
+                                                         .needs = &Material::thickness_map})
+            .map(&Material::kernel_size_map,
+                 {.name = "kernel_size",
+                  .doc =
+                      "0 on thick skin, up to 1 where it is thin and texture-space blurs grow; red channel"})
+            .map(&Material::curvature_map,
+                 {.name = "curvature",
+                  .doc = "map of `dermis bake curvature`, positive where convex; grey: mean curvature alone"})
+            .of_material(&Material::curvature_scale_per_mm, {.name = "curvature_scale_per_mm",
+                                                             .unit = "1/mm",
+                                                             .doc = "curvature of a map value of 1",
+                                                             .min = -1e3,
+                                                             .max = 1e3,
+                                                             .needs = &Material::curvature_map})
+            .map(&Material::displacement_map,
+                 {.name = "displacement", .doc = "moves vertices along the normal; red channel"})
+            .of_material(&Material::curvature_mid,
+                         {.name = "curvature_mid",
+                          .doc = "map value of flat skin; 0.5 for maps in which mid-grey is flat",
+                          .needs = &Material::curvature_map})
+            .of_material(&Material::displacement_mid, {.name = "displacement_mid",
+                                                       .doc = "map value (0..1) of no displacement",
+                                                       .needs = &Material::displacement_map})
+            .of_material(&Material::displacement_amplitude_mm,
+                         {.name = "displacement_amplitude_mm",
+                          .unit = "mm",
+                          .doc = "displacement for a difference of 1 in map value",
+                          .min = -100,
+                          .max = 100,
+                          .needs = &Material::displacement_map})
+            .map(&Material::opacity_map,
+                 {.name = "opacity", .doc = "coloured transmittance of translucent materials"})
+            .of_material(
+                &Material::dilate_texels,
+                {.name = "dilate_texels",
+                 .unit = "texels",
+                 .doc = "width of the gutter that is added around the UV islands of maps without one",
+                 .max = 64});
     return table;
 }
 
@@ -196,18 +207,21 @@ const KeyTable<MaterialDescription>& material_keys() {
                                     .doc = "skin is drawn by the technique; translucent lets the key light "
                                            "through, coloured by its opacity map",
                                     .choices = kMaterialClasses})
-            .color(&D::albedo_linear, {.name = "albedo",
-                                       .unit = "linear",
-                                       .doc = "diffuse colour; multiplies the map, if there is one"})
-            .number(&D::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
-            .number(&D::specular,
-                    {.name = "specular", .doc = "scales the reflectance at normal incidence", .max = 10})
-            .number(&D::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 3})
-            .number(&D::metallic, {.name = "metallic", .doc = "0 dielectric, 1 metal"})
-            .number(&D::opacity,
-                    {.name = "opacity", .doc = "coverage; below 1 the surfaces behind are visible"})
-            .color(&D::emission_linear,
-                   {.name = "emission", .unit = "linear", .doc = "emitted radiance", .max = kMostEmission})
+            .of_material(&Material::base_color_linear,
+                         {.name = "albedo",
+                          .unit = "linear",
+                          .doc = "diffuse colour; multiplies the map, if there is one"})
+            .of_material(&Material::roughness,
+                         {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
+            .of_material(&Material::specular,
+                         {.name = "specular", .doc = "scales the reflectance at normal incidence", .max = 10})
+            .of_material(&Material::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 3})
+            .of_material(&Material::metallic, {.name = "metallic", .doc = "0 dielectric, 1 metal"})
+            .of_material(&Material::opacity,
+                         {.name = "opacity", .doc = "coverage; below 1 the surfaces behind are visible"})
+            .of_material(
+                &Material::emission_linear,
+                {.name = "emission", .unit = "linear", .doc = "emitted radiance", .max = kMostEmission})
             .toggle(&D::visible, {.name = "visible", .doc = "false removes its triangles"});
     return table;
 }
