@@ -1,10 +1,11 @@
-"""Writes dermis/__init__.pyi from the package's sources: signatures and docstrings without bodies.
+"""Writes the package's __init__.pyi from its sources: signatures and docstrings without bodies.
 
-    python3 apps/python/make_stub.py        after a change of a public name; tests/python/stub_test.py compares
+    python3 apps/python/make_stub.py build/python/dermis/__init__.pyi        as the build does
 """
 
 import ast
 import pathlib
+import sys
 
 PACKAGE = pathlib.Path(__file__).resolve().parent / "dermis"
 HEAD = """# Written by apps/python/make_stub.py.
@@ -56,4 +57,4 @@ def stub_text():
 
 
 if __name__ == "__main__":
-    (PACKAGE / "__init__.pyi").write_text(stub_text())
+    pathlib.Path(sys.argv[1]).write_text(stub_text())
