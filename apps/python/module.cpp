@@ -2,7 +2,7 @@
 
 #include "catalog/catalog.h"
 #include "dermis/bake/convention.h"
-#include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_files.h"
 #include "dermis/technique/technique.h"
 #include "parameter_list.h"
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "dermis/bake/lut.h"
-#include "dermis/bake/lut_taps.h"
 #include "dermis/bake/rows.h"
 #include "dermis/base/parallel.h"
 #include "dermis/image/colour.h"

@@ -9,7 +9,7 @@
 
 #include "dermis/bake/lint_model.h"
 #include "dermis/bake/lut.h"
-#include "dermis/bake/lut_taps.h"
+#include "dermis/bake/rows.h"
 #include "dermis/base/parallel.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"

@@ -1,6 +1,5 @@
 #include "dermis/bake/lut.h"
 
-#include "dermis/bake/lut_taps.h"
 #include "dermis/bake/rows.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/presets.h"

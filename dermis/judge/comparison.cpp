@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dermis/image/metrics.h"
-#include "dermis/judge/exact_effect.h"
+#include "dermis/judge/effect_reference.h"
 #include "dermis/judge/technique_pictures.h"
 #include "dermis/render/renderer.h"
 

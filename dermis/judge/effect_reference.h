@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "dermis/image/image.h"
 #include "dermis/judge/captured.h"
 #include "dermis/reference/picture.h"
+#include "dermis/scene/subject.h"
 
 namespace dermis::inline judge {
 
@@ -46,5 +48,14 @@ using ReferenceDone = std::function<void(double done, bool first_samples)>;
                                                             const EffectReferenceSettings& settings,
                                                             const ReferenceDone& progress = {},
                                                             const std::atomic<bool>* stop = nullptr);
+
+// The effect of scattering as a picture where a subject knows it exactly: what reference and techniques are
+// both held against.
+
+/// RGB, the effect of the key light alone: other lights must not be there. Averaged over the same grid x grid
+/// points of a pixel as reference and techniques; 0 where no skin is seen. Errors: maps, profile, the ray
+/// library.
+[[nodiscard]] Result<Image> exact_effect(const Scene& scene, const ExactExitance& exact, int width,
+                                         int height, int grid, float penumbra_mm);
 
 }  // namespace dermis::inline judge

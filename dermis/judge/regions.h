@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dermis/base/result.h"
+#include "dermis/image/image.h"
 #include "dermis/judge/captured.h"
 #include "dermis/scene/scene.h"
 

@@ -20,7 +20,7 @@
 
 namespace dermis::inline optics {
 
-/// The member of a material's `extras` that holds its profile exactly (exact_profile.h). Other programs keep
+/// The member of a material's `extras` that holds its profile exactly. Other programs keep
 /// or ignore it.
 inline constexpr const char* kGltfExactProfile = "dermis_profile";
 

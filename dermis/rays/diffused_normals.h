@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "dermis/optics/diffused_normals.h"
-#include "dermis/rays/skin_texels.h"
+#include "dermis/rays/skin_points.h"
 
 namespace dermis::inline rays {
 

@@ -1,7 +1,7 @@
 #include "dermis/rays/ray_scene.h"
 #include "dermis/base/parallel.h"
-#include "dermis/rays/cut_out.h"
 #include "dermis/rays/embree.h"
+#include "dermis/rays/texture.h"
 
 #include <algorithm>
 #include <array>

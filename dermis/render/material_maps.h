@@ -1,8 +1,12 @@
 #pragma once
 // A material's maps, decoded and laid out for the GPU.
 
+#include <optional>
+#include <string>
+
 #include "dermis/gpu/device.h"
 #include "dermis/image/image.h"
+#include "dermis/mesh/material.h"
 #include "dermis/mesh/mesh.h"
 #include "dermis/scene/scene.h"
 
@@ -39,5 +43,13 @@ struct LoadedMap {
 
 /// A texture of 1 x 1 texels in its place.
 [[nodiscard]] gpu::TextureData neutral_map(const MaterialMap& map);
+
+// Whether an image can be the normal map that it is given as.
+
+/// A probable mistake and its fix, in one line without the file's name: an object-space map given as a
+/// tangent-space one, a tangent-space map given as an object-space one, or an image that is not a normal map.
+/// A normal map holds unit vectors; those of a tangent-space map point out of the surface, those of a head in
+/// object space in all directions. Texels of black or white between the charts do not count.
+[[nodiscard]] std::optional<std::string> doubt_of_normal_map(const Image& image, NormalSpace space);
 
 }  // namespace dermis::inline render

@@ -8,10 +8,10 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/atlas_check.h"
-#include "dermis/render/diffused_normals_textures.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
 #include "dermis/render/material_maps.h"
+#include "dermis/render/seam_textures.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline render {

@@ -11,7 +11,7 @@
 #include "dermis/render/complete_scene.h"
 #include "dermis/scene/load_scene.h"
 #include "dermis/scene/placement.h"
-#include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_words.h"
 
 namespace dermis::inline report {

@@ -12,14 +12,12 @@
 #include "dermis/base/warnings.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/presets.h"
-#include "dermis/scene/displacement.h"
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
-#include "dermis/scene/scene_paths.h"
 #include "dermis/scene/scene_views.h"
 
 namespace dermis::inline scene {

@@ -10,7 +10,6 @@
 #include "dermis/image/io.h"
 #include "dermis/scene/panorama.h"
 #include "dermis/scene/prefilter.h"
-#include "dermis/scene/studio.h"
 
 namespace dermis::inline scene {
 namespace {

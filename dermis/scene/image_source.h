@@ -2,8 +2,10 @@
 // The picture behind an ImageSource, wherever it is: a file, embedded bytes, or pixels made by code.
 
 #include "dermis/base/result.h"
+#include "dermis/image/image.h"
 #include "dermis/image/io.h"
 #include "dermis/mesh/material.h"
+#include "dermis/mesh/mesh.h"
 
 namespace dermis::inline scene {
 
@@ -12,5 +14,11 @@ namespace dermis::inline scene {
 
 /// The alpha that cuts a material out: one channel, 1 where its maps have no alpha.
 [[nodiscard]] Result<Image> load_alpha(const Material& material);
+
+// Which texels of an atlas a mesh uses.
+
+/// One channel, u8: 255 where a texel's centre lies in a triangle, 0 elsewhere. UVs outside 0..1 are left
+/// out.
+[[nodiscard]] Image atlas_mask(const Mesh& mesh, int width, int height);
 
 }  // namespace dermis::inline scene

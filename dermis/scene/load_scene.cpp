@@ -10,7 +10,7 @@
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_checks.h"
-#include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_words.h"
 
 namespace dermis::inline scene {

@@ -1,9 +1,11 @@
 #include "dermis/scene/scene_files.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <set>
 
+#include "dermis/base/text.h"
 #include "dermis/optics/presets.h"
-#include "dermis/scene/scene_paths.h"
 
 namespace dermis::inline scene {
 namespace fs = std::filesystem;
@@ -21,10 +23,7 @@ bool is_on_disk(const ImageSource& source) {
 }
 
 void add_maps(const MapsDescription& maps, std::vector<const NamedFile*>& files) {
-    for (const NamedFile* file :
-         {&maps.albedo, &maps.normal, &maps.specular, &maps.roughness, &maps.occlusion, &maps.thickness,
-          &maps.kernel_size, &maps.curvature, &maps.displacement, &maps.opacity})
-        if (file->given()) files.push_back(file);
+    for (const auto& [key, map] : maps.files) files.push_back(&map.file);
 }
 
 }  // namespace
@@ -75,6 +74,99 @@ std::vector<fs::path> paths_of(const SceneDescription& description) {
             paths.push_back((description.file.parent_path() / file->text).lexically_normal());
     }
     return paths;
+}
+
+namespace {
+
+constexpr std::string_view kAssets = "assets:";
+
+fs::path from_environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+}
+
+fs::path data_directory() {
+    if (const fs::path xdg = from_environment("XDG_DATA_HOME"); !xdg.empty()) return xdg / "dermis";
+    if (const fs::path home = from_environment("HOME"); !home.empty())
+        return home / ".local" / "share" / "dermis";
+    return {};
+}
+
+// The data folder that `cmake --install` puts beside the program; empty when the program is not installed.
+fs::path installed_data() {
+    std::error_code ec;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ec);
+    const fs::path data = (program.parent_path() / ".." / "share" / "dermis").lexically_normal();
+    return !ec && fs::is_directory(data, ec) ? data : fs::path();
+}
+
+Result<fs::path> resolve_asset(std::string_view name) {
+    std::vector<std::string> looked;
+    for (const fs::path& directory : asset_directories()) {
+        std::error_code ec;
+        if (const fs::path file = directory / name; fs::is_regular_file(file, ec)) return file;
+        looked.push_back(directory.string());
+    }
+    const fs::path data = installed_data();
+    const std::string get_head = data.empty() ? "tools/get_head" : (data / "get_head").string();
+    return Error{"asset '" + std::string(name) + "' is in none of " + join(looked, ", ") + "; run " +
+                 get_head + ", or set DERMIS_ASSETS to the directory that holds it"};
+}
+
+}  // namespace
+
+bool is_asset(std::string_view text) {
+    return text.starts_with(kAssets);
+}
+
+std::vector<fs::path> asset_directories() {
+    std::vector<fs::path> directories;
+    if (const fs::path own = from_environment("DERMIS_ASSETS"); !own.empty()) directories.push_back(own);
+    directories.push_back((fs::path(DERMIS_SOURCE_DIR) / ".." / "shared" / "assets").lexically_normal());
+    if (const fs::path data = data_directory(); !data.empty()) directories.push_back(data);
+    return directories;
+}
+
+Result<fs::path> resolve_path(std::string_view text, const fs::path& scene_file) {
+    if (is_asset(text)) return resolve_asset(text.substr(kAssets.size()));
+    const fs::path path = (scene_file.parent_path() / text).lexically_normal();
+    std::error_code ec;
+    if (fs::is_directory(path, ec)) return Error{"'" + path.string() + "' is a directory, not a file"};
+    if (!fs::exists(path, ec))
+        return Error{"'" + path.string() + "' does not exist; paths are relative to the " +
+                     (scene_file.empty() ? "current directory" : "scene file")};
+    return path;
+}
+
+fs::path source_directory() {
+    std::error_code ec;
+    return fs::is_directory(DERMIS_SOURCE_DIR, ec) ? fs::path(DERMIS_SOURCE_DIR) : fs::path();
+}
+
+std::vector<fs::path> scene_directories() {
+    std::vector<fs::path> directories;
+    if (const fs::path data = installed_data(); !data.empty()) directories.push_back(data / "scenes");
+    directories.push_back(fs::path(DERMIS_SOURCE_DIR) / "scenes");
+    return directories;
+}
+
+std::vector<std::string> scene_names() {
+    std::set<std::string> names;
+    for (const fs::path& directory : scene_directories()) {
+        std::error_code ec;
+        for (const fs::directory_entry& entry : fs::directory_iterator(directory, ec))
+            if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+    }
+    return {names.begin(), names.end()};
+}
+
+fs::path find_scene(std::string_view name) {
+    for (const fs::path& directory : scene_directories()) {
+        std::error_code ec;
+        const fs::path file = directory / (std::string(name) + ".toml");
+        if (fs::is_regular_file(file, ec)) return file;
+    }
+    return {};
 }
 
 }  // namespace dermis::inline scene

@@ -123,30 +123,28 @@ Result<void> set_light(SceneDescription& scene, const Address& address, const st
 }
 
 template <class Value>
-void take_change(const Value& before, const Value& after, Value& value) {
-    if (!(before == after)) value = after;
+void keep_equal(const Value& before, Value& after, const Value& value) {
+    if (before == after) after = value;
 }
 
-// Copies only what differs between two scenes made from descriptions. The rest stays bit-equal: converted to
-// degrees and back, a camera would move.
-void take_changes(const Scene& before, const Scene& after, Scene& scene) {
-    take_change(before.camera.eye_mm, after.camera.eye_mm, scene.camera.eye_mm);
-    take_change(before.camera.target_mm, after.camera.target_mm, scene.camera.target_mm);
-    take_change(before.camera.vertical_fov_rad, after.camera.vertical_fov_rad, scene.camera.vertical_fov_rad);
+// Takes what differs between two scenes made from descriptions. Directions and angles that do not differ stay
+// bit-equal: converted to degrees and back, a camera would move.
+void take_changes(const Scene& before, Scene after, Scene& scene) {
+    keep_equal(before.camera.eye_mm, after.camera.eye_mm, scene.camera.eye_mm);
+    keep_equal(before.camera.target_mm, after.camera.target_mm, scene.camera.target_mm);
+    keep_equal(before.camera.vertical_fov_rad, after.camera.vertical_fov_rad, scene.camera.vertical_fov_rad);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light &old = before.lights[i], &fresh = after.lights[i];
-        Light& light = scene.lights[i];
-        light.name = fresh.name;
-        light.kind = fresh.kind;
-        light.color_linear = fresh.color_linear;
-        light.intensity = fresh.intensity;
-        light.is_key = fresh.is_key;
-        light.casts_shadow = fresh.casts_shadow;
-        take_change(old.to_light_world, fresh.to_light_world, light.to_light_world);
-        take_change(old.position_mm, fresh.position_mm, light.position_mm);
-        take_change(old.inner_angle_rad, fresh.inner_angle_rad, light.inner_angle_rad);
-        take_change(old.outer_angle_rad, fresh.outer_angle_rad, light.outer_angle_rad);
+        const Light &old = before.lights[i], &kept = scene.lights[i];
+        Light& light = after.lights[i];
+        keep_equal(old.to_light_world, light.to_light_world, kept.to_light_world);
+        keep_equal(old.position_mm, light.position_mm, kept.position_mm);
+        keep_equal(old.inner_angle_rad, light.inner_angle_rad, kept.inner_angle_rad);
+        keep_equal(old.outer_angle_rad, light.outer_angle_rad, kept.outer_angle_rad);
     }
+    scene.camera.eye_mm = after.camera.eye_mm;
+    scene.camera.target_mm = after.camera.target_mm;
+    scene.camera.vertical_fov_rad = after.camera.vertical_fov_rad;
+    scene.lights = std::move(after.lights);
     scene.skin = after.skin;
     scene.background_linear = after.background_linear;
     scene.tone_map = after.tone_map;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "dermis/base/result.h"
-#include "dermis/optics/gaussian_channels.h"
+#include "dermis/optics/gaussian_lobes.h"
 #include "dermis/optics/profile.h"
 
 namespace dermis::shading::export_text {

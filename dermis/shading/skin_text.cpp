@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "dermis/base/text.h"
-#include "dermis/optics/gaussian_channels.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/gaussian_lobes.h"
 #include "dermis/optics/wrap_reach.h"

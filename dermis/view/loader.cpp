@@ -5,7 +5,6 @@
 #include "dermis/render/complete_scene.h"
 #include "dermis/scene/load_scene.h"
 #include "dermis/scene/scene_files.h"
-#include "dermis/scene/scene_paths.h"
 
 namespace dermis::view {
 namespace fs = std::filesystem;

@@ -5,7 +5,6 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_files.h"
-#include "dermis/scene/scene_paths.h"
 #include "dermis/scene/scene_words.h"
 #include "dermis/scene/toml_values.h"
 #include "dermis/view/scene_edit.h"

@@ -1,5 +1,5 @@
 // Cards of hair and lashes: no surface where the alpha map has too little (dermis::cutoff_of_map). The reference has the
-// same rule, at the map's full resolution (dermis/rays/cut_out.h).
+// same rule, at the map's full resolution (dermis/rays/texture.h).
 #ifndef DERMIS_CUT_OUT_GLSL
 #define DERMIS_CUT_OUT_GLSL
 

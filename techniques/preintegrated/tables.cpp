@@ -10,7 +10,7 @@
 #include "dermis/bake/shadow_ramp.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
-#include "dermis/optics/gaussian_channels.h"
+#include "dermis/optics/gaussian_lobes.h"
 #include "shaders/include/constants.h"
 #include "techniques/preintegrated/weights.h"
 

@@ -12,7 +12,6 @@
 #include "dermis/bake/beckmann_table.h"
 #include "dermis/bake/lint_model.h"
 #include "dermis/bake/lut.h"
-#include "dermis/bake/lut_taps.h"
 #include "dermis/bake/rows.h"
 #include "dermis/bake/shadow_table.h"
 #include "dermis/bake/table_io.h"

@@ -7,7 +7,6 @@
 
 #include "dermis/bake/beckmann_table.h"
 #include "dermis/bake/lut.h"
-#include "dermis/bake/table_text.h"
 #include "dermis/base/file.h"
 #include "dermis/image/io.h"
 #include "support/temporary_directory.h"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "dermis/bake/table_text.h"
+#include "dermis/bake/table_io.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);

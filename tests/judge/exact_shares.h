@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dermis/judge/comparison.h"
-#include "dermis/judge/exact_effect.h"
+#include "dermis/judge/effect_reference.h"
 #include "dermis/judge/technique_pictures.h"
 #include "support/built_in.h"
 

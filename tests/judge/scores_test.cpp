@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "dermis/image/resample.h"
-#include "dermis/judge/heat_map.h"
+#include "dermis/judge/report.h"
 
 using namespace dermis;
 using testing::HasSubstr;

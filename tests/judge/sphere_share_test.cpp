@@ -2,7 +2,7 @@
 // must be captured.
 
 #include "dermis/judge/comparison.h"
-#include "dermis/judge/exact_effect.h"
+#include "dermis/judge/effect_reference.h"
 #include "render/render_test.h"
 #include "subjects/spheres/spheres.h"
 #include "subjects/unit/exact.h"

@@ -1,6 +1,6 @@
 // Normals averaged by the diffusion profile, over shapes with a known answer.
 
-#include "dermis/render/diffused_normals_textures.h"
+#include "dermis/render/seam_textures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dermis/render/normal_map_check.h"
+#include "dermis/render/material_maps.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "dermis/render/frame_values.h"
 #include "dermis/render/output.h"
 #include "dermis/render/shared_passes.h"
-#include "dermis/scene/atlas_mask.h"
+#include "dermis/scene/image_source.h"
 #include "render/render_test.h"
 #include "support/built_in.h"
 #include "support/temporary_directory.h"

@@ -12,8 +12,7 @@
 #include "dermis/scene/environment.h"
 #include "dermis/scene/panorama.h"
 #include "dermis/scene/prefilter.h"
-#include "dermis/scene/scene_paths.h"
-#include "dermis/scene/studio.h"
+#include "dermis/scene/scene_files.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;

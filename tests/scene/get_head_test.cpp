@@ -13,7 +13,7 @@
 
 #include "cli/run_program.h"
 #include "dermis/base/file.h"
-#include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_files.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
 

@@ -10,7 +10,7 @@
 #include "dermis/base/file.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/scene_description.h"
-#include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_files.h"
 #include "support/built_in.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"

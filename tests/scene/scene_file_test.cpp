@@ -83,6 +83,12 @@ std::string error_of(const std::string& toml) {
 
 const std::string kSpheresMesh = "[[mesh]]\nfile = \"builtin:spheres\"\n";
 
+Material changed_by(const MaterialChanges& changes) {
+    Material material;
+    for (const auto& [key, change] : changes) change(material);
+    return material;
+}
+
 }  // namespace
 
 TEST(SceneFile, every_section_arrives_in_the_description) {
@@ -95,10 +101,10 @@ TEST(SceneFile, every_section_arrives_in_the_description) {
     EXPECT_EQ(scene->meshes[0].file.line, 9);
     EXPECT_EQ(scene->meshes[0].file.key, "mesh.file");
     EXPECT_EQ(scene->meshes[0].translate_mm, (Vec3{1, 2.5f, 3}));
-    EXPECT_EQ(scene->maps.normal_space, NormalSpace::object);
-    EXPECT_EQ(scene->maps.dilate_texels, 8);
+    EXPECT_EQ(changed_by(scene->maps.changes).normal_space, NormalSpace::object);
+    EXPECT_EQ(changed_by(scene->maps.changes).dilate_texels, 8);
     EXPECT_EQ(scene->materials.at("skin").material_class, MaterialClass::other);
-    EXPECT_EQ(scene->materials.at("skin").maps.normal_scale, 0.5f);
+    EXPECT_EQ(changed_by(scene->materials.at("skin").maps.changes).normal_scale, 0.5f);
     EXPECT_EQ(scene->skin.ior, 1.38f);
     ASSERT_EQ(scene->lights.size(), 2u);
     EXPECT_EQ(scene->lights[1].kind, LightKind::spot);

@@ -16,7 +16,7 @@
 #include "dermis/base/process.h"
 #include "dermis/base/text.h"
 #include "dermis/gpu/device.h"
-#include "dermis/scene/scene_paths.h"
+#include "dermis/scene/scene_files.h"
 
 namespace dermis::cli {
 namespace {

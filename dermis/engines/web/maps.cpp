@@ -6,7 +6,6 @@
 #include "dermis/image/dilate.h"
 #include "dermis/image/resample.h"
 #include "dermis/render/material_maps.h"
-#include "dermis/scene/atlas_mask.h"
 #include "dermis/scene/image_source.h"
 
 namespace dermis::inline engines::web {
