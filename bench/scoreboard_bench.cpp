@@ -42,7 +42,7 @@ constexpr int kModelWidth = 1920, kModelHeight = 1080;
 constexpr const char* kText =
     "# Scoreboard\n\n"
     "**captured**: how much of the effect of scattering a technique has "
-    "([definition](ground_truth.md#comparing)): 1 for the\n"
+    "([definition](reference.md#comparing)): 1 for the\n"
     "reference, 0 for `lambert`, below 0 if worse than `lambert`; ± is half of the 95 %% interval. R, G, "
     "B: the\n"
     "channels. Green and blue scatter a few tenths of a millimetre, less than a pixel here. noise: the "

@@ -24,7 +24,7 @@ TEST_F(PreintegratedAmbient, uses_the_smoothed_normals) {
     EXPECT_NE(smooth.bytes, blended.bytes);
 }
 
-// The left half of a plane sees everything around it, the right half nothing. The truth is the profile's
+// The left half of a plane sees everything around it, the right half nothing. The reference is the profile's
 // cumulative distribution along a line, a sum of error functions.
 TEST_F(PreintegratedAmbient, scatters_over_an_edge_of_its_occlusion) {
     Scene scene = make_studio_grid_scene();

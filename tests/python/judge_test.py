@@ -40,7 +40,7 @@ class Compare(TestCase):
             compared.radiance("wrapp")
 
     def test_effects_give_the_share(self):
-        """As docs/ground_truth.md defines it, but for the reference's noise."""
+        """As docs/reference.md defines it, but for the reference's noise."""
         compared = dermis.compare("spheres", "wrap[wrap=0.4]", size=48, samples_per_pixel=4, noise=0.05, frames=1)
         counts = compared.skin > 0.5
         reference, wrap = compared.reference_effect[counts], compared.effect("wrap[wrap=0.4]")[counts]
