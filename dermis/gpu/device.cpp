@@ -107,6 +107,7 @@ Device::State::~State() {
     context.submissions.known_done = context.submissions.submitted;
     save_pipeline_cache(*this);
     submissions_done = {};
+    pipelines.clear();
     pipeline_cache = {};
     uploads = {};
     samplers = {};

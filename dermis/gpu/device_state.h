@@ -3,6 +3,8 @@
 
 #include <array>
 #include <functional>
+#include <map>
+#include <memory>
 
 #include "dermis/gpu/device.h"
 #include "dermis/gpu/instance.h"
@@ -15,6 +17,8 @@ inline constexpr std::array<std::string_view, 4> kSamplerNames = {"linear_clamp"
                                                                   "trilinear_clamp", "shadow_compare"};
 inline constexpr size_t kAddressModes = 3;
 
+struct Pipeline;
+
 struct Device::State {
     Instance instance;
     DeviceInfo info;
@@ -26,6 +30,8 @@ struct Device::State {
     OwnedPipelineCache pipeline_cache;
     std::string pipeline_cache_key;
     size_t pipeline_cache_bytes = 0;  ///< as loaded; stored again when it grew
+    /// By content, shared by all executors: making one takes longer than drawing a small picture with it.
+    std::map<std::string, std::shared_ptr<const Pipeline>> pipelines;
 
     State() = default;
     State(const State&) = delete;

@@ -10,7 +10,8 @@
 namespace dermis::gpu {
 namespace {
 
-// Above this number, pipelines that were idle for kIdlePipelineRuns are removed.
+// Above this number, an executor lets go pipelines that were idle for kIdlePipelineRuns, and the device
+// destroys those that no executor holds.
 constexpr size_t kManyPipelines = 256;
 constexpr uint64_t kIdlePipelineRuns = 64;
 
@@ -153,14 +154,14 @@ Result<Pipeline> build_compute(Device::State& device, const ListedPass& pass, co
 
 Result<const Pipeline*> PipelineStore::find_or_build(const std::string& key, const Pass& pass,
                                                      const std::function<Result<Pipeline>()>& build) {
-    auto found = pipelines_.find(key);
-    if (found == pipelines_.end()) {
+    auto found = device_->pipelines.find(key);
+    if (found == device_->pipelines.end()) {
         DERMIS_TRY_ASSIGN(Pipeline pipeline, build());
         set_object_name(device_->context, VK_OBJECT_TYPE_PIPELINE, pipeline.handle.get(), pass.name);
-        found = pipelines_.emplace(key, std::move(pipeline)).first;
+        found = device_->pipelines.emplace(key, std::make_shared<const Pipeline>(std::move(pipeline))).first;
     }
-    found->second.last_run = run_;
-    return &found->second;
+    pipelines_[key] = {found->second, run_};
+    return found->second.get();
 }
 
 Result<const Pipeline*> PipelineStore::graphics(const ListedPass& pass, const Shader& vertex,
@@ -176,9 +177,11 @@ Result<const Pipeline*> PipelineStore::compute(const ListedPass& pass, const Sha
 
 void PipelineStore::begin_run() {
     ++run_;
-    if (pipelines_.size() <= kManyPipelines) return;
-    std::erase_if(pipelines_,
-                  [&](const auto& entry) { return entry.second.last_run + kIdlePipelineRuns < run_; });
+    if (pipelines_.size() > kManyPipelines)
+        std::erase_if(pipelines_,
+                      [&](const auto& entry) { return entry.second.last_run + kIdlePipelineRuns < run_; });
+    if (device_->pipelines.size() > kManyPipelines)
+        std::erase_if(device_->pipelines, [](const auto& entry) { return entry.second.use_count() == 1; });
 }
 
 std::string_view vertex_shader_name(const Pass& pass) {

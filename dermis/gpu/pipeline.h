@@ -1,5 +1,5 @@
 #pragma once
-// Pipelines by content: the same shaders with the same constants and state are built once.
+// Pipelines by content: the same shaders with the same constants and state are built once for a device.
 
 #include <map>
 
@@ -19,7 +19,6 @@ struct Pipeline {
     VkShaderStageFlags push_stages = 0;
     std::vector<StageVariable> inputs;  ///< the index is the vertex buffer binding
     std::array<uint32_t, 3> local_size = {1, 1, 1};
-    uint64_t last_run = 0;
 };
 
 /// A pass and what its list has for all of them.
@@ -35,6 +34,7 @@ struct TargetFormats {
     uint32_t samples = 1;
 };
 
+/// The pipelines that one executor uses.
 class PipelineStore {
   public:
     explicit PipelineStore(Device::State& device) : device_(&device) {}
@@ -54,8 +54,12 @@ class PipelineStore {
     [[nodiscard]] Result<const Pipeline*> find_or_build(const std::string& key, const Pass& pass,
                                                         const std::function<Result<Pipeline>()>& build);
 
+    struct Used {
+        std::shared_ptr<const Pipeline> pipeline;
+        uint64_t last_run = 0;
+    };
     Device::State* device_;
-    std::map<std::string, Pipeline> pipelines_;
+    std::map<std::string, Used> pipelines_;
     uint64_t run_ = 0;
 };
 

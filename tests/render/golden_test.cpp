@@ -48,10 +48,12 @@ class SwiftShaderGoldens : public Goldens {
         // The loader reads both when the instance is made. Goldens and SwiftShader may run in one process.
         setenv("VK_DRIVER_FILES", kSwiftShaderManifest, 1);
         setenv("VK_ICD_FILENAMES", kSwiftShaderManifest, 1);
+        close_device();
         open_device({.validation = true});
         unsetenv("VK_DRIVER_FILES");
         unsetenv("VK_ICD_FILENAMES");
     }
+    static void TearDownTestSuite() { close_device(); }
     void SetUp() override {
         if (const std::string reason = skip_reason(); !reason.empty()) GTEST_SKIP() << reason;
         Goldens::SetUp();

@@ -1,6 +1,6 @@
 #pragma once
-// For every test that touches Vulkan: one device with validation for the whole program, and no message from
-// the validation layers after any test.
+// For every test that touches Vulkan: one device with validation, kept for the suites that follow, and no
+// message from the validation layers after any test.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -47,12 +47,15 @@ class GpuTest : public ::testing::Test {
   protected:
     static void SetUpTestSuite() { open_device({.validation = true}); }
     static void open_device(const DeviceOptions& options) {
+        if (device_ && pooled_ == options.pooled_descriptors) return;
+        close_device();
         Result<Device> made = Device::create(options);
         ASSERT_TRUE(made) << made.error().message;
         device_ = std::make_unique<Device>(std::move(*made));
+        pooled_ = options.pooled_descriptors;
         taken_ = 0;
     }
-    static void TearDownTestSuite() { device_.reset(); }
+    static void close_device() { device_.reset(); }
 
     void SetUp() override { ASSERT_TRUE(device_); }
     void TearDown() override {
@@ -90,7 +93,15 @@ class GpuTest : public ::testing::Test {
     }
 
   private:
+    struct ClosesDevice : ::testing::Environment {
+        void TearDown() override { close_device(); }
+    };
+
+    // Closed before the driver is unloaded.
+    inline static ::testing::Environment* const at_end_ =
+        ::testing::AddGlobalTestEnvironment(new ClosesDevice);
     inline static std::unique_ptr<Device> device_;
+    inline static bool pooled_ = false;
     inline static size_t taken_ = 0;
 };
 
