@@ -181,9 +181,9 @@ Plot comparison_plot(const std::vector<Profile>& profiles) {
 
 std::string profile_tables_markdown() {
     return "### Presets\n\n" + presets_table() + "\n### What each tool means\n\n" + conventions_table() +
-           "\n### One skin in every tool\n\n" + one_skin_in_all_tools("jensen_skin1") + "\n" +
-           one_skin_in_all_tools("gpu_gems_3") + "\n### How well Gaussians fit\n\n" +
-           "Largest part of the light at a wrong distance.\n\n" + fit_table();
+           "\n### One skin in every tool\n\n" + one_skin_in_all_tools("jensen_skin1") +
+           "\n### How well Gaussians fit\n\n" + "Largest part of the light at a wrong distance.\n\n" +
+           fit_table();
 }
 
 }  // namespace dermis::inline bake
