@@ -52,9 +52,8 @@ Run run_of(const std::string& id, const std::string& parameter = "", const std::
 
 const std::string kDefaults = "defaults";
 
-// Lambert, then every technique (or one), those that have transmission without it too, and the settings of
-// preintegrated, spherical_gaussians and texture_space whose costs their READMEs
-// state.
+// Lambert, then every technique (or one) with its presets, those that have transmission without it too, and
+// the settings of preintegrated and spherical_gaussians whose costs their READMEs state.
 std::vector<Run> runs(const std::string& only) {
     std::vector<Run> all = {run_of("lambert")};
     for (const Technique& technique : built_in_catalog().techniques) {
@@ -67,7 +66,8 @@ std::vector<Run> runs(const std::string& only) {
         if (without.values.set("transmission", "none")) all.push_back(std::move(without));
         if (technique.id == "spherical_gaussians")
             for (const char* lobes : {"1", "6"}) all.push_back(run_of(technique.id, "lobes", lobes));
-        if (technique.id == "texture_space") all.push_back(run_of(technique.id, "filter", "gaussian"));
+        for (const ParameterPreset& preset : technique.parameters.presets)
+            if (preset.name != "default") all.push_back(run_of(technique.id, "preset", preset.name));
         if (technique.id != "preintegrated") continue;
         all.push_back(run_of(technique.id, "diffuse", "closed_form"));
         all.push_back(run_of(technique.id, "normals", "sharp"));

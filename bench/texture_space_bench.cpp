@@ -88,12 +88,12 @@ int main(int argc, char** argv) {
     std::printf("%s, %dx%d, %d frames after the first, on %s\nlambert %.1f ms; all else as ratios to it\n",
                 scene->name.c_str(), kDraw.width, kDraw.height, frames - 1, device->info().name.c_str(),
                 lambert_ms);
-    const Settings whole = {{"cull_frustum", "off"}, {"cull_back_face", "off"}};
+    const Settings whole = {{"cull", "none"}};
     for (const char* size : {"512", "1024", "2048"}) {
         const std::pair<std::string, std::pair<std::string, Settings>> runs[] = {
             {"texture_space", {"texture_space", {}}},
             {"texture_space, no culls", {"texture_space", whole}},
-            {"texture_space, the source's", {"texture_space", {{"blur", "source"}, {"blur_passes", "2"}}}},
+            {"texture_space, the source's", {"texture_space", {{"preset", "source"}}}},
             {"texture_space_gaussians", {"texture_space_gaussians", {}}},
             {"texture_space_gaussians, no culls", {"texture_space_gaussians", whole}}};
         for (const auto& [label, run] : runs) {

@@ -20,8 +20,7 @@ constexpr std::string_view kSettings =
     "preintegrated[diffuse=half_ring,shadow=plain],"
     "preintegrated[normals=sharp,shadow=plain],"
     "texture_space[light_map_size=2048],"
-    "texture_space[detail=map],"
-    "texture_space[blur=source],"
+    "texture_space[preset=source],"
     "wrap[width=source],"
     "screen_space_separable[follow=none]";
 

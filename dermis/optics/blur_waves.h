@@ -16,8 +16,6 @@ using WaveCurve = std::array<double, kBlurWaves>;
 
 /// Errors of `kept`, the part of a wave that the profile leaves (0..1), count relative to the part that it
 /// takes: 1 / (kTakenOffset + 1 - kept). Of long waves, which carry most of the light, little is taken.
-/// Captured share of texture_space with filter=poisson, fitted to `kept` alone and with this weight: spheres
-/// .86 and .90, bust .775 and .806.
 inline constexpr double kTakenOffset = 0.1;
 [[nodiscard]] constexpr double wave_importance(double kept) {
     return 1 / (kTakenOffset + 1 - kept);

@@ -235,7 +235,7 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
                                .penumbra_mm = settings.penumbra_mm,
                                .environment_mip_count = uploaded_->environment_mip_count(),
                                .environment_sh = uploaded_->environment_sh()});
-    inputs.blocks["Params"] = inputs.blocks["AtlasParams"] = parameter_block(values);
+    inputs.blocks["Params"] = parameter_block(values);
     inputs.blocks["Skin"] = skin_values_;
     inputs.arrays["Lights"] = light_values(*scene_);
     inputs.draws = uploaded_->draws();

@@ -125,8 +125,9 @@ std::string scene_file_manual(std::span<const Subject> subjects) {
     text += R"(
 ## `[settings]`
 
-Parameters of the technique by name: numbers, `true` or `false`, names of choices, colours as three numbers. `dermis techniques`
-lists them with unit, range and default; `--set name=value` wins over the file.
+Parameters of the technique by name: numbers, `true` or `false`, names of choices, colours as three numbers. `preset`
+sets all of them before the others are read: `preset = "cheap"`. `dermis techniques NAME` lists parameters and presets of a technique.
+`--set name=value` wins over the file.
 )";
     return text;
 }

@@ -18,10 +18,6 @@ int most_tiles(const AtlasCullSettings& s) {
     return in_tiles(std::min(s.reach_texels + s.reach_steps * s.longest_texels, float(s.size)));
 }
 
-Vec3 circle(const UvCircle& c) {
-    return {c.u, c.v, c.radius};
-}
-
 Pass over_tiles(std::string name, std::string shader, std::vector<ImageRead> reads, std::string target) {
     return {.name = std::move(name),
             .kind = PassKind::fullscreen,
@@ -84,10 +80,8 @@ void add_atlas_cull(PassList& list, const AtlasCullSettings& settings) {
                            .shader = "atlas/cull_visible.frag",
                            .colors = {{.image = "atlas_visible"}},
                            .constants = {{"cull_frustum", int32_t(settings.frustum)},
-                                         {"cull_back_face", int32_t(settings.back_face)}},
-                           .values = {{"bias", settings.bias},
-                                      {"exempt_a", circle(settings.exempt[0])},
-                                      {"exempt_b", circle(settings.exempt[1])}}});
+                                         {"cull_back_face", int32_t(settings.back_face)},
+                                         {"keep_thin", int32_t(settings.keep_thin)}}});
     const bool by_steps = settings.reach_steps > 0;
     Pass tiles = over_tiles("cull tiles", "cull_tiles.frag",
                             {"atlas_visible", {"atlas_metric", by_steps ? "atlas_metric" : "atlas_visible"}},

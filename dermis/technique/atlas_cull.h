@@ -12,15 +12,9 @@
 
 namespace dermis::inline technique {
 
-/// Texels within `radius` of (u, v) are never culled; radius 0: none.
-struct UvCircle {
-    float u = 0, v = 0, radius = 0;
-};
-
 struct AtlasCullSettings {
     bool frustum = false, back_face = false;
-    float bias = 0.3f;  ///< added to v.n, for normals that are smoother than the triangles
-    UvCircle exempt[2];
+    bool keep_thin = false;  ///< where the kernel-size map is above kThinKernel nothing faces away
     /// How far the passes that follow carry light, all together: texels, and steps of the atlas's metric
     /// (atlas_light.h), none of which is longer than longest_texels. Steps need the image "atlas_metric".
     float reach_texels = 0, reach_steps = 0, longest_texels = 0;

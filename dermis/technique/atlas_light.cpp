@@ -40,18 +40,10 @@ const ParameterTable& atlas_parameters() {
     static const ParameterTable kTable =
         ParameterTableBuilder<P>()
             .integer(&P::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
-            .toggle(&P::translucent_shadows, "translucent_shadows", "translucent objects tint the key light")
-            .number(&P::occluded, "occluded", "", 0, 1, "part of the key light that remains in full shadow")
-            .number(&P::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
-                    "exponent of a translucent shadow; larger is darker")
-            .toggle(&P::cull_frustum, "cull_frustum", "leave out texels outside the view")
-            .toggle(&P::cull_back_face, "cull_back_face", "leave out texels that face away")
-            .number(&P::cull_bias, "cull_bias", "", 0, 2, "added to the cosine between view and normal")
+            .choice(&P::cull, "cull", {"none", "frustum", "back_face", "both"},
+                    "leave out texels outside the view, or that face away; changes no pixel")
             .number(&P::kernel_growth, "kernel_growth", "", 0, 10,
-                    "the profile's lengths grow by this share where the kernel-size map is 1")
-            .choice(&P::detail, "detail", {"map", "pixel"},
-                    "what is too small for the light map's texels is lost, as in the sources, or lit at the "
-                    "pixel")
+                    "radii of the blur grow by this share where the kernel-size map is 1")
             .choice(&P::transmission, "transmission", transmission_names(), kTransmissionHelp)
             .build();
     return kTable;
@@ -65,17 +57,18 @@ AtlasParams coarse_light_map(AtlasParams params, float scale) {
 }
 
 AtlasLightSettings atlas_light_settings(const AtlasParams& params) {
-    return {.shadow = {.translucent = params.translucent_shadows},
-            .cull = {.frustum = params.cull_frustum,
-                     .back_face = params.cull_back_face,
-                     .bias = params.cull_bias,
+    const AtlasCull cull = params.cull;
+    return {.cull = {.frustum = cull == AtlasCull::frustum || cull == AtlasCull::both,
+                     .back_face = cull == AtlasCull::back_face || cull == AtlasCull::both,
                      .size = params.light_map_size},
             .size = params.light_map_size,
             .kernel_scale_mm = params.kernel_growth};
 }
 
-std::vector<NamedValue> detail_values(const std::function<Vec3(double texel_mm)>& kept) {
-    std::vector<NamedValue> values;
+std::vector<NamedValue> atlas_skin_values(const std::function<Vec3(double texel_mm)>& kept,
+                                          ShadowStrength shadow) {
+    std::vector<NamedValue> values = {{"occluded", shadow.occluded},
+                                      {"trans_shadow_alpha", shadow.trans_shadow_alpha}};
     for (int i = 0; i < kDetailSamples; ++i)
         values.emplace_back("detail_kept[" + std::to_string(i) + "]",
                             kept(double(kDetailFirstMm) * std::exp2(double(i) / kDetailPerOctave)));

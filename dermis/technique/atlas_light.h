@@ -12,20 +12,15 @@
 
 namespace dermis::inline technique {
 
-/// Detail that is too small for the light map's texels: lost, or lit at the pixel.
-enum class AtlasDetail : int32_t { map = kDetailMap, pixel = kDetailPixel };
+/// Which texels no pass works on: those outside the view, those that face away, both.
+enum class AtlasCull : int32_t { none, frustum, back_face, both };
 
 /// The parameters of every technique that lights the skin in its atlas: a part of the technique's own, with
-/// the rows of atlas_parameters(). Shaders have them in the block AtlasParams (shaders/atlas/light.glsl).
+/// the rows of atlas_parameters().
 struct AtlasParams {
     int32_t light_map_size = 512;
-    bool translucent_shadows = true;
-    float occluded = 0;
-    float trans_shadow_alpha = 1;
-    bool cull_frustum = true, cull_back_face = true;
-    float cull_bias = 0.3f;
+    AtlasCull cull = AtlasCull::both;
     float kernel_growth = 0.5f;
-    AtlasDetail detail = AtlasDetail::pixel;
     Transmission transmission = Transmission::shadow_map;
 };
 [[nodiscard]] const ParameterTable& atlas_parameters();
@@ -55,9 +50,16 @@ struct AtlasLightSettings {
 /// Side of a texel on the skin, the median by area.
 [[nodiscard]] double typical_texel_mm(int size, const FrameContext& frame);
 
-/// The uniform block Skin of shaders/atlas/final.glsl: what the blur leaves of the light that a light map
-/// with texels of this side on the skin cannot hold.
-[[nodiscard]] std::vector<NamedValue> detail_values(const std::function<Vec3(double texel_mm)>& kept);
+/// What passes into the shadow of the key light: `occluded` of it, and the tint of translucent surfaces to
+/// the power `trans_shadow_alpha`.
+struct ShadowStrength {
+    float occluded = 0, trans_shadow_alpha = 1;
+};
+
+/// The uniform block Skin of shaders/atlas/light.glsl. `kept`: what the blur leaves of the light that a light
+/// map with texels of this side on the skin cannot hold.
+[[nodiscard]] std::vector<NamedValue> atlas_skin_values(const std::function<Vec3(double texel_mm)>& kept,
+                                                        ShadowStrength shadow = {});
 
 /// The share that `blur` leaves of a wave of 2.5 texels. The map holds half of such a wave: averaging a texel
 /// and reading between texels leave sinc(1/2.5)^3 = .43 to sinc(1/2.5)^2 = .57. Captured shares with 2, 2.5

@@ -27,6 +27,13 @@ const int kDetailMap = 0, kDetailPixel = 1;
 const int kDetailSamples = 49, kDetailPerOctave = 4;
 const float kDetailFirstMm = 1.0f / 64;
 
+// Gosselin, Sander, Mitchell 2004: added to the cosine between normal and view before texels that face away
+// are culled. Normals are smoother than triangles.
+const float kCullBias = 0.3f;
+// Ears and other thin parts, which the source exempts from culls by hand: where the kernel-size map is
+// larger.
+const float kThinKernel = 0.25f;
+
 // Texels per side of a tile; tiles are kept or dropped whole.
 const int kCullTile = 8;
 

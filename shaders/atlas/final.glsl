@@ -23,14 +23,11 @@ bool read_light_map(texture2D map, Surface s, int texels, out vec3 exitance) {
                                             : textureLod(sampler2D(map, linear_clamp), s.uv, 0.0);
     if (texels == kTexelsAsTheyAre) blurred.a = 1.0;
     exitance = blurred.rgb / max(blurred.a, 1e-4);
-    bool from_inside = dot(s.n_geometry_world, s.to_eye_world) + cull_bias <= 0.0;
+    bool from_inside = dot(s.n_geometry_world, s.to_eye_world) + kCullBias <= 0.0;
     return !(outside_atlas(s.uv) || from_inside || blurred.a < 1e-3);
 }
 
 layout(constant_id = 4) const int detail = kDetailPixel;
-
-// The values of detail_values() in dermis/technique/atlas_light.h.
-layout(scalar) uniform Skin { vec3 detail_kept[kDetailSamples]; };
 
 // Side of a square on the skin as large as a texel, or as a pixel if that is larger: light here holds no
 // shorter waves. The first fundamental form gives the ratio of areas on the skin and in the atlas.

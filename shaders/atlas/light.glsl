@@ -8,11 +8,11 @@
 #include "shaders/include/reduced_diffuse.glsl"
 #include "shaders/include/surface.glsl"
 
-// The members of dermis::AtlasParams that shaders need.
-layout(scalar) uniform AtlasParams {
+// Of atlas_skin_values() in dermis/technique/atlas_light.h.
+layout(scalar) uniform Skin {
+    vec3 detail_kept[kDetailSamples];
     float occluded;
     float trans_shadow_alpha;
-    float cull_bias;
 };
 
 // The light past opaque and translucent surfaces.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "dermis/optics/blur_waves.h"
 #include "techniques/texture_space/constants.h"
@@ -14,6 +15,19 @@ namespace {
 constexpr double kLeastShare = 0.01;
 
 using Curve = WaveCurve;
+
+// The taps of blur_mm.frag at one distance from the centre, in radii, and their part of all taps' weight.
+struct TapRing {
+    double distance = 1, weight = 1;
+};
+constexpr TapRing kRings[] = {{1, 2.0 / 3}, {std::numbers::sqrt2, 1.0 / 3}};
+
+// Along one axis, at radius 1.
+double ring_variance() {
+    double sum = 0;
+    for (const TapRing& ring : kRings) sum += ring.weight * ring.distance * ring.distance / 2;
+    return sum;
+}
 
 // What the profile leaves of the waves in each colour.
 struct Target {
@@ -30,12 +44,6 @@ Target target_of(const GaussianSum& profile, double texel_mm) {
     return target;
 }
 
-Curve damping(double variance_mm2, const Curve& x) {
-    Curve curve;
-    for (size_t i = 0; i < kBlurWaves; ++i) curve[i] = std::exp(-variance_mm2 * x[i]);
-    return curve;
-}
-
 // What reading between texels leaves of a wave.
 double read_transfer(const BlurFitSettings& settings, double x) {
     return std::exp(-double(kBilinearVariance) * settings.texel_mm * settings.texel_mm * x);
@@ -45,7 +53,7 @@ double read_transfer(const BlurFitSettings& settings, double x) {
 // as a mean over the wave's directions.
 double taps_transfer(double radius_mm, const BlurFitSettings& settings, double x) {
     double sum = 0;
-    for (const TapRing& ring : settings.rings)
+    for (const TapRing& ring : kRings)
         sum += ring.weight * ::j0(ring.distance * radius_mm * std::sqrt(2 * x));
     return sum * read_transfer(settings, x);
 }
@@ -60,11 +68,11 @@ double squared_error(const Curve& kept, const Curve& target) {
 }
 
 // Least squares of one colour's shares, one after the other: the product is linear in each.
-double fit_shares(const Curve& target, const Curve& reading, const std::vector<Curve>& taps,
-                  std::vector<double>& shares) {
+double fit_shares(const Curve& target, const std::vector<Curve>& taps, std::vector<double>& shares) {
     constexpr int kRounds = 12;
     const auto product_without = [&](size_t left_out) {
-        Curve product = reading;
+        Curve product;
+        product.fill(1);
         for (size_t k = 0; k < taps.size(); ++k)
             for (size_t i = 0; k != left_out && i < kBlurWaves; ++i)
                 product[i] *= 1 - shares[k] + shares[k] * taps[k][i];
@@ -99,27 +107,17 @@ Fit fit_at(std::vector<double> radii_mm, const Target& target, const BlurFitSett
         for (size_t i = 0; i < kBlurWaves; ++i)
             taps.back()[i] = taps_transfer(radius_mm, settings, target.x[i]);
     }
-    Curve reading;
-    for (size_t i = 0; i < kBlurWaves; ++i)
-        reading[i] = settings.read_blurs ? read_transfer(settings, target.x[i]) : 1;
     for (size_t c = 0; c < 3; ++c) {
         fit.shares[c].assign(taps.size(), 0.5);
-        fit.error += fit_shares(target.kept[c], reading, taps, fit.shares[c]);
+        fit.error += fit_shares(target.kept[c], taps, fit.shares[c]);
     }
     return fit;
 }
 
 }  // namespace
 
-double tap_variance(const std::vector<TapRing>& rings) {
-    double sum = 0;
-    for (const TapRing& ring : rings) sum += ring.weight * ring.distance * ring.distance / 2;
-    return sum;
-}
-
 Vec3 blur_transfer(const std::vector<BlurPass>& passes, const BlurFitSettings& settings, double x) {
-    const float reading = settings.read_blurs ? float(read_transfer(settings, x)) : 1.0f;
-    Vec3 product = {reading, reading, reading};
+    Vec3 product = {1, 1, 1};
     for (const BlurPass& pass : passes) {
         const auto taps = float(taps_transfer(double(pass.radius), settings, x));
         product = product * (Vec3{1, 1, 1} - pass.share * (1 - taps));
@@ -130,11 +128,8 @@ Vec3 blur_transfer(const std::vector<BlurPass>& passes, const BlurFitSettings& s
 std::vector<BlurPass> fit_blur(const GaussianSum& profile, const BlurFitSettings& settings) {
     if (profile.terms.empty() || settings.passes <= 0) return {};
     const Target target = target_of(profile, settings.texel_mm);
-    const auto radius_of = [&](double variance_mm2) {
-        return std::sqrt(variance_mm2 / tap_variance(settings.rings));
-    };
-    const double widest =
-        radius_of(std::ranges::max(profile.terms, {}, &GaussianTerm::variance_mm2).variance_mm2);
+    const double widest = std::sqrt(
+        std::ranges::max(profile.terms, {}, &GaussianTerm::variance_mm2).variance_mm2 / ring_variance());
     Fit best;
     for (double last = widest; last > 0.2 * widest; last *= 0.8)
         for (const double ratio : {1.5, 1.8, 2.1, 2.5, 3.0, 3.6}) {
@@ -150,22 +145,6 @@ std::vector<BlurPass> fit_blur(const GaussianSum& profile, const BlurFitSettings
         passes.push_back({float(best.radii_mm[i]), {float(share[0]), float(share[1]), float(share[2])}});
     }
     return passes;
-}
-
-int nearest_pass_count(const GaussianSum& profile, const std::vector<double>& variances_texels,
-                       double texel_mm) {
-    if (profile.terms.empty()) return 0;
-    const Target target = target_of(profile, texel_mm);
-    double variance_texels = kBilinearVariance, best = std::numeric_limits<double>::infinity();
-    int count = 0;
-    for (size_t n = 0; n <= variances_texels.size(); ++n) {
-        if (n > 0) variance_texels += variances_texels[n - 1];
-        const Curve blurred = damping(variance_texels * texel_mm * texel_mm, target.x);
-        double error = 0;
-        for (const Curve& color : target.kept) error += squared_error(blurred, color);
-        if (error < best) best = error, count = int(n);
-    }
-    return count;
 }
 
 }  // namespace dermis::texture_space

@@ -5,10 +5,8 @@
 // leaves t(f) of a wave of frequency f, by the distances of the taps: one pass leaves 1 - a_c + a_c t(f), and
 // passes multiply. The profile leaves the sum of w_c exp(-v x) over its Gaussians, x = 2 pi^2 f^2. Shares are
 // least squares over x, relative to what the profile takes (wave_importance()); radii are a geometric series,
-// the best of a grid. (Taps taken as a Gaussian of their variance left .48 instead of .58 of waves of 5 mm in
-// red.)
+// the best of a grid.
 
-#include <numbers>
 #include <vector>
 
 #include "dermis/base/vec.h"
@@ -21,20 +19,9 @@ struct BlurPass {
     Vec3 share = {1, 1, 1};  ///< of the light that the taps replace, a colour each
 };
 
-/// Taps at one distance from the centre, in radii, and their part of all taps' weight.
-struct TapRing {
-    double distance = 1, weight = 1;
-};
-
-/// Along one axis, at radius 1.
-[[nodiscard]] double tap_variance(const std::vector<TapRing>& rings);
-
 struct BlurFitSettings {
     int passes = 3;
-    /// Of the filter, without the centre. These are those of filter=gaussian.
-    std::vector<TapRing> rings = {{1, 2.0 / 3}, {std::numbers::sqrt2, 1.0 / 3}};
-    double texel_mm = 0.3;   ///< of the light map: reading between texels blurs too
-    bool read_blurs = true;  ///< the last reading too; not where the pixel has what it takes away
+    double texel_mm = 0.3;  ///< of the light map: reading between texels blurs too
 };
 
 /// Narrowest first; a pass that would replace less than a hundredth of every colour is left out, so that
@@ -44,10 +31,5 @@ struct BlurFitSettings {
 /// What the passes leave of a wave: x is 2 pi^2 f^2 in 1/mm^2.
 [[nodiscard]] Vec3 blur_transfer(const std::vector<BlurPass>& passes, const BlurFitSettings& settings,
                                  double x);
-
-/// How many of `variances_texels`, in turn, come nearest to the profile when all of them blur every colour
-/// alike.
-[[nodiscard]] int nearest_pass_count(const GaussianSum& profile, const std::vector<double>& variances_texels,
-                                     double texel_mm);
 
 }  // namespace dermis::texture_space

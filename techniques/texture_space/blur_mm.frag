@@ -1,9 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One pass of the same blur with its radius in millimetres: the way to each tap is walked on the surface, independent of the UV
-// layout and across seams. The steps of the metric have the kernel size in them.
+// One pass of a blur in millimetres: the way to each tap is walked on the surface, independent of the UV layout and across
+// seams. The steps of the metric have the kernel size in them.
 #include "shaders/atlas/walk_mm.glsl"
-#include "techniques/texture_space/taps.glsl"
+#include "techniques/texture_space/constants.h"
+
+layout(push_constant, scalar) uniform PassValues {
+    float radius;           // mm, where the kernel size is 0
+    vec3 share;             // of the light that the taps replace, a colour each
+    float fitted_texel_mm;  // of the map that the radius was fitted for
+};
 
 layout(constant_id = 3) const int pieces = 1;  // of the way to a tap
 
@@ -12,9 +18,8 @@ layout(location = 0) out vec4 light_out;
 // Reading between texels spreads light too: where texels are smaller on the skin than those of the fit the taps go farther,
 // where they are larger less far, so that both together spread it as the fit has it.
 float local_radius(BlurCentre centre) {
-    if (fitted_texel_mm == 0.0) return radius;
     float texel_area = 1.0 / max(abs(centre.steps.x * centre.steps.w - centre.steps.y * centre.steps.z), 1e-12);
-    float lacking = kBilinearVariance * (fitted_texel_mm * fitted_texel_mm - texel_area) / tap_variance;
+    float lacking = kBilinearVariance * (fitted_texel_mm * fitted_texel_mm - texel_area) / kRingVariance;
     return sqrt(max(radius * radius + lacking, 0.0));
 }
 
@@ -25,8 +30,8 @@ void main() {
     vec4 here = light_at(centre.at);
     vec3 sum = here.rgb * (1.0 - share), weight = here.a * (1.0 - share);
     float here_radius = local_radius(centre);
-    for (int i = 0; i < tap_count(); ++i) {
-        vec3 t = tap(i);
+    for (int i = 0; i < 8; ++i) {
+        vec3 t = ring_tap(i, true);
         float way = length(t.xy);
         Walk walk = walk_from(centre, t.xy / way);
         for (int piece = 0; piece < pieces; ++piece) advance(walk, here_radius * way / float(pieces));

@@ -47,12 +47,9 @@ FigureCell image_cell(std::string label, std::string image, FigureImageChannels 
 }
 
 Figure light_map_figure() {
-    const Settings whole = {{"cull_back_face", "off"}, {"cull_frustum", "off"}};
-    Settings raw = whole, blurred = whole;
-    raw.emplace_back("blur_passes", "0");
     // An even number of passes, none of whose maps is kept: the last is light_map_a.
-    for (const auto& [name, text] : {std::pair{"blur", "source"}, {"blur_passes", "2"}})
-        blurred.emplace_back(name, text);
+    const Settings raw = {{"cull", "none"}, {"blur_passes", "0"}},
+                   blurred = {{"preset", "source"}, {"cull", "none"}, {"blur_passes", "2"}};
     return {
         .id = "light_map",
         .title = "The light map",
@@ -77,7 +74,7 @@ Figure shadow_map_figure() {
 }
 
 Figure translucent_figure() {
-    FigureRow row = with_and_without(cell("without", "without", {{"translucent_shadows", "off"}}),
+    FigureRow row = with_and_without(cell("without", "without", {{"trans_shadow_alpha", "0"}}),
                                      cell("with translucent shadows", "with", {}), 8);
     for (FigureCell& one : row.cells) one.camera = "target_mm=0,5,60 distance_mm=520";
     return {.id = "translucent_shadow",
@@ -96,10 +93,7 @@ Figure kernel_figure() {
             .scene = "bust",
             .rows = {{"",
                       {image_cell("kernel size", "light_map_a", FigureImageChannels::alpha,
-                                  {{"space", "texels"},
-                                   {"cull_back_face", "off"},
-                                   {"cull_frustum", "off"},
-                                   {"blur_passes", "0"}})}}}};
+                                  {{"preset", "source"}, {"cull", "none"}, {"blur_passes", "0"}})}}}};
 }
 
 // The source blurs farther where the skin is thin, so that light passes through a backlit ear.
@@ -123,8 +117,8 @@ Figure ear_figure() {
 }
 
 Figure dilation_figure() {
-    const Settings wide = {{"light_map_size", "512"}, {"blur", "set"},      {"space", "texels"},
-                           {"detail", "map"},         {"blur_passes", "2"}, {"blur_bias", "6"}};
+    const Settings wide = {
+        {"light_map_size", "512"}, {"blur", "gaussian"}, {"blur_passes", "2"}, {"blur_radius", "6"}};
     const auto dilate = [&](const char* how) {
         Settings settings = wide;
         settings.emplace_back("dilate", how);
@@ -164,40 +158,30 @@ Figure specular_figure() {
 Figure cull_figure() {
     // The source's blur: what is culled keeps clear of the reach of all passes, and that of the profile is
     // wide. An even number of passes: the last is light_map_a.
-    const Settings on = {{"blur", "source"}, {"blur_passes", "2"}};
-    Settings off = on, exempt = on;
-    off.insert(off.end(), {{"cull_back_face", "off"}, {"cull_frustum", "off"}});
-    // Around the ears of the head scan's UV layout.
-    exempt.insert(exempt.end(), {{"exempt_1_u", "0.24"},
-                                 {"exempt_1_v", "0.38"},
-                                 {"exempt_1_radius", "0.08"},
-                                 {"exempt_2_u", "0.76"},
-                                 {"exempt_2_v", "0.38"},
-                                 {"exempt_2_radius", "0.08"}});
+    const Settings on = {{"preset", "source"}, {"blur_passes", "2"}},
+                   off = {{"preset", "source"}, {"blur_passes", "2"}, {"cull", "none"}};
     FigureRow maps = {"The light map",
                       {image_cell("not culled", "light_map_a", FigureImageChannels::rgb, off),
-                       image_cell("culled", "light_map_a", FigureImageChannels::rgb, on),
-                       image_cell("culled, ears exempt", "light_map_a", FigureImageChannels::rgb, exempt)}};
-    FigureRow pictures = {"The picture",
-                          {cell("not culled", "off", off), cell("culled", "on", on),
-                           cell("culled, ears exempt", "exempt", exempt)}};
-    pictures.cells[1].compare_to = pictures.cells[2].compare_to = "off";
+                       image_cell("culled", "light_map_a", FigureImageChannels::rgb, on)}};
+    FigureRow pictures = {"The picture", {cell("not culled", "off", off), cell("culled", "on", on)}};
+    pictures.cells[1].compare_to = "off";
     for (FigureRow* row : {&maps, &pictures})
         for (FigureCell& one : row->cells) one.camera = "yaw_deg=-60 pitch_deg=0";
     return {.id = "culling",
             .title = "The texture-space computation is culled on back-facing regions",
             .source = kSource + "2.8.8",
+            .note = "Thin parts, where the kernel-size map is above 0.25, are never culled.",
+            .scene = "bust",
             .rows = {maps, pictures}};
 }
 
 Figure millimetres_figure() {
-    const Settings texels = {{"blur", "set"},      {"space", "texels"}, {"detail", "map"},
-                             {"blur_passes", "3"}, {"blur_scale", "0"}, {"blur_bias", "4"}};
-    const Settings mm = {
-        {"blur", "set"}, {"detail", "map"}, {"blur_passes", "3"}, {"blur_scale", "0"}, {"blur_bias", "2"}};
-    FigureRow row = {"",
-                     {cell("in texels, as in the source", "texels", texels), cell("2 mm", "mm", mm),
-                      cell("sum of Gaussians", "gaussians", {})}};
+    const Settings texels = {
+        {"blur", "gaussian"}, {"blur_passes", "3"}, {"blur_radius", "4"}, {"kernel_growth", "0"}};
+    FigureRow row = {
+        "",
+        {cell("in texels, as in the source", "texels", texels),
+         cell("in millimetres, by the profile", "mm", {}), cell("sum of Gaussians", "gaussians", {})}};
     row.cells[2].technique = "texture_space_gaussians";
     for (FigureCell& one : row.cells) one.view = "light_map", one.camera = "yaw_deg=60 pitch_deg=8";
     row.cells[1].compare_to = row.cells[2].compare_to = "texels";
@@ -210,9 +194,10 @@ Figure millimetres_figure() {
 Figure seams_figure() {
     // Seen from where the sphere's chart begins and ends, with the terminator there.
     FigureRow row =
-        with_and_without(cell("seams=drop", "drop", {{"seams", "drop"}, {"transmission", "none"}}),
-                         cell("seams=carry", "carry", {{"transmission", "none"}}), 4);
+        with_and_without(cell("carry_seams=off", "drop", {{"carry_seams", "off"}, {"transmission", "none"}}),
+                         cell("carry_seams=on", "carry", {{"transmission", "none"}}), 4);
     for (FigureCell& one : row.cells) {
+        one.technique = "texture_space_gaussians";
         one.view = "light_map";
         one.camera = "yaw_deg=180 pitch_deg=0";
         one.light = "yaw_deg=100 pitch_deg=0";

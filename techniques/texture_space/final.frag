@@ -4,10 +4,6 @@
 #include "shaders/atlas/final.glsl"
 #include "techniques/texture_space/constants.h"
 
-layout(scalar) uniform Params {
-    float specular_shadow_scale;
-    float specular_shadow_bias;
-};
 uniform texture2D light_map_lit;  // before the blur
 
 layout(constant_id = 2) const int specular_shadow = kSpecularShadowMap;
@@ -21,7 +17,7 @@ vec3 key_specular_shadow(Surface s, vec3 passing, vec3 exitance) {
     // The source multiplies by the luminance as it is, its light being about 1; here by its share of the key light.
     LightSample key = sample_light(max(key_light, 0), s.p_world_mm);
     float share = luminance(exitance) / max(luminance(key.irradiance_linear), 1e-4);
-    return vec3(clamp(share * specular_shadow_scale + specular_shadow_bias, 0.0, 1.0));
+    return vec3(clamp(share, 0.0, 1.0));
 }
 
 void main() {

@@ -1,120 +1,205 @@
 // Gosselin, Sander, Mitchell 2004, "Real-Time Texture-Space Skin Rendering" (ShaderX3): light the skin in its
 // texture atlas, blur that image with a kernel whose size is painted, and read it back through the camera.
-// Four steps: shadow map (shared), light map, dilation and blur, final mesh. The source's blur knows
-// only texels, so its width on the skin depends on the UV layout; with space=mm it is in millimetres.
+// Four steps: shadow map (shared), light map, dilation and blur, final mesh. The source's filters know only
+// texels, so that their width on the skin depends on the UV layout; blur=profile is in millimetres.
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "dermis/technique/atlas_light.h"
+#include "dermis/technique/forward.h"
+#include "techniques/texture_space/blur_fit.h"
+#include "techniques/texture_space/constants.h"
 #include "techniques/texture_space/figures.h"
-#include "techniques/texture_space/params.h"
 
 namespace dermis {
 namespace {
 
-using texture_space::Blur;
 using texture_space::BlurPass;
-using texture_space::BlurPlan;
-using texture_space::Dilate;
-using texture_space::Filter;
-using texture_space::Params;
-using texture_space::Seams;
-using texture_space::Space;
 
 constexpr const char* kOwnView = "light_map";
 
+enum class Blur : int32_t {
+    profile,
+    poisson = kFilterPoisson,
+    gaussian = kFilterGaussian,
+    box = kFilterBox,
+    kawase = kFilterKawase
+};
+enum class Dilate : int32_t { off = kDilateOff, source = kDilateSource, written_only = kDilateWrittenOnly };
+enum class SpecularShadow : int32_t {
+    off = kSpecularShadowOff,
+    source = kSpecularShadowSource,
+    shadow_map = kSpecularShadowMap
+};
+// filtered: over the penumbra. The others read one texel, as the source does.
+enum class Shadows : int32_t { filtered, source, one_channel, two_lights };
+
+struct Params {
+    AtlasParams atlas;
+    float cull_beyond_mm = 0;
+    Shadows shadows = Shadows::filtered;
+    float trans_shadow_alpha = 1;
+    float occluded = 0;
+    Blur blur = Blur::profile;
+    int32_t blur_passes = 4;
+    float blur_radius = 2;
+    Dilate dilate = Dilate::written_only;
+    SpecularShadow specular_shadow = SpecularShadow::shadow_map;
+    SpecularModel specular = SpecularModel::ggx;
+};
+
+constexpr float kMaxBlurRadius = 64;
+
+ParameterTable parameters() {
+    return ParameterTableBuilder<Params>()
+        .part(&Params::atlas, atlas_parameters())
+        .number(&Params::cull_beyond_mm, "cull_beyond_mm", "mm", 0, 1e6,
+                "keep the last light map while the camera is farther away; 0: never")
+        .choice(
+            &Params::shadows, "shadows", {"filtered", "source", "one_channel", "two_lights"},
+            "the key light's shadow: filtered over the penumbra; the source's one texel; the same with one "
+            "channel of opacity; or with the second light's shadow in the channels that this leaves free")
+        .number(&Params::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
+                "exponent of a translucent shadow; larger is darker, 0 is none")
+        .number(&Params::occluded, "occluded", "", 0, 1, "part of the key light that remains in full shadow")
+        .choice(&Params::blur, "blur", {"profile", "poisson", "gaussian", "box", "kawase"},
+                "profile: radii and colours from the skin's profile, in mm on the skin; or a filter of the "
+                "source, in texels of the light map")
+        .integer(&Params::blur_passes, "blur_passes", "", 0, 16,
+                 "passes of the blur; with blur=profile at most so many")
+        .number(&Params::blur_radius, "blur_radius", "texels", 0, kMaxBlurRadius,
+                "a filter's radius where the kernel-size map is 0")
+        .choice(&Params::dilate, "dilate", {"off", "source", "written_only"},
+                "a filter at chart borders: nothing, the source's copy in the first pass, or the mean of "
+                "written texels")
+        .choice(&Params::specular_shadow, "specular_shadow", {"off", "source", "shadow_map"},
+                "the key light's specular: not shadowed, dimmed by the blurred light's luminance as in the "
+                "source, or shadowed as the diffuse light is")
+        .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .preset("source", "the whole method of 2004",
+                {.atlas = {.kernel_growth = 1.5f, .transmission = Transmission::none},
+                 .shadows = Shadows::source,
+                 .blur = Blur::poisson,
+                 .dilate = Dilate::source,
+                 .specular_shadow = SpecularShadow::source})
+        .preset("cheap", "a coarser light map and fewer passes",
+                {.atlas = {.light_map_size = 256}, .blur_passes = 2})
+        .preset("best", "a finer light map", {.atlas = {.light_map_size = 1024}})
+        .build();
+}
+
+std::string refusal(const ParameterValues& values) {
+    const auto params = values.as<Params>();
+    const bool profile = params.blur == Blur::profile;
+    if ((profile || params.blur == Blur::kawase) && params.blur_radius != Params{}.blur_radius)
+        return "blur=" + values.text(*values.table().find("blur")) +
+               " has no blur_radius to set; drop blur_radius or set blur=poisson";
+    if (profile && params.dilate != Params{}.dilate)
+        return "blur=profile crosses chart borders and has nothing to dilate; drop dilate or set "
+               "blur=poisson";
+    return "";
+}
+
+// Radii are radius * (kernel map * kernel_growth + 1), in mm or texels.
+struct BlurPlan {
+    bool in_mm = true;
+    std::vector<BlurPass> passes;
+    float fitted_texel_mm = 0;  // for which passes were fitted; 0: in texels
+};
+
+// What a filter's taps without its centre weigh in the published filter, which includes the centre.
+float taps_share(Blur blur) {
+    switch (blur) {
+        case Blur::poisson:
+            return 12.0f / 13;
+        case Blur::gaussian:
+            return 12.0f / 16;
+        case Blur::box:
+            return 8.0f / 9;
+        default:
+            return 1;
+    }
+}
+
+BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
+    if (params.blur == Blur::profile) {
+        const double texel_mm = typical_texel_mm(params.atlas.light_map_size, frame);
+        return {.passes = texture_space::fit_blur(frame.skin_gaussians,
+                                                  {.passes = params.blur_passes, .texel_mm = texel_mm}),
+                .fitted_texel_mm = float(texel_mm)};
+    }
+    const float radius = params.blur == Blur::kawase ? 1 : params.blur_radius;
+    const BlurPass pass = {.radius = radius, .share = Vec3{1, 1, 1} * taps_share(params.blur)};
+    return {.in_mm = false, .passes = std::vector<BlurPass>(size_t(params.blur_passes), pass)};
+}
+
 // How far the passes after the light map carry light: the widest tap of every blur and its bilinear
 // neighbour, and the bilinear lookups of the final mesh and of the light from across seams.
-void set_reach(AtlasCullSettings& cull, const BlurPlan& plan) {
+void set_reach(AtlasCullSettings& cull, const BlurPlan& plan, const Params& params) {
     cull.reach_texels = 2 + float(plan.passes.size());
     for (size_t i = 0; i < plan.passes.size(); ++i) {
-        const float radius = plan.filter == Filter::kawase ? 1 : plan.passes[i].radius;
-        const float way = widest_tap(plan.filter, i) * radius;
         if (plan.in_mm)
-            cull.reach_steps += way * std::numbers::sqrt2_v<float>;  // to the corner of 3 x 3 taps
+            cull.reach_steps +=
+                plan.passes[i].radius * std::numbers::sqrt2_v<float>;  // the corner of 3 x 3 taps
+        else if (params.blur == Blur::kawase)
+            cull.reach_texels += std::ceil(0.5f + float(i));
         else
-            cull.reach_texels +=
-                std::ceil(way * (plan.filter == Filter::kawase ? 1 : plan.kernel_scale + plan.kernel_bias));
+            cull.reach_texels += std::ceil(plan.passes[i].radius * (params.atlas.kernel_growth + 1));
     }
 }
 
 AtlasLightSettings atlas_settings(const Params& params, const BlurPlan& plan, const FrameContext& frame,
                                   bool whole) {
-    const bool carry = params.seams == Seams::carry;
-    const float kernel = plan.kernel_scale + plan.kernel_bias;
     AtlasLightSettings settings = atlas_light_settings(params.atlas);
-    settings.size = settings.cull.size = plan.size;
-    settings.in_mm = plan.in_mm;
+    settings.in_mm = settings.cull.across_seams = plan.in_mm;
     settings.specular = params.specular;
-    settings.shadow.second_light = params.second_light_shadow;
-    settings.shadow.single_channel = params.single_channel_opacity;
-    settings.shadow.lookup = params.shadow_lookup;
+    settings.shadow = {
+        .translucent = params.trans_shadow_alpha > 0,
+        .second_light = params.shadows == Shadows::two_lights,
+        .single_channel = params.shadows == Shadows::one_channel,
+        .lookup = params.shadows == Shadows::filtered ? ShadowLookup::disk : ShadowLookup::single};
     if (whole) settings.cull.frustum = settings.cull.back_face = false;
-    settings.cull.exempt[0] = {params.exempt_1_u, params.exempt_1_v, params.exempt_1_radius};
-    settings.cull.exempt[1] = {params.exempt_2_u, params.exempt_2_v, params.exempt_2_radius};
-    settings.longest_texels = longest_step_texels(kernel, settings.size, frame);
-    set_reach(settings.cull, plan);
-    settings.cull.across_seams = settings.in_mm && carry;
-    settings.carry_seams = carry;
-    settings.kernel_scale_mm = plan.kernel_scale;
-    settings.kernel_bias_mm = plan.kernel_bias;
+    settings.cull.keep_thin = !plan.in_mm;
+    settings.longest_texels = longest_step_texels(1 + params.atlas.kernel_growth, settings.size, frame);
+    set_reach(settings.cull, plan, params);
     return settings;
 }
-
-constexpr std::array<float, 4> kNothingWritten = {0, 0, 0, 1};
 
 // The image that pass `index` reads and that the pass before it wrote. The first reads light_map_a; the
 // others alternate between light_map_b and light_map_a, or light_map_c where light_map_a is kept.
 std::string source_of(const BlurPlan& plan, size_t index) {
     if (index % 2 == 1) return "light_map_b";
-    return plan.keeps_lit && index > 0 ? "light_map_c" : "light_map_a";
+    return plan.in_mm && index > 0 ? "light_map_c" : "light_map_a";
 }
 
-Pass blur_pass(const Params& params, const BlurPlan& plan, size_t index) {
+Pass blur_pass(const Params& params, const BlurPlan& plan, const AtlasLightSettings& atlas, size_t index) {
+    const BlurPass& blur = plan.passes[index];
+    const std::string from = source_of(plan, index);
+    Pass pass = {.name = "blur " + std::to_string(index + 1),
+                 .kind = PassKind::fullscreen,
+                 .shader = plan.in_mm ? "texture_space/blur_mm.frag" : "texture_space/blur.frag",
+                 .colors = {{.image = source_of(plan, index + 1), .load = LoadOp::discard}}};
+    if (plan.in_mm) {
+        // The corners of 3 x 3 taps are farthest.
+        read_atlas_walk(pass, from, atlas, std::numbers::sqrt2_v<float> * blur.radius);
+        pass.values = {
+            {"radius", blur.radius}, {"share", blur.share}, {"fitted_texel_mm", plan.fitted_texel_mm}};
+        return pass;
+    }
     // The source dilates in the first pass only; written_only must hold in all.
     const Dilate dilate = params.dilate == Dilate::source && index > 0 ? Dilate::off : params.dilate;
-    const BlurPass& blur = plan.passes[index];
-    return {
-        .name = "blur " + std::to_string(index + 1),
-        .kind = PassKind::fullscreen,
-        .shader = "texture_space/blur.frag",
-        .reads = {{"source", source_of(plan, index)}},
-        .colors = {{.image = source_of(plan, index + 1), .load = LoadOp::discard, .clear = kNothingWritten}},
-        .constants = {{"blur_filter", int32_t(plan.filter)},
-                      {"dilate", int32_t(dilate)},
-                      {"as_printed", int32_t(params.blur == Blur::source)}},
-        .values = {{"radius", blur.radius},
-                   {"kernel_scale", plan.kernel_scale},
-                   {"kernel_bias", plan.kernel_bias},
+    pass.reads = {{"source", from}};
+    pass.colors[0].clear = {0, 0, 0, 1};  // alpha 1: not written
+    pass.constants = {{"blur_filter", int32_t(params.blur)}, {"dilate", int32_t(dilate)}};
+    const bool fixed = params.blur == Blur::kawase;
+    pass.values = {{"kernel_scale", fixed ? 0.0f : blur.radius * params.atlas.kernel_growth},
+                   {"kernel_bias", blur.radius},
                    {"pass_index", float(index)},
-                   {"share", blur.share},
-                   {"fitted_texel_mm", plan.fitted_texel_mm},
-                   {"tap_variance", plan.tap_variance}}};
-}
-
-Pass blur_mm_pass(const Params& params, const BlurPlan& plan, const AtlasLightSettings& atlas, size_t index) {
-    Pass pass = blur_pass(params, plan, index);
-    const std::string from = pass.reads[0].image;
-    pass.shader = "texture_space/blur_mm.frag";
-    pass.reads.clear();
-    std::erase_if(pass.constants, [](const auto& constant) { return constant.first == "dilate"; });
-    pass.colors[0].clear = {0, 0, 0, 0};
-    // The corners of 3 x 3 taps are farthest.
-    read_atlas_walk(pass, from, atlas, std::numbers::sqrt2_v<float> * plan.passes[index].radius);
+                   {"share", blur.share.x}};
     return pass;
-}
-
-// Culls, light map and blur.
-void add_light_map(PassList& list, const Params& params, const BlurPlan& plan,
-                   const AtlasLightSettings& atlas, const FrameContext& frame) {
-    add_atlas_light(list, atlas, frame);
-    for (size_t i = 0; i < plan.passes.size(); ++i) {
-        list.passes.push_back(atlas.in_mm ? blur_mm_pass(params, plan, atlas, i)
-                                          : blur_pass(params, plan, i));
-        keep_unculled(list.passes.back(), atlas.cull);
-    }
 }
 
 int32_t texels_of(const Params& params, const BlurPlan& plan) {
@@ -127,42 +212,63 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     // Far away the light map of the frame before is used again. If that frame was far too, its map is
     // complete, because the first far frame draws all of it.
     const auto is_far = [&](float distance_mm) {
-        return params.cull_distance && distance_mm > params.cull_beyond_mm;
+        return params.cull_beyond_mm > 0 && distance_mm > params.cull_beyond_mm;
     };
     const bool far = is_far(frame.camera_distance_mm);
     const bool kept = far && is_far(frame.previous_camera_distance_mm);
 
     const BlurPlan plan = blur_plan(params, frame);
-    const ImageSize size = {plan.size, plan.size};
+    const int side = params.atlas.light_map_size;
     const std::string result = source_of(plan, plan.passes.size());
     PassList list;
     for (const std::string name : {"light_map_a", "light_map_b", "light_map_c"}) {
-        const bool read_later = name == result || (plan.keeps_lit && name == "light_map_a");
-        const bool passed = name == "light_map_c" ? plan.keeps_lit && plan.passes.size() > 1
-                                                  : !plan.passes.empty() || plan.in_mm;
+        const bool read_later = name == result || (plan.in_mm && name == "light_map_a");
+        const bool passed =
+            name == "light_map_c" ? plan.in_mm && plan.passes.size() > 1 : !plan.passes.empty() || plan.in_mm;
         if (!read_later && (kept || !passed)) continue;
         list.images.push_back({.name = name,
                                .format = ImageFormat::rgba16f,
-                               .size = size,
-                               .persistent = params.cull_distance && read_later});
+                               .size = {side, side},
+                               .persistent = params.cull_beyond_mm > 0 && read_later});
     }
     const AtlasLightSettings atlas = atlas_settings(params, plan, frame, far);
     add_shadow_channels(list, atlas.shadow, frame);
-    if (!kept) add_light_map(list, params, plan, atlas, frame);
+    if (!kept) {
+        add_atlas_light(list, atlas, frame);
+        for (size_t i = 0; i < plan.passes.size(); ++i) {
+            list.passes.push_back(blur_pass(params, plan, atlas, i));
+            keep_unculled(list.passes.back(), atlas.cull);
+        }
+    }
 
     Pass skin = forward_skin_pass("texture_space/final.frag", params.specular, frame, kOwnView);
-    skin.reads = {{"light_map", result}, {"light_map_lit", plan.keeps_lit ? "light_map_a" : result}};
+    skin.reads = {{"light_map", result}, {"light_map_lit", plan.in_mm ? "light_map_a" : result}};
     skin.constants.insert(skin.constants.end(), {{"specular_shadow", int32_t(params.specular_shadow)},
                                                  {"light_map_texels", texels_of(params, plan)},
-                                                 {"detail", plan.keeps_lit ? kDetailPixel : kDetailMap}});
+                                                 {"detail", plan.in_mm ? kDetailPixel : kDetailMap}});
     read_shadow_channels(skin, atlas.shadow, frame);
     read_transmission(skin, params.atlas.transmission, frame);
     list.passes.push_back(std::move(skin));
     return list;
 }
 
+// A smaller light map, and fewer of the blur's passes at a width that is the same. Variances of blurs add, so
+// that n passes of radius r are as wide as m of radius r sqrt(n / m). A fit to the profile finds its own
+// radii for the fewer passes; Kawase's radii follow from the number of the pass and are kept.
 ParameterValues coarse(ParameterValues values, float scale) {
-    values.put_all(coarse_params(values.as<Params>(), scale));
+    auto params = values.as<Params>();
+    const auto fine_size = float(params.atlas.light_map_size);
+    params.atlas = coarse_light_map(params.atlas, scale);
+    const int32_t passes = params.blur_passes;
+    if (params.blur == Blur::profile)
+        params.blur_passes = (3 * passes + 3) / 4;  // half of them are rings of taps that show
+    else if (params.blur != Blur::kawase && passes > 0) {
+        params.blur_passes = (passes + 1) / 2;
+        const float wider = std::sqrt(float(passes) / float(params.blur_passes));
+        params.blur_radius = std::min(
+            params.blur_radius * wider * float(params.atlas.light_map_size) / fine_size, kMaxBlurRadius);
+    }
+    values.put_all(params);
     return values;
 }
 
@@ -170,16 +276,14 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
     return transmission_tables(values.as<Params>().atlas.transmission, skin);
 }
 
-// A blur that is set takes the place of the profile. Without passes nothing is blurred, and all detail is
-// kept.
+// Without passes nothing is blurred, and all detail is kept.
 Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
     const Params params = values.as<Params>();
-    const GaussianSum blur = params.blur == Blur::profile ? skin.gaussians : texture_space::set_blur(params);
-    const bool in_texels = params.blur == Blur::set && params.space == Space::texels;
-    return detail_values([&](double texel_mm) {
-        return params.blur_passes == 0 ? Vec3{1, 1, 1}
-                                       : kept_of_half_held_wave(blur, in_texels ? 1.0 : texel_mm);
-    });
+    return atlas_skin_values(
+        [&](double texel_mm) {
+            return params.blur_passes == 0 ? Vec3{1, 1, 1} : kept_of_half_held_wave(skin.gaussians, texel_mm);
+        },
+        {.occluded = params.occluded, .trans_shadow_alpha = params.trans_shadow_alpha});
 }
 
 }  // namespace
@@ -188,8 +292,9 @@ Technique make_texture_space_technique() {
     return {.id = "texture_space",
             .summary = "diffuse light blurred in the skin's texture atlas",
             .source = "Gosselin, Sander, Mitchell 2004, Real-Time Texture-Space Skin Rendering",
-            .parameters = texture_space::parameter_table(),
+            .parameters = parameters(),
             .views = {kOwnView},
+            .refusal = refusal,
             .build = build,
             .tables = tables,
             .skin_values = skin_values,

@@ -19,18 +19,17 @@ class TextureSpace : public RenderTest {
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
         return values;
     }
-    /// `passes` of one radius in texels.
+    /// `passes` of one radius in texels, of the filter gaussian unless `more` names another.
     static ParameterValues texels(const char* passes, const char* radius,
                                   std::initializer_list<std::pair<const char*, const char*>> more = {}) {
         ParameterValues values =
-            with({{"blur", "set"}, {"space", "texels"}, {"blur_passes", passes}, {"blur_bias", radius}});
+            with({{"blur", "gaussian"}, {"blur_passes", passes}, {"blur_radius", radius}});
         for (const auto& [name, text] : more) EXPECT_TRUE(values.set(name, text)) << name;
         return values;
     }
     /// Colours of the light map after the last pass, all of it drawn.
     static Image light_map(Renderer& renderer, ParameterValues values, const char* image) {
-        for (const char* cull : {"cull_frustum", "cull_back_face"}) EXPECT_TRUE(values.set(cull, "off"));
-        EXPECT_TRUE(values.set("detail", "map"));
+        EXPECT_TRUE(values.set("cull", "none"));
         draw(renderer, values);
         return to_linear_float(*renderer.read(image));
     }
@@ -52,8 +51,7 @@ TEST_F(TextureSpace, without_blur_it_is_lambert) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
     const Image lambert = radiance(renderer, built_in_technique("lambert"), kTextureSpaceSmall);
-    const Image unblurred =
-        draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "64"}, {"detail", "pixel"}}));
+    const Image unblurred = draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "64"}}));
     EXPECT_LT(mean_difference(lambert, unblurred), 2e-4)
         << "what the map is too coarse for is lit at the pixel";
     const Image from_map = draw(renderer, with({{"blur_passes", "0"}, {"light_map_size", "2048"}}));
@@ -66,12 +64,14 @@ TEST_F(TextureSpace, every_filter_keeps_constant_light_constant_up_to_the_chart_
     const Scene scene = evenly_lit_spheres();
     Renderer renderer = make_renderer(scene);
     const Image lambert = radiance(renderer, built_in_technique("lambert"), kTextureSpaceSmall);
-    for (const char* filter : {"poisson", "gaussian", "box", "kawase"}) {
-        const Image image = draw(renderer, texels("4", "6", {{"filter", filter}}));
-        EXPECT_LT(relative_difference(lambert, image, 1), 1e-3) << filter;
-        EXPECT_LT(relative_difference(lambert, draw(renderer, with({{"filter", filter}})), 1), 1e-3)
-            << filter;
+    EXPECT_LT(relative_difference(lambert, draw(renderer, with({})), 1), 1e-3);
+    // The source's disk is off its middle.
+    const std::pair<const char*, double> filters[] = {{"poisson", 2e-3}, {"gaussian", 1e-3}, {"box", 1e-3}};
+    for (const auto& [filter, most] : filters) {
+        const Image image = draw(renderer, texels("4", "6", {{"blur", filter}}));
+        EXPECT_LT(relative_difference(lambert, image, 1), most) << filter;
     }
+    EXPECT_LT(relative_difference(lambert, draw(renderer, with({{"blur", "kawase"}})), 1), 1e-3);
 }
 
 TEST_F(TextureSpace, without_dilation_the_gutter_darkens_the_seams) {
@@ -123,11 +123,12 @@ TEST_F(TextureSpace, dilation_reads_between_texels) {
 TEST_F(TextureSpace, kawases_first_pass_is_the_binomial_filter_and_its_second_reads_further_out) {
     const Scene scene = load("builtin:spheres");
     Renderer renderer = make_renderer(scene);
-    const Image none = light_map(renderer, texels("0", "0", {{"light_map_size", "256"}}), "light_map_a");
-    const Image first = light_map(
-        renderer, texels("1", "0", {{"light_map_size", "256"}, {"filter", "kawase"}}), "light_map_b");
-    const Image second = light_map(
-        renderer, texels("2", "0", {{"light_map_size", "256"}, {"filter", "kawase"}}), "light_map_a");
+    const auto kawase = [&](const char* passes, const char* image) {
+        return light_map(
+            renderer, with({{"blur", "kawase"}, {"blur_passes", passes}, {"light_map_size", "256"}}), image);
+    };
+    const Image none = kawase("0", "light_map_a"), first = kawase("1", "light_map_b"),
+                second = kawase("2", "light_map_a");
     size_t count = 0;
     for (int y = 40; y < 88; ++y)
         for (int x = 40; x < 88; ++x) {  // inside the first sphere's chart
@@ -144,6 +145,41 @@ TEST_F(TextureSpace, kawases_first_pass_is_the_binomial_filter_and_its_second_re
             count += std::abs(none.at(x, y, 0) - none.at(x + 1, y, 0)) > 4e-3f;
         }
     EXPECT_GT(count, 100u) << "a filter of flat light shows nothing";
+}
+
+TEST_F(TextureSpace, settings_that_cannot_be_used_together_are_refused) {
+    const Technique& technique = built_in_technique("texture_space");
+    const auto refusal = [&](std::initializer_list<std::pair<const char*, const char*>> settings) {
+        const Result<void> checked = check_settings(technique, with(settings));
+        return checked ? "" : checked.error().message;
+    };
+    const std::pair<std::string, std::string> cases[] = {
+        {refusal({{"blur_radius", "3"}}),
+         "texture_space: blur=profile has no blur_radius to set; drop blur_radius or set blur=poisson"},
+        {refusal({{"blur", "kawase"}, {"blur_radius", "3"}}),
+         "texture_space: blur=kawase has no blur_radius to set; drop blur_radius or set blur=poisson"},
+        {refusal({{"dilate", "off"}}),
+         "texture_space: blur=profile crosses chart borders and has nothing to dilate; drop dilate or set "
+         "blur=poisson"},
+        {refusal({{"blur", "box"}, {"blur_radius", "3"}, {"dilate", "off"}}), ""}};
+    for (const auto& [message, expected] : cases) EXPECT_EQ(message, expected);
+}
+
+TEST_F(TextureSpace, the_presets_are_what_their_names_say) {
+    const Scene scene = load("bust");
+    Renderer renderer = make_renderer(scene);
+    const auto passes_of = [&](const char* preset) {
+        draw(renderer, with({{"preset", preset}}));
+        std::vector<std::string> shaders;
+        for (const Pass& pass : renderer.list().passes) shaders.push_back(pass.shader);
+        return std::pair(std::ranges::count(shaders, "texture_space/blur.frag"),
+                         std::ranges::count(shaders, "texture_space/blur_mm.frag"));
+    };
+    EXPECT_EQ(passes_of("source"), std::pair(std::ptrdiff_t(4), std::ptrdiff_t(0)));
+    EXPECT_EQ(passes_of("cheap"), std::pair(std::ptrdiff_t(0), std::ptrdiff_t(2)));
+    EXPECT_EQ(renderer.list().find_image("light_map_a")->size.width, 256);
+    EXPECT_EQ(passes_of("best").first, 0);
+    EXPECT_EQ(renderer.list().find_image("light_map_a")->size.width, 1024);
 }
 
 namespace {

@@ -21,9 +21,11 @@ namespace {
 constexpr const char* kOwnView = "light_map";
 
 enum class Gaussians : int32_t { fitted, profile };
+enum class Detail : int32_t { map = kDetailMap, pixel = kDetailPixel };
 
 struct Params {
     AtlasParams atlas;
+    Detail detail = Detail::pixel;
     float width = 1;
     Gaussians gaussians = Gaussians::fitted;
     int32_t half_taps = 3;
@@ -35,6 +37,8 @@ struct Params {
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
         .part(&Params::atlas, atlas_parameters())
+        .choice(&Params::detail, "detail", {"map", "pixel"},
+                "what is too small for the light map's texels is lost, as in the source, or lit at the pixel")
         .number(&Params::width, "width", "", 0, 10, "scales the profile's lengths")
         .choice(&Params::gaussians, "gaussians", {"fitted", "profile"},
                 "as few as the texels can tell apart, or every one of the profile, as in the source")
@@ -44,6 +48,14 @@ ParameterTable parameters() {
         .number(&Params::pre_scatter, "pre_scatter", "", 0, 1,
                 "exponent of the base colour before the blur; the rest is applied after it")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
+        .preset("source", "every Gaussian of the profile, half of the base colour before the blur",
+                {.atlas = {.transmission = Transmission::none},
+                 .detail = Detail::map,
+                 .gaussians = Gaussians::profile,
+                 .carry_seams = false,
+                 .pre_scatter = 0.5f})
+        .preset("cheap", "a coarser light map and fewer taps",
+                {.atlas = {.light_map_size = 256}, .half_taps = 2})
         .build();
 }
 
@@ -174,7 +186,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     Pass skin = forward_skin_pass("texture_space_gaussians/final.frag", params.specular, frame, kOwnView);
     skin.reads = {{"light_map", blur.steps.empty() ? "light_map_a" : "light_sum"},
                   {"light_map_lit", "light_map_a"}};
-    skin.constants.emplace_back("detail", int32_t(params.atlas.detail));
+    skin.constants.emplace_back("detail", int32_t(params.detail));
     read_shadow_channels(skin, atlas.shadow, frame);
     read_transmission(skin, params.atlas.transmission, frame);
     list.passes.push_back(std::move(skin));
@@ -197,7 +209,7 @@ Result<std::vector<TableImage>> tables(const ParameterValues& values, const Skin
 
 Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const SkinContext& skin) {
     const GaussianSum blur = widened(skin.gaussians, values.as<Params>().width);
-    return detail_values([&](double texel_mm) { return kept_of_half_held_wave(blur, texel_mm); });
+    return atlas_skin_values([&](double texel_mm) { return kept_of_half_held_wave(blur, texel_mm); });
 }
 
 }  // namespace

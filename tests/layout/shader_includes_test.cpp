@@ -85,7 +85,7 @@ TEST(ShaderIncludes, of_the_wrong_folder_are_found) {
     EXPECT_EQ(objection("techniques/wrap", frame), "");
     EXPECT_EQ(objection("techniques/wrap", "shaders/atlas/light.glsl"), "");
     EXPECT_NE(objection("techniques/wrap", "shaders/renderer/tone_map.glsl"), "");
-    EXPECT_NE(objection("techniques/wrap", "techniques/texture_space/taps.glsl"), "");
+    EXPECT_NE(objection("techniques/wrap", "techniques/texture_space_gaussians/gaussian.glsl"), "");
     EXPECT_NE(objection("shaders/include", "shaders/renderer/tone_map.glsl"), "");
     EXPECT_EQ(objection("shaders/include", "shaders/include/skin/pi.glsl"), "");
     EXPECT_NE(objection("shaders/include/skin", frame), "");
@@ -93,7 +93,7 @@ TEST(ShaderIncludes, of_the_wrong_folder_are_found) {
     EXPECT_NE(objection("shaders/atlas", "shaders/screen/rays.glsl"), "");
     EXPECT_NE(objection("shaders/include", "shaders/atlas/light.glsl"), "");
     EXPECT_NE(objection("shaders/renderer", "shaders/atlas/light.glsl"), "");
-    EXPECT_NE(objection("shaders/atlas", "techniques/texture_space/taps.glsl"), "");
+    EXPECT_NE(objection("shaders/atlas", "techniques/texture_space_gaussians/gaussian.glsl"), "");
     EXPECT_NE(objection("techniques/wrap", "include/frame.glsl"), "");
 }
 

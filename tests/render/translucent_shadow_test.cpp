@@ -67,15 +67,15 @@ class TranslucentShadow : public RenderTest {
 TEST_F(TranslucentShadow, is_the_tint_to_the_given_power_between_occluded_and_white) {
     const Scene scene = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent)});
     Renderer renderer = make_renderer(scene);
-    for (const char* lookup : {"disk", "single"}) {
-        const Image plain = light_map(renderer, {{"shadow_lookup", lookup}});
+    for (const char* shadows : {"filtered", "source"}) {
+        const Image plain = light_map(renderer, {{"shadows", shadows}});
         expect_near(at(plain, 12, 32), Vec3{1, 1, 1} * kIrradiance);
         expect_near(at(plain, 48, 32), kGlassTint * kIrradiance);
-        const Image dark = light_map(
-            renderer, {{"shadow_lookup", lookup}, {"trans_shadow_alpha", "2"}, {"occluded", "0.25"}});
+        const Image dark =
+            light_map(renderer, {{"shadows", shadows}, {"trans_shadow_alpha", "2"}, {"occluded", "0.25"}});
         expect_near(at(dark, 48, 32),
                     (kGlassTint * kGlassTint * 0.75f + Vec3{1, 1, 1} * 0.25f) * kIrradiance);
-        const Image off = light_map(renderer, {{"shadow_lookup", lookup}, {"translucent_shadows", "off"}});
+        const Image off = light_map(renderer, {{"shadows", shadows}, {"trans_shadow_alpha", "0"}});
         expect_near(at(off, 48, 32), Vec3{1, 1, 1} * kIrradiance);
     }
 }
@@ -90,7 +90,7 @@ TEST_F(TranslucentShadow, of_two_surfaces_is_the_product_of_their_tints) {
 TEST_F(TranslucentShadow, takes_one_channel_when_asked) {
     const Scene scene = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent)});
     Renderer renderer = make_renderer(scene);
-    expect_near(at(light_map(renderer, {{"single_channel_opacity", "on"}}), 48, 32),
+    expect_near(at(light_map(renderer, {{"shadows", "one_channel"}}), 48, 32),
                 Vec3{1, 1, 1} * (kGlassTint.x * kIrradiance));
 }
 
@@ -115,7 +115,7 @@ TEST_F(TranslucentShadow, leaves_the_depth_in_alpha_and_ignores_surfaces_behind_
     const Image dark = light_map(with, {});
     expect_near(at(dark, 48, 32), {});
     const Image channels = to_linear_float(*with.read("shadow_channels"));
-    (void)light_map(without, {{"shadow_lookup", "single"}});
+    (void)light_map(without, {{"shadows", "source"}});
     const Image depth_only = to_linear_float(*without.read("shadow_channels"));
     for (int y = 0; y < channels.height; ++y)
         for (int x = 0; x < channels.width; ++x) {
@@ -156,7 +156,7 @@ TEST_F(TranslucentShadow, of_a_second_light_lies_in_the_channels_that_one_light_
     Renderer renderer = make_renderer(scene);
     const float fill = kIrradiance * std::sqrt(0.5f);
     const Image off = light_map(renderer, {});
-    const Image on = light_map(renderer, {{"second_light_shadow", "on"}});
+    const Image on = light_map(renderer, {{"shadows", "two_lights"}});
     const auto texel = [](float x_mm) { return int((x_mm + 50) / 100 * 64); };
     // At x = 30 the key light and the fill both come through the surface; one channel of opacity each.
     EXPECT_NEAR(off.at(texel(30), 32, 1), kIrradiance * kGlassTint.y + fill, 5e-3f);

@@ -72,10 +72,10 @@ TEST_F(ViewWindow, a_hundred_frames_of_the_same_view_and_those_of_a_drag_make_no
 }
 
 TEST_F(ViewWindow, on_a_slow_device_the_first_picture_is_coarse_and_the_last_has_every_pass_and_sample) {
-    const ProgramResult result = view(
-        square() +
-            " --size 640x480 -t texture_space --set light_map_size=512 --set blur=set --set blur_passes=8",
-        R"(
+    const ProgramResult result = view(square() +
+                                          " --size 640x480 -t texture_space --set light_map_size=512 --set "
+                                          "blur=gaussian --set blur_passes=8",
+                                      R"(
         print
         settle
         print
