@@ -24,8 +24,8 @@ using ScenePointer = std::unique_ptr<RTCSceneTy, SceneRelease>;
 // One mesh's triangles of one set; Embree numbers them from 0.
 struct Part {
     uint32_t object = 0;
-    std::vector<uint32_t> triangles;  // of the mesh
-    const CutOut* cut_out = nullptr;  // null: every hit counts
+    std::vector<uint32_t> triangles;     // of the mesh
+    const CutOutMap* cut_out = nullptr;  // null: every hit counts
 };
 
 struct TriangleSet {
@@ -185,12 +185,12 @@ struct RayScene::Impl {
     DevicePointer device;
     std::array<TriangleSet, 5> sets;
     std::vector<const Mesh*> meshes;
-    std::vector<std::vector<std::unique_ptr<CutOut>>> cut_outs;  // by mesh and material; null: it is whole
+    std::vector<std::vector<std::unique_ptr<CutOutMap>>> cut_outs;  // by mesh and material; null: it is whole
     float epsilon_mm = 1e-6f;
 
     [[nodiscard]] const TriangleSet& set(RaySet which) const { return sets[size_t(which)]; }
 
-    [[nodiscard]] const CutOut* cut_out_of(uint32_t object, uint32_t material) const {
+    [[nodiscard]] const CutOutMap* cut_out_of(uint32_t object, uint32_t material) const {
         const bool known = object < cut_outs.size() && material < cut_outs[object].size();
         return known ? cut_outs[object][material].get() : nullptr;
     }
@@ -199,7 +199,7 @@ struct RayScene::Impl {
         for (const SceneObject& object : objects) {
             auto& of_object = cut_outs.emplace_back();
             for (uint32_t i = 0; i < object.mesh.materials.size(); ++i) {
-                DERMIS_TRY_ASSIGN(std::unique_ptr<CutOut> loaded, CutOut::load(object, i));
+                DERMIS_TRY_ASSIGN(std::unique_ptr<CutOutMap> loaded, CutOutMap::load(object, i));
                 of_object.push_back(std::move(loaded));
             }
         }
@@ -211,7 +211,7 @@ struct RayScene::Impl {
                  std::span<const Flesh> flesh) {
         TriangleSet& set = sets[size_t(which)];
         for (uint32_t object = 0; object < meshes.size(); ++object) {
-            const auto add_part = [&](const CutOut* cut_out, const auto& wanted) {
+            const auto add_part = [&](const CutOutMap* cut_out, const auto& wanted) {
                 Part part = select_triangles(*meshes[object], classes[object], which, wanted);
                 part.object = object, part.cut_out = cut_out;
                 if (!flesh.empty())
@@ -221,7 +221,7 @@ struct RayScene::Impl {
             };
             add_part(nullptr, [&](uint32_t material) { return !cut_out_of(object, material); });
             for (uint32_t i = 0; i < meshes[object]->materials.size(); ++i)
-                if (const CutOut* cut_out = cut_out_of(object, i))
+                if (const CutOutMap* cut_out = cut_out_of(object, i))
                     add_part(cut_out, [&](uint32_t material) { return material == i; });
         }
         if (set.parts.empty()) return true;
@@ -340,7 +340,7 @@ RayScene::Bounds RayScene::bounds(RaySet which) const {
 float RayScene::alpha_at(const RayHit& hit) const {
     if (hit.object == kCapObject) return 1;
     const uint32_t material = material_of_triangle(mesh(hit.object), hit.triangle);
-    const CutOut* cut_out = impl_->cut_out_of(hit.object, material);
+    const CutOutMap* cut_out = impl_->cut_out_of(hit.object, material);
     return cut_out ? cut_out->alpha(hit.triangle, hit.u, hit.v) : 1;
 }
 

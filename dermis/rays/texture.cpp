@@ -148,18 +148,18 @@ Vec4 Texture::sample(Vec2 uv, const UvFootprint& footprint) const {
     return {mix(fine.x, coarse.x), mix(fine.y, coarse.y), mix(fine.z, coarse.z), mix(fine.w, coarse.w)};
 }
 
-Result<std::unique_ptr<CutOut>> CutOut::load(const SceneObject& object, uint32_t number) {
+Result<std::unique_ptr<CutOutMap>> CutOutMap::load(const SceneObject& object, uint32_t number) {
     const Material& material = object.mesh.materials[number];
     const bool may_be = number < object.classes.size() && object.classes[number] == MaterialClass::other;
     const float cutoff = may_be ? cutoff_of_map(material) : 0;
-    if (cutoff == 0 && !(may_be && is_blended(material))) return std::unique_ptr<CutOut>();
+    if (cutoff == 0 && !(may_be && is_blended(material))) return std::unique_ptr<CutOutMap>();
     DERMIS_TRY_ASSIGN(const Image alpha, load_alpha(cutoff > 0 ? material : Material{}));
     const ImageSource& source = material.alpha_map.present() ? material.alpha_map : material.base_color_map;
-    return std::unique_ptr<CutOut>(
-        new CutOut(object.mesh, cutoff, is_blended(material), Texture(alpha, source.wrap_u, source.wrap_v)));
+    return std::unique_ptr<CutOutMap>(new CutOutMap(object.mesh, cutoff, is_blended(material),
+                                                    Texture(alpha, source.wrap_u, source.wrap_v)));
 }
 
-float CutOut::alpha(uint32_t triangle, float u, float v) const {
+float CutOutMap::alpha(uint32_t triangle, float u, float v) const {
     const uint32_t* corner = &mesh_->indices[3 * size_t(triangle)];
     const float weight[3] = {1 - u - v, u, v};
     Vec2 uv;

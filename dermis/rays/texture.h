@@ -60,10 +60,11 @@ class Texture {
 // (shaders/include/cut_out.glsl, shaders/renderer/standard.frag).
 
 /// The alpha of one material on its mesh, which must outlive it.
-class CutOut {
+class CutOutMap {
   public:
     /// Null for a material that is whole. Errors name the map.
-    [[nodiscard]] static Result<std::unique_ptr<CutOut>> load(const SceneObject& object, uint32_t material);
+    [[nodiscard]] static Result<std::unique_ptr<CutOutMap>> load(const SceneObject& object,
+                                                                 uint32_t material);
 
     /// The map's times the vertices', at the barycentric weights u and v of the second and third corner.
     [[nodiscard]] float alpha(uint32_t triangle, float u, float v) const;
@@ -76,7 +77,7 @@ class CutOut {
     }
 
   private:
-    CutOut(const Mesh& mesh, float cutoff, bool is_blended, Texture alpha)
+    CutOutMap(const Mesh& mesh, float cutoff, bool is_blended, Texture alpha)
         : mesh_(&mesh), cutoff_(cutoff), is_blended_(is_blended), alpha_(std::move(alpha)) {}
 
     const Mesh* mesh_;
