@@ -76,32 +76,49 @@ function(dermis_library folder)
     endif()
 endfunction()
 
-# dermis_test_folder(optics LINK optics bake): every tests/optics/*_test.cpp in one gtest program.
-#   WHOLE     run as one test: all of it shares something slow to make
+# dermis_test_program(test_optics LINK optics bake SOURCES a_test.cpp): a gtest program.
+#   OPTIMIZED its own code computes for seconds
+function(dermis_test_program target)
+    cmake_parse_arguments(arg "OPTIMIZED" "" "LINK;SOURCES" ${ARGN})
+    add_executable(${target} ${arg_SOURCES})
+    foreach(library ${arg_LINK})
+        target_link_libraries(${target} PRIVATE dermis_${library})
+    endforeach()
+    target_link_libraries(${target} PRIVATE GTest::gtest GTest::gtest_main GTest::gmock)
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_BINARY_DIR}/tests/include)
+    # Compiling takes a third of a test run's time: no optimisation, GoogleTest's headers parsed once, large batches.
+    target_compile_options(${target} PRIVATE ${DERMIS_WARNINGS} $<IF:$<BOOL:${arg_OPTIMIZED}>,-O1,-O0>)
+    if(NOT arg_OPTIMIZED)
+        target_precompile_headers(${target} REUSE_FROM test_headers)
+    endif()
+    if(DERMIS_UNITY)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+        # A batch includes its files: GCC takes them for headers, in which a class of an unnamed namespace is a mistake.
+        # GoogleTest's macros are safe after an `if`; GCC knows that of them in a file of its own only.
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-dangling-else>)
+    endif()
+    set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+endfunction()
+
+# dermis_test_folder(optics LINK optics bake): every tests/optics/*_test.cpp in one program, a ctest entry per suite.
+#   WHOLE     one entry: all of it shares something slow to make
+#   OPTIMIZED as above
 function(dermis_test_folder folder)
-    cmake_parse_arguments(arg "WHOLE" "" "LINK" ${ARGN})
+    cmake_parse_arguments(arg "WHOLE;OPTIMIZED" "" "LINK" ${ARGN})
     file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*.cpp)
     dermis_of_this_system(sources)
     if(NOT sources)
         return()
     endif()
-    add_executable(test_${folder} ${sources})
-    foreach(library ${arg_LINK})
-        target_link_libraries(test_${folder} PRIVATE dermis_${library})
-    endforeach()
-    target_link_libraries(test_${folder} PRIVATE GTest::gtest GTest::gtest_main GTest::gmock)
-    target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_BINARY_DIR}/tests/include)
-    # Compiling is most of a test run's time: no heavy optimisation, and GoogleTest's headers parsed once for all.
-    target_compile_options(test_${folder} PRIVATE ${DERMIS_WARNINGS} -O1)
-    target_precompile_headers(test_${folder} REUSE_FROM test_headers)
-    if(DERMIS_UNITY)
-        set_target_properties(test_${folder} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-        # A batch includes its files: GCC takes them for headers, in which a class of an unnamed namespace is a mistake.
-        # GoogleTest's macros are safe after an `if`; GCC knows that of them in a file of its own only.
-        target_compile_options(test_${folder} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage -Wno-dangling-else>)
+    set(options "")
+    if(arg_OPTIMIZED)
+        set(options OPTIMIZED)
     endif()
-    set_target_properties(test_${folder} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-    set(properties TIMEOUT 300)
+    dermis_test_program(test_${folder} ${options} LINK ${arg_LINK} SOURCES ${sources})
+    set(properties TIMEOUT 600)
+    if(arg_WHOLE)
+        set(properties TIMEOUT 1800)
+    endif()
     if(CMAKE_CROSSCOMPILING)
         set(properties TIMEOUT 1200)  # a whole folder by an emulator
     endif()
@@ -111,11 +128,21 @@ function(dermis_test_folder folder)
     if(DERMIS_SANITIZE AND "${folder};${arg_LINK}" MATCHES "gpu|render|technique|cli|view|judge|report|engines")
         list(APPEND properties ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=1")
     endif()
-    # An emulator takes a second to start: as one test.
-    if(arg_WHOLE OR CMAKE_CROSSCOMPILING)
+    # An emulator takes a second to start, and ctest cannot list the tests through it: as one test.
+    if(CMAKE_CROSSCOMPILING)
         add_test(NAME ${folder} COMMAND test_${folder})
         set_tests_properties(${folder} PROPERTIES ${properties})
         return()
     endif()
-    gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+    set(list ${CMAKE_CURRENT_BINARY_DIR}/${folder}_suites.cmake)
+    file(GENERATE OUTPUT ${list} CONTENT
+"set(FOLDER [[${folder}]])
+set(PROGRAM [[$<TARGET_FILE:test_${folder}>]])
+set(DIRECTORY [[${CMAKE_CURRENT_BINARY_DIR}]])
+set(PROPERTIES [[${properties}]])
+set(LONG [[${DERMIS_LONG_TESTS}]])
+set(WHOLE [[${arg_WHOLE}]])
+include([[${PROJECT_SOURCE_DIR}/cmake/Suites.cmake]])
+")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${list})
 endfunction()

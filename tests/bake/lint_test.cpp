@@ -158,7 +158,7 @@ TEST(Lint, says_the_range_of_the_file_it_reads_with_or_without_its_convention) {
     for (const char* name : {"dermis", "penner", "unity_2011", "faceworks"})
         for (const char* profile : {"gpu_gems_3", "openpbr_skin_5"}) {
             LutOptions lut = *lut_options(name);
-            lut.width = 64, lut.height = 32;
+            lut.width = 48, lut.height = 24;
             lut.profile = *find_profile(profile);
             lut.profile.model = to_gaussian_sum(lut.profile).sum;
             const auto path = dir.path / (std::string(name) + profile + ".png");
@@ -301,7 +301,7 @@ TEST(Lint, a_cropped_picture_is_named_with_what_is_left_of_it) {
     struct Crop {
         int x, y, width, height;
     };
-    for (const Crop& crop : {Crop{64, 0, 64, 64}, {20, 16, 90, 40}, {0, 0, 100, 64}}) {
+    for (const Crop& crop : {Crop{64, 0, 64, 64}, {20, 16, 90, 40}}) {
         Image image(crop.width, crop.height, 3);
         for (int y = 0; y < crop.height; ++y)
             for (int x = 0; x < crop.width; ++x)

@@ -1,5 +1,5 @@
-// ./run, tools/setup, tools/new_technique and tools/fresh_machine, with stubs for apt-get, cmake and the like
-// that only print how they were called.
+// ./run, tools/new_technique and tools/fresh_machine, with stubs for apt-get, cmake and the like that only
+// print how they were called.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -68,74 +68,6 @@ const std::string kFreshMachine = DERMIS_SOURCE_DIR "/tools/fresh_machine";
 
 }  // namespace
 
-TEST_F(Setup, says_which_packages_and_how_many_megabytes_before_it_installs_and_nothing_afterwards) {
-    const ProgramResult first = shell("bash -c 'source tools/setup'");
-    ASSERT_EQ(first.exit_code, 0) << first.err;
-    EXPECT_THAT(first.err, HasSubstr("dermis: installing with apt-get: libone-dev libtwo-dev\n"));
-    EXPECT_THAT(first.err, Not(HasSubstr("sudo")));
-    const size_t said = first.err.find("dermis: 2 packages, 4 MB to download\n"),
-                 installed = first.err.find("CALLED apt-get install");
-    ASSERT_NE(said, std::string::npos) << first.err;
-    ASSERT_NE(installed, std::string::npos) << first.err;
-    EXPECT_LT(said, installed);
-    EXPECT_THAT(shell("bash -c 'source tools/setup'").err, IsEmpty());
-}
-
-TEST_F(Setup, of_alternatives_installs_the_first_that_the_release_has_and_none_if_that_is_one) {
-    write("root/tools/apt.txt", "libold-dev | libnew-dev  # for one\nlibsnap-dev | -\nlibtwo-dev\n");
-    program("apt-cache", "case $2 in libnew-dev | libtwo-dev) exit 0;; *) exit 100;; esac");
-    const ProgramResult result = shell("bash -c 'source tools/setup'");
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("dermis: installing with apt-get: libnew-dev libtwo-dev\n"));
-}
-
-TEST_F(Setup, an_alternative_that_is_installed_is_enough) {
-    write("root/tools/apt.txt", "libold-dev | libnew-dev\n");
-    program("dpkg-query", "[ \"${!#}\" = libnew-dev ] && echo 'install ok installed'");
-    const ProgramResult result = shell("bash -c 'source tools/setup'");
-    EXPECT_EQ(result.exit_code, 0);
-    EXPECT_THAT(result.err, IsEmpty());
-}
-
-TEST_F(Setup, a_package_that_the_release_does_not_have_is_named_with_its_list) {
-    write("root/tools/apt_checks.txt", "# tests\nlibold-14-dev  # what tests link\n");
-    write("root/tools/apt_python.txt", "");
-    program("apt-cache", "[ \"$2\" != libold-14-dev ]");
-    const ProgramResult result = shell("checks=1 bash -c 'source tools/setup; echo went on'");
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.err,
-                HasSubstr("dermis: this release has no package libold-14-dev; name the one that it "
-                          "has in tools/apt_checks.txt\n"));
-    EXPECT_THAT(result.err, Not(HasSubstr("CALLED apt-get install")));
-    EXPECT_THAT(result.out, IsEmpty());
-}
-
-TEST_F(Setup, says_that_sudo_is_used) {
-    program("id", "echo 1000");
-    EXPECT_THAT(shell("bash -c 'source tools/setup'").err,
-                HasSubstr("dermis: installing with sudo apt-get: libone-dev"));
-}
-
-TEST_F(Setup, stops_when_packages_cannot_be_installed_and_tries_again_the_next_time) {
-    program("apt-get", "[ \"$1\" != install ]");
-    for (int i = 0; i < 2; ++i) {
-        const ProgramResult result = shell("bash -c 'source tools/setup; echo went on'");
-        EXPECT_EQ(result.exit_code, 1);
-        EXPECT_THAT(result.err, HasSubstr("dermis: apt-get install failed"));
-        EXPECT_THAT(result.out, IsEmpty());
-    }
-}
-
-TEST_F(Setup, ninja_lines_become_one_line_with_the_time_that_is_left) {
-    shell("bash -c 'source tools/setup'");
-    const ProgramResult result = shell(
-        "bash -c 'source tools/setup; printf \"@@85 340 65.2 Building x\\nwarning: y\\nninja: no work to "
-        "do.\\n\" | show_progress'");
-    EXPECT_THAT(result.out, HasSubstr("step 85 of 340 after 1 min 5 s, about 3 min 15 s more"));
-    EXPECT_THAT(result.out, HasSubstr("warning: y\n"));
-    EXPECT_THAT(result.out, Not(HasSubstr("no work")));
-}
-
 TEST_F(Setup, run_builds_again_when_any_source_changed_and_not_otherwise) {
     shell("bash -c 'source tools/setup'");
     program("cmake", "echo \"CALLED cmake $*\" >&2");
@@ -178,17 +110,6 @@ TEST_F(Setup, run_installs_and_builds_the_python_module_only_when_it_is_asked_fo
     EXPECT_THAT(shell(command).err, IsEmpty());
 }
 
-TEST_F(Setup, fresh_machine_has_help_with_an_example_and_refuses_what_it_does_not_know) {
-    const ProgramResult help = shell(kFreshMachine + " --help");
-    EXPECT_EQ(help.exit_code, 0);
-    EXPECT_THAT(help.out, HasSubstr("example: sudo tools/fresh_machine --suite trixie --configure"));
-    EXPECT_THAT(help.out, Not(HasSubstr("set -euo")));
-    EXPECT_EQ(shell(kFreshMachine + " --nonsense").exit_code, 2);
-    EXPECT_EQ(shell(kFreshMachine + " --suite sarge").exit_code, 2);
-    EXPECT_EQ(shell(kFreshMachine + " --suite").exit_code, 2);
-    EXPECT_EQ(folders_left(), 0u);
-}
-
 TEST_F(Setup, fresh_machine_removes_its_folder_when_it_fails_and_when_it_is_ended) {
     for (const char* engine : {"podman", "docker"}) program(engine, "exit 1");
     program("debootstrap", "exit 1");
@@ -209,60 +130,49 @@ TEST_F(Setup, fresh_machine_removes_its_folder_when_it_fails_and_when_it_is_ende
     EXPECT_EQ(folders_left(), 0u);
 }
 
-TEST_F(Setup, fresh_machine_makes_the_release_that_it_is_told_from_this_machines_archive) {
-    for (const char* engine : {"podman", "docker"}) program(engine, "exit 1");
-    program("debootstrap", "exit 1");
-    program("unshare", "exit 1");
-    const std::string own = "$(. /etc/os-release; echo $VERSION_CODENAME)",
-                      id = "$(. /etc/os-release; echo $ID)";
-    program("apt-get", "[ $1 != indextargets ] || echo \"" + id + " http://archive/ " + own + " main\"");
-    program("setpriv", "echo \"$*\" >'" + path("called").string() + "'; exit 1");
-    EXPECT_EQ(shell(kFreshMachine + " --suite forky --configure").exit_code, 1);
-    EXPECT_THAT(slurp(path("called")), HasSubstr(" forky "));
-    EXPECT_THAT(slurp(path("called")), HasSubstr("/base http://archive/"));
-}
-
-// The tests that it runs to record exist in the repository, of all kinds (goldens, scores and costs).
-TEST_F(Setup, new_technique_has_the_tests_record_its_pictures_and_scores) {
+TEST_F(Setup, new_technique_builds_the_program_and_its_own_test_and_records_when_asked) {
     write("root/tools/apt_checks.txt", "");
     write("root/tools/apt_python.txt", "");
-    program("cmake", "exit 0");
+    program("cmake", "echo \"CALLED cmake $*\"");
     const auto test_program = [&](const std::string& name, const std::string& text) {
         write("root/build/tests/" + name, "#!/bin/bash\necho \"CALLED " + name + " $*\"\n" + text + "\n");
         fs::permissions(path("root/build/tests/" + name), fs::perms::owner_all);
     };
-    test_program("test_render",
-                 "[ \"$DERMIS_UPDATE_GOLDENS\" = missing ] || exit 0\ncd ../techniques\n"
-                 "for id in *; do for of in spheres bust; do\n"
-                 "echo x > ../tests/golden/${of}_$id.png; done; done");
-    test_program("test_judge",
-                 "[ \"$DERMIS_UPDATE_SCORES\" = missing ] || exit 0\n"
-                 "echo spheres,my_skin,,0 >> ../tests/judge/recorded_scores.csv");
-    test_program("test_report", "[ \"$DERMIS_UPDATE_COSTS\" = missing ]");
-    fs::create_directories(path("root/tests/golden"));
-    write("root/tests/judge/recorded_scores.csv", "scene,technique,settings,captured\n");
-
+    test_program("test_technique_my_skin", "");
     const ProgramResult made = shell("tools/new_technique my_skin 'a test'");
     EXPECT_EQ(made.exit_code, 0) << made.err;
-    const auto has_test = [](const std::string& file, const std::string& wanted) {
-        return std::regex_search(slurp(DERMIS_SOURCE_DIR "/tests/" + file), std::regex(wanted));
-    };
-    EXPECT_THAT(made.out,
-                HasSubstr("test_render --gtest_brief=1 --gtest_filter=Goldens.*_with_every_technique\n"));
-    EXPECT_TRUE(
-        has_test("render/golden_test.cpp", R"(TEST_F\(Goldens, of_the_spheres_with_every_technique\))"));
-    EXPECT_TRUE(has_test("render/golden_test.cpp", R"(TEST_F\(Goldens, of_the_bust_with_every_technique\))"));
-    EXPECT_THAT(made.out, HasSubstr("test_judge --gtest_brief=1 --gtest_filter=Scoreboards.*\n"));
-    EXPECT_TRUE(has_test("judge/scoreboard_test.cpp", R"(TEST_F\(Scoreboards, \w+\))"));
-    EXPECT_THAT(made.out, HasSubstr("test_report --gtest_brief=1 --gtest_filter=RecordedCosts.*\n"));
-    EXPECT_TRUE(has_test("report/recorded_test.cpp", R"(TEST_F\(RecordedCosts, \w+\))"));
+    EXPECT_THAT(made.out, HasSubstr("--target dermis test_technique_my_skin\n"));
+    EXPECT_THAT(made.out, HasSubstr("CALLED test_technique_my_skin"));
+    EXPECT_TRUE(fs::exists(path("root/techniques/my_skin/my_skin_test.cpp")));
+    EXPECT_EQ(shell("tools/new_technique my_skin").exit_code, 1) << "it exists";
 
-    test_program("test_judge", "");
-    const ProgramResult no_scores = shell("tools/new_technique second_skin x");
-    EXPECT_EQ(no_scores.exit_code, 1);
-    EXPECT_THAT(no_scores.err, HasSubstr("recorded_scores.csv has no row of second_skin"));
+    fs::create_directories(path("root/tests/golden"));
+    write("root/tests/judge/recorded_scores.csv", "scene,technique,settings,captured\n");
+    const auto record = [&] { return shell("tools/new_technique --record my_skin"); };
     test_program("test_render", "");
-    const ProgramResult no_goldens = shell("tools/new_technique third_skin x");
-    EXPECT_EQ(no_goldens.exit_code, 1);
-    EXPECT_THAT(no_goldens.err, HasSubstr("spheres_third_skin.png was not recorded"));
+    test_program("test_judge", "");
+    test_program("test_report", "[ \"$DERMIS_UPDATE_COSTS\" = missing ]");
+    EXPECT_THAT(record().err, HasSubstr("spheres_my_skin.png was not recorded"));
+    test_program("test_render",
+                 "[ \"$DERMIS_UPDATE_GOLDENS\" = missing ] || exit 1\n"
+                 "for of in spheres bust; do echo x > ../tests/golden/${of}_my_skin.png; done");
+    EXPECT_THAT(record().err, HasSubstr("recorded_scores.csv has no row of my_skin"));
+    test_program("test_judge",
+                 "[ \"$DERMIS_UPDATE_SCORES\" = missing ] || exit 1\n"
+                 "echo spheres,my_skin,,0 >> ../tests/judge/recorded_scores.csv");
+    const ProgramResult recorded = record();
+    EXPECT_EQ(recorded.exit_code, 0) << recorded.err;
+    // The tests that it runs exist.
+    for (const auto& [filter, file, test] :
+         {std::tuple("Goldens.*_with_every_technique", "render/golden_test.cpp",
+                     R"(TEST_F\(Goldens, of_the_spheres_with_every_technique\))"),
+          {"Goldens.*_with_every_technique", "render/golden_test.cpp",
+           R"(TEST_F\(Goldens, of_the_bust_with_every_technique\))"},
+          {"Scoreboards.*", "judge/scoreboard_test.cpp", R"(TEST_F\(Scoreboards, \w+\))"},
+          {"RecordedCosts.*", "report/recorded_test.cpp", R"(TEST_F\(RecordedCosts, \w+\))"}}) {
+        EXPECT_THAT(recorded.out, HasSubstr(std::string("--gtest_filter=") + filter + "\n"));
+        EXPECT_TRUE(
+            std::regex_search(slurp(std::string(DERMIS_SOURCE_DIR "/tests/") + file), std::regex(test)))
+            << test;
+    }
 }

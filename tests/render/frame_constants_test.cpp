@@ -14,7 +14,9 @@ class FrameConstants : public RenderTest {
     static void SetUpTestSuite() {
         RenderTest::SetUpTestSuite();
         scene_ = std::make_unique<Scene>(load("builtin:bust"));
+        bust_ = std::make_unique<Renderer>(make_renderer(*scene_));
     }
+    static void TearDownTestSuite() { bust_.reset(); }
 
     /// Of the bust, with a constant of the list instead of the renderer's.
     static Image drawn_with(Renderer& renderer, std::string_view technique, const std::string& constant,
@@ -40,34 +42,33 @@ class FrameConstants : public RenderTest {
         return largest;
     }
 
-    static void expect_same(const Scene& scene, std::string_view technique, const std::string& constant) {
-        Renderer renderer = make_renderer(scene);
+    static void expect_same(Renderer& renderer, std::string_view technique, const std::string& constant) {
         const Image on = drawn_with(renderer, technique, constant, 1);
         const Image off = drawn_with(renderer, technique, constant, 0);
         EXPECT_LT(largest_difference(on, off), 3e-3f) << technique << ", " << constant;
     }
 
     static inline std::unique_ptr<Scene> scene_;
+    static inline std::unique_ptr<Renderer> bust_;
 };
 
 }  // namespace
 
 TEST_F(FrameConstants, one_light_is_the_loop_over_lights_with_one_in_it) {
     for (const char* technique : {"lambert", "preintegrated", "texture_space"})
-        expect_same(*scene_, technique, "one_light");
+        expect_same(*bust_, technique, "one_light");
 }
 
 TEST_F(FrameConstants, one_sample_is_the_search_for_its_surface) {
     for (const char* technique : {"screen_space_burley", "screen_space_separable"})
-        expect_same(*scene_, technique, "one_sample");
+        expect_same(*bust_, technique, "one_sample");
 }
 
 // It asks the outermost taps for the nearest texel first, and where these agree no others (shadow.glsl): at
 // the edge of a shadow that is up to a tap's share of the light.
 TEST_F(FrameConstants, a_software_device_draws_the_shadows_of_others_to_a_taps_share) {
-    Renderer renderer = make_renderer(*scene_);
-    const Image on = drawn_with(renderer, "lambert", "on_cpu", 1);
-    const Image off = drawn_with(renderer, "lambert", "on_cpu", 0);
+    const Image on = drawn_with(*bust_, "lambert", "on_cpu", 1);
+    const Image off = drawn_with(*bust_, "lambert", "on_cpu", 0);
     int differing = 0;
     for (int y = 0; y < on.height; ++y)
         for (int x = 0; x < on.width; ++x) differing += std::abs(on.at(x, y, 1) - off.at(x, y, 1)) > 1e-3f;
@@ -78,9 +79,10 @@ TEST_F(FrameConstants, a_software_device_draws_the_shadows_of_others_to_a_taps_s
 // The spheres have none.
 TEST_F(FrameConstants, a_map_that_no_material_has_is_1) {
     const Scene spheres = load("builtin:spheres");
+    Renderer renderer = make_renderer(spheres);
     for (const char* map : {"has_albedo_map", "has_normal_map", "has_specular_map", "has_roughness_map",
                             "has_occlusion_map", "has_emission_map"})
-        expect_same(spheres, "lambert", map);
+        expect_same(renderer, "lambert", map);
 }
 
 TEST_F(FrameConstants, say_which_maps_and_how_many_lights_a_scene_has) {

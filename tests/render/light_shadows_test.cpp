@@ -52,8 +52,11 @@ class LightShadows : public RenderTest {
         return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
     }
     // 12 mm to each side of the middle: the far half, under the cover, is above it in the picture.
-    static Seen drawn(const Scene& scene, const std::string& technique, const std::string& view = "final") {
+    static Seen drawn(const Scene& scene, const std::string& technique) {
         Renderer renderer = make_renderer(scene);
+        return drawn(renderer, technique);
+    }
+    static Seen drawn(Renderer& renderer, const std::string& technique, const std::string& view = "final") {
         const Image image = radiance(renderer, built_in_technique(technique),
                                      {.width = 96, .height = 96, .view = view, .shadow_map_size = 512});
         return {at(image, 48, 57), at(image, 48, 39)};
@@ -69,8 +72,9 @@ TEST_F(LightShadows, of_the_second_light_are_as_the_key_lights) {
     faint_key.intensity = 0;
     const Scene scene =
         plane_under(MaterialClass::other, MaterialClass::skin, {faint_key, from_above("second", false)});
+    Renderer renderer = make_renderer(scene);
     for (const char* technique : kForward) {
-        const Seen seen = drawn(scene, technique);
+        const Seen seen = drawn(renderer, technique);
         EXPECT_GT(seen.open.x, 0.1f) << technique;
         EXPECT_LT(seen.covered.x, 0.02f * seen.open.x) << technique;
     }
@@ -80,13 +84,15 @@ TEST_F(LightShadows, darken_the_second_lights_specular_too) {
     Light faint_key = from_above("key", true), second = from_above("second", false);
     faint_key.intensity = 0;
     second.to_light_world = normalize(Vec3{0.98f, 0, 0.2f});
+    Scene scene = plane_under(MaterialClass::other, MaterialClass::skin, {faint_key, second});
+    scene.objects[1].mesh = scene.objects[0].mesh;
+    for (Vec3& p : scene.objects[1].mesh.positions_mm) p = {60, p.x, p.y};  // a wall before the light
+    Scene without = scene;
+    without.lights[1].casts_shadow = false;
+    Renderer renderer = make_renderer(scene), renderer_without = make_renderer(without);
     for (const char* technique : {"lambert", "texture_space", "texture_space_gaussians"}) {
-        Scene scene = plane_under(MaterialClass::other, MaterialClass::skin, {faint_key, second});
-        scene.objects[1].mesh = scene.objects[0].mesh;
-        for (Vec3& p : scene.objects[1].mesh.positions_mm) p = {60, p.x, p.y};  // a wall before the light
-        const Seen shadowed = drawn(scene, technique, "specular");
-        scene.lights[1].casts_shadow = false;
-        const Seen lit = drawn(scene, technique, "specular");
+        const Seen shadowed = drawn(renderer, technique, "specular"),
+                   lit = drawn(renderer_without, technique, "specular");
         EXPECT_GT(lit.open.x, 1e-3f) << technique;
         EXPECT_LT(shadowed.open.x, 0.02f * lit.open.x) << technique;
     }
@@ -95,8 +101,9 @@ TEST_F(LightShadows, darken_the_second_lights_specular_too) {
 TEST_F(LightShadows, are_absent_where_the_key_light_casts_none) {
     Scene scene = plane_under(MaterialClass::other, MaterialClass::skin, {from_above("key", true)});
     scene.lights[0].casts_shadow = false;
+    Renderer renderer = make_renderer(scene);
     for (const Technique& technique : built_in_catalog().techniques) {
-        const Seen seen = drawn(scene, technique.id);
+        const Seen seen = drawn(renderer, technique.id);
         EXPECT_GT(seen.covered.x, 0.9f * seen.open.x) << technique.id;
     }
 }
@@ -126,8 +133,9 @@ TEST_F(LightShadows, of_translucent_surfaces_are_tinted_in_every_technique_and_o
             std::vector<Light> lights = {from_above("key", true)};
             if (!is_key) lights[0].intensity = 0, lights.push_back(from_above("second", false));
             const Scene scene = plane_under(MaterialClass::translucent, plane, lights);
+            Renderer renderer = make_renderer(scene);
             for (const char* technique : kForward) {
-                const Seen seen = drawn(scene, technique, "diffuse");
+                const Seen seen = drawn(renderer, technique, "diffuse");
                 const float share[3] = {seen.covered.x / seen.open.x, seen.covered.y / seen.open.y,
                                         seen.covered.z / seen.open.z};
                 EXPECT_NEAR(share[0], kTint.x, 0.02f) << technique << " key " << is_key;

@@ -10,38 +10,41 @@ class LightSwitch : public RenderTest {
   protected:
     static inline const DrawSettings kSwitched = {.width = 64, .height = 64, .shadow_map_size = 256};
 
-    /// On, off and on again: each frame as a new renderer draws it.
-    static void expect_frames_as_new(const Technique& technique, ParameterValues values) {
-        if (values.table().find("light_map_size")) EXPECT_TRUE(values.set("light_map_size", "256"));
+    static Scene with_light(float on) {
         Scene scene = load("builtin:spheres");
-        const float intensity = scene.lights[0].intensity;
-        Renderer renderer = make_renderer(scene);
-        std::vector<Image> frames;
-        for (const float on : {1.0f, 0.0f, 1.0f}) {
-            scene.lights[0].intensity = intensity * on;
-            frames.push_back(radiance(renderer, technique, values, kSwitched));
-        }
-        Renderer fresh = make_renderer(scene);
-        EXPECT_EQ(frames[0].bytes, frames[2].bytes) << technique.id;
-        EXPECT_EQ(frames[2].bytes, radiance(fresh, technique, values, kSwitched).bytes) << technique.id;
-        scene.lights[0].intensity = 0;
-        Renderer dark = make_renderer(scene);
-        EXPECT_EQ(frames[1].bytes, radiance(dark, technique, values, kSwitched).bytes) << technique.id;
-        EXPECT_NE(frames[0].bytes, frames[1].bytes) << technique.id << ": the light is not seen";
+        scene.lights[0].intensity *= on;
+        return scene;
     }
+
+    /// On, off and on again: each frame is the one of a renderer whose light never changes.
+    void expect_frames_of_steady_light(const Technique& technique, const ParameterValues& values) {
+        const Image on = radiance(lit_renderer_, technique, values, kSwitched),
+                    off = radiance(dark_renderer_, technique, values, kSwitched);
+        EXPECT_NE(on.bytes, off.bytes) << technique.id << ": the light is not seen";
+        for (const bool is_on : {true, false, true}) {
+            scene_.lights[0].intensity = (is_on ? lit_ : dark_).lights[0].intensity;
+            EXPECT_EQ(radiance(renderer_, technique, values, kSwitched).bytes, (is_on ? on : off).bytes)
+                << technique.id << (is_on ? " on" : " off");
+        }
+    }
+
+    const Scene lit_ = with_light(1), dark_ = with_light(0);
+    Scene scene_ = lit_;
+    Renderer lit_renderer_ = make_renderer(lit_), dark_renderer_ = make_renderer(dark_),
+             renderer_ = make_renderer(scene_);
 };
 
 }  // namespace
 
 TEST_F(LightSwitch, leaves_nothing_in_the_next_frame_of_any_technique) {
     for (const Technique& technique : built_in_catalog().techniques)
-        expect_frames_as_new(technique, ParameterValues(technique.parameters));
+        expect_frames_of_steady_light(technique, small_map_values(technique));
 }
 
 // The one that keeps something: a light map, for as long as the light is the same.
 TEST_F(LightSwitch, makes_texture_space_light_its_kept_map_again) {
     const Technique& technique = built_in_technique("texture_space");
-    ParameterValues values(technique.parameters);
+    ParameterValues values = small_map_values(technique);
     ASSERT_TRUE(values.set("cull_beyond_mm", "1"));
-    expect_frames_as_new(technique, values);
+    expect_frames_of_steady_light(technique, values);
 }

@@ -19,22 +19,23 @@ const DrawSettings kSphereDraw = {.width = 128, .height = 128, .deep = true, .sh
 
 class ReducedDiffuse : public RenderTest {
   protected:
-    /// Drawn with and without.
+    /// One scene, drawn with and without the reduction.
     struct Pair {
+        explicit Pair(const Scene& scene) : reduced_scene(scene), whole_scene(scene) {
+            reduced_scene.skin.specular_reduces_diffuse = true;
+            whole_scene.skin.specular_reduces_diffuse = false;
+        }
+        void draw(const Technique& technique, const std::string& view) {
+            DrawSettings settings = kSphereDraw;
+            settings.view = view;
+            settings.gbuffer = true;
+            reduced = radiance(reduced_renderer, technique, settings);
+            whole = radiance(whole_renderer, technique, settings);
+        }
+        Scene reduced_scene, whole_scene;
+        Renderer reduced_renderer = make_renderer(reduced_scene), whole_renderer = make_renderer(whole_scene);
         Image reduced, whole;
     };
-    static Pair both(Scene scene, const Technique& technique, const std::string& view) {
-        DrawSettings settings = kSphereDraw;
-        settings.view = view;
-        settings.gbuffer = true;
-        Pair pair;
-        for (const bool reduced : {false, true}) {
-            scene.skin.specular_reduces_diffuse = reduced;
-            Renderer renderer = make_renderer(scene);
-            (reduced ? pair.reduced : pair.whole) = radiance(renderer, technique, settings);
-        }
-        return pair;
-    }
 };
 
 struct Seen {
@@ -50,9 +51,10 @@ Seen seen_at(const Image& normal, const Image& position, const Scene& scene, int
 
 TEST_F(ReducedDiffuse, a_white_surface_in_a_white_furnace_returns_what_arrives) {
     const TemporaryDirectory directory;
-    const Scene scene = sphere_in_furnace(load("builtin:spheres"), directory, 1);
+    Pair pair(sphere_in_furnace(load("builtin:spheres"), directory, 1));
+    const Image &reduced = pair.reduced, &whole = pair.whole;
     for (const Technique& technique : built_in_catalog().techniques) {
-        const auto [reduced, whole] = both(scene, technique, "final");
+        pair.draw(technique, "final");
         EXPECT_GT(largest_value(whole), 1.1) << technique.id;
         EXPECT_LT(largest_value(reduced), 1.01) << technique.id;
         // Oren and Nayar's model loses light that facets send to one another.
@@ -80,8 +82,10 @@ TEST_F(ReducedDiffuse, follows_the_angles_of_light_and_view) {
     gbuffer.gbuffer = true;
     static_cast<void>(radiance(renderer, built_in_technique("lambert"), gbuffer));
     const Image normal = *renderer.read("gbuffer_geometry"), position = *renderer.read("gbuffer_position");
+    Pair pair(scene);
+    const Image &reduced = pair.reduced, &whole = pair.whole;
     for (const Technique& technique : built_in_catalog().techniques) {
-        const auto [reduced, whole] = both(scene, technique, "diffuse");
+        pair.draw(technique, "diffuse");
         int compared = 0;
         for (int y = 0; y < reduced.height; y += 2)
             for (int x = 0; x < reduced.width; x += 2) {

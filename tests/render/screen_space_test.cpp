@@ -33,6 +33,10 @@ class ScreenSpace : public RenderTest {
     static Image draw(const Scene& scene, const std::string& id, const Settings& settings = {},
                       int samples = 1) {
         Renderer renderer = make_renderer(scene);
+        return draw(renderer, id, settings, samples);
+    }
+    static Image draw(Renderer& renderer, const std::string& id, const Settings& settings = {},
+                      int samples = 1) {
         const Technique& technique = built_in_technique(id);
         ParameterValues values(technique.parameters);
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
@@ -84,16 +88,16 @@ class ScreenSpace : public RenderTest {
 
 TEST_F(ScreenSpace, a_shadows_edge_is_the_profiles_at_any_distance_and_slant) {
     for (const float distance_mm : {60.0f, 240.0f}) {
+        const Scene scene = slanted_plane(distance_mm);
+        Renderer renderer = make_renderer(scene);
         const auto separable = [&](const char* taps) {
-            return edge_error(draw(slanted_plane(distance_mm), "screen_space_separable", {{"taps", taps}}),
-                              distance_mm);
+            return edge_error(draw(renderer, "screen_space_separable", {{"taps", taps}}), distance_mm);
         };
         EXPECT_LT(separable("25"), 0.03);
         EXPECT_LT(separable("17"), 0.05);
         EXPECT_LT(separable("11"), 0.08);
         // Its weights fit surfaces whose slope changes, such as spheres, better than planes.
-        EXPECT_LT(edge_error(draw(slanted_plane(distance_mm), "screen_space_burley", {{"samples", "512"}}),
-                             distance_mm),
+        EXPECT_LT(edge_error(draw(renderer, "screen_space_burley", {{"samples", "512"}}), distance_mm),
                   0.045);
     }
     // Distances on the picture's plane are too short here.
@@ -120,12 +124,15 @@ TEST_F(ScreenSpace, light_does_not_cross_a_gap_in_depth) {
 
 TEST_F(ScreenSpace, constant_light_stays_constant_at_silhouettes_with_and_without_multisampling) {
     const Scene scene = evenly_lit_spheres();
-    for (const int samples : {1, 4})
-        for (const ScreenBlur& blur : kBlurs)
-            EXPECT_LT(relative_difference(draw(scene, "lambert", {}, samples),
-                                          draw(scene, blur.technique, settings_of(blur), samples), 1),
-                      1e-3)
+    Renderer renderer = make_renderer(scene);
+    for (const int samples : {1, 4}) {
+        const Image lambert = draw(renderer, "lambert", {}, samples);
+        for (const ScreenBlur& blur : kBlurs) {
+            const Image blurred = draw(renderer, blur.technique, settings_of(blur), samples);
+            EXPECT_LT(relative_difference(lambert, blurred, 1), 1e-3)
                 << blur.technique << " " << blur.value << ", samples " << samples;
+        }
+    }
 }
 
 TEST_F(ScreenSpace, a_light_that_goes_out_leaves_nothing_behind) {

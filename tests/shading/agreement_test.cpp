@@ -148,7 +148,7 @@ TEST_F(Agreement, of_wgsl_and_essl_in_a_browser) {
     const std::string chromium = find_program({"chromium", "chromium-browser", "google-chrome"});
     if (chromium.empty() || find_program({"node"}).empty()) GTEST_SKIP() << "no chromium or no node here";
     const char* wanted = std::getenv("DERMIS_BROWSER_SAMPLES");
-    const size_t side = wanted && std::string_view(wanted) == "all" ? kSampleSide : 112;
+    const size_t side = wanted && std::string_view(wanted) == "all" ? kSampleSide : 56;
     for (const Language language : {Language::wgsl, Language::essl}) {
         const Result<Outputs> outputs =
             evaluate_in_browser(chromium, text_of(language), language, functions_, side);
