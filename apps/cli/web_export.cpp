@@ -5,7 +5,7 @@
 #include "catalog/catalog.h"
 #include "dermis/bake/shadow_ramp.h"
 #include "dermis/base/text.h"
-#include "dermis/image/skin_colour.h"
+#include "dermis/image/colour.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"

@@ -6,7 +6,7 @@
 #include "dermis/bake/convention.h"
 #include "dermis/engines/package.h"
 
-namespace dermis::inline engines::packages {
+namespace dermis::inline engines {
 
 /// Word between @ in a template, and what is written for it.
 using Words = std::map<std::string, std::string>;
@@ -43,10 +43,7 @@ struct Engine {
 inline constexpr int kTableWidth = 256, kTableHeight = 128;
 inline constexpr double kTableMaxCurvaturePerMm = 1;
 
-[[nodiscard]] Engine babylon();
-[[nodiscard]] Engine godot();
-[[nodiscard]] Engine three();
-[[nodiscard]] Engine unity();
-[[nodiscard]] Engine unreal();
+/// All of them; engine.cpp has one entry for each.
+[[nodiscard]] const std::vector<Engine>& all_engines();
 
-}  // namespace dermis::inline engines::packages
+}  // namespace dermis::inline engines

@@ -1,19 +1,18 @@
 #include "dermis/engines/package.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dermis/bake/lut.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/engines/engine.h"
-#include "dermis/engines/picture.h"
+#include "dermis/image/io.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/shading/skin_text.h"
 
 namespace dermis::inline engines {
-
-namespace packages {
 
 std::vector<std::byte> to_bytes(std::string_view text) {
     const auto bytes = as_bytes(text);
@@ -41,33 +40,56 @@ Result<std::string> filled(const PackageTemplate& file, const Words& words) {
     return text.append(file.text, at);
 }
 
-}  // namespace packages
-
 namespace {
 
-using packages::Engine;
-using packages::to_bytes;
-using packages::Words;
-
-const std::vector<Engine>& engines() {
-    static const std::vector<Engine> all = {packages::unity(), packages::unreal(), packages::godot(),
-                                            packages::three(), packages::babylon()};
-    return all;
+Result<const Engine*> find_engine(std::string_view name) {
+    const auto found = std::ranges::find(all_engines(), name, &Engine::name);
+    if (found != all_engines().end()) return &*found;
+    return Error{unknown_name("engine", name, engine_names())};
 }
 
-Result<const Engine*> find_engine(std::string_view name) {
-    const auto found = std::ranges::find(engines(), name, &Engine::name);
-    if (found != engines().end()) return &*found;
-    return Error{unknown_name("engine", name, engine_names())};
+constexpr int kSide = 160, kColumns = 3, kRows = 2, kSamples = 3;
+constexpr double kRadiiMm[kColumns] = {4, 8, 16};
+constexpr double kToLight[3] = {0.88, 0.32, 0.35};  // normalised to 1 %, as the picture is
+constexpr Rgb kAlbedo = {0.48, 0.19, 0.11}, kBackground = {0.02, 0.02, 0.02};
+
+// One place of a sphere's square, -1 to 1 across it.
+Rgb shaded(const Table& table, int column, int row, double x, double y) {
+    const double z2 = 1 - (x * x + y * y) / (0.9 * 0.9);
+    if (z2 < 0) return kBackground;
+    const double n_dot_l = (x * kToLight[0] - y * kToLight[1]) / 0.9 + std::sqrt(z2) * kToLight[2];
+    const double lambert = std::max(n_dot_l, 0.0);
+    Rgb light = {lambert, lambert, lambert};
+    if (row == 0) light = lookup(table, std::clamp(n_dot_l, -1.0, 1.0), 1 / kRadiiMm[column]);
+    for (size_t c = 0; c < 3; ++c) light[c] *= kAlbedo[c];
+    return light;
+}
+
+// The picture of a package's README, a PNG: spheres of 4, 8 and 16 mm lit from the right, above as the table
+// has them, below Lambert's.
+Result<std::vector<std::byte>> picture_of(const Table& table) {
+    Image image(kColumns * kSide, kRows * kSide, 3, PixelFormat::f32, Encoding::linear);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            Rgb sum = {0, 0, 0};
+            for (int i = 0; i < kSamples * kSamples; ++i) {
+                const double u = (x % kSide + (i % kSamples + 0.5) / kSamples) / kSide;
+                const double v = (y % kSide + (i / kSamples + 0.5) / kSamples) / kSide;
+                const Rgb value = shaded(table, x / kSide, y / kSide, 2 * u - 1, 2 * v - 1);
+                for (size_t c = 0; c < 3; ++c) sum[c] += value[c] / (kSamples * kSamples);
+            }
+            for (int c = 0; c < 3; ++c) image.set(x, y, c, float(sum[size_t(c)]));
+        }
+    return encode_image(".png", image);
 }
 
 // Baked from the Gaussians of the coefficients, so that table and functions agree.
 Result<Table> diffuse_table(const Engine& engine, const Profile& profile) {
     DERMIS_TRY_ASSIGN(LutOptions options, lut_options("dermis"));
     options.profile = {.name = profile.name, .source = profile.source, .model = to_gaussian_sum(profile).sum};
-    options.width = packages::kTableWidth;
-    options.height = packages::kTableHeight;
-    options.convention.axes[1] = curvature_axis(0, packages::kTableMaxCurvaturePerMm);
+    options.width = kTableWidth;
+    options.height = kTableHeight;
+    options.convention.axes[1] = curvature_axis(0, kTableMaxCurvaturePerMm);
     options.convention.v_origin = engine.v_origin;
     return bake_lut(options);
 }
@@ -75,7 +97,7 @@ Result<Table> diffuse_table(const Engine& engine, const Profile& profile) {
 Result<void> add_table_and_picture(const Engine& engine, const Profile& profile,
                                    std::vector<PackageFile>& files) {
     DERMIS_TRY_ASSIGN(const Table table, diffuse_table(engine, profile));
-    DERMIS_TRY_ASSIGN(std::vector<std::byte> picture, packages::picture_of(table));
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> picture, picture_of(table));
     files.push_back({std::string(engine.picture_path), std::move(picture)});
     if (engine.table_path.empty()) return {};
     DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, table_bytes(engine.table_path, table));
@@ -88,9 +110,9 @@ Words common_words(const Profile& profile) {
     return {{"profile", printable_line(profile.name)},
             {"source", printable_line(profile.source)},
             {"version", tool.substr(tool.find(' ') + 1)},
-            {"table_width", std::to_string(packages::kTableWidth)},
-            {"table_height", std::to_string(packages::kTableHeight)},
-            {"max_curvature_per_mm", to_text(packages::kTableMaxCurvaturePerMm) + ".0"}};
+            {"table_width", std::to_string(kTableWidth)},
+            {"table_height", std::to_string(kTableHeight)},
+            {"max_curvature_per_mm", to_text(kTableMaxCurvaturePerMm) + ".0"}};
 }
 
 // engines/common: functions for the packages alone, which are printed with the skin's.
@@ -111,7 +133,7 @@ Result<void> add_templates(const Engine& engine, const PackageInput& input, std:
     for (const PackageTemplate& file : input.templates) {
         if (file.path == "LICENSE") files.push_back({std::string(engine.license_path), to_bytes(file.text)});
         if (!file.path.starts_with(folder)) continue;
-        DERMIS_TRY_ASSIGN(const std::string text, packages::filled(file, words));
+        DERMIS_TRY_ASSIGN(const std::string text, filled(file, words));
         files.push_back({file.path.substr(folder.size()), to_bytes(text)});
     }
     return {};
@@ -147,7 +169,7 @@ Result<void> add_skin_texts(const Engine& engine, const PackageInput& input,
 
 std::vector<std::string> engine_names() {
     std::vector<std::string> names;
-    for (const Engine& engine : engines()) names.emplace_back(engine.name);
+    for (const Engine& engine : all_engines()) names.emplace_back(engine.name);
     return names;
 }
 

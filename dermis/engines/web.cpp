@@ -1,14 +1,14 @@
 #include "dermis/engines/web.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/engines/engine.h"
-#include "dermis/engines/web/geometry.h"
-#include "dermis/engines/web/maps.h"
-#include "dermis/engines/web/tables.h"
+#include "dermis/engines/web/parts.h"
 #include "dermis/optics/fresnel.h"
 #include "dermis/render/renderer.h"
 #include "shaders/include/constants.h"
@@ -17,7 +17,6 @@ namespace dermis::inline engines {
 namespace {
 
 using nlohmann::json;
-using packages::to_bytes;
 using web::to_json;
 
 constexpr std::string_view kPageFolder = "engines/web/";
@@ -84,8 +83,8 @@ json lights_json(const Scene& scene, std::vector<std::string>& warnings) {
     json lights = json::array();
     for (const Light& light : scene.lights) {
         if (lights.size() == kMaxLights) {
-            warnings.push_back("the page draws " + std::to_string(kMaxLights) +
-                               " lights; the others of the scene are left out");
+            warnings.push_back(
+                fmt::format("the page draws {} lights; the others of the scene are left out", kMaxLights));
             break;
         }
         if (light.kind != LightKind::directional)
@@ -145,7 +144,7 @@ Result<json> object_json(const WebInput& input, size_t index, web::Binary& binar
         }
         if (materials[number].is_null()) {
             materials[number] = material_json(material, object.classes[number]);
-            const std::string prefix = std::to_string(index) + "_" + std::to_string(number);
+            const std::string prefix = fmt::format("{}_{}", index, number);
             DERMIS_TRY_ASSIGN(json maps,
                               web::add_maps(page.files, material, object.mesh, prefix, input.map_side));
             materials[number].update(maps);
@@ -200,7 +199,7 @@ Result<WebPage> make_web_page(const WebInput& input) {
                      ": skin.specular_reduces_diffuse is not drawn by the page; export with --scene "
                      "skin.specular_reduces_diffuse=false"};
     if (input.tones.empty() || input.tones.size() > kMaxTones)
-        return Error{"a page has 1 to " + std::to_string(kMaxTones) + " skins"};
+        return Error{fmt::format("a page has 1 to {} skins", kMaxTones)};
     WebPage page;
     DERMIS_TRY(add_texts(input, page.files));
     web::Binary binary;

@@ -101,7 +101,7 @@ Result<FrameImage> FrameImages::make(const ImageDeclaration& declaration, VkExte
         DERMIS_TRY_ASSIGN(OwnedView view, make_mip_view(context, result.image, mip));
         result.mip_views.push_back(std::move(view));
         set_object_name(context, VK_OBJECT_TYPE_IMAGE_VIEW, result.mip_views.back().get(),
-                        declaration.name + " mip " + std::to_string(mip));
+                        fmt::format("{} mip {}", declaration.name, mip));
         result.last_use.push_back(ImageUse::none);
     }
     return result;
@@ -208,7 +208,7 @@ Result<Image> read_image(Device::State& device, FrameImage& source, int mip) {
     if (declaration.samples > 1)
         return Error{"image '" + declaration.name + "' is multisampled; resolve it first"};
     if (mip < 0 || uint32_t(mip) >= source.image.info.mips)
-        return Error{"image '" + declaration.name + "' has no mip level " + std::to_string(mip)};
+        return Error{fmt::format("image '{}' has no mip level {}", declaration.name, mip)};
     const VkExtent2D extent = source.extent(mip);
     const FormatInfo format = format_info(declaration.format);
     const size_t size = size_t(extent.width) * extent.height * bytes_per_texel(declaration.format);

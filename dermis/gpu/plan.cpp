@@ -239,7 +239,7 @@ Result<void> plan_transfer(const PlanContext& context, PlannedPass& planned) {
     const int mip = pass.colors.empty() ? 0 : pass.colors.front().mip;
     FrameImage* target = context.images.find(target_name);
     if (mip < 0 || uint32_t(mip) >= target->image.info.mips)
-        return pass_error(*planned.pass, "'" + target_name + "' has no mip level " + std::to_string(mip));
+        return pass_error(*planned.pass, fmt::format("'{}' has no mip level {}", target_name, mip));
     planned.extent = target->extent(mip);
     return pass.kind == PassKind::resolve
                ? resolve(planned, *source, *target, uint32_t(mip))

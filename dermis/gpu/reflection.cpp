@@ -1,5 +1,6 @@
 #include "dermis/gpu/reflection.h"
 
+#include <fmt/core.h>
 #include <spirv_cross/spirv_cross_c.h>
 
 #include <memory>
@@ -206,7 +207,7 @@ class Reflector {
             return fail("array '" + member.name + "' needs a fixed size");
         for (unsigned i = 0; i < spvc_type_get_array_dimension(member_type, 0); ++i)
             layout.members.push_back(
-                {member.name + "[" + std::to_string(i) + "]", member.type, member.offset + i * stride});
+                {fmt::format("{}[{}]", member.name, i), member.type, member.offset + i * stride});
     }
 
     static std::optional<ValueType> value_type(spvc_type type) {

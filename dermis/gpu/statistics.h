@@ -49,7 +49,7 @@ struct PassStatistics {
 /// opening it sets variables of the environment for a moment.
 class NullDevice {
   public:
-    /// `chip` as RADV_FORCE_FAMILY has it since Mesa 23, "navi21". It must be one of report/card.h: RADV
+    /// `chip` as RADV_FORCE_FAMILY has it since Mesa 23, "navi21". It must be one of report/model.h: RADV
     /// ends the process at a name that it does not know. Error: no RADV; it says what to install.
     [[nodiscard]] static Result<NullDevice> open(std::string_view chip, ShaderSource shaders);
     ~NullDevice();

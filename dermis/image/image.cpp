@@ -1,5 +1,7 @@
 #include "dermis/image/image.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -169,16 +171,16 @@ Result<uint64_t> max_image_bytes() {
 }
 
 Result<void> check_image_size(uint64_t width, uint64_t height, int channels) {
-    const std::string size = std::to_string(width) + " x " + std::to_string(height) + " texels";
+    const std::string size = fmt::format("{} x {} texels", width, height);
     if (width == 0 || height == 0) return Error{"holds " + size};
     if (width > uint64_t(kMaxImageSide) || height > uint64_t(kMaxImageSide))
-        return Error{"holds " + size + "; the largest side is " + std::to_string(kMaxImageSide)};
+        return Error{fmt::format("holds {}; the largest side is {}", size, kMaxImageSide)};
     DERMIS_TRY_ASSIGN(const uint64_t limit, max_image_bytes());
     const uint64_t bytes = width * height * uint64_t(channels) * sizeof(float);
     if (bytes <= limit) return {};
-    return Error{"holds " + size + " of " + std::to_string(channels) + " channels, " +
-                 std::to_string(bytes >> 20) + " MiB as floats; the limit is " + std::to_string(limit >> 20) +
-                 " (DERMIS_MAX_IMAGE_MIB)"};
+    return Error{
+        fmt::format("holds {} of {} channels, {} MiB as floats; the limit is {} (DERMIS_MAX_IMAGE_MIB)", size,
+                    channels, bytes >> 20, limit >> 20)};
 }
 
 int alpha_channel(const Image& image) {

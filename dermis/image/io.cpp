@@ -1,7 +1,10 @@
 #include "dermis/image/io.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
@@ -10,14 +13,31 @@
 namespace dermis::inline image {
 namespace {
 
+// Magic numbers of the formats that a library reads.
+bool starts_with(codec::Bytes file, std::string_view signature) {
+    return file.size() >= signature.size() && !std::memcmp(file.data(), signature.data(), signature.size());
+}
+bool is_png(codec::Bytes file) {
+    return starts_with(file, "\x89PNG\r\n\x1a\n");
+}
+bool is_jpeg(codec::Bytes file) {
+    return starts_with(file, "\xff\xd8\xff");
+}
+bool is_exr(codec::Bytes file) {
+    return starts_with(file, "\x76\x2f\x31\x01");
+}
+
 struct Decoder {
     bool (*matches)(codec::Bytes);
     Result<LoadedImage> (*decode)(codec::Bytes, ImageUse);
 };
 constexpr Decoder kDecoders[] = {
-    {codec::is_png, codec::decode_png},           {codec::is_jpeg, codec::decode_jpeg},
-    {codec::is_radiance, codec::decode_radiance}, {codec::is_exr, codec::decode_exr},
-    {codec::is_dds, codec::decode_dds},           {codec::is_ktx2, codec::decode_ktx2},
+    {is_png, codec::decode_png},
+    {is_jpeg, codec::decode_jpeg},
+    {codec::is_radiance, codec::decode_radiance},
+    {is_exr, codec::decode_exr},
+    {codec::is_dds, codec::decode_dds},
+    {codec::is_ktx2, codec::decode_ktx2},
 };
 
 // A message may quote names from the file, so it is reduced to one printable line.
@@ -93,8 +113,8 @@ Result<void> check_text(const ImageText& text) {
 
 Result<void> codec::check_ratio(uint64_t decoded_bytes, uint64_t file_bytes, uint64_t most) {
     if (decoded_bytes / most <= file_bytes) return {};
-    return Error{"is too short a file (" + std::to_string(file_bytes) + " bytes) for the " +
-                 std::to_string(decoded_bytes) + " bytes it claims to hold"};
+    return Error{fmt::format("is too short a file ({} bytes) for the {} bytes it claims to hold", file_bytes,
+                             decoded_bytes)};
 }
 
 Result<LoadedImage> decode_image(std::span<const std::byte> bytes, std::string_view name, ImageUse use) {
@@ -111,7 +131,7 @@ Result<LoadedImage> read_image(const std::filesystem::path& path, ImageUse use) 
 
 Result<LayeredImage> read_layered_exr(const std::filesystem::path& path) {
     DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(path));
-    if (!codec::is_exr(bytes)) return Error{path.string() + ": is no EXR file"};
+    if (!is_exr(bytes)) return Error{path.string() + ": is no EXR file"};
     return named(codec::decode_layered_exr(bytes), path.string());
 }
 

@@ -1,6 +1,7 @@
 #include "dermis/jobs/local_runner.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -31,7 +32,7 @@ struct Worker {
 };
 
 fs::path log_of(const LocalRun& run, size_t line) {
-    return run.logs / (run.log_name + "-" + std::to_string(line + 1) + ".txt");
+    return run.logs / (fmt::format("{}-{}.txt", run.log_name, line + 1));
 }
 
 // 0, or what errno says.
@@ -101,9 +102,9 @@ class Pool {
             ++outcome_.repeated;
             waiting_.push_front(worker.line);
         } else if (killed) {
-            fail(worker.line,
-                 "was killed " + std::to_string(run_.attempts) +
-                     " times; it may need more memory than there is: fewer --workers, or a smaller picture");
+            fail(worker.line, fmt::format("was killed {} times; it may need more memory than there is: fewer "
+                                          "--workers, or a smaller picture",
+                                          run_.attempts));
         } else if (WEXITSTATUS(status) != 0) {
             fail(worker.line, last_words(log_of(run_, worker.line)));
         } else {

@@ -44,4 +44,17 @@ struct Part {
 /// The same of a file that is decoded already; `name` is for errors.
 [[nodiscard]] Result<Part> part_of(LayeredImage file, std::string_view name);
 
+/// A picture from its parts.
+struct MergedPicture {
+    ReferencePicture picture;
+    PartFacts facts;  ///< of one of them: what all have in common
+};
+
+/// Reads one part after the other; the result does not depend on their order. `progress` is called after each
+/// with the share that is done. Errors, in one line: a part of another picture (the first fact that differs),
+/// parts that overlap, all parts that are damaged and all samples that no part has, with the command for
+/// them.
+[[nodiscard]] Result<MergedPicture> merge_parts(std::span<const std::filesystem::path> files,
+                                                const std::function<void(double)>& progress = {});
+
 }  // namespace dermis::inline jobs

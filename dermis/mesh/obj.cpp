@@ -3,6 +3,8 @@
 
 #include "dermis/mesh/obj.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -35,7 +37,7 @@ class ObjParser {
   private:
     void fail(const std::string& text) { fail_at(lines_.line_number(), text); }
     void fail_at(size_t line, const std::string& text) {
-        if (!error_) error_ = Error{name_.string() + ":" + std::to_string(line) + ": " + text};
+        if (!error_) error_ = Error{fmt::format("{}:{}: {}", name_.string(), line, text)};
     }
     void warn(const std::string& text) { file_.warnings.push_back(name_.string() + ": " + text); }
 
@@ -58,7 +60,7 @@ class ObjParser {
         if (!std::isfinite(*x) || !std::isfinite(*y) || !std::isfinite(*z))
             return fail("a vertex position must be finite");
         if (polygons_.positions_mm.size() >= options_.max_vertices)
-            return fail("more than " + std::to_string(options_.max_vertices) + " vertices");
+            return fail(fmt::format("more than {} vertices", options_.max_vertices));
         polygons_.positions_mm.push_back({*x, *y, *z});
     }
 
@@ -84,8 +86,7 @@ class ObjParser {
     uint32_t resolve(int64_t index, size_t count, const char* what) {
         if (index > 0 && index <= int64_t{UINT32_MAX} - 1) return uint32_t(index - 1);
         if (index < 0 && uint64_t(-(index + 1)) < count) return uint32_t(int64_t(count) + index);
-        fail(std::string(what) + " index " + std::to_string(index) + " is out of range (" +
-             std::to_string(count) + " so far)");
+        fail(fmt::format("{} index {} is out of range ({} so far)", what, index, count));
         return kNoIndex;
     }
 
@@ -186,8 +187,8 @@ class ObjParser {
 
     void check_index(size_t face, uint32_t index, size_t count, const char* what) {
         if (index == kNoIndex || index < count) return;
-        fail_at(face_lines_[face], std::string(what) + " index " + std::to_string(uint64_t{index} + 1) +
-                                       " is out of range (the file has " + std::to_string(count) + ")");
+        fail_at(face_lines_[face], fmt::format("{} index {} is out of range (the file has {})", what,
+                                               uint64_t{index} + 1, count));
     }
 
     void finish() {
@@ -205,8 +206,9 @@ class ObjParser {
         const auto fans =
             std::ranges::count_if(polygons_.face_sizes, [](uint32_t size) { return size > kMaxEarClipping; });
         if (fans > 0)
-            warn(std::to_string(fans) + " faces of more than " + std::to_string(kMaxEarClipping) +
-                 " corners are cut as fans, which is right only if they are convex");
+            warn(fmt::format(
+                "{} faces of more than {} corners are cut as fans, which is right only if they are convex",
+                fans, kMaxEarClipping));
         if (free_form_ > 0) warn(std::to_string(free_form_) + " free-form curves or surfaces skipped");
         std::vector<std::string> unknown;
         for (Material& material : polygons_.materials) {

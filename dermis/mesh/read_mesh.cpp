@@ -3,6 +3,8 @@
 
 #include "dermis/mesh/read_mesh.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,8 +69,8 @@ Result<void> check_finite(Mesh& mesh, const fs::path& name, std::vector<std::str
     for (Vec2& uv : mesh.uvs)
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = {}, ++bad_uvs;
     if (bad_uvs > 0)
-        warnings.push_back(name.string() + ": " + std::to_string(bad_uvs) +
-                           " UVs were not finite; they get (0, 0)");
+        warnings.push_back(
+            fmt::format("{}: {} UVs were not finite; they get (0, 0)", name.string(), bad_uvs));
     return {};
 }
 
@@ -117,8 +119,9 @@ void finish_normals(Mesh& mesh, const fs::path& name, std::vector<std::string>& 
     complete_normals(mesh);
     const double backwards = fraction_facing_backwards(mesh);
     if (backwards > 0.5)
-        warnings.push_back(name.string() + ": " + std::to_string(int(std::lround(100 * backwards))) +
-                           " % of the triangles face against their normals; is the winding reversed?");
+        warnings.push_back(
+            fmt::format("{}: {} % of the triangles face against their normals; is the winding reversed?",
+                        name.string(), int(std::lround(100 * backwards))));
 }
 
 }  // namespace

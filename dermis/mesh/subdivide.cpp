@@ -3,6 +3,7 @@
 
 #include "dermis/mesh/subdivide.h"
 
+#include <fmt/core.h>
 #include <opensubdiv/far/error.h>
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -165,13 +166,13 @@ void keep_quiet(Far::ErrorType, const char*) {}
 Result<PolygonMesh> subdivide(const PolygonMesh& polygons, int level) {
     if (level == 0) return polygons;
     if (level < 0 || level > kMaxSubdivisionLevel)
-        return Error{"subdivision level " + std::to_string(level) + " is outside of 0 to " +
-                     std::to_string(kMaxSubdivisionLevel)};
+        return Error{fmt::format("subdivision level {} is outside of 0 to {}", level, kMaxSubdivisionLevel)};
     // The first refinement makes a quad of every corner, each further one four of a quad.
     const uint64_t faces = uint64_t{polygons.corner_positions.size()} << (2 * (level - 1));
     if (faces > kMaxFaces)
-        return Error{"subdivision to level " + std::to_string(level) + " makes " + std::to_string(faces) +
-                     " faces, more than 20 million; take a lower level"};
+        return Error{
+            fmt::format("subdivision to level {} makes {} faces, more than 20 million; take a lower level",
+                        level, faces)};
     // It would print to standard error; a null refiner says enough.
     Far::SetErrorCallback(keep_quiet);
     Far::SetWarningCallback([](const char*) {});

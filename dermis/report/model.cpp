@@ -1,9 +1,124 @@
 #include "dermis/report/model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "dermis/base/text.h"
+
 namespace dermis::inline report {
+
+// RDNA has two SIMDs a compute unit, GCN four (AMD, "RDNA Architecture" white paper, 2019, page 8).
+std::span<const Card> cards() {
+    static constexpr Card kCards[] = {
+        {.chip = "navi21",
+         .name = "Radeon RX 6900 XT",
+         .clock_ghz = 2.015,
+         .compute_units = 80,
+         .simds_per_unit = 2,
+         .bandwidth_gb_s = 512,
+         .source = "AMD, product page of the Radeon RX 6900 XT, 2020: game clock 2015 MHz, 80 compute units, "
+                   "16 Gbit/s over 256 bit"},
+        {.chip = "navi31",
+         .name = "Radeon RX 7900 XTX",
+         .clock_ghz = 2.3,
+         .compute_units = 96,
+         .simds_per_unit = 2,
+         .bandwidth_gb_s = 960,
+         .source =
+             "AMD, product page of the Radeon RX 7900 XTX, 2022: game clock 2300 MHz, 96 compute units, "
+             "20 Gbit/s over 384 bit"},
+        {.chip = "vega10",
+         .name = "Radeon RX Vega 64",
+         .clock_ghz = 1.546,
+         .compute_units = 64,
+         .simds_per_unit = 4,
+         .bandwidth_gb_s = 483.8,
+         .source =
+             "AMD, product page of the Radeon RX Vega 64, 2017: boost clock 1546 MHz, 64 compute units, "
+             "1.89 Gbit/s over 2048 bit"}};
+    return kCards;
+}
+
+Result<const Card*> find_card(std::string_view chip) {
+    const auto found = std::ranges::find(cards(), chip, &Card::chip);
+    if (found != cards().end()) return &*found;
+    std::vector<std::string> known;
+    for (const Card& card : cards()) known.emplace_back(card.chip);
+    return Error{unknown_name("chip", chip, known)};
+}
+
+namespace {
+
+constexpr int kSmaller = 4;
+
+bool rasterises(const Pass& pass) {
+    return pass.kind == PassKind::fullscreen || pass.kind == PassKind::geometry_screen ||
+           pass.kind == PassKind::geometry_uv_atlas || pass.kind == PassKind::geometry_light;
+}
+
+// Texels of the level that the pass draws into.
+uint64_t target_texels(const PassList& list, const Pass& pass, int width, int height) {
+    const ColorTarget* color = pass.colors.empty() ? nullptr : &pass.colors.front();
+    const std::string& name = color                  ? color->image
+                              : pass.depth           ? pass.depth->image
+                              : pass.storage.empty() ? pass.reads.front().image
+                                                     : pass.storage.front().image;
+    const TexelSize size = size_in_frame(list.find_image(name)->size, width, height);
+    const int mip = color ? color->mip : 0;
+    return uint64_t(std::max(size.width >> mip, 1)) * uint64_t(std::max(size.height >> mip, 1));
+}
+
+void add_draws(const Pass& pass, const gpu::FrameInputs& inputs, PassWork& work) {
+    std::set<const gpu::Texture*> seen;
+    for (const gpu::Draw& draw : inputs.draws) {
+        if (!gpu::takes(pass.geometry, draw.draw_class)) continue;
+        work.vertices += std::min(draw.geometry->vertex_count(), draw.index_count);
+        work.indices += draw.index_count;
+        for (const auto& [name, texture] : draw.textures) {
+            if (!seen.insert(texture).second) continue;
+            TextureBytes& sum = work.textures[name];
+            sum.bytes += texture->bytes();
+            sum.bytes_per_texel = std::max(sum.bytes_per_texel, texture->bytes_per_texel());
+        }
+    }
+}
+
+PassWork work_of(const PassList& list, const Pass& pass, const gpu::PassTiming& drawn,
+                 const gpu::FrameInputs& inputs, int width, int height) {
+    PassWork work = {.pass = pass.name};
+    for (const auto& [name, texture] : inputs.textures)
+        if (texture) work.textures[name] = {texture->bytes(), texture->bytes_per_texel()};
+    const uint64_t texels = target_texels(list, pass, width, height);
+    if (pass.kind == PassKind::compute) work.threads = texels;
+    if (!rasterises(pass)) return work;
+    const double scale = drawn.target_texels ? double(texels) / double(drawn.target_texels) : 0;
+    work.fragments = uint64_t(std::llround(double(drawn.samples_passed) * scale));
+    if (pass.kind == PassKind::fullscreen)
+        work.vertices = 3;
+    else
+        add_draws(pass, inputs, work);
+    return work;
+}
+
+}  // namespace
+
+Result<FrameWork> count_work(Renderer& renderer, const Contestant& contestant, int width, int height) {
+    const DrawSettings settings = {.width = std::max(width / kSmaller, 1),
+                                   .height = std::max(height / kSmaller, 1)};
+    Result<gpu::FrameResult> drawn = gpu::FrameResult{};
+    for (int frame = 0; frame < 2; ++frame) {
+        drawn = renderer.draw(*contestant.technique, contestant.values, settings);
+        if (!drawn) return Error{contestant.name() + ": " + drawn.error().message};
+    }
+    FrameWork work = {.width = width, .height = height, .list = renderer.list()};
+    const gpu::FrameInputs inputs = renderer.inputs(contestant.values, settings);
+    for (size_t i = 0; i < work.list.passes.size(); ++i)
+        work.passes.push_back(
+            work_of(work.list, work.list.passes[i], drawn->passes[i], inputs, width, height));
+    return work;
+}
+
 namespace {
 
 // The compiler's inverse throughput is of 64 threads, whatever the size of a subgroup.

@@ -1,15 +1,67 @@
-#include "dermis/shading/check.h"
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
+#include <span>
 
 #include "dermis/base/text.h"
-#include "dermis/shading/functions.h"
 #include "dermis/shading/lexer.h"
+#include "dermis/shading/parser.h"
+#include "dermis/shading/syntax.h"
 
 namespace dermis::shading {
 namespace {
+
+// Words that a source must not use as names, as one of the languages has them for itself.
+struct Reserved {
+    std::string_view language;
+    std::string_view words;  // separated by spaces, one before and behind each
+};
+
+// The types of the subset, keywords, and functions and macros that a name of ours would hide or run into.
+constexpr std::array<Reserved, 6> kReserved = {{
+    {"GLSL",
+     " attribute buffer centroid coherent common const cast discard double enum extern external filter fixed "
+     "flat "
+     "goto half highp image input inline inout interface invariant layout long lowp mat2 mat3 mat4 mediump "
+     "namespace noinline noperspective output packed partition patch precise precision public readonly "
+     "resource "
+     "restrict sample sampler shared short sizeof smooth static struct subroutine superp switch template "
+     "texture this "
+     "typedef uniform union unsigned using varying void volatile while writeonly "},
+    {"HLSL",
+     " asm column_major compile dword export float1 float2 float3 float4 frac groupshared half in lerp line "
+     "linear matrix min10float min16float nointerpolation out pass pixelfragment point register row_major "
+     "rsqrt saturate snorm stateblock string tbuffer technique texture2D triangle unorm vector "
+     "vertexfragment "},
+    {"MSL", " constant device fragment kernel metal saturate thread threadgroup vertex ushort uint uchar "},
+    {"WGSL",
+     " alias as async auto await become case crate debugger default delete diagnostic do dyn enable explicit "
+     "fallthrough "
+     "final fn from get global handle impl let loop macro match meta mod module move mut mutable native new "
+     "nil null "
+     "override package private proc ptr ref require self set spec storage super target trait try type unless "
+     "unsafe use var vec virtual where with workgroup yield f32 i32 u32 vec2f vec3f vec4f select "},
+    {"gdshader",
+     " group_uniforms hint_range instance light fragment render_mode repeat_enable shader_type source_color "
+     "start stencil_mode "
+     "PI TAU E TIME UV ALBEDO NORMAL "},
+    {"C++",
+     " alignas alignof and and_eq asm bitand bitor catch char class compl concept consteval constexpr "
+     "constinit "
+     "co_await decltype explicit far float friend mutable near noexcept not nullptr operator or protected "
+     "register requires signed static_assert std throw typeid typename wchar_t xor small y0 y1 j0 j1 "},
+}};
+
+// The language that reserves this name; empty when none does.
+std::string_view reserved_by(std::string_view name) {
+    const std::string padded = " " + std::string(name) + " ";
+    for (const Reserved& reserved : kReserved)
+        if (reserved.words.find(padded) != std::string_view::npos) return reserved.language;
+    return {};
+}
 
 struct Variable {
     Type type = Type::scalar;
@@ -244,12 +296,12 @@ class Checker {
         }
         const Signature& signature = found->second;
         if (signature.arguments.size() != e.children.size())
-            fail(e.line, "'" + e.text + "' gets " + std::to_string(e.children.size()) +
-                             " arguments; it has " + std::to_string(signature.arguments.size()));
+            fail(e.line, fmt::format("'{}' gets {} arguments; it has {}", e.text, e.children.size(),
+                                     signature.arguments.size()));
         for (size_t i = 0; i < std::min(e.children.size(), signature.arguments.size()); ++i)
             if (e.children[i].type != signature.arguments[i])
-                mismatch(e.line, "argument " + std::to_string(i + 1) + " of '" + e.text + "'",
-                         signature.arguments[i], e.children[i].type);
+                mismatch(e.line, fmt::format("argument {} of '{}'", i + 1, e.text), signature.arguments[i],
+                         e.children[i].type);
         return signature.result;
     }
 
@@ -262,16 +314,16 @@ class Checker {
         }
         const bool splat = is_vector(type) && e.children.size() == 1 && e.children[0].type == Type::scalar;
         if (is_vector(type) ? !floats || (!splat && given != component_count(type)) : e.children.size() != 1)
-            fail(e.line, "'" + e.text + "' of " + std::to_string(given) +
-                             " components; give one float, or as many as it has");
+            fail(e.line,
+                 fmt::format("'{}' of {} components; give one float, or as many as it has", e.text, given));
         return type;
     }
 
     Type type_of_built_in(const Expression& e, const Function& function) {
         Type widest = Type::scalar;
         if (int(e.children.size()) != function.arguments) {
-            fail(e.line, "'" + e.text + "' gets " + std::to_string(e.children.size()) +
-                             " arguments; it has " + std::to_string(function.arguments));
+            fail(e.line, fmt::format("'{}' gets {} arguments; it has {}", e.text, e.children.size(),
+                                     function.arguments));
             return widest;
         }
         for (const Expression& child : e.children) widest = std::max(widest, child.type);

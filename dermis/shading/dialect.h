@@ -4,8 +4,8 @@
 #include <array>
 #include <string_view>
 
-#include "dermis/shading/functions.h"
 #include "dermis/shading/shading.h"
+#include "dermis/shading/syntax.h"
 
 namespace dermis::shading {
 

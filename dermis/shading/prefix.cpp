@@ -1,4 +1,4 @@
-#include "dermis/shading/prefix.h"
+#include "dermis/shading/shading.h"
 
 #include <map>
 #include <string>

@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dermis/base/result.h"
@@ -39,5 +40,10 @@ struct Source {
 /// `heading`: lines of the comment at the top, without "//".
 [[nodiscard]] std::string print(std::span<const Unit> units, Language language,
                                 std::span<const std::string> heading);
+
+/// Functions f become skin_f, constants kName become kSkinName, in comments too; names that begin so stay.
+/// For text that is pasted into other shaders, which often have a `ggx` or `kPi` of their own and languages
+/// without namespaces. `units` as read_sources() returns them.
+void prefix_names(std::vector<Unit>& units);
 
 }  // namespace dermis::shading

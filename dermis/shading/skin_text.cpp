@@ -1,19 +1,139 @@
 #include "dermis/shading/skin_text.h"
 
-#include <algorithm>
+#include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "dermis/bake/shadow_ramp.h"
+#include "dermis/base/result.h"
 #include "dermis/base/text.h"
+#include "dermis/optics/curvature_expressions.h"
+#include "dermis/optics/edge_expression.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/gaussian_lobes.h"
+#include "dermis/optics/preintegration.h"
+#include "dermis/optics/profile.h"
 #include "dermis/optics/wrap_reach.h"
-#include "dermis/shading/closed_form_source.h"
-#include "dermis/shading/literals.h"
-#include "dermis/shading/prefix.h"
 
 namespace dermis::shading {
 namespace {
 
-using namespace export_text;
+// A float literal of six digits: "1.0", "0.000310047".
+std::string literal(double value) {
+    std::array<char, 32> digits{};
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 6).ptr;
+    std::string text(digits.data(), end);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text;
+}
+
+std::string vec3_literal(const Rgb& rgb) {
+    return "vec3(" + literal(rgb[0]) + ", " + literal(rgb[1]) + ", " + literal(rgb[2]) + ")";
+}
+
+// A constant on a line of its own.
+std::string vec3_constant(const std::string& name, const Rgb& value) {
+    return "const vec3 " + name + " = " + vec3_literal(value) + ";\n";
+}
+
+// "0.31 %" of a part of 1.
+std::string percent(double part) {
+    const double rounded = double(int(part * 1e4 + 0.5)) / 100;
+    return to_text(float(rounded)) + " %";
+}
+
+// Two digits, rounded up: "0.0027".
+std::string error_text(double error) {
+    const double unit = std::pow(10.0, std::floor(std::log10(std::max(error, 1e-6))) - 1);
+    return literal(std::ceil(error / unit) * unit);
+}
+
+// Steps of visibility that the edge is fitted at.
+constexpr int kRampSteps = 129;
+
+// "    vec3 a = 0.5 + polynomial_6(u, vec3(...), ...);", the coefficients halved, as the light is half of
+// their sum.
+std::string half_polynomial(const std::string& name, double start, const CurvaturePolynomial& polynomial) {
+    std::string text = "    vec3 " + name + " = ";
+    if (start != 0) text += literal(start) + " + ";
+    text += "polynomial_6(u";
+    for (const Rgb& term : polynomial)
+        text += ", " + vec3_literal({0.5 * term[0], 0.5 * term[1], 0.5 * term[2]});
+    return text + ");\n";
+}
+
+Rgb squared(Rgb value) {
+    for (double& channel : value) channel *= channel;
+    return value;
+}
+
+// skin_diffuse(n_dot_l, curvature_per_mm), with the error of its fit.
+Result<std::string> diffuse_function(const GaussianSum& sum) {
+    DERMIS_TRY_ASSIGN(const CurvatureExpressions form, fit_curvature_expressions(sum));
+    return "// Diffuse light without a table: radiant exitance over irradiance at normal incidence, about 0 "
+           "to 1.\n"
+           "// n_dot_l from -1 to 1; curvature_per_mm 0 upwards, from 1 on the same. Within " +
+           error_text(form.max_error) +
+           " of the integral\n// over the sphere.\n"
+           "vec3 skin_diffuse(float n_dot_l, float curvature_per_mm) {\n"
+           "    float k = min(curvature_per_mm, 1.0), u = knee_coordinate(k, " +
+           literal(kCurvatureKnee) + ");\n" + half_polynomial("a", 0.5, form.a) +
+           half_polynomial("s", 0.5, form.s) + half_polynomial("k0", 0, form.k0) +
+           half_polynomial("k1", 0, form.k1) + "    vec3 q = k * (" + vec3_literal(form.q[0]) + " + u * " +
+           vec3_literal(form.q[1]) +
+           ");\n"
+           "    return line_and_hyperbola(vec3(n_dot_l), a, s, q, k0, k1);\n"
+           "}\n";
+}
+
+// skin_shadow_edge(visibility) of the penumbra whose width suits the renderer's default.
+Result<std::string> shadow_function(const Profile& profile) {
+    DERMIS_TRY_ASSIGN(const std::vector<Rgb> ramp, shadow_ramp(profile, kShadowWidthMm, kRampSteps));
+    const EdgeExpression edge = fit_edge_expression(ramp);
+    std::string arguments;
+    for (const Rgb& value : {edge.weight[0], edge.weight[1], edge.weight[2], edge.weight[3], edge.weight[4],
+                             squared(edge.width[0]), edge.weight[5], squared(edge.width[1])})
+        arguments += ", " + vec3_literal(value);
+    return "// Light in a penumbra, 0 to 1, in place of the shadow's visibility, 0 to 1. The shadow's filter "
+           "has to be\n"
+           "// a disk of " +
+           to_text(kShadowWidthMm) + " mm on the skin, at lights steeper than about 45 degrees. Within " +
+           error_text(edge.max_error) +
+           " of the integral.\n"
+           "vec3 skin_shadow_edge(float visibility) {\n    return edge_of_hyperbolas(visibility" +
+           arguments + ");\n}\n";
+}
+
+// skin_transmittance(thickness_mm), of the constants kSkinWeight0...
+std::string transmission_function(const std::vector<ChannelGaussians>& terms) {
+    std::string sum, total;
+    for (size_t i = 0; i < terms.size(); ++i) {
+        Rgb exponent;
+        for (size_t c = 0; c < 3; ++c) exponent[c] = -0.5 * std::numbers::log2e / terms[i].variance_mm2[c];
+        const std::string weight = "kSkinWeight" + std::to_string(i);
+        sum += (i ? " + " : "") + weight + " * gaussian_falloff_rgb(thickness_mm, " + vec3_literal(exponent) +
+               ")";
+        total += (i ? " + " : "") + weight;
+    }
+    return "// Light through a slab, as part of the light that enters its far side: 1 at thickness 0. It "
+           "ignores the far "
+           "boundary\n// (d'Eon, Luebke 2007, section 14.5). thickness_mm is 0 upwards.\n"
+           "vec3 skin_transmittance(float thickness_mm) {\n    vec3 total = " +
+           total + ";\n    return (" + sum +
+           ") / total;\n}\n\n"
+           "// Of what a point of a slab sends out, the share that has entered its far side, 0 to 0.5; the "
+           "rest has entered\n// here. mix(skin_diffuse(...), vec3(max(-N.L, 0.0)), skin_far_share(t)), each "
+           "times the visibility of the light on\n// its side, is exact for a slab and keeps the energy. "
+           "thickness_mm is 0 upwards.\n"
+           "vec3 skin_far_share(float thickness_mm) {\n    vec3 through = skin_transmittance(thickness_mm);\n"
+           "    return through / (1.0 + through);\n}\n";
+}
 
 std::string heading(const Profile& profile, const GaussianFit& fit) {
     const double error = std::ranges::max(fit.max_error);
@@ -30,7 +150,7 @@ std::string gaussian_constants(const std::vector<ChannelGaussians>& terms) {
     std::string text = "// Gaussians of the profile, red, green, blue: weights, and variances in mm^2.\n";
     for (size_t i = 0; i < terms.size(); ++i) {
         text += vec3_constant("kSkinWeight" + std::to_string(i), terms[i].weight);
-        text += vec3_constant("kSkinVariance" + std::to_string(i) + "Mm2", terms[i].variance_mm2);
+        text += vec3_constant(fmt::format("kSkinVariance{}Mm2", i), terms[i].variance_mm2);
     }
     return text;
 }
@@ -54,12 +174,11 @@ std::string sum_of(size_t count, const std::string& behind, const std::string& e
 
 std::string ambient_band(const std::string& comment, int band, const std::string& of_flat_skin,
                          size_t count) {
-    std::string text =
-        comment + "vec3 skin_ambient_band_" + std::to_string(band) + "(float curvature_per_mm) {\n";
+    std::string text = fmt::format("{}vec3 skin_ambient_band_{}(float curvature_per_mm) {{\n", comment, band);
     for (size_t i = 0; i < count; ++i) text += lobe_lines(i, "kSkinWeight", "kSkinVariance");
     text += "    vec3 total = " + sum_of(count, "", "") + ";\n";
     return text + "    return " + of_flat_skin + " * (" +
-           sum_of(count, " * lobe_band_" + std::to_string(band) + "(kappa_", ")") + ") / total;\n}\n";
+           sum_of(count, fmt::format(" * lobe_band_{}(kappa_", band), ")") + ") / total;\n}\n";
 }
 
 std::string ambient_functions(size_t count) {
@@ -80,11 +199,11 @@ constexpr double kLeastLobeRadiusMm = 2;
 std::string spherical_gaussians_function(const GaussianSum& sum) {
     const std::vector<ChannelGaussians> lobes = lobes_of(sum, kLobes, LobeWidth::deviation);
     const double error = merging_error(sum, lobes, kLeastLobeRadiusMm) + kLobeLightError;
-    std::string text = "// The profile as " + std::to_string(lobes.size()) +
-                       " lobes, red, green, blue: weights, and variances in mm^2.\n";
+    std::string text = fmt::format(
+        "// The profile as {} lobes, red, green, blue: weights, and variances in mm^2.\n", lobes.size());
     for (size_t i = 0; i < lobes.size(); ++i) {
         text += vec3_constant("kSkinLobeWeight" + std::to_string(i), lobes[i].weight);
-        text += vec3_constant("kSkinLobeVariance" + std::to_string(i) + "Mm2", lobes[i].variance_mm2);
+        text += vec3_constant(fmt::format("kSkinLobeVariance{}Mm2", i), lobes[i].variance_mm2);
     }
     text +=
         "\n// Diffuse light by spherical Gaussians, without a table; less exact than skin_diffuse.\n"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "dermis/shading/check.h"
 #include "dermis/shading/parser.h"
 #include "dermis/shading/shading.h"
 

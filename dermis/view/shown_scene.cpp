@@ -1,7 +1,7 @@
 #include "dermis/view/shown_scene.h"
 
 #include "dermis/base/text.h"
-#include "dermis/image/skin_colour.h"
+#include "dermis/image/colour.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/skin_tone.h"
 #include "dermis/scene/scene_words.h"

@@ -7,7 +7,6 @@
 #include "dermis/base/parallel.h"
 #include "dermis/base/progress.h"
 #include "dermis/image/colour.h"
-#include "dermis/image/skin_colour.h"
 #include "subjects/bust/skin.h"
 
 namespace dermis::bust {

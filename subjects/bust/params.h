@@ -16,7 +16,7 @@ struct BustParams {
     double lip_fullness = 1;     ///< scales the lips' forward swell
     double ear_length_mm = 63;
     double ear_protrusion_deg = 25;  ///< angle between the ear and the side of the head
-    double tone = 2;                 ///< 1 to 6: skin I to VI, and between (image/skin_colour.h)
+    double tone = 2;                 ///< 1 to 6: skin I to VI, and between (image/colour.h)
     double freckles = 0.35;          ///< 0 none, 1 dense
     double stubble = 0.6;            ///< shade of a shaved beard
     double asymmetry = 1;            ///< 0 symmetric, 1 natural (within 2 mm)

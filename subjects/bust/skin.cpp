@@ -4,7 +4,7 @@
 
 #include "subjects/bust/skin.h"
 
-#include "dermis/image/skin_colour.h"
+#include "dermis/image/colour.h"
 #include "subjects/bust/noise.h"
 #include "subjects/bust/parts.h"
 #include "subjects/bust/relief.h"

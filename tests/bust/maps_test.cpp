@@ -4,7 +4,6 @@
 
 #include "bust/standard_bust.h"
 #include "dermis/image/colour.h"
-#include "dermis/image/skin_colour.h"
 #include "subjects/bust/maps.h"
 
 namespace dermis {

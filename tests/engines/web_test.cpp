@@ -10,7 +10,7 @@
 
 #include "cli/run_program.h"
 #include "dermis/base/file.h"
-#include "dermis/engines/web/binary.h"
+#include "dermis/engines/web/parts.h"
 #include "dermis/image/io.h"
 #include "support/sphere_pictures.h"
 #include "support/temporary_directory.h"

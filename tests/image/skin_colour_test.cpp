@@ -1,10 +1,8 @@
-#include "dermis/image/skin_colour.h"
+#include "dermis/image/colour.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "dermis/image/colour.h"
 
 namespace dermis {
 namespace {

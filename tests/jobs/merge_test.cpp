@@ -1,6 +1,6 @@
 // Any split of a picture's samples gives the bytes of one run; parts that do not fit are refused by name.
 
-#include "dermis/jobs/merge.h"
+#include "dermis/jobs/part.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dermis/jobs/merge.h"
+#include "dermis/jobs/part.h"
 #include "reference/shapes.h"
 #include "support/temporary_directory.h"
 

@@ -9,7 +9,6 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
-#include "dermis/shading/prefix.h"
 #include "dermis/shading/skin_text.h"
 #include "shading/evaluate.h"
 #include "support/gpu_fixture.h"

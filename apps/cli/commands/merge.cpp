@@ -1,6 +1,6 @@
 // `dermis merge`: a picture from the parts that `dermis reference --sample-range` wrote.
 
-#include "dermis/jobs/merge.h"
+#include "dermis/jobs/part.h"
 
 #include <chrono>
 #include <cstdio>

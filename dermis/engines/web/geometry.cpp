@@ -7,12 +7,11 @@
 //     curvature  4 x f16: along the tangent, along the bitangent, mixed, 0
 //     occlusion  4 x u8: its three blurs, 0
 
-#include "dermis/engines/web/geometry.h"
+#include "dermis/engines/web/parts.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dermis/engines/web/tables.h"
 #include "dermis/image/half.h"
 #include "dermis/mesh/simplify.h"
 #include "dermis/render/complete_scene.h"

@@ -1,4 +1,4 @@
-#include "dermis/engines/web/maps.h"
+#include "dermis/engines/web/parts.h"
 
 #include <algorithm>
 

@@ -17,10 +17,7 @@ namespace dermis::inline image::codec {
 using Bytes = std::span<const std::byte>;
 using Buffer = std::vector<std::byte>;
 
-[[nodiscard]] bool is_png(Bytes file);
-[[nodiscard]] bool is_jpeg(Bytes file);
 [[nodiscard]] bool is_radiance(Bytes file);
-[[nodiscard]] bool is_exr(Bytes file);
 [[nodiscard]] bool is_dds(Bytes file);
 [[nodiscard]] bool is_ktx2(Bytes file);
 

@@ -3,6 +3,8 @@
 // plus what older files, without the second header, describe: two float formats by a D3DFORMAT number, and 8
 // bits per channel by masks.
 
+#include <fmt/core.h>
+
 #include <array>
 
 #include "dermis/image/codec/codec.h"
@@ -49,9 +51,10 @@ Result<void> read_masked_format(const Masks& masks, ImageUse use, Header& header
     const bool whole_bytes = masks.bits % 8 == 0 && masks.bits >= 8 && masks.bits <= 32;
     const bool known = red != '0' && (grey || (green != '0' && blue != '0')) && (!has_alpha || alpha != '0');
     if (!whole_bytes || !known || !(masks.flags & (kRgbFlag | kLuminanceFlag)))
-        return Error{"DDS of " + std::to_string(masks.bits) +
-                     " bits a texel without a DX10 header; of these dermis reads 8 bits a channel, grey or "
-                     "colour, with or without alpha"};
+        return Error{
+            fmt::format("DDS of {} bits a texel without a DX10 header; of these dermis reads 8 bits a "
+                        "channel, grey or colour, with or without alpha",
+                        masks.bits)};
     // Linear while the channels are sorted: sRGB treats the last of two or four channels as alpha.
     header.format = {0, 0, PixelFormat::u8, int(masks.bits / 8), Encoding::linear};
     header.encoding = use == ImageUse::color ? Encoding::srgb : Encoding::linear;

@@ -2,6 +2,8 @@
 // Foundation. A header is a list of attributes (name, type, size, value) ended by an empty name; a file of
 // several parts has several headers ended by an empty one.
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "dermis/image/codec/exr.h"
@@ -125,9 +127,8 @@ Result<Part> read_part(ByteReader& in, std::string_view first_name) {
         if (name.size() > kLongestName || type.size() > kLongestName)
             return Error{"corrupt EXR: a name of more than 255 bytes"};
         if (!fills_its_value(type, value))
-            return Error{"corrupt EXR: the attribute '" + std::string(name.substr(0, 40)) + "' has " +
-                         std::to_string(value.size()) + " bytes, not those of its type " +
-                         std::string(type.substr(0, 40))};
+            return Error{fmt::format("corrupt EXR: the attribute '{}' has {} bytes, not those of its type {}",
+                                     name.substr(0, 40), value.size(), type.substr(0, 40))};
         if (std::ranges::find(seen, name) != seen.end())
             return Error{"corrupt EXR: the attribute '" + std::string(name.substr(0, 40)) +
                          "' is there twice"};
@@ -146,8 +147,7 @@ Result<void> check_part(const Part& part, uint64_t file_bytes) {
         return Error{"corrupt EXR: a display window without texels"};
     DERMIS_TRY(check_image_size(uint64_t(part.display_width), uint64_t(part.display_height), 1));
     if (part.channels == 0 || part.channels > kMostChannels)
-        return Error{"EXR of " + std::to_string(part.channels) + " channels; dermis reads 1 to " +
-                     std::to_string(kMostChannels)};
+        return Error{fmt::format("EXR of {} channels; dermis reads 1 to {}", part.channels, kMostChannels)};
     const bool tiled = part.tile_width > 0;
     if (tiled && (part.tile_width > kMaxImageSide || part.tile_height > kMaxImageSide))
         return Error{"corrupt EXR: tiles larger than any image"};

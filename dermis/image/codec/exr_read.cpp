@@ -7,6 +7,7 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfStringAttribute.h>
+#include <fmt/core.h>
 
 #include <Iex.h>
 
@@ -102,7 +103,7 @@ struct Target {
 
 Result<Target> make_target(std::vector<Channel> channels, int width, int height) {
     if (channels.size() > 4)
-        return Error{"EXR layer of " + std::to_string(channels.size()) + " channels; dermis reads up to 4"};
+        return Error{fmt::format("EXR layer of {} channels; dermis reads up to 4", channels.size())};
     const bool half = std::ranges::all_of(channels, [](const Channel& c) { return c.type == Imf::HALF; });
     const PixelFormat format = half ? PixelFormat::f16 : PixelFormat::f32;
     const int count = int(channels.size());
@@ -168,8 +169,8 @@ Result<LayeredImage> read_layers(Bytes bytes, Pick pick) {
         DERMIS_TRY_ASSIGN(Target target, make_target(std::move(channels), width, height));
         total += target.image.bytes.size();
         if (total > limit)
-            return Error{"EXR whose layers take more than " + std::to_string(limit >> 20) +
-                         " MiB, the limit (DERMIS_MAX_IMAGE_MIB)"};
+            return Error{fmt::format(
+                "EXR whose layers take more than {} MiB, the limit (DERMIS_MAX_IMAGE_MIB)", limit >> 20)};
         targets.push_back(std::move(target));
         add_slices(buffer, targets.back(), window);
     }

@@ -3,6 +3,7 @@
 // libpng reports errors by longjmp. Each step that may jump is one call of a plain function through
 // guarded(), and owns nothing with a destructor, so that a jump skips none.
 
+#include <fmt/core.h>
 #include <png.h>
 
 #include <csetjmp>
@@ -103,8 +104,8 @@ Result<void> check_chunks(Bytes file) {
         for (const std::byte b : length) bytes = bytes << 8 | uint64_t(b);
         const std::string_view name(reinterpret_cast<const char*>(type.data()), 4);
         if (bytes + 4 > file.size() - in.position())
-            return Error{"corrupt PNG: the file ends early: a chunk of " + std::to_string(bytes) +
-                         " bytes with " + std::to_string(file.size() - in.position()) + " left"};
+            return Error{fmt::format("corrupt PNG: the file ends early: a chunk of {} bytes with {} left",
+                                     bytes, file.size() - in.position())};
         in.take(bytes + 4);
         if (name == "IEND") return {};
     }

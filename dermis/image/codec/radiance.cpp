@@ -4,6 +4,8 @@
 // original; every reader in use leaves the 0.5 out, and so does this one. stb_image is not used because it
 // reads a truncated file as if it were complete.
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -189,8 +191,8 @@ Result<LoadedImage> decode_radiance(Bytes file, ImageUse) {
     std::vector<uint8_t> row(size_t(width) * 4);
     for (int y = 0; y < height; ++y) {
         if (!read_row(in, row.data(), width, y == 0))
-            return Error{"corrupt HDR: row " + std::to_string(y) + " of " + std::to_string(height) +
-                         (in.ok() ? " is damaged" : ": the file ends early")};
+            return Error{fmt::format("corrupt HDR: row {} of {}{}", y, height,
+                                     (in.ok() ? " is damaged" : ": the file ends early"))};
         float* to = loaded.image.floats().data() + size_t(bottom_up ? height - 1 - y : y) * size_t(width) * 3;
         for (int x = 0; x < width; ++x) {
             const uint8_t* rgbe = row.data() + 4 * (right_to_left ? width - 1 - x : x);
@@ -203,8 +205,7 @@ Result<LoadedImage> decode_radiance(Bytes file, ImageUse) {
 
 Buffer encode_radiance(const Image& image) {
     ByteWriter out;
-    out.text("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(image.height) + " +X " +
-             std::to_string(image.width) + "\n");
+    out.text(fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", image.height, image.width));
     std::vector<uint8_t> row(size_t(image.width) * 4);
     for (int y = 0; y < image.height; ++y) {
         const float* from = image.floats().data() + size_t(y) * size_t(image.width) * 3;

@@ -2,6 +2,8 @@
 
 #include "dermis/mesh/gltf/accessor.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -90,12 +92,12 @@ Strided locate(Document& document, const JsonView& holder, const Layout& layout)
     const uint64_t stated = document.view()["bufferViews"][size_t(view_index)]["byteStride"].integer(0);
     const uint64_t stride = stated == 0 ? layout.element_size() : stated;
     if (stride < layout.element_size() || stride > 65536)
-        return holder.fail("byteStride " + std::to_string(stride) + " does not fit elements of " +
-                           std::to_string(layout.element_size()) + " bytes"),
+        return holder.fail(fmt::format("byteStride {} does not fit elements of {} bytes", stride,
+                                       layout.element_size())),
                Strided{};
     const uint64_t needed = layout.count == 0 ? 0 : (layout.count - 1) * stride + layout.element_size();
     if (offset > bytes.size() || needed > bytes.size() - offset)
-        return holder.fail("passes the end of its buffer view (" + std::to_string(bytes.size()) + " bytes)"),
+        return holder.fail(fmt::format("passes the end of its buffer view ({} bytes)", bytes.size())),
                Strided{};
     return {bytes.data() + offset, size_t(stride)};
 }
@@ -111,8 +113,7 @@ Layout read_layout(Document& document, const JsonView& accessor, size_t componen
         return accessor["componentType"].fail(std::to_string(layout.type) + " is no component type"),
                Layout{};
     if (layout.components != components)
-        return accessor["type"].fail("must have " + std::to_string(components) + " components here"),
-               Layout{};
+        return accessor["type"].fail(fmt::format("must have {} components here", components)), Layout{};
     // Six indices a vertex is what a closed triangle mesh has.
     if (layout.count > uint64_t{document.max_vertices} * (components == 1 ? 6 : 1))
         return accessor["count"].fail(std::to_string(layout.count) + " is more than dermis loads"), Layout{};
@@ -142,7 +143,7 @@ void for_each_element(Document& document, const JsonView& accessor, const Layout
     for (size_t i = 0; i < values.count; ++i) {
         const uint32_t target = load_index(at.first + i * at.stride, indices.type);
         if (target >= layout.count)
-            return sparse["indices"].fail("index " + std::to_string(target) + " is out of range");
+            return sparse["indices"].fail(fmt::format("index {} is out of range", target));
         set(target, from.first + i * from.stride);
     }
 }

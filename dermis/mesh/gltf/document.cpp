@@ -3,6 +3,8 @@
 
 #include "dermis/mesh/gltf/document.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,17 +42,17 @@ Container split_glb(std::span<const std::byte> bytes, Messages& messages) {
     if (bytes.size() < 20)
         return fail("truncated: a GLB has at least 20 bytes, this has " + std::to_string(bytes.size()));
     if (const uint32_t version = read_u32(bytes, 4); version != 2)
-        return fail("GLB version " + std::to_string(version) + "; only 2 is read");
+        return fail(fmt::format("GLB version {}; only 2 is read", version));
     const uint32_t stated = read_u32(bytes, 8);
     if (stated > bytes.size())
-        return fail("truncated: the header says " + std::to_string(stated) + " bytes, the file has " +
-                    std::to_string(bytes.size()));
+        return fail(
+            fmt::format("truncated: the header says {} bytes, the file has {}", stated, bytes.size()));
     bytes = bytes.first(std::max<size_t>(stated, 12)).subspan(12);
     for (int chunk = 0; bytes.size() >= 8; ++chunk) {
         const uint32_t size = read_u32(bytes, 0), type = read_u32(bytes, 4);
         bytes = bytes.subspan(8);
         if (size > bytes.size())
-            return fail("truncated: chunk " + std::to_string(chunk) + " passes the end of the file");
+            return fail(fmt::format("truncated: chunk {} passes the end of the file", chunk));
         const auto content = bytes.first(size);
         if (chunk == 0 && type != kJsonChunk) return fail("the first chunk of a GLB must be its JSON");
         if (chunk == 0) container.json = as_text(content);
@@ -146,8 +148,7 @@ void load_buffer(const JsonView& buffer, std::optional<std::span<const std::byte
         bytes = std::move(*read);
     }
     if (bytes.size() < size)
-        return buffer.fail("truncated: " + std::to_string(size) + " bytes stated, " +
-                           std::to_string(bytes.size()) + " found");
+        return buffer.fail(fmt::format("truncated: {} bytes stated, {} found", size, bytes.size()));
 }
 
 }  // namespace
@@ -179,11 +180,10 @@ std::span<const std::byte> buffer_view(Document& document, uint64_t index) {
     const uint64_t offset = view["byteOffset"].integer(0), size = view["byteLength"].integer(0);
     if (view.failed()) return {};
     if (buffer >= document.buffers.size())
-        return view.fail("buffer " + std::to_string(buffer) + " does not exist"),
-               std::span<const std::byte>{};
+        return view.fail(fmt::format("buffer {} does not exist", buffer)), std::span<const std::byte>{};
     const std::vector<std::byte>& bytes = document.buffers[size_t(buffer)];
     if (offset > bytes.size() || size > bytes.size() - offset)
-        return view.fail("passes the end of its buffer (" + std::to_string(bytes.size()) + " bytes)"),
+        return view.fail(fmt::format("passes the end of its buffer ({} bytes)", bytes.size())),
                std::span<const std::byte>{};
     return std::span(bytes).subspan(size_t(offset), size_t(size));
 }
@@ -261,8 +261,8 @@ JsonView JsonView::operator[](size_t index) const {
     if (index < size())
         found = &(*value_)[index];
     else
-        fail("has no element " + std::to_string(index) + " (it has " + std::to_string(size()) + ")");
-    return {found, place_ + "[" + std::to_string(index) + "]", *messages_};
+        fail(fmt::format("has no element {} (it has {})", index, size()));
+    return {found, fmt::format("{}[{}]", place_, index), *messages_};
 }
 
 size_t JsonView::size() const {

@@ -2,6 +2,7 @@
 
 #include "dermis/mesh/gltf/gltf.h"
 
+#include <fmt/core.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -78,8 +79,7 @@ class SceneReader {
             if (failed()) return;
             vertices += at->second;
             if (vertices > document_.max_vertices)
-                return view.fail("more vertices than dermis loads (" +
-                                 std::to_string(document_.max_vertices) + ")");
+                return view.fail(fmt::format("more vertices than dermis loads ({})", document_.max_vertices));
         }
     }
 
@@ -122,7 +122,7 @@ class SceneReader {
         if (!source["material"].exists()) return kDefaultMaterial;
         const uint64_t material = source["material"].integer(0);
         if (material >= material_scales_.size())
-            return source["material"].fail("material " + std::to_string(material) + " does not exist"), 0;
+            return source["material"].fail(fmt::format("material {} does not exist", material)), 0;
         return uint32_t(material);
     }
 

@@ -2,6 +2,8 @@
 
 #include "dermis/mesh/gltf/material.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -181,8 +183,8 @@ class MaterialReader {
         const UvMapping mapping = uv_mapping(info);
         if (!has_picture(document_, info)) return "has no PNG or JPEG source";
         if (mapping.set != mapping_.set)
-            return "is for UV set " + std::to_string(mapping.set) + ", the material's first map for set " +
-                   std::to_string(mapping_.set);
+            return fmt::format("is for UV set {}, the material's first map for set {}", mapping.set,
+                               mapping_.set);
         if (mapping != mapping_) return "has another KHR_texture_transform than the material's first map";
         return {};
     }

@@ -2,6 +2,7 @@
 
 #include "dermis/mesh/gltf/node_tree.h"
 
+#include <fmt/core.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
@@ -16,8 +17,8 @@ class TreeReader {
     NodeTree run() {
         const JsonView nodes = document_.view()["nodes"];
         if (nodes.size() > document_.max_nodes)
-            nodes.fail("are " + std::to_string(nodes.size()) + ", more than the " +
-                       std::to_string(document_.max_nodes) + " that dermis loads");
+            nodes.fail(
+                fmt::format("are {}, more than the {} that dermis loads", nodes.size(), document_.max_nodes));
         if (document_.messages.error) return {};
         tree_.world.assign(nodes.size(), Affine{});
         visited_.assign(nodes.size(), false);

@@ -1,5 +1,7 @@
 #include "dermis/mesh/gltf/primitive.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,8 +22,8 @@ std::vector<Affine> inverse_bind_matrices(Document& document, const JsonView& sk
     const std::vector<float> numbers = read_floats(document, accessor, 16);
     if (skin.failed()) return {};
     if (numbers.size() / 16 < joints)
-        return skin["inverseBindMatrices"].fail("has " + std::to_string(numbers.size() / 16) +
-                                                " matrices for " + std::to_string(joints) + " joints"),
+        return skin["inverseBindMatrices"].fail(
+                   fmt::format("has {} matrices for {} joints", numbers.size() / 16, joints)),
                std::vector<Affine>{};
     for (size_t joint = 0; joint < joints; ++joint) {
         std::array<double, 16> m{};
@@ -52,7 +54,7 @@ void normalize_weights(Influences& influences, const JsonView& view) {
             for (float& weight : weights) weight = float(weight / sum);
     }
     if (scaled > 0)
-        view.warn("the weights of " + std::to_string(scaled) + " vertices do not sum to 1; scaled to it");
+        view.warn(fmt::format("the weights of {} vertices do not sum to 1; scaled to it", scaled));
     if (without > 0) view.warn(std::to_string(without) + " vertices have no weight; they follow no joint");
 }
 
@@ -68,7 +70,7 @@ std::vector<Affine> joint_matrices(Document& document, uint64_t index, std::span
         const uint64_t node = joints[i].integer(0);
         if (skin.failed()) return {};
         if (node >= world.size())
-            return joints[i].fail("node " + std::to_string(node) + " does not exist"), std::vector<Affine>{};
+            return joints[i].fail(fmt::format("node {} does not exist", node)), std::vector<Affine>{};
         matrices[i] = compose(world[size_t(node)], matrices[i]);
     }
     return matrices;
@@ -95,8 +97,7 @@ Influences read_influences(Document& document, const JsonView& attributes, size_
             const size_t at = i / 4 * influences.per_vertex + 4 * set + i % 4;
             influences.weights[at] = weights[i];
             if (weights[i] != 0 && !(joints[i] >= 0 && joints[i] < float(joint_count)))
-                return joint_view.fail("a joint is out of range (the skin has " +
-                                       std::to_string(joint_count) + ")"),
+                return joint_view.fail(fmt::format("a joint is out of range (the skin has {})", joint_count)),
                        Influences{};
             if (weights[i] != 0) influences.joints[at] = uint32_t(joints[i]);
         }
@@ -196,8 +197,7 @@ class PrimitiveReader {
         std::vector<float> values = read_floats(document_, accessor, components);
         const size_t found = values.size() / components;
         if (count_ != 0 && found != count_ && !view.failed())
-            view.fail("has " + std::to_string(found) + " elements for " + std::to_string(count_) +
-                      " positions");
+            view.fail(fmt::format("has {} elements for {} positions", found, count_));
         return values;
     }
 
@@ -254,8 +254,8 @@ class PrimitiveReader {
             indices = read_indices(document_, accessor);
             for (const uint32_t index : indices)
                 if (index >= count_ && index != kRestart)
-                    return source_["indices"].fail("index " + std::to_string(index) + " is out of range (" +
-                                                   std::to_string(count_) + " vertices)");
+                    return source_["indices"].fail(
+                        fmt::format("index {} is out of range ({} vertices)", index, count_));
         } else {
             for (uint32_t i = 0; i < count_; ++i) indices.push_back(i);
         }

@@ -1,5 +1,6 @@
 // A mesh as one GLB: the attributes once, an index accessor a submesh, images in the same buffer.
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -253,7 +254,7 @@ Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh, std::span<const Named
         if (extras[i].empty()) continue;
         glb.root["materials"][i]["extras"] = Json::parse(extras[i], nullptr, false);
         if (glb.root["materials"][i]["extras"].is_discarded())
-            return Error{"the extras of material " + std::to_string(i) + " are no JSON"};
+            return Error{fmt::format("the extras of material {} are no JSON", i)};
     }
     add_geometry(glb, mesh);
     glb.root["buffers"] = Json::array({{{"byteLength", glb.binary.size()}}});

@@ -1,0 +1,98 @@
+#include "dermis/engines/engine.h"
+
+#include <algorithm>
+#include <set>
+
+#include "dermis/base/file.h"
+#include "dermis/base/hash.h"
+
+namespace dermis::inline engines {
+namespace {
+
+// Unity: a package with a .meta file beside each file and folder, from the texts of engines/unity_meta. A
+// GUID is a hash of the path, so that a later version of the package replaces an earlier one in place.
+constexpr std::string_view kTable = "Runtime/SkinTable.exr";
+
+std::string guid_of(std::string_view path) {
+    return Hasher().add("com.dermis.skin/").add(path).hex();
+}
+
+void add_guids(Words& words) {
+    words["guid_of_shader"] = guid_of("Runtime/Skin.shader");
+    words["guid_of_table"] = guid_of(kTable);
+}
+
+// Unity does not import what is in a folder whose name ends in '~'; what is in Samples~ is copied with its
+// .meta files.
+bool has_meta(const std::string& path) {
+    return !path.starts_with("Documentation~") && path != "Samples~";
+}
+
+std::set<std::string> folders_of(const std::vector<PackageFile>& files) {
+    std::set<std::string> folders;
+    for (const PackageFile& file : files)
+        for (size_t at = 0; (at = file.path.find('/', at)) != std::string::npos; ++at)
+            folders.insert(file.path.substr(0, at));
+    return folders;
+}
+
+Result<void> add_meta_files(const PackageInput& input, std::vector<PackageFile>& files) {
+    std::vector<std::pair<std::string, std::string>> targets;  // path, kind
+    for (const PackageFile& file : files)
+        targets.emplace_back(file.path, file.path.substr(file.path.rfind('.') + 1));
+    for (const std::string& folder : folders_of(files)) targets.emplace_back(folder, "folder");
+    for (const auto& [path, kind] : targets) {
+        if (!has_meta(path)) continue;
+        const auto found = std::ranges::find(input.templates, "engines/unity_meta/" + kind + ".meta",
+                                             &PackageTemplate::path);
+        if (found == input.templates.end())
+            return Error{"engines/unity_meta has no " + kind + ".meta, which " + path + " needs"};
+        DERMIS_TRY_ASSIGN(const std::string text, filled(*found, {{"guid", guid_of(path)}}));
+        files.push_back({path + ".meta", to_bytes(text)});
+    }
+    return {};
+}
+
+}  // namespace
+
+const std::vector<Engine>& all_engines() {
+    static const std::vector<Engine> all = {
+        {.name = "unity",
+         .texts = {{"Runtime/Skin.hlsl", shading::Language::hlsl}},
+         .license_path = "LICENSE.md",
+         .picture_path = "Documentation~/picture.png",
+         .table_path = kTable,
+         .v_origin = VOrigin::bottom,
+         .add_words = add_guids,
+         .add_files = add_meta_files},
+        // Unreal Engine 5 keeps import settings in binary assets; a Python script of the plugin sets them.
+        {.name = "unreal",
+         .texts = {{"DermisSkin/Shaders/Skin.ush", shading::Language::hlsl}},
+         .license_path = "DermisSkin/LICENSE",
+         .table_path = "DermisSkin/Resources/SkinTable.exr",
+         .v_origin = VOrigin::top},
+        // Godot 4: the .import and .tres files are text and come from engines/godot.
+        {.name = "godot",
+         .texts = {{"addons/dermis_skin/skin.gdshaderinc", shading::Language::gdshader}},
+         .license_path = "addons/dermis_skin/LICENSE",
+         .table_path = "addons/dermis_skin/skin_table.exr",
+         .v_origin = VOrigin::top},
+        // three.js has the last row of an EXR picture at v = 0.
+        {.name = "three",
+         .texts = {{"skin.js", shading::Language::essl, "glslText"},
+                   {"skin.js", shading::Language::wgsl, "wgslText"}},
+         .table_path = "skin_table.exr",
+         .v_origin = VOrigin::bottom},
+        // Babylon.js: its reader of EXR fetches a library from another host, so the table is DDS, whose first
+        // row is at v = 0 there. curve_2015.glsl takes saturate() of vectors, and Babylon's WGSL has its own
+        // saturate() of one float.
+        {.name = "babylon",
+         .texts = {{"skin.js", shading::Language::essl, "glslText"},
+                   {"skin.js", shading::Language::wgsl, "wgslText"}},
+         .left_out = "/curve_2015.glsl",
+         .table_path = "skin_table.dds",
+         .v_origin = VOrigin::top}};
+    return all;
+}
+
+}  // namespace dermis::inline engines

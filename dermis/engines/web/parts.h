@@ -1,0 +1,68 @@
+#pragma once
+// What web.cpp puts the page together from. Internal to dermis/engines.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
+
+#include "dermis/base/result.h"
+#include "dermis/base/vec.h"
+#include "dermis/engines/web.h"
+#include "dermis/mesh/mesh.h"
+
+namespace dermis::inline engines::web {
+
+/// scene.bin, which the page hands to the GPU as it is: little-endian values, one behind the other.
+class Binary {
+  public:
+    /// Where the next value will be; blocks begin at a multiple of four.
+    [[nodiscard]] size_t begin_block() {
+        bytes_.resize((bytes_.size() + 3) / 4 * 4);
+        return bytes_.size();
+    }
+    template <class T>
+    void put(T value) {
+        const size_t at = bytes_.size();
+        bytes_.resize(at + sizeof(T));
+        std::memcpy(bytes_.data() + at, &value, sizeof(T));
+    }
+    [[nodiscard]] std::vector<std::byte> finish() { return std::move(bytes_); }
+
+  private:
+    std::vector<std::byte> bytes_;
+};
+
+/// Three colours in 32 bits: mantissas of 9 bits under one exponent (EXT_texture_shared_exponent). Error at
+/// most 0.2 % of the largest channel; negative channels count as 0.
+[[nodiscard]] uint32_t shared_exponent(Vec3 color_linear);
+
+/// The diffuse tables of all tones as layers of one texture of shared exponents; their other
+/// functions as rows of another, of halves. Sizes and offsets as JSON. `baked_curvature_per_mm`: where the
+/// tones' diffuse tables end. Errors: a table that is not rgba32f.
+[[nodiscard]] Result<nlohmann::json> add_tables(Binary& binary, std::span<const WebTone> tones,
+                                                float baked_curvature_per_mm);
+
+/// Prefiltered cube without its largest level, spherical harmonics, and the split sum's second factor.
+[[nodiscard]] Result<nlohmann::json> add_environment(Binary& binary, const Environment& environment);
+
+/// With no more digits than the float has.
+[[nodiscard]] nlohmann::json to_json(float value);
+[[nodiscard]] nlohmann::json to_json(Vec3 v);
+
+/// Vertices and indices into `binary`, in the layout of engines/web/gpu.js; where they are, and the ranges of
+/// what is stored as whole numbers, as JSON. `mesh` has curvature and occlusion. "parts" is the caller's: one
+/// a submesh, with "first" and "count".
+[[nodiscard]] Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangle_count);
+
+/// Adds the maps of `material` to `files` as "maps/N_albedo.jpg", "_normal.jpg" and "_surface.jpg"
+/// (roughness, factor on the reflectance, occlusion). JSON: "maps" has the paths of those that there are,
+/// "wraps" what one has beyond its edges along u and v, where it does not repeat. Error: maps of one picture
+/// wrap differently.
+[[nodiscard]] Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& material,
+                                              const Mesh& mesh, const std::string& prefix, int map_side);
+
+}  // namespace dermis::inline engines::web
