@@ -37,7 +37,7 @@ std::vector<FitErrors> measure_fit_errors(const ClosedForm& form, const Gaussian
                                           std::span<const double> radii_mm) {
     std::vector<double> cosines(kCosines), sphere(3 * kCosines), ring(3 * kCosines);
     for (int i = 0; i < kCosines; ++i) cosines[size_t(i)] = cosine(i);
-    DiffuseRows sphere_rows(cosines, {}), ring_rows(cosines, {.construction = Construction::half_ring});
+    DiffuseRows sphere_rows(cosines, {}), ring_rows(cosines, kYeung2015Ring);
     std::vector<FitErrors> errors;
     for (const double radius_mm : radii_mm) {
         sphere_rows.evaluate(profile, radius_mm, sphere);
@@ -66,7 +66,7 @@ std::string fit_error_table(std::span<const FitErrors> errors) {
 
 Plot fit_error_plot(std::span<const FitErrors> errors, const std::string& profile_name) {
     Plot plot{.title = "Largest error over N.L of two fits, " + profile_name,
-              .caption = "against the sphere; dotted: against the half ring; grey: half an 8-bit code",
+              .caption = "against the sphere; dotted: against the full ring; grey: half an 8-bit code",
               .panel_width_px = 560};
     PlotPanel panel{.x = {.label = "r (mm)", .scale = PlotScale::logarithmic},
                     .y = {.label = "largest error", .scale = PlotScale::logarithmic}};

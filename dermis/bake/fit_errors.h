@@ -15,7 +15,7 @@ struct FitErrors {
     double radius_mm = 0;
     Rgb closed_form = {};   ///< against the sphere
     Rgb curve_sphere = {};  ///< curve_2015 against the sphere
-    Rgb curve_ring = {};    ///< curve_2015 against the half ring it was fitted to
+    Rgb curve_ring = {};    ///< curve_2015 against kYeung2015Ring, which it was fitted to
 };
 
 /// 257 values of N.L a radius, about 1 ms each. The profile has passed check_preintegrable.

@@ -7,7 +7,8 @@ namespace dermis {
 #endif
 
 // Specialisation constants: the order of the parameters' choices.
-const int kDiffuseLut = 0, kDiffuseHalfRing = 1, kDiffuseCurve2015 = 2, kDiffuseClosedForm = 3;
+const int kDiffuseLut = 0, kDiffuseHalfRing = 1, kDiffuseFullRing = 2, kDiffuseCurve2015 = 3,
+          kDiffuseClosedForm = 4;
 const int kShadowPlain = 0, kShadowScattered = 1, kShadowGathered = 2;
 const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
 const int kNormalsAuto = 0, kNormalsBaked = 1, kNormalsBlended = 2, kNormalsLerp = 3, kNormalsSmooth = 4,

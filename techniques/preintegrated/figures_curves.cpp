@@ -49,8 +49,7 @@ Figure curves_figure() {
                        .kind = CellKind::computed,
                        .compute = [](const SkinContext& skin, int width, int height) {
                            return over_radius(width, height, [&](double t, double r) {
-                               return preintegrated_diffuse(skin.gaussians, t, r,
-                                                            {.construction = Construction::half_ring});
+                               return preintegrated_diffuse(skin.gaussians, t, r, kYeung2015Ring);
                            });
                        }};
     FigureCell curves = {.label = "curves of 2015",
@@ -109,7 +108,7 @@ FigurePicture plotted(int width, int height, const std::vector<Line>& lines) {
 Line exact(const SkinContext& skin, double radius_mm) {
     return {kGrey, [&skin, radius_mm](double t) {
                 return preintegrated_diffuse(skin.gaussians, std::clamp(t, -1.0, 1.0), radius_mm,
-                                             {.construction = Construction::half_ring})[0];
+                                             kYeung2015Ring)[0];
             }};
 }
 
@@ -150,7 +149,7 @@ Figure construction_figure() {
 
 const std::vector<Variant>& sphere_variants() {
     static const std::vector<Variant> kVariants = {
-        {"ring", "table of the ring", {{"diffuse", "half_ring"}}, ""},
+        {"ring", "table of the ring", {{"diffuse", "full_ring"}}, ""},
         {"curve", "curves of 2015", {{"diffuse", "curve_2015"}, {"ambient", "curve_2015"}}, "ring"},
         {"sphere", "table of the sphere", {}, "ring"},
         {"closed", "closed form", {{"diffuse", "closed_form"}, {"ambient", "exact"}}, "sphere"}};
@@ -237,7 +236,7 @@ Figure baselines_figure() {
     FigureRow variants = {
         "Pre-integrated",
         {variant("table, sphere", {}), variant("closed form", {{"diffuse", "closed_form"}}),
-         variant("table, ring", {{"diffuse", "half_ring"}}),
+         variant("table, ring", {{"diffuse", "full_ring"}}),
          variant("curves of 2015", {{"diffuse", "curve_2015"}, {"ambient", "curve_2015"}})}};
     variants.cells[0].id = "sphere";
     variants.cells[0].compare_to = "";

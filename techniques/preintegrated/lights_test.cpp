@@ -76,17 +76,18 @@ TEST_F(PreintegratedLights, from_the_environment_are_the_librarys_harmonics_by_t
     ASSERT_TRUE(light);
     struct Case {
         const char *ambient, *diffuse;
-        Construction integral;
+        Preintegration how;
         double tolerance;
     };
-    for (const Case& c : {Case{"exact", "lut", Construction::sphere, 3e-5},
-                          {"profile", "lut", Construction::sphere, 2e-4},
-                          {"profile", "half_ring", Construction::half_ring, 2e-4}}) {
+    for (const Case& c : {Case{"exact", "lut", {}, 3e-5},
+                          {"profile", "lut", {}, 2e-4},
+                          {"profile", "half_ring", kUnity2011Ring, 2e-4},
+                          {"profile", "full_ring", kYeung2015Ring, 2e-4}}) {
         const Image image = draw_grid(scene, {{"ambient", c.ambient}, {"diffuse", c.diffuse}});
         double largest = 0;
         for (int y = 0; y < kGrid; ++y) {
-            const auto zh = preintegrated_zonal_harmonics(gpu_gems_3_skin(), 1 / grid_curvature_per_mm(y),
-                                                          {.construction = c.integral});
+            const auto zh =
+                preintegrated_zonal_harmonics(gpu_gems_3_skin(), 1 / grid_curvature_per_mm(y), c.how);
             for (int x = 0; x < kGrid; x += 3) {
                 const std::array<float, 9> basis = sh_basis(grid_normal(x));
                 double expected = 0;

@@ -118,6 +118,23 @@ TEST_F(PreintegratedRefusals, tables_for_another_skin_or_integral) {
     EXPECT_THAT(refusal(path("absent.exr")), HasSubstr("absent.exr"));
 }
 
+TEST_F(PreintegratedRefusals, harmonics_with_other_variances_than_the_diffuse_table) {
+    Scene scene = make_grid_scene();
+    const std::string file = path("zh.exr");
+    const Table table = *bake_zonal_harmonics({.profile = *find_profile("gpu_gems_3"),
+                                               .width = 16,
+                                               .how = {.construction = Construction::half_ring}});
+    ASSERT_TRUE(write_table(file, table));
+    scene.skin.zonal_table = file;
+    Renderer renderer = make_renderer(scene);
+    const auto refused =
+        renderer.draw(technique(), values_of({{"diffuse", "half_ring"}}), {.width = 8, .height = 8});
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                HasSubstr("its variances are x 1, those of the diffuse table x 1.414; bake it with "
+                          "--variance-scale 1.414"));
+}
+
 TEST_F(PreintegratedRefusals, tables_in_another_unit) {
     EXPECT_THAT(
         refusal(baked("radius.exr", [](LutOptions& o) { o.convention.axes[1] = radius_axis(1, 32); })),

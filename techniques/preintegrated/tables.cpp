@@ -10,6 +10,7 @@
 #include "dermis/bake/shadow_ramp.h"
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
+#include "dermis/base/text.h"
 #include "dermis/optics/gaussian_lobes.h"
 #include "shaders/include/constants.h"
 #include "techniques/preintegrated/weights.h"
@@ -31,7 +32,7 @@ Texel texel(const Rgb& value, double alpha) {
 // construction, axes and profile must be those of this use.
 Result<Table> own_table(const std::string& file, TableUse use, const TableSettings& settings,
                         const SkinContext& skin) {
-    use.construction = settings.construction;
+    use.construction = settings.how.construction;
     use.profile = skin.profile.name;
     Result<Table> table = read_table(file, use);
     if (!table) return table.error();
@@ -41,26 +42,21 @@ Result<Table> own_table(const std::string& file, TableUse use, const TableSettin
     return table;
 }
 
-Result<TableImage> own_diffuse_table(const TableSettings& settings, const SkinContext& skin) {
-    const Result<Table> table = own_table(
-        skin.diffuse_table, {.kind = TableKind::diffuse, .u_axis = "n_dot_l", .v_axis = "curvature_per_mm"},
-        settings, skin);
-    if (!table) return table.error();
+TableImage resampled(const Table& table) {
     std::vector<float> rgba;
     for (int y = 0; y < kLutHeight; ++y)
         for (int x = 0; x < kLutWidth; ++x) {
             const Rgb d =
-                lookup(*table, -1 + 2 * (x + 0.5) / kLutWidth, kMaxCurvaturePerMm * (y + 0.5) / kLutHeight);
+                lookup(table, -1 + 2 * (x + 0.5) / kLutWidth, kMaxCurvaturePerMm * (y + 0.5) / kLutHeight);
             rgba.insert(rgba.end(), {float(d[0]), float(d[1]), float(d[2]), 1.0f});
         }
     return table_image("skin_lut", kLutHeight, rgba);
 }
 
 Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContext& skin) {
-    if (!skin.diffuse_table.empty()) return own_diffuse_table(settings, skin);
-    Result<LutOptions> options =
-        lut_options(settings.construction == Construction::half_ring ? "penner" : "dermis");
+    Result<LutOptions> options = lut_options("dermis");
     if (!options) return options.error();
+    options->convention.how = settings.how;
     options->profile = {.name = skin.profile.name, .source = skin.profile.source, .model = skin.gaussians};
     options->convention.axes[1] = curvature_axis(0, kMaxCurvaturePerMm);
     options->width = kLutWidth;
@@ -87,12 +83,16 @@ Result<Rows> zonal_rows(const TableSettings& settings, const SkinContext& skin) 
                       settings, skin);
         if (!table) return table.error();
         own = std::move(*table);
+        if (own.convention.how.variance_scale != settings.how.variance_scale)
+            return Error{skin.zonal_table + ": its variances are x " +
+                         to_text(own.convention.how.variance_scale) + ", those of the diffuse table x " +
+                         to_text(settings.how.variance_scale) + "; bake it with --variance-scale " +
+                         to_text(settings.how.variance_scale)};
     }
     Rows rows(size_t(kRowTexels) * 3);
     for (int i = 0; i < kRowTexels; ++i) {
         const double curvature = std::max(double(kMaxCurvaturePerMm) * i / (kRowTexels - 1), 1e-6);
-        auto zh = preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature,
-                                                {.construction = settings.construction});
+        auto zh = preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature, settings.how);
         for (size_t l = 0; l < size_t(own.height); ++l) zh[l] = lookup(own, curvature, double(l));
         for (size_t l = 0; l < 3; ++l) rows[l * kRowTexels + size_t(i)] = texel(zh[l], 1);
     }
@@ -129,10 +129,9 @@ Result<Rows> row_of_mean(const TableSettings& settings, const SkinContext& skin)
     std::vector<double> place, second;           // place: sqrt(1 - A) at even steps of curvature
     for (int i = 0; i <= kSteps; ++i) {
         const double curvature = std::max(double(kMaxCurvaturePerMm) * i / kSteps, 1e-6);
-        const Preintegration how{.construction = settings.construction};
-        const double a = preintegrated_mean_cosine(skin.gaussians, 1 / curvature, how)[0];
+        const double a = preintegrated_mean_cosine(skin.gaussians, 1 / curvature, settings.how)[0];
         place.push_back(std::sqrt(std::max(1 - a, 0.0)));
-        second.push_back(preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature, how)[2][0] /
+        second.push_back(preintegrated_zonal_harmonics(skin.gaussians, 1 / curvature, settings.how)[2][0] /
                          kSecondBand);
     }
     Rows row;
@@ -192,8 +191,21 @@ Result<TableImage> beckmann_table(const TableSettings& settings, const SkinConte
 
 Result<std::vector<TableImage>> bake_tables(const TableSettings& settings, const SkinContext& skin) {
     std::vector<TableImage> images;
-    for (const auto make : {diffuse_table, rows_table, beckmann_table}) {
-        Result<TableImage> image = make(settings, skin);
+    TableSettings used = settings;
+    if (!skin.diffuse_table.empty()) {
+        DERMIS_TRY_ASSIGN(
+            const Table own,
+            own_table(skin.diffuse_table,
+                      {.kind = TableKind::diffuse, .u_axis = "n_dot_l", .v_axis = "curvature_per_mm"},
+                      settings, skin));
+        used.how = own.convention.how;
+        images.push_back(resampled(own));
+    } else {
+        DERMIS_TRY_ASSIGN(TableImage lut, diffuse_table(used, skin));
+        images.push_back(std::move(lut));
+    }
+    for (const auto make : {rows_table, beckmann_table}) {
+        Result<TableImage> image = make(used, skin);
         if (!image) return image.error();
         images.push_back(std::move(*image));
     }

@@ -8,12 +8,14 @@
 namespace dermis::preintegrated {
 
 struct TableSettings {
-    Construction construction = Construction::sphere;  ///< of every table; the published ring is half_ring
+    Preintegration how = {};  ///< of every table
     double shadow_width_mm = 2.5;
     bool needs_beckmann = false;  ///< otherwise the table is one texel
 };
 
 /// skin_lut, skin_rows, skin_beckmann; all 32-bit float with four channels but skin_beckmann, which has one.
+/// With the scene's own diffuse table the harmonics have its factor on variances. Errors: a table of another
+/// construction or profile; a zonal table with another factor than the diffuse one.
 [[nodiscard]] Result<std::vector<TableImage>> bake_tables(const TableSettings& settings,
                                                           const SkinContext& skin);
 

@@ -18,6 +18,7 @@ namespace {
 enum class Diffuse : int32_t {
     lut = kDiffuseLut,
     half_ring = kDiffuseHalfRing,
+    full_ring = kDiffuseFullRing,
     curve_2015 = kDiffuseCurve2015,
     closed_form = kDiffuseClosedForm
 };
@@ -61,10 +62,11 @@ struct Params {
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
-        .choice(&Params::diffuse, "diffuse", {"lut", "half_ring", "curve_2015", "closed_form"},
-                "light over N.L and curvature: exact table of the sphere; table of the published half ring, "
-                "which "
-                "does not conserve energy; curves of 2015 or closed form, without any table")
+        .choice(&Params::diffuse, "diffuse", {"lut", "half_ring", "full_ring", "curve_2015", "closed_form"},
+                "light over N.L and curvature: exact table of the sphere; of the half ring of the Unity "
+                "script or the "
+                "full ring of Yeung 2015, which do not conserve energy; his curves, or closed form, without "
+                "any table")
         .choice(&Params::curvature, "curvature", {"vertex", "derivative", "image"},
                 "source of the curvature; derivative depends on facets and camera")
         .number(&Params::curvature_gain, "curvature_gain", "", 0, 10,
@@ -78,10 +80,9 @@ ParameterTable parameters() {
                 "the point by the profile, which needs a table")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
-        .choice(
-            &Params::ambient, "ambient", {"profile", "exact", "curve_2015"},
-            "zonal harmonics for light from the environment: of the profile, on the ring with "
-            "diffuse=half_ring, else on the sphere; the sphere's in closed form per pixel; curves of 2015")
+        .choice(&Params::ambient, "ambient", {"profile", "exact", "curve_2015"},
+                "zonal harmonics for light from the environment: of the profile, on the ring of "
+                "diffuse, else on the sphere; the sphere's in closed form per pixel; curves of 2015")
         .choice(&Params::specular, "specular", specular_model_names(),
                 "specular model; ksk reads its Beckmann distribution from a table")
         .preset("cheap", "no scattering at shadow edges, no transmission",
@@ -104,7 +105,8 @@ ParameterTable parameters() {
 }
 
 bool reads_tables(const Params& params) {
-    return params.diffuse == Diffuse::lut || params.diffuse == Diffuse::half_ring;
+    return params.diffuse == Diffuse::lut || params.diffuse == Diffuse::half_ring ||
+           params.diffuse == Diffuse::full_ring;
 }
 
 // Baked normals hold the curvature and what light from all around sees, both of the sphere. Empty where the
@@ -187,8 +189,9 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 }
 
 preintegrated::TableSettings table_settings(const Params& params) {
-    const bool half_ring = params.diffuse == Diffuse::half_ring;
-    return {.construction = half_ring ? Construction::half_ring : Construction::sphere,
+    return {.how = params.diffuse == Diffuse::half_ring   ? kUnity2011Ring
+                   : params.diffuse == Diffuse::full_ring ? kYeung2015Ring
+                                                          : Preintegration{},
             .shadow_width_mm = params.shadow_width_mm,
             .needs_beckmann = params.specular == SpecularModel::ksk};
 }
