@@ -62,8 +62,8 @@ template <class... T>
     return bytes;
 }
 
-/// The values that pack() made bytes of. False, with some of the values changed, where `bytes` are not exactly
-/// such values.
+/// The values that pack() made bytes of. False, with some of the values changed, where `bytes` are not
+/// exactly such values.
 template <class... T>
 [[nodiscard]] bool unpack(std::span<const std::byte> bytes, T&... values) {
     return (take(bytes, values) && ...) && bytes.empty();

@@ -27,7 +27,7 @@ struct ComparisonSettings {
     /// The picture is made with this shadow map, so that a technique is not charged for the coarser one's
     /// bias; frames are timed with the renderer's own.
     int shadow_map_size = 4096;
-    int grid = 6;  ///< both sides take grid x grid points of a pixel; docs/reference.md says how many
+    int grid = 6;        ///< both sides take grid x grid points of a pixel; docs/reference.md says how many
     double noise = 0.2;  ///< of the effect's RMS at which the reference is fine enough
     int samples = 2048;  ///< of the reference a pixel, at most
     /// Probes per sample of the reference. The bias of its quotient is below a hundredth of the effect.

@@ -25,7 +25,8 @@ struct GaussianFit {
 };
 
 /// 1 to kMaxGaussianFitTerms Gaussians per channel. Sums of Gaussians come back as they are, whatever their
-/// number. Tens of milliseconds a channel. Largest error of Burley with 4, 6, 8 terms: docs/profiles.md has them.
+/// number. Tens of milliseconds a channel. Largest error of Burley with 4, 6, 8 terms: docs/profiles.md has
+/// them.
 [[nodiscard]] GaussianFit to_gaussian_sum(const Profile& profile, int terms_per_channel = 6);
 
 }  // namespace dermis::inline optics

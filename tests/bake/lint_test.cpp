@@ -158,7 +158,7 @@ TEST(Lint, says_the_range_of_the_file_it_reads_with_or_without_its_convention) {
     for (const char* name : {"dermis", "penner", "unity_2011", "faceworks"})
         for (const char* profile : {"gpu_gems_3", "openpbr_skin_5"}) {
             LutOptions lut = *lut_options(name);
-            lut.width = 48, lut.height = 24;
+            lut.width = 64, lut.height = 32;
             lut.profile = *find_profile(profile);
             lut.profile.model = to_gaussian_sum(lut.profile).sum;
             const auto path = dir.path / (std::string(name) + profile + ".png");

@@ -292,6 +292,6 @@ TEST(Docs, unknown_files_headings_and_settings_are_found) {
     EXPECT_EQ(wrong_link(page, "#light"), "");
     EXPECT_NE(wrong_link(page, "images/no_such.jpg"), "");
     EXPECT_EQ(wrong_setting("shadow=scatered"), "shadow cannot be scatered");
-    EXPECT_EQ(wrong_setting("shadows=plain"), "no parameter shadows");
+    EXPECT_EQ(wrong_setting("no_such=plain"), "no parameter no_such");
     EXPECT_EQ(wrong_setting("shadow=scattered\\|plain"), "");
 }

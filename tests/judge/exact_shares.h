@@ -6,6 +6,7 @@
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/effect_reference.h"
 #include "dermis/judge/technique_pictures.h"
+#include "dermis/render/complete_scene.h"
 #include "support/built_in.h"
 
 namespace dermis {
@@ -17,6 +18,7 @@ inline SubjectCase unit_case(const std::string& name) {
     EXPECT_TRUE(cases) << cases.error().message;
     const auto found = std::ranges::find(*cases, "unit/" + name, &SubjectCase::name);
     EXPECT_NE(found, cases->end()) << name;
+    EXPECT_TRUE(complete_scene(found->scene));
     return std::move(*found);
 }
 

@@ -1,4 +1,5 @@
 #include "dermis/judge/scoreboard.h"
+#include "dermis/render/complete_scene.h"
 
 #include <gmock/gmock.h>
 
@@ -210,13 +211,14 @@ bool is_in_every_run(const SubjectCase& one) {
 void expect_exact_answers(gpu::Device& device, bool in_every_run) {
     const auto unit = find_subject(built_in_catalog().subjects, "unit");
     ASSERT_TRUE(unit);
-    const auto cases = make_cases(**unit);
+    auto cases = make_cases(**unit);
     ASSERT_TRUE(cases) << cases.error().message;
     std::vector<ScoreRow> made;
     size_t scenes = 0;
-    for (const SubjectCase& one : *cases) {
+    for (SubjectCase& one : *cases) {
         if (is_in_every_run(one) != in_every_run) continue;
         ++scenes;
+        ASSERT_TRUE(complete_scene(one.scene)) << one.name;
         ComparisonSettings settings = small(32, one.name == "unit/sphere_far" ? 0.06 : 0.12);
         settings.probes = 64;  // fewer bias the reference by a few hundredths of the effect
         settings.exact = one.exact;

@@ -52,8 +52,8 @@ class SourcesPage : public testing::Test {
 
 constexpr Preintegration kPublishedHalfRing = {.construction = Construction::half_ring};
 const GaussianSum& skin() {
-    static const GaussianSum kSkin = gpu_gems_3_skin();
-    return kSkin;
+    static const GaussianSum kOfGpuGems = gpu_gems_3_skin();
+    return kOfGpuGems;
 }
 
 // The largest difference in red from the sphere of 2 mm, over N.L.

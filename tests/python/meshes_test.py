@@ -129,7 +129,7 @@ class Maps(TestCase):
             made.save(mine)
             self.assert_same_bytes(path, mine)
             self.assert_same_bytes(f"{path}.json", f"{mine}.json")
-            self.assertEqual(made.values.shape, (64, 64, 3) if kind == "stretch" else (64, 64))
+            self.assertEqual(made.values.shape, (64, 64, 3) if kind in ("stretch", "curvature") else (64, 64))
             self.assertTrue(made.coverage.any())
 
     def test_thickness_of_a_sphere_from_arrays(self):

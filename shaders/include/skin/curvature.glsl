@@ -50,8 +50,9 @@ vec3 tangent_diagonal(vec3 per_mm, vec3 t, vec3 b) {
 }
 
 vec3 tangent_mixed(vec3 per_mm, vec3 t, vec3 b) {
-    return (per_mm.x + per_mm.y) * t.yxx * t.zzy + (per_mm.x - per_mm.y) * b.yxx * b.zzy +
-           per_mm.z * (t.yxx * b.zzy + b.yxx * t.zzy);
+    vec3 tt = vec3(t.y * t.z, t.x * t.z, t.x * t.y), bb = vec3(b.y * b.z, b.x * b.z, b.x * b.y);
+    vec3 tb = vec3(t.y * b.z + t.z * b.y, t.x * b.z + t.z * b.x, t.x * b.y + t.y * b.x);
+    return (per_mm.x + per_mm.y) * tt + (per_mm.x - per_mm.y) * bb + per_mm.z * tb;
 }
 
 // From derivatives over the pixel, of the normal and of the position in mm: how fast the normal turns over how fast the
