@@ -73,8 +73,8 @@ namespace {
 // when the text is fine.
 std::string finite_number(const std::string& text) {
     const std::optional<double> number = parse_number(text);
-    if (!number) return text.empty() ? "a number is missing" : text + " is no number";
-    return std::abs(*number) <= std::numeric_limits<float>::max() ? "" : text + " is no finite number";
+    if (!number) return text.empty() ? "a number is missing" : text + " is not a number";
+    return std::abs(*number) <= std::numeric_limits<float>::max() ? "" : text + " is not a finite number";
 }
 
 // 100000, where to_text() writes 1e+05.

@@ -130,7 +130,7 @@ std::vector<double> numbers_from(const py::object& object, const std::string& na
     for (size_t i = 0; i < numbers.size(); ++i)
         if (!std::isfinite(numbers[i]))
             throw refused(name, to_text(numbers[i]) + " in row " + std::to_string(columns ? i / columns : i) +
-                                    " is no finite number");
+                                    " is not a finite number");
     return numbers;
 }
 
@@ -140,7 +140,7 @@ std::vector<float> floats_from(const py::object& object, const std::string& name
     floats.reserve(numbers.size());
     for (const double number : numbers) {
         if (std::abs(number) > double(std::numeric_limits<float>::max()))
-            throw refused(name, to_text(number) + " is no finite number");
+            throw refused(name, to_text(number) + " is not a finite number");
         floats.push_back(float(number));
     }
     return floats;
@@ -155,7 +155,7 @@ std::vector<uint32_t> indices_from(const py::object& object, const std::string& 
     indices.reserve(size_t(values.size()));
     for (const double* p = values.data(); p != values.data() + values.size(); ++p) {
         if (!(*p >= 0 && *p <= double(std::numeric_limits<uint32_t>::max())))
-            throw refused(name, to_text(*p) + " is no index");
+            throw refused(name, to_text(*p) + " is not an index");
         indices.push_back(uint32_t(*p));
     }
     return indices;

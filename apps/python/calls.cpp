@@ -104,7 +104,7 @@ std::string flag_of(std::string_view name) {
 
 double finite(std::string_view option, double value) {
     if (std::abs(value) <= double(std::numeric_limits<float>::max())) return value;
-    throw Failure({std::string(option) + ": " + to_text(value) + " is no finite number"});
+    throw Failure({std::string(option) + ": " + to_text(value) + " is not a finite number"});
 }
 
 }  // namespace dermis::python

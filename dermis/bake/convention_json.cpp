@@ -51,13 +51,15 @@ class Reader {
         }
         return min;
     }
+    struct Renamed {
+        std::string_view before = {}, now = {};
+    };
     template <class Enum>
-    Enum name(const char* key, std::span<const std::string_view> names) {
+    Enum name(const char* key, std::span<const std::string_view> names, Renamed renamed = {}) {
         const std::string found = text(key);
         if (error_) return Enum{};
-        // Version 0.1 called the full ring so.
-        const Result<Enum> value = find_name<Enum>(
-            "value", names, names.data() == kConstructions && found == "ring" ? "full_ring" : found);
+        const Result<Enum> value =
+            find_name<Enum>("value", names, found == renamed.before ? renamed.now : found);
         if (value) return *value;
         fail(key, value.error().message);
         return Enum{};
@@ -143,9 +145,10 @@ Result<ParsedConvention> parse_convention(std::string_view text, std::string_vie
             reader.fail("encoded_max", "must differ from 'encoded_min'");
     }
     if (convention.kind == TableKind::diffuse || convention.kind == TableKind::zonal_harmonics) {
-        convention.how = {.construction = reader.name<Construction>("construction", kConstructions),
-                          .ring_weights = reader.name<RingWeights>("ring_weights", kRingWeights),
-                          .variance_scale = reader.number("variance_scale", 1e-6, 1e6)};
+        convention.how = {
+            .construction = reader.name<Construction>("construction", kConstructions, {"ring", "full_ring"}),
+            .ring_weights = reader.name<RingWeights>("ring_weights", kRingWeights),
+            .variance_scale = reader.number("variance_scale", 1e-6, 1e6)};
         convention.integration = reader.name<Integration>("integration", kIntegrations);
     }
     if (convention.kind == TableKind::shadow)

@@ -57,7 +57,7 @@ struct LintReport {
     double explained_share = 0;
     /// The reason why the picture cannot be a table of skin: flat, negative, grey, ... Empty: it may be one.
     std::string refusal;
-    /// What the picture is, where that is no diffuse table; of `best` rms and max alone are set then.
+    /// The convention of a Beckmann, zonal or shadow table. When it is set, only rms and max of `best` are.
     std::optional<Convention> other;
     /// `best` leaves an rms under 0.01, and nothing refuses the picture.
     bool explained = false;

@@ -71,21 +71,14 @@ double mean_square(const Bank& bank, const Sample& sample, std::span<const float
 // The start of the search: a weighted straight line through (s, value), or (s^2, value).
 void regress(const Sample& sample, std::span<const double> values, std::span<const double> weights,
              Spacing& spacing) {
-    TableAxis& axis = spacing.axis;
-    double w = 0, s = 0, ss = 0, v = 0, sv = 0;
-    for (size_t i = 0; i < values.size(); ++i) {
-        const double from = spacing.origin == VOrigin::top ? sample.v[i] : 1 - sample.v[i],
-                     at = axis.warp == AxisWarp::squared ? from * from : from;
-        w += weights[i];
-        s += weights[i] * at;
-        ss += weights[i] * at * at;
-        v += weights[i] * values[i];
-        sv += weights[i] * at * values[i];
+    std::vector<double> at;
+    for (const double v : sample.v) {
+        const double from = spacing.origin == VOrigin::top ? v : 1 - v;
+        at.push_back(spacing.axis.warp == AxisWarp::squared ? from * from : from);
     }
-    const double determinant = w * ss - s * s;
-    const double slope = std::abs(determinant) > 1e-12 ? (w * sv - s * v) / determinant : 0;
-    axis.min = (v - slope * s) / w;
-    axis.max = axis.min + slope;
+    const Line line = straight_line(at, values, weights);
+    spacing.axis.min = line.at_0;
+    spacing.axis.max = line.at_1;
 }
 
 // Pattern search on the axis' two ends, steps relative to its length.
@@ -242,6 +235,22 @@ double free_fit(const Bank& bank, std::span<const float> light, std::vector<doub
         total += least;
     }
     return total / double(light.size());
+}
+
+Line straight_line(std::span<const double> s, std::span<const double> values,
+                   std::span<const double> weights) {
+    double w = 0, ws = 0, wss = 0, wv = 0, wsv = 0;
+    for (size_t i = 0; i < values.size(); ++i) {
+        w += weights[i];
+        ws += weights[i] * s[i];
+        wss += weights[i] * s[i] * s[i];
+        wv += weights[i] * values[i];
+        wsv += weights[i] * s[i] * values[i];
+    }
+    const double determinant = w * wss - ws * ws;
+    const double slope = std::abs(determinant) > 1e-12 ? (w * wsv - ws * wv) / determinant : 0;
+    const double at_0 = (wv - slope * ws) / w;
+    return {at_0, at_0 + slope};
 }
 
 void fit_axis(const Bank& bank, const Sample& sample, std::span<const float> light,

@@ -28,6 +28,13 @@ struct Sample {
 /// N.L of the sample's columns under a hypothesis.
 [[nodiscard]] std::vector<double> n_dot_l_of(const Sample& sample, const LintHypothesis& hypothesis);
 
+/// The straight line nearest to (s, value), each point with its weight; at_1 is its value at s = 1.
+struct Line {
+    double at_0 = 0, at_1 = 0;
+};
+[[nodiscard]] Line straight_line(std::span<const double> s, std::span<const double> values,
+                                 std::span<const double> weights);
+
 /// Radii of the sample's rows; negative curvatures are clamped to 0.
 [[nodiscard]] std::vector<double> radii_of(const Sample& sample, const LintHypothesis& hypothesis);
 

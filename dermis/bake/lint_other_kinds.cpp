@@ -1,5 +1,5 @@
-// Tables of other kinds than diffuse, told from their numbers alone: Beckmann, zonal harmonics, shadow. What
-// the numbers cannot tell is said, not guessed: a profile's scale against that of the curvatures or widths.
+// Recognises Beckmann, zonal and shadow tables by their numbers. The numbers do not determine the scale of a
+// profile: the same profile at twice the size over twice the lengths makes the same table.
 
 #include <algorithm>
 #include <array>
@@ -40,21 +40,13 @@ std::vector<int> looks(int count) {
     return indices;
 }
 
-bool is_grey(const Image& image) {
-    constexpr float kGrey = 1.5f / 255;
-    for (const int y : looks(image.height))
-        for (const int x : looks(image.width))
-            for (int c = 1; c < std::min(image.channels, 3); ++c)
-                if (std::abs(image.at(x, y, c) - image.at(x, y, 0)) > kGrey) return false;
-    return true;
-}
-
 void keep_better(std::optional<OtherTable>& best, OtherTable found) {
     if (found.rms < kSame && (!best || found.rms < best->rms)) best = std::move(found);
 }
 
 std::optional<OtherTable> beckmann_of(const Image& image) {
-    if (image.height < 2 || !is_grey(image)) return {};
+    constexpr float kGrey = 1.5f / 255;
+    if (image.height < 2 || !is_grey(image, kGrey)) return {};
     std::optional<OtherTable> best;
     for (const BeckmannLayout layout : {BeckmannLayout::linear, BeckmannLayout::gems_8_bit})
         for (const VOrigin origin : {VOrigin::top, VOrigin::bottom})
@@ -80,24 +72,7 @@ std::optional<OtherTable> beckmann_of(const Image& image) {
     return best;
 }
 
-// A straight line through (s, value), each point with its weight.
-struct Line {
-    double at_0 = 0, at_1 = 0;
-};
-Line straight_line(std::span<const double> s, std::span<const double> values,
-                   std::span<const double> weights) {
-    double w = 0, ws = 0, wv = 0, wss = 0, wsv = 0;
-    for (size_t i = 0; i < s.size(); ++i) {
-        w += weights[i], ws += weights[i] * s[i], wv += weights[i] * values[i];
-        wss += weights[i] * s[i] * s[i], wsv += weights[i] * s[i] * values[i];
-    }
-    const double determinant = w * wss - ws * ws;
-    if (!(std::abs(determinant) > 0)) return {};
-    const double slope = (w * wsv - ws * wv) / determinant, first = (wv - slope * ws) / w;
-    return {first, first + slope};
-}
-
-// An axis with fewer digits than the fit, where the numbers do not tell them apart.
+// The line as an axis, its ends rounded within the error of the fit.
 TableAxis rounded_axis(std::string name, std::string unit, Line line) {
     TableAxis axis{.name = std::move(name), .unit = std::move(unit), .min = line.at_0, .max = line.at_1};
     const TableAxis fitted = axis;
@@ -137,7 +112,7 @@ double nearest_index(std::span<const Column> bank, const Column& column, size_t 
 }
 
 struct ZonalPicture {
-    std::vector<double> s;  // of the columns that are compared: 0 at the left edge, 1 at the right
+    std::vector<double> s;  // position of each compared column: 0 at the left edge, 1 at the right
     std::vector<Column> columns;
     size_t values = 0;  // that a column has: three an order
 };
@@ -207,11 +182,13 @@ std::optional<OtherTable> zonal_of(const Image& image) {
 }
 
 struct ShadowPicture {
-    std::vector<double> position, s;      // of the columns; of the rows, 0 at the top edge
+    std::vector<double>
+        position;           // of each compared column: 0 in the shadow, 1 in the light; the left half alone
+    std::vector<double> s;  // of each compared row: 0 at the top edge, 1 at the bottom
     std::vector<std::vector<Rgb>> light;  // [row][column]
 };
 
-// Nothing where it is no shadow table: light at p and at 1 - p sum to 1, as the edge is symmetric.
+// Empty if the picture is not a shadow table: the edge is symmetric, so light at p and at 1 - p sums to 1.
 std::optional<ShadowPicture> shadow_picture(const Image& image, TableEncoding encoding) {
     constexpr double kSum = 0.01, kRise = 0.1;
     ShadowPicture picture;

@@ -231,7 +231,7 @@ Result<void> parse_line(std::string_view line, const Table& table, int x, int y,
     for (size_t i = 0; i < cells.size(); ++i) {
         const std::optional<double> number = parse_number(trim(cells[i]));
         if (!number || !std::isfinite(*number))
-            return Error{"'" + std::string(cells[i].substr(0, 40)) + "' is no finite number"};
+            return Error{"'" + std::string(cells[i].substr(0, 40)) + "' is not a finite number"};
         if (i >= 2) {
             if (std::abs(*number) > double(std::numeric_limits<float>::max()))
                 return Error{"'" + std::string(cells[i].substr(0, 40)) +

@@ -24,8 +24,8 @@ namespace dermis::inline base {
 /// Best effort; false when nothing could be stored (a full disk, a read-only home).
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);
 
-/// The same of values, as a std::tie() of them. Vectors that are not empty say how long a stored one has to
-/// be; false, with some of the values changed, where there is no such entry.
+/// Loads values into a std::tie() of them. A vector that is not empty has to have the length of the stored
+/// one. Returns false when there is no such entry; some of the values may have changed then.
 template <class... T>
 [[nodiscard]] bool cache_load(std::string_view kind, std::string_view hash, std::tuple<T&...> values) {
     const auto bytes = cache_load(kind, hash);

@@ -21,7 +21,7 @@ Result<size_t> check_streams(std::string_view name, std::span<const VertexStream
     for (const VertexStream& stream : streams) {
         if (stream.components < 1 || stream.components > 4 ||
             stream.values.size() % size_t(stream.components))
-            return geometry_error(name, "stream '" + stream.name + "' is no whole number of vertices");
+            return geometry_error(name, "stream '" + stream.name + "' is not a whole number of vertices");
         const size_t vertices = stream.values.size() / size_t(stream.components);
         if (&stream != &streams.front() && vertices != count)
             return geometry_error(name, fmt::format("stream '{}' has {} vertices, '{}' has {}", stream.name,

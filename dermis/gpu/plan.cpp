@@ -233,7 +233,7 @@ Result<void> plan_transfer(const PlanContext& context, PlannedPass& planned) {
     const Pass& pass = *planned.pass;
     const std::string& source_name = pass.reads.front().image;
     FrameImage* source = context.images.find(source_name);
-    if (!source) return pass_error(*planned.pass, "'" + source_name + "' is no image of the list");
+    if (!source) return pass_error(*planned.pass, "'" + source_name + "' is not an image of the list");
     if (pass.kind == PassKind::generate_mips) return generate_mips(context.device.context, planned, *source);
     const std::string& target_name = pass.colors.empty() ? pass.depth->image : pass.colors.front().image;
     const int mip = pass.colors.empty() ? 0 : pass.colors.front().mip;

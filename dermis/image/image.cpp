@@ -197,6 +197,14 @@ Image single_channel(const Image& image, int channel) {
     return single;
 }
 
+bool is_grey(const Image& image, float tolerance) {
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 1; c < std::min(image.channels, 3); ++c)
+                if (std::abs(image.at(x, y, c) - image.at(x, y, 0)) > tolerance) return false;
+    return true;
+}
+
 Image to_linear_float(const Image& image) {
     if (image.empty()) return {};
     if (image.format == PixelFormat::f32 && image.encoding == Encoding::linear) return image;

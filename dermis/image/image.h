@@ -77,6 +77,9 @@ struct Image {
 /// One channel as stored.
 [[nodiscard]] Image single_channel(const Image& image, int channel);
 
+/// Whether red, green and blue differ by at most `tolerance` everywhere; true of one channel.
+[[nodiscard]] bool is_grey(const Image& image, float tolerance = 0);
+
 /// f32, linear: integers to 0..1, sRGB decoded (alpha excepted). 2048x2048 RGB u8: 45 ms of one core.
 [[nodiscard]] Image to_linear_float(const Image& image);
 

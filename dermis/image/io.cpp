@@ -131,7 +131,7 @@ Result<LoadedImage> read_image(const std::filesystem::path& path, ImageUse use) 
 
 Result<LayeredImage> read_layered_exr(const std::filesystem::path& path) {
     DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(path));
-    if (!is_exr(bytes)) return Error{path.string() + ": is no EXR file"};
+    if (!is_exr(bytes)) return Error{path.string() + ": is not an EXR file"};
     return named(codec::decode_layered_exr(bytes), path.string());
 }
 

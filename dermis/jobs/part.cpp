@@ -132,7 +132,7 @@ Result<PartFacts> facts_of(const Json& json) {
         facts.picture.description = text_of(*picture);
     if (const Json* warnings = in.find("scene_warnings", &Json::is_array))
         for (const Json& warning : *warnings) {
-            if (!warning.is_string()) return Error{"is damaged: a warning in its header is no text"};
+            if (!warning.is_string()) return Error{"is damaged: a warning in its header is not text"};
             facts.picture.scene_warnings.push_back(warning.get<std::string>());
         }
     const Result<ToneMap> tone_map = parse_tone_map(in.text("tone_map"));
@@ -243,7 +243,7 @@ Result<Part> part_of(LayeredImage file, std::string_view name) {
     const auto text = file.text.find(std::string(kHeaderKey));
     if (text == file.text.end() || file.layers.empty())
         return Error{std::string(name) +
-                     " is no part of a picture: dermis reference --sample-range BEGIN:END writes parts"};
+                     " is not a part of a picture: dermis reference --sample-range BEGIN:END writes parts"};
     const Json json = parse_header(text->second);
     if (!json.is_object()) return Error{std::string(name) + " is damaged: its header is not readable"};
     Result<PartFacts> facts = facts_of(json);

@@ -165,7 +165,7 @@ Result<ScoreRow> parse_row(std::string_view line, size_t line_number,
         const std::string& field = fields[std::size(kNames) + i];
         const Value value = parse_number(field);
         const auto place = "'" + field + "' under " + std::string(column.name);
-        if (!value && !(column.may_be_missing && field.empty())) return wrong(place + " is no number");
+        if (!value && !(column.may_be_missing && field.empty())) return wrong(place + " is not a number");
         // Rows are sorted and plotted by these. Equal pictures have an infinite PSNR.
         const bool sound = !value || std::isfinite(*value) || (column.name == "psnr_db" && *value > 0);
         if (!sound) return wrong(place + " is not finite");

@@ -67,15 +67,7 @@ gpu::AddressMode address_mode(TextureWrap wrap) {
     return gpu::AddressMode::repeat;
 }
 
-bool is_grey(const Image& image) {
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            if (image.at(x, y, 0) != image.at(x, y, 1) || image.at(x, y, 0) != image.at(x, y, 2))
-                return false;
-    return true;
-}
-
-// A map of mean curvature is one of spheres: the channels of direction are those of flat skin.
+// A grey map holds mean curvature alone; its other two channels become those of flat skin.
 Image curvature_channels(Image image, float mid, std::string& warning, const std::string& name) {
     image = to_linear_float(image);
     if (image.channels >= 3 && !is_grey(image)) return image;

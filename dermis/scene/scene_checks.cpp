@@ -110,7 +110,7 @@ void warn_of_sections(const SceneDescription& description, const Scene& scene,
         Material changed;
         for (const auto& [key, change] : material.changes) change(changed);
         if (changed.metallic > 0 && is_skin(scene, name))
-            warnings.push_back("material." + name + ".metallic has no effect: skin is no metal");
+            warnings.push_back("material." + name + ".metallic has no effect: skin is not a metal");
     }
 }
 

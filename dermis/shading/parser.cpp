@@ -132,7 +132,7 @@ Type expect_type(Cursor& cursor) {
     const std::optional<Type> type = find_type(name);
     if (!type && !cursor.error())
         cursor.fail(word.line,
-                    "'" + name + "' is no type of the subset; it has float, vec2, vec3, vec4, int, bool");
+                    "'" + name + "' is not a type of the subset; it has float, vec2, vec3, vec4, int, bool");
     return type.value_or(Type::scalar);
 }
 
@@ -170,7 +170,7 @@ Statement parse_assignment(Cursor& cursor) {
         statement.operation != "*=" && statement.operation != "/=")
         cursor.fail(statement.line,
                     "'" + statement.target + " " + statement.operation +
-                        "' is no statement of the subset; it has declarations, assignments, if, "
+                        "' is not a statement of the subset; it has declarations, assignments, if, "
                         "for and return");
     statement.expressions.push_back(parse_expression(cursor));
     return statement;

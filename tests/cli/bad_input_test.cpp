@@ -193,8 +193,8 @@ TEST_F(BadInput, messages_say_how_to_correct_the_input) {
 }
 
 TEST_F(BadInput, numbers_are_finite) {
-    expect_error("render spheres --turn nan", "--turn: nan is no finite number");
-    expect_error("info a.obj --unit-mm inf", "--unit-mm: inf is no finite number");
+    expect_error("render spheres --turn nan", "--turn: nan is not a finite number");
+    expect_error("info a.obj --unit-mm inf", "--unit-mm: inf is not a finite number");
     expect_error("passes lambert --samples 3", "--samples 3: 1 or 4");
     expect_error("passes lambert --view zz", "unknown view 'zz'");
 }

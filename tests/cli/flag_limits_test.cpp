@@ -1,4 +1,4 @@
-// Every option of every command, as --help lists them: what is no number, and text without end, is refused
+// Every option of every command, as --help lists them: what is not a number, and text without end, is refused
 // by one line, before anything is computed.
 
 #include <gtest/gtest.h>

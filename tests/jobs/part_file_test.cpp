@@ -158,5 +158,5 @@ TEST(PartFiles, other_layers_are_damage) {
     EXPECT_THAT(with_value(9 * kBrightest), HasSubstr("sums that no samples have"));
     EXPECT_THAT(with_value(1), HasSubstr("checksum"));
     EXPECT_THAT(refused(files, [](LayeredImage& f) { f.text.clear(); }),
-                HasSubstr("is no part of a picture"));
+                HasSubstr("is not a part of a picture"));
 }

@@ -102,7 +102,7 @@ TEST(Scoreboard, a_file_that_is_no_scoreboard_is_named_by_line) {
     EXPECT_THAT(parse_scores(good + "bust,wrap\n").error().message, HasSubstr("line 3: has 2 columns"));
     std::string bad = good;
     bad.replace(bad.rfind("0.5"), 3, "x");
-    EXPECT_THAT(parse_scores(bad).error().message, HasSubstr("is no number"));
+    EXPECT_THAT(parse_scores(bad).error().message, HasSubstr("is not a number"));
     bad.replace(bad.rfind(",x,") + 1, 1, "nan");  // what could not be sorted
     EXPECT_THAT(parse_scores(bad).error().message, HasSubstr("is not finite"));
 }

@@ -205,7 +205,7 @@ TEST(Gltf, wrong_files_give_one_line_that_names_the_place) {
     fails_with(replaced(square_gltf(), R"("byteLength":48)", R"("byteLength":9007199254740992)"),
                "passes the end");
     fails_with(replaced(square_gltf(), R"("componentType":5126)", R"("componentType":5)"),
-               "no component type");
+               "not a component type");
     fails_with(replaced(square_gltf(), R"("type":"VEC3")", R"("type":"MAT4")"), "must have 3 components");
     fails_with(square_gltf(R"(,"children":[0])"), "reached twice");
     fails_with(square_gltf(R"(,"scale":[1e38,1,1])"), "out of range in millimetres");

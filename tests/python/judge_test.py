@@ -59,7 +59,7 @@ class Compare(TestCase):
                             (("--integrator", "x"), lambda: dermis.compare("spheres", integrator="x")),
                             (("--frames", 0), lambda: dermis.compare("spheres", frames=0))):
             self.assert_error(self.program_error("compare", "spheres", *words, *out), call)
-        with self.assertRaisesRegex(dermis.Error, "--noise: nan is no finite number"):
+        with self.assertRaisesRegex(dermis.Error, "--noise: nan is not a finite number"):
             dermis.compare("spheres", noise=float("nan"))
 
 

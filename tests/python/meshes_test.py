@@ -95,10 +95,10 @@ class Meshes(TestCase):
                 ("positions_mm: shape 3 x 2, must be N x 3", [[0, 0], [1, 0], [0, 1]], triangle),
                 ("positions_mm: shape 3, must be N x 3", [0, 0, 0], triangle),
                 ("positions_mm: is empty", numpy.zeros((0, 3)), triangle),
-                ("positions_mm: inf in row 1 is no finite number", [[0, 0, 0], [1, numpy.inf, 0], [0, 1, 0]], triangle),
-                ("positions_mm: 1e+300 is no finite number", [[1e300, 0, 0], [1, 0, 0], [0, 1, 0]], triangle),
+                ("positions_mm: inf in row 1 is not a finite number", [[0, 0, 0], [1, numpy.inf, 0], [0, 1, 0]], triangle),
+                ("positions_mm: 1e+300 is not a finite number", [[1e300, 0, 0], [1, 0, 0], [0, 1, 0]], triangle),
                 ("indices: 3 is out of range, there are 3 positions", good, [[0, 1, 3]]),
-                ("indices: -1 is no index", good, [[0, 1, -1]]),
+                ("indices: -1 is not an index", good, [[0, 1, -1]]),
                 ("indices: dtype float64, must be whole numbers", good, [[0., 1., 2.]]),
                 ("indices: is empty", good, numpy.zeros((0, 3), int)),
                 ("normals: 1 rows for 3 positions", good, triangle, [[0, 0, 1]]),
@@ -106,7 +106,7 @@ class Meshes(TestCase):
             self.assert_error(sentence, dermis.Mesh, *arguments)
         mesh = dermis.Mesh(good, triangle)
         self.assert_error("--smoothing-mm: -1 must be 0 or more", mesh.curvature, -1)
-        self.assert_error("--smoothing-mm: nan is no finite number", mesh.curvature, float("nan"))
+        self.assert_error("--smoothing-mm: nan is not a finite number", mesh.curvature, float("nan"))
         self.assert_error("rays: 0, must be 1 to 65536", mesh.occlusion, 0)
         self.assert_error("x.fbx: a mesh is written as .glb or .obj", mesh.save, "x.fbx")
         self.assert_error(self.program_error("info", "none.obj"), dermis.load_mesh, "none.obj")

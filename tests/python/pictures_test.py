@@ -150,7 +150,7 @@ class Reference(TestCase):
                 (("--profile", "none", "--size", 8), lambda: dermis.reference("spheres", profile="none", size=8)),
                 (("--filter", "boxes"), lambda: dermis.reference("spheres", filter="boxes"))):
             self.assert_error(self.program_error("reference", "spheres", *words, *out), call)
-        self.assert_error("--noise: nan is no finite number", dermis.reference, "spheres", noise=float("nan"))
+        self.assert_error("--noise: nan is not a finite number", dermis.reference, "spheres", noise=float("nan"))
         picture = dermis.reference("spheres", size=8, samples=4)
         with self.assertRaisesRegex(dermis.Error, "x.png"):
             picture.save("x.png")

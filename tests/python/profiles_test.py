@@ -77,7 +77,7 @@ class Profiles(TestCase):
 
     def test_wrong_shapes_and_numbers_are_errors(self):
         skin = dermis.profile("gpu_gems_3")
-        self.assert_error("r_mm: nan in row 1 is no finite number", skin.cdf, [1, float("nan")])
+        self.assert_error("r_mm: nan in row 1 is not a finite number", skin.cdf, [1, float("nan")])
         self.assert_error("r_mm: -1 is below 0", skin.cdf, -1)
         self.assert_error("r_mm: is empty", skin.cdf, [])
         self.assert_error("r_mm: dtype complex128, must be real numbers", skin.cdf, [1j])

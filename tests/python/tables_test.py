@@ -91,7 +91,7 @@ class Tables(TestCase):
         table = dermis.bake_lut(size=8)
         self.assert_error(self.program_error("bake", "lut", "-o", "x.jpg"), table.save, "x.jpg")
         self.assert_error(self.program_error("bake", "lut", "-o", "x.exr", "--storage", "8"), table.save, "x.exr", "8")
-        self.assert_error("v: nan in row 0 is no finite number", table.lookup, 0, float("nan"))
+        self.assert_error("v: nan in row 0 is not a finite number", table.lookup, 0, float("nan"))
         self.assertFalse(zonal.exists())
         with self.assertRaises(dermis.Error):
             dermis.read_table(self.folder / "missing.exr")

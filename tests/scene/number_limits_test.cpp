@@ -1,6 +1,6 @@
 // Every number that a user may give, out of the tables that declare them: a new row is covered unasked. Both
-// ends of its range are taken; just beyond them, what is no number, nothing at all and text without end are
-// refused by a line that names the row.
+// ends of its range are taken; just beyond them, what is not a number, nothing at all and text without end
+// are refused by a line that names the row.
 
 #include <gtest/gtest.h>
 

@@ -34,7 +34,7 @@ TEST(Parser, what_the_subset_lacks_is_an_error_with_line_and_mend) {
         {"/* a */", "skin.glsl:1: a comment in /* */; write //"},
         {"float f(float a[2]) { return a[0]; }", "'[' is not of the subset"},
         {"float f(out float a) { return 1.0; }", "'out' at a parameter: WGSL has none; return the value"},
-        {"float f(mat3 m) { return 1.0; }", "'mat3' is no type of the subset; it has float, vec2"},
+        {"float f(mat3 m) { return 1.0; }", "'mat3' is not a type of the subset; it has float, vec2"},
         {"float f(float a) { while (a > 1.0) return a; }", "'while' is not of the subset"},
         {"float f(float a);", "'f' is declared without a body"},
         {"float f(float a) {\n    return a\n}", "skin.glsl:3: ';' is missing before '}'"},

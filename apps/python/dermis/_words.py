@@ -79,7 +79,7 @@ def given(**options):
 def whole(value, option, least, most):
     """A whole number within C's range; the parsers check the rest."""
     if isinstance(value, (bool, numpy.bool_)) or not isinstance(value, (int, numpy.integer)):
-        raise TypeError(f"{option}: {value!r} is no whole number")
+        raise TypeError(f"{option}: {value!r} is not a whole number")
     if not least <= value <= most:
         raise _dermis.Error(f"--{option.replace('_', '-')} {value}: must be {least} to {most}")
     return int(value)

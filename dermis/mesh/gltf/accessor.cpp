@@ -110,7 +110,7 @@ Layout read_layout(Document& document, const JsonView& accessor, size_t componen
     layout.normalized = accessor["normalized"].boolean(false);
     if (accessor.failed()) return {};
     if (size_of(layout.type) == 0)
-        return accessor["componentType"].fail(std::to_string(layout.type) + " is no component type"),
+        return accessor["componentType"].fail(std::to_string(layout.type) + " is not a component type"),
                Layout{};
     if (layout.components != components)
         return accessor["type"].fail(fmt::format("must have {} components here", components)), Layout{};

@@ -205,7 +205,7 @@ class MaterialReader {
         const uint64_t number = mode.integer(kRepeat);
         if (number == kClamp) return TextureWrap::clamp;
         if (number == kMirror) return TextureWrap::mirror;
-        if (number != kRepeat) mode.warn(std::to_string(number) + " is no wrap mode; repeats");
+        if (number != kRepeat) mode.warn(std::to_string(number) + " is not a wrap mode; repeats");
         return TextureWrap::repeat;
     }
 
