@@ -22,7 +22,7 @@ LutOptions unity_2011() {
         TableAxis{"n_dot_l", "1", -1, 1, AxisWarp::linear, TexelSampling::low_edge},
         TableAxis{"curvature_per_mm", "1/mm", 0, 0.5, AxisWarp::linear, TexelSampling::high_edge}};
     options.convention.v_origin = VOrigin::bottom;
-    options.convention.how = {.construction = Construction::half_ring, .variance_scale = 1.414};
+    options.convention.how = kUnity2011Ring;
     options.convention.integration = Integration::unity_taps;
     options.storage = TableStorage::u8;
     return options;

@@ -187,7 +187,7 @@ Figure millimetres_figure() {
     row.cells[1].compare_to = row.cells[2].compare_to = "texels";
     return {.id = "millimetres",
             .title = "The blurred light, in texels and in millimetres",
-            .source = "not in the source, which calls it too expensive; the last after d'Eon, Luebke 2007",
+            .source = "not in the source; the last after d'Eon, Luebke 2007",
             .rows = {row}};
 }
 

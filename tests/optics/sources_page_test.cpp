@@ -50,7 +50,6 @@ class SourcesPage : public testing::Test {
     std::string page_;
 };
 
-constexpr Preintegration kPublishedHalfRing = {.construction = Construction::half_ring};
 const GaussianSum& skin() {
     static const GaussianSum kOfGpuGems = gpu_gems_3_skin();
     return kOfGpuGems;
@@ -68,10 +67,9 @@ double difference_at_2_mm(const Light& red) {
 }  // namespace
 
 TEST_F(SourcesPage, states_how_far_published_constructions_are_from_the_sphere) {
-    const Preintegration script = {.construction = Construction::half_ring, .variance_scale = 1.414};
-    expect_stated(
-        "differs from the sphere by up to ([0-9.]+) at r = 2 mm in red",
-        {difference_at_2_mm([&](double t) { return preintegrated_diffuse(skin(), t, 2, script)[0]; })});
+    expect_stated("differs from the sphere by up to ([0-9.]+) at r = 2 mm in red",
+                  {difference_at_2_mm(
+                      [&](double t) { return preintegrated_diffuse(skin(), t, 2, kUnity2011Ring)[0]; })});
     expect_stated("Error against the sphere: ([0-9.]+) at r = 2 mm",
                   {difference_at_2_mm([](double t) { return curve_2015_direct(t, 0.5)[0]; })});
 }
@@ -100,11 +98,10 @@ TEST_F(SourcesPage, states_the_mean_light_of_every_construction) {
         return preintegrated_zonal_harmonics(skin(), 2, how)[0][0];
     };
     expect_stated(
-        "zh_0 of ([0-9.]+) in red at r = 2 mm; [^|]* half ring [^|]* has ([0-9.]+), the full ring ([0-9.]+), "
-        "a "
-        "sphere of any radius ([0-9.]+)",
-        {curve_2015_zonal(0.5)[0][0], zh_0(kPublishedHalfRing),
-         zh_0({.construction = Construction::full_ring}), zh_0({})});
+        "zh_0 of ([0-9.]+) in red at r = 2 mm; the half ring of `diffuse=half_ring` has ([0-9.]+), the full "
+        "ring "
+        "of `diffuse=full_ring` ([0-9.]+), a sphere of any radius ([0-9.]+)",
+        {curve_2015_zonal(0.5)[0][0], zh_0(kUnity2011Ring), zh_0(kYeung2015Ring), zh_0({})});
 }
 
 // Towards N.H = 1 a table over N.H has no texel, and the highlight's peak is cut.
