@@ -31,6 +31,10 @@ Result<Enum> find_name(std::string_view what, std::span<const std::string_view> 
     return Error{unknown_name(what, name, std::vector<std::string>(names.begin(), names.end()))};
 }
 
+struct Renamed {
+    std::string_view before, now;
+};
+
 // Keeps the first error, so that the caller is a plain list of keys.
 class Reader {
   public:
@@ -51,9 +55,6 @@ class Reader {
         }
         return min;
     }
-    struct Renamed {
-        std::string_view before = {}, now = {};
-    };
     template <class Enum>
     Enum name(const char* key, std::span<const std::string_view> names, Renamed renamed = {}) {
         const std::string found = text(key);
