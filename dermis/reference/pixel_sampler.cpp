@@ -8,7 +8,7 @@
 #include "dermis/rays/camera_ray.h"
 #include "dermis/rays/flesh.h"
 #include "dermis/rays/random.h"
-#include "dermis/reference/random_walk.h"
+#include "dermis/rays/random_walk.h"
 
 namespace dermis::inline reference {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Random walks inside the scene's skin: the exitance of a visible point from the light that enters elsewhere.
 
-#include "dermis/reference/guided_walk.h"
+#include "dermis/rays/guided_walk.h"
 #include "dermis/reference/lighting.h"
 #include "dermis/reference/surface_integrator.h"
 

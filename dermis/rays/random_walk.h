@@ -17,7 +17,7 @@
 #include "dermis/rays/random.h"
 #include "dermis/rays/sampling.h"
 
-namespace dermis::inline reference {
+namespace dermis::inline rays {
 
 /// Where a straight line inside the medium meets its boundary.
 struct BoundaryHit {
@@ -116,4 +116,4 @@ struct HalfSpaceAlbedo {
 [[nodiscard]] HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<Vec3> start,
                                                 int walks, uint32_t seed);
 
-}  // namespace dermis::inline reference
+}  // namespace dermis::inline rays

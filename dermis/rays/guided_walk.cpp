@@ -1,11 +1,11 @@
-#include "dermis/reference/guided_walk.h"
+#include "dermis/rays/guided_walk.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "dermis/base/angle.h"
 
-namespace dermis::inline reference {
+namespace dermis::inline rays {
 namespace {
 
 // Chosen among 0.5, 0.75, 0.9 and 0.97 on a half-space and the head scan, jensen_skin1: 0.9 takes a quarter
@@ -90,4 +90,4 @@ GuidedWeight after_step(const WalkMedium& medium, const WalkGuide& guide, const 
             .led_by = weight.led_by * drawn * (1 / density)};
 }
 
-}  // namespace dermis::inline reference
+}  // namespace dermis::inline rays

@@ -1,4 +1,4 @@
-#include "dermis/reference/random_walk.h"
+#include "dermis/rays/random_walk.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dermis/reference/guided_walk.h"
+#include "dermis/rays/guided_walk.h"
 
 #include <gtest/gtest.h>
 

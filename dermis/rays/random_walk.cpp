@@ -1,4 +1,4 @@
-#include "dermis/reference/random_walk.h"
+#include "dermis/rays/random_walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/optics/fresnel.h"
 
-namespace dermis::inline reference {
+namespace dermis::inline rays {
 namespace {
 
 // Throughput below which roulette begins: saves work on dim paths without making rare bright ones.
@@ -108,4 +108,4 @@ HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<
     return result;
 }
 
-}  // namespace dermis::inline reference
+}  // namespace dermis::inline rays

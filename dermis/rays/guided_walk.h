@@ -9,9 +9,9 @@
 // three (Wilkie et al. 2014), which bounds the weight of walks through an ear or along a wrinkle. The mean is
 // that of random_walk (tested).
 
-#include "dermis/reference/random_walk.h"
+#include "dermis/rays/random_walk.h"
 
-namespace dermis::inline reference {
+namespace dermis::inline rays {
 
 struct WalkGuide {
     Vec3 diffusion_length;  ///< nu of each channel, in mean free paths, > 1
@@ -84,4 +84,4 @@ template <class Boundary>
     return absorbed;
 }
 
-}  // namespace dermis::inline reference
+}  // namespace dermis::inline rays
