@@ -29,7 +29,7 @@ Pass depth_pass(const LightChannels& light, LoadOp load, bool draws_depth) {
             .geometry = GeometryFilter::opaque};
 }
 
-Pass tint_pass(const LightChannels& light, bool single_channel) {
+Pass tint_pass(const LightChannels& light, bool single_channel, ShadowLookup lookup) {
     return {.name = "shadow tint" + light.suffix,
             .kind = PassKind::geometry_light,
             .shader = "renderer/shadow_tint.frag",
@@ -40,7 +40,8 @@ Pass tint_pass(const LightChannels& light, bool single_channel) {
                         .write_mask = light.opacity}},
             .depth = DepthTarget{.image = light.depth_image, .load = LoadOp::load, .write = false},
             .geometry = GeometryFilter::translucent,
-            .constants = {{"single_channel", int32_t(single_channel)}}};
+            .constants = {{"single_channel", int32_t(single_channel)},
+                          {"adds_opacity", int32_t(lookup == ShadowLookup::single)}}};
 }
 
 }  // namespace
@@ -61,14 +62,14 @@ void add_shadow_channels(PassList& list, const ShadowChannelSettings& settings, 
     const LightChannels key = {"", "shadow_map", "", two ? kRedBit : kRedBit | kGreenBit | kBlueBit,
                                kAlphaBit};
     list.passes.push_back(depth_pass(key, LoadOp::clear, false));
-    if (tinted) list.passes.push_back(tint_pass(key, two || settings.single_channel));
+    if (tinted) list.passes.push_back(tint_pass(key, two || settings.single_channel, settings.lookup));
     if (!two) return;
     list.passes[list.passes.size() - (tinted ? 2 : 1)].colors[0].clear = {0, 0, 1, 1};
     list.images.push_back({.name = "second_shadow_depth", .format = ImageFormat::depth32f, .size = size});
     const LightChannels second = {" 2", "second_shadow_depth", "atlas/second_light.vert", kGreenBit,
                                   kBlueBit};
     list.passes.push_back(depth_pass(second, LoadOp::load, true));
-    if (tinted) list.passes.push_back(tint_pass(second, true));
+    if (tinted) list.passes.push_back(tint_pass(second, true, settings.lookup));
 }
 
 void read_shadow_channels(Pass& pass, const ShadowChannelSettings& settings, const FrameContext& frame) {

@@ -9,11 +9,12 @@ namespace dermis::inline technique {
 
 enum class ShadowChannels : int32_t {
     none = kChannelsNone,
-    color = kChannelsColor,  ///< RGB the key light's optical depth, A its depth
+    color = kChannelsColor,  ///< RGB the key light's optical depth (single: opacity), A its depth
     two_lights =
         kChannelsTwoLights  ///< R and A the key light's, G and B the second light's opacity and depth
 };
-/// disk: filtered over the penumbra's width; single: the source's one texel with a constant bias.
+/// disk: filtered over the penumbra's width. single: as the source has it, one texel with a constant bias;
+/// opacities are added, so that two surfaces pass 1 - a - b, and N.L x colour is saturated.
 enum class ShadowLookup : int32_t { disk = kLookupDisk, single = kLookupSingle };
 
 struct ShadowChannelSettings {

@@ -118,13 +118,13 @@ PixelLight light_pixel(out Surface s) {
         float n_dot_l = dot(s.n_world, light.to_light_world);
         vec3 specular = light.irradiance_linear *
                         specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
-        sum.direct += light.irradiance_linear * max(n_dot_l, 0.0) * diffuse_entry(s, n_dot_l) * shadow_factor(arriving);
+        sum.direct += arriving_irradiance(light, max(n_dot_l, 0.0)) * diffuse_entry(s, n_dot_l) * shadow_factor(i, arriving);
         sum.transmitted += light.irradiance_linear * s.occlusion * now.transmitted;
         if (i == key_light) {
             sum.key_specular = specular;
             sum.key_passing = arriving;
         } else {
-            sum.specular += specular * shadow_factor(arriving);
+            sum.specular += specular * arriving;
         }
     }
     return sum;

@@ -34,7 +34,7 @@ vec3 direct_exitance(Surface s) {
         LightSample light = sample_light(i, s.p_world_mm);
         float n_dot_l = dot(s.n_world, light.to_light_world);
         if (n_dot_l <= 0.0) continue;
-        direct += light.irradiance_linear * n_dot_l * diffuse_entry(s, n_dot_l) * shadow_factor(passing(s, i, light.to_light_world));
+        direct += arriving_irradiance(light, n_dot_l) * diffuse_entry(s, n_dot_l) * shadow_factor(i, passing(s, i, light.to_light_world));
     }
     return direct;
 }

@@ -25,7 +25,15 @@ vec3 passing(Surface s, int light, vec3 to_light_world) {
     return other.visibility * other.tint;
 }
 
-vec3 shadow_factor(vec3 passing) { return mix(vec3(occluded), vec3(1.0), passing); }
+// What is left of the key light in full shadow is `occluded`.
+vec3 shadow_factor(int light, vec3 passing) { return light == key_light ? mix(vec3(occluded), vec3(1.0), passing) : passing; }
+
+// E = N.L times the light's irradiance. With the source's shadows it is saturated in each channel, as the source does:
+// radiance over albedo, E / pi, is at most 1.
+vec3 arriving_irradiance(LightSample light, float n_dot_l) {
+    vec3 irradiance = light.irradiance_linear * n_dot_l;
+    return shadow_lookup == kLookupSingle ? min(irradiance, vec3(kPi)) : irradiance;
+}
 
 // N.L by the shading normal, and by the mean of the normal map's normals: N.L of that mean is the mean of N.L.
 struct Exitance {

@@ -13,7 +13,7 @@ float luminance(vec3 c_linear) { return dot(c_linear, vec3(0.2125, 0.7154, 0.072
 
 vec3 key_specular_shadow(Surface s, vec3 passing, vec3 exitance) {
     if (specular_shadow == kSpecularShadowOff) return vec3(1.0);
-    if (specular_shadow == kSpecularShadowMap) return shadow_factor(passing);
+    if (specular_shadow == kSpecularShadowMap) return shadow_factor(key_light, passing);
     // The source multiplies by the luminance as it is, its light being about 1; here by its share of the key light.
     LightSample key = sample_light(max(key_light, 0), s.p_world_mm);
     float share = luminance(exitance) / max(luminance(key.irradiance_linear), 1e-4);

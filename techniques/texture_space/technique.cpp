@@ -60,8 +60,9 @@ ParameterTable parameters() {
                 "keep the last light map while the camera is farther away; 0: never")
         .choice(
             &Params::shadows, "shadows", {"filtered", "source", "one_channel", "two_lights"},
-            "the key light's shadow: filtered over the penumbra; the source's one texel; the same with one "
-            "channel of opacity; or with the second light's shadow in the channels that this leaves free")
+            "the key light's shadow: filtered over the penumbra; as the source has it: one texel, opacities "
+            "added, N.L x colour saturated; the same with one channel of opacity; or with the second light's "
+            "shadow in the channels that this leaves free")
         .number(&Params::trans_shadow_alpha, "trans_shadow_alpha", "", 0, 16,
                 "exponent of a translucent shadow; larger is darker, 0 is none")
         .number(&Params::occluded, "occluded", "", 0, 1, "part of the key light that remains in full shadow")

@@ -11,7 +11,7 @@ void main() {
     PixelLight light = light_pixel(s);
     vec3 exitance = scattered_exitance(light_map, light_map_lit, s, light.direct, kTexelsPremultiplied, pre_scatter);
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion) +
-                             light.specular + light.key_specular * shadow_factor(light.key_passing);
+                             light.specular + light.key_specular * shadow_factor(key_light, light.key_passing);
     // The base colour where light enters is taken to be that where it leaves.
     exitance += pow(s.albedo_linear, vec3(pre_scatter)) * light.transmitted;
     vec3 diffuse_radiance = diffuse_exit(s) * pow(s.albedo_linear, vec3(1.0 - pre_scatter)) * exitance / kPi;

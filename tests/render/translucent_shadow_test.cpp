@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "dermis/mesh/primitives.h"
 #include "dermis/scene/placement.h"
@@ -85,6 +86,36 @@ TEST_F(TranslucentShadow, of_two_surfaces_is_the_product_of_their_tints) {
                                      sheet({0.5f, 0.5f, 0.5f}, 30, MaterialClass::translucent)});
     Renderer renderer = make_renderer(scene);
     expect_near(at(light_map(renderer, {}), 48, 32), kGlassTint * 0.5f * kIrradiance);
+}
+
+// Gosselin, Sander, Mitchell 2004 add opacities: two sheets that pass .9 and .5 of blue pass 1 - .1 - .5.
+TEST_F(TranslucentShadow, of_two_surfaces_adds_their_opacities_as_the_source_does) {
+    const Scene scene = plane_under({sheet(kGlassTint, 20, MaterialClass::translucent),
+                                     sheet({0.5f, 0.5f, 0.5f}, 30, MaterialClass::translucent)});
+    Renderer renderer = make_renderer(scene);
+    expect_near(at(light_map(renderer, {{"shadows", "source"}}), 48, 32), Vec3{0, 0, 0.4f} * kIrradiance);
+}
+
+// Radiance over albedo is E / pi.
+TEST_F(TranslucentShadow, light_is_saturated_in_each_channel_with_the_sources_lookup_only) {
+    Scene scene = plane_under({});
+    scene.lights[0].color_linear = {3, 1, 0.25f};
+    Renderer renderer = make_renderer(scene);
+    const Vec3 irradiance = Vec3{3, 1, 0.25f} * kIrradiance;
+    expect_near(at(light_map(renderer, {}), 12, 32), irradiance);
+    expect_near(at(light_map(renderer, {{"shadows", "source"}}), 12, 32),
+                {std::numbers::pi_v<float>, irradiance.y, irradiance.z});
+}
+
+TEST_F(TranslucentShadow, occluded_is_what_is_left_of_the_key_light_alone) {
+    Scene scene = plane_under({sheet({1, 1, 1}, 20, MaterialClass::other)});
+    Light second = scene.lights[0];
+    second.name = "second", second.is_key = false;
+    scene.lights.push_back(second);
+    Renderer renderer = make_renderer(scene);
+    const Image shaded = light_map(renderer, {{"occluded", "0.25"}});
+    expect_near(at(shaded, 12, 32), Vec3{1, 1, 1} * (2 * kIrradiance));
+    expect_near(at(shaded, 48, 32), Vec3{1, 1, 1} * (0.25f * kIrradiance));
 }
 
 TEST_F(TranslucentShadow, takes_one_channel_when_asked) {
