@@ -72,7 +72,7 @@ std::vector<Run> runs(const std::string& only) {
         all.push_back(run_of(technique.id, "diffuse", "closed_form"));
         all.push_back(run_of(technique.id, "normals", "sharp"));
         all.push_back(run_of(technique.id, "shadow", "plain"));
-        all.push_back(run_of(technique.id, "shadow", "gathered"));
+        all.push_back(run_of(technique.id, "shadow", "scattered"));
     }
     return all;
 }

@@ -11,7 +11,7 @@ namespace {
 
 // Beyond the defaults of every technique.
 constexpr std::string_view kSettings =
-    "preintegrated[shadow=gathered],"
+    "preintegrated[shadow=scattered],"
     "preintegrated[shadow=plain],"
     "preintegrated[normals=blended],"
     "preintegrated[diffuse=closed_form,shadow=plain],"

@@ -28,7 +28,8 @@ Result<void> measure_bytes(const Scene& scene, const Contestant& contestant, int
                       technique.tables(contestant.values, {.profile = *profile,
                                                            .gaussians = to_gaussian_sum(*profile).sum,
                                                            .diffuse_table = scene.skin.diffuse_table,
-                                                           .zonal_table = scene.skin.zonal_table}));
+                                                           .zonal_table = scene.skin.zonal_table,
+                                                           .beckmann_table = scene.skin.beckmann_table}));
     for (const TableImage& table : tables) cost.table_bytes += table.bytes.size();
     return {};
 }

@@ -38,7 +38,11 @@ gpu::Values parameter_block(const ParameterValues& values) {
 
 std::string settings_key(const Technique& technique, const ParameterValues& values, const SkinContext& skin) {
     Hasher hasher;
-    hasher.add(technique.id).add(skin.profile.name).add(skin.diffuse_table).add(skin.zonal_table);
+    hasher.add(technique.id)
+        .add(skin.profile.name)
+        .add(skin.diffuse_table)
+        .add(skin.zonal_table)
+        .add(skin.beckmann_table);
     for (const Parameter& parameter : values.table().parameters) hasher.add(values.text(parameter));
     for (const GaussianTerm& term : skin.gaussians.terms)
         hasher.add(term.variance_mm2).add(term.weight[0]).add(term.weight[1]).add(term.weight[2]);
@@ -153,6 +157,7 @@ Result<const SkinContext*> Renderer::skin_context() {
     }
     skin_->diffuse_table = scene_->skin.diffuse_table;
     skin_->zonal_table = scene_->skin.zonal_table;
+    skin_->beckmann_table = scene_->skin.beckmann_table;
     return &*skin_;
 }
 
@@ -269,6 +274,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
         .densest_uv_per_mm = uploaded_->uv_density().densest_uv_per_mm,
         .typical_uv_per_mm = uploaded_->uv_density().typical_uv_per_mm,
         .has_zonal_table = !scene_->skin.zonal_table.empty(),
+        .has_beckmann_table = !scene_->skin.beckmann_table.empty(),
         .skin_gaussians = (*skin)->gaussians};
     const SharedPassSettings shared = {.samples = settings.samples,
                                        .shadow_map_size = settings.shadow_map_size,

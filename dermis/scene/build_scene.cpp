@@ -185,7 +185,8 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     if (description.environment) stated.environment.reset();
     apply_statements(stated, scene);
     for (const auto& [key, path] : {std::pair{"skin.diffuse_table: ", &scene.skin.diffuse_table},
-                                    std::pair{"skin.zonal_table: ", &scene.skin.zonal_table}}) {
+                                    std::pair{"skin.zonal_table: ", &scene.skin.zonal_table},
+                                    std::pair{"skin.beckmann_table: ", &scene.skin.beckmann_table}}) {
         if (path->empty()) continue;
         const Result<fs::path> table = resolve_path(*path, description.file);
         if (!table) return Error{description.file.string() + ": " + key + table.error().message};

@@ -76,8 +76,9 @@ struct Skin {
     float specular = 1;                     ///< scales F0
     Vec3 albedo_tint_linear = {1, 1, 1};    ///< multiplies the materials' base colour
     bool specular_reduces_diffuse = false;  ///< shaders/include/reduced_diffuse.glsl has the formula
-    std::string diffuse_table;  ///< a file of `dermis bake lut` for techniques that read one; empty: baked
-    std::string zonal_table;    ///< the same of `dermis bake zh`
+    std::string diffuse_table;   ///< a file of `dermis bake lut` for techniques that read one; empty: baked
+    std::string zonal_table;     ///< the same of `dermis bake zh`
+    std::string beckmann_table;  ///< the same of `dermis bake beckmann`
 };
 
 /// One mesh with its transform applied. A material is skin, other, or translucent (shadow-casting glass).

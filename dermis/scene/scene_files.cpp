@@ -35,7 +35,8 @@ std::vector<fs::path> files_of(const Scene& scene) {
             for (const auto map : kMaps)
                 if (is_on_disk(material.*map)) files.emplace_back((material.*map).name);
     if (scene.environment.kind == EnvironmentKind::file) files.push_back(scene.environment.file);
-    for (const std::string& table : {scene.skin.diffuse_table, scene.skin.zonal_table})
+    for (const std::string& table :
+         {scene.skin.diffuse_table, scene.skin.zonal_table, scene.skin.beckmann_table})
         if (!table.empty()) files.emplace_back(table);
     if (is_profile_file(scene.skin.profile)) files.emplace_back(scene.skin.profile);
     std::sort(files.begin(), files.end());

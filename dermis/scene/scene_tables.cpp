@@ -242,6 +242,10 @@ const KeyTable<Skin>& skin_keys() {
                   {.name = "zonal_table",
                    .doc = "path of a table of `dermis bake zh`, with all orders or remapped, read instead of "
                           "baking one"})
+            .text(
+                &Skin::beckmann_table,
+                {.name = "beckmann_table",
+                 .doc = "path of a table of `dermis bake beckmann`, read by preintegrated with specular=ksk"})
             .number(&Skin::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = kMostSkinIor})
             .number(&Skin::roughness, {.name = "roughness", .doc = "perceptual: the GGX width is its square"})
             .number(&Skin::specular,

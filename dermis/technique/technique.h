@@ -40,15 +40,17 @@ struct FrameContext {
     std::string atlas_fault;
     bool has_skin_outside_atlas = true;  ///< some of the skin has UVs in other tiles than 0..1
     bool has_zonal_table = false;        ///< SkinContext::zonal_table is given
+    bool has_beckmann_table = false;     ///< SkinContext::beckmann_table is given
     GaussianSum skin_gaussians;          ///< of the scene's profile
 };
 
 /// The skin and the scene that tables are baked for.
 struct SkinContext {
     Profile profile;
-    GaussianSum gaussians;           ///< the profile itself, or its fit
-    std::string diffuse_table = {};  ///< a file to read instead of baking (bake/table_io.h); empty: none
-    std::string zonal_table = {};    ///< the same for light from the environment
+    GaussianSum gaussians;            ///< the profile itself, or its fit
+    std::string diffuse_table = {};   ///< a file to read instead of baking (bake/table_io.h); empty: none
+    std::string zonal_table = {};     ///< the same for light from the environment
+    std::string beckmann_table = {};  ///< the same for the distribution of specular=ksk
 };
 
 /// A table for the GPU: rows top to bottom, texels tightly packed in `format`.

@@ -9,7 +9,7 @@ namespace dermis {
 // Specialisation constants: the order of the parameters' choices.
 const int kDiffuseLut = 0, kDiffuseHalfRing = 1, kDiffuseFullRing = 2, kDiffuseCurve2015 = 3,
           kDiffuseClosedForm = 4;
-const int kShadowPlain = 0, kShadowScattered = 1, kShadowGathered = 2;
+const int kShadowAuto = 0, kShadowPlain = 1, kShadowScattered = 2, kShadowGathered = 3;
 const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
 const int kNormalsAuto = 0, kNormalsBaked = 1, kNormalsBlended = 2, kNormalsLerp = 3, kNormalsSmooth = 4,
           kNormalsSharp = 5;
@@ -18,8 +18,9 @@ const int kAmbientProfile = 0, kAmbientExact = 1, kAmbientCurve2015 = 2;
 // The tables hold curvatures from 0 to this.
 const float kMaxCurvaturePerMm = 1.0;
 
-// The smoother normal is read at most so many mip levels above the sharp one, as published (Penner 2011).
-const float kMostNormalLevels = 3.0;
+// Mip levels of the smoother normal above the sharp one, as published (Penner 2011); normals=blended takes at
+// most as many.
+const float kPublishedNormalLevels = 3.0;
 
 // Terms of a polynomial of curvature (dermis/optics/curvature_expressions.h); Gaussians of the profile that
 // the block Skin has room for.
@@ -31,11 +32,11 @@ const int kTransmissionGaussians = 6;
 
 // Rows of skin_rows. Over an argument from 0 to 1: zonal harmonics of order 0 to 2 over curvature; the
 // shadow's edge over visibility; weights and levels of the smoother normal over log2 of a texel of the normal
-// map in mm; the sphere of red's mean normal over sqrt(1 - its length), as curvature over kMaxCurvaturePerMm
-// and what is left of the cosine lobe's second band. By texel: weights and places of the shadow's taps
-// (weights.h).
-const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowOfMean = 5, kRowTapWeights = 6,
-          kRowTapPlaces = 7, kRowCount = 8, kRowTexels = 257;
+// map in mm, and the same with the published levels; the sphere of red's mean normal over sqrt(1 - its
+// length), as curvature over kMaxCurvaturePerMm and what is left of the cosine lobe's second band. By texel:
+// weights and places of the shadow's taps (weights.h).
+const int kRowZonal = 0, kRowShadow = 3, kRowNormals = 4, kRowPublishedNormals = 5, kRowOfMean = 6,
+          kRowTapWeights = 7, kRowTapPlaces = 8, kRowCount = 9, kRowTexels = 257;
 // Taps of shadow=gathered; the row has every fourth of them first.
 const int kShadowGatherTaps = 64, kShadowFirstTaps = 16;
 // How far a place is lifted off the quadric, over its distance.

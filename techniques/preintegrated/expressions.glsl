@@ -12,7 +12,8 @@ vec3 profile_edge(float visibility) { return scattered_edge(visibility); }
 // The formula of techniques/preintegrated/weights.h, once per pixel. There is no return before the loop, because lavapipe
 // (Mesa 22.3) compiles one to code that writes past its stack.
 vec4 normal_blend(float sharp_mm) {
-    float levels = clamp(log2(widest_blend_mm / sharp_mm), 0.0, kMostNormalLevels);
+    float levels = clamp(log2(widest_blend_mm / sharp_mm), 0.0, kPublishedNormalLevels);
+    if (normals == kNormalsLerp) levels = kPublishedNormalLevels;
     float s0 = sharp_mm * sharp_mm / 12.0, s1 = s0 * exp2(2.0 * levels);
     vec3 kept = vec3(0.0);
     for (int i = 0; i < gaussian_count; ++i) {

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "dermis/bake/beckmann_table.h"
+#include "dermis/bake/table_io.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
 #include "render/grid_scene.h"
 #include "support/built_in.h"
+#include "support/temporary_directory.h"
 
 using namespace dermis;
 
@@ -119,6 +122,38 @@ TEST_F(PreintegratedLights, from_the_environment_are_dimmed_by_an_occlusion_map)
     scene.objects[0].mesh.materials[0].occlusion_map = {
         .name = "half", .width = 1, .height = 1, .channels = 1, .pixels = {std::byte{128}}};
     EXPECT_NEAR(red(draw_grid(scene, {})) / open, 128.0 / 255, 1e-3);
+}
+
+// A user's texture, here the published 8-bit one, and one whose values are doubled: light is proportional to
+// them.
+TEST_F(PreintegratedLights, are_reflected_by_the_beckmann_table_of_the_scene) {
+    Scene scene = load("builtin:spheres");
+    scene.environment.kind = EnvironmentKind::none;
+    const TemporaryDirectory directory;
+    const auto drawn = [&] {
+        Renderer renderer = make_renderer(scene);
+        return radiance(renderer, technique(), values_of({{"specular", "ksk"}, {"normals", "blended"}}),
+                        {.width = 128, .height = 128, .view = "specular", .deep = true});
+    };
+    const Image baked_here = drawn();
+    const auto brightest = [](const Image& image) {
+        float most = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) most = std::max(most, image.at(x, y, 0));
+        return most;
+    };
+    Table table = *bake_beckmann({.layout = BeckmannLayout::gems_8_bit});
+    const auto with_table = [&](const std::string& name, TableStorage storage) {
+        scene.skin.beckmann_table = (directory.path / name).string();
+        EXPECT_TRUE(write_table(scene.skin.beckmann_table, table, storage));
+        return drawn();
+    };
+    EXPECT_NEAR(brightest(with_table("published.png", TableStorage::u8)) / brightest(baked_here), 0.88, 0.02)
+        << "too coarse over N.H for the peak";
+    table = *bake_beckmann({});
+    const float own = brightest(with_table("own.exr", TableStorage::f32));
+    for (float& value : table.data) value *= 2;
+    EXPECT_NEAR(brightest(with_table("doubled.exr", TableStorage::f32)) / own, 2, 0.02);
 }
 
 TEST_F(PreintegratedLights, are_reflected_by_the_beckmann_table_as_by_its_formula) {

@@ -20,9 +20,13 @@ GaussianSum one_gaussian(double variance_mm2) {
 
 class Lerp : public PreintegratedTest {
   protected:
-    // Stripes as wide as a pixel that lean towards the light and away from it.
+    // Stripes as wide as a pixel, 0.125 mm, that lean towards the light and away from it. Blend and published
+    // shader read the same level of them.
     static Image stripes(const char* normals) {
         Scene scene = make_grid_scene();
+        for (Vec3& p : scene.objects[0].mesh.positions_mm) p = p * 0.125f;
+        scene.camera.eye_mm = scene.camera.eye_mm * 0.125f;
+        scene.bounds_radius_mm *= 0.125f;
         scene.lights[0].to_light_world = {0.6f, 0, 0.8f};
         scene.objects[0].mesh.materials[0].normal_map = striped_normal_map();
         return draw_grid(scene, {{"shadow", "plain"}, {"normals", normals}});
@@ -74,6 +78,16 @@ TEST(NormalBlend, never_reads_wider_than_half_of_what_red_scatters) {
             EXPECT_LE(sharp_mm * std::exp2(blend.lod_bias), 0.5 * std::sqrt(12 * variance_mm2) * 1.0001);
         }
     }
+}
+
+// The published shader reads three levels up whatever the texel's size; the blend stops at what red scatters.
+TEST(NormalBlend, as_published_reads_three_levels_up) {
+    for (const double sharp_mm : {0.01, 0.2, 3.0}) {
+        const NormalBlend published = published_normal_blend(gpu_gems_3_skin(), sharp_mm);
+        EXPECT_EQ(published.lod_bias, 3) << sharp_mm;
+        EXPECT_GE(published.weight[0], published.weight[2]) << sharp_mm;
+    }
+    EXPECT_LT(normal_blend(gpu_gems_3_skin(), 1).lod_bias, 2);
 }
 
 TEST(NormalBlend, is_the_best_weight_from_0_to_1_for_ridges) {

@@ -61,8 +61,7 @@ TEST_F(PreintegratedRefusals, settings_that_exclude_each_other) {
              {{{"normals", "baked"}, {"diffuse", "half_ring"}}, "needs diffuse=lut"},
              {{{"normals", "baked"}, {"curvature", "derivative"}}, "needs curvature=vertex"},
              {{{"normals", "baked"}, {"ambient", "curve_2015"}}, "needs ambient=profile"},
-             {{{"shadow", "gathered"}, {"diffuse", "closed_form"}},
-              "set diffuse=lut, or shadow=scattered"}}) {
+             {{{"shadow", "gathered"}, {"diffuse", "closed_form"}}, "set diffuse=lut, or shadow=auto"}}) {
         const Result<void> checked = check_settings(technique(), values_of(settings));
         ASSERT_FALSE(checked) << mend;
         EXPECT_THAT(checked.error().message, HasSubstr(mend));

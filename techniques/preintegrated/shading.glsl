@@ -18,7 +18,7 @@ layout(push_constant, scalar) uniform PassValues {
     float green_spread, diffused_texels;
 #endif
 };
-layout(constant_id = 3) const int shadow = kShadowScattered;
+layout(constant_id = 3) const int shadow = kShadowGathered;
 // shadow=plain filters by the scene's penumbra, shadow=scattered by the width that the shadow table was made for.
 #define DERMIS_SHADOW_WIDTH_MM shadow_filter_mm(s.n_geometry_world, light.to_light_world)
 
@@ -115,7 +115,7 @@ void prepare_geometry(Surface s) {
 void prepare_surface(inout Surface s) {
     if (normals == kNormalsSharp) return;
     smooth_weight = vec3(1.0);
-    smooth_levels = kMostNormalLevels;
+    smooth_levels = kPublishedNormalLevels;
     if (normals == kNormalsBlended || normals == kNormalsLerp) {
         vec4 blend = normal_blend(sharp_normal_mm);
         smooth_weight = blend.rgb;
@@ -241,6 +241,12 @@ vec3 ambient_response(Surface s) {
 #endif
 
 // The curvature that shading uses: radiance 1 is 0.25 per mm.
-vec3 own_view(Surface s) { return vec3(4.0 * curvature_around_per_mm); }
+vec3 own_view(Surface s) {
+#ifdef DERMIS_BAKED_NORMALS
+    return vec3(4.0 * diffused.k_per_mm);
+#else
+    return vec3(4.0 * curvature_around_per_mm);
+#endif
+}
 
 #endif

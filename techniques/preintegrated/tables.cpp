@@ -109,15 +109,16 @@ Result<Rows> shadow_row(const TableSettings& settings, const SkinContext& skin) 
 }
 
 // Weights of the smoother normal, and in alpha its mip level above the sharp one's, over the logarithm of a
-// texel's size in mm.
-Result<Rows> normals_row(const TableSettings&, const SkinContext& skin) {
-    Rows row;
-    for (int i = 0; i < kRowTexels; ++i) {
-        const double log_mm = kMinLogMm + double(kMaxLogMm - kMinLogMm) * i / (kRowTexels - 1);
-        const NormalBlend blend = normal_blend(skin.gaussians, std::exp2(log_mm));
-        row.push_back(texel(blend.weight, blend.lod_bias));
-    }
-    return row;
+// texel's size in mm; then the same with the published levels.
+Result<Rows> normals_rows(const TableSettings&, const SkinContext& skin) {
+    Rows rows;
+    for (const auto blend_at : {normal_blend, published_normal_blend})
+        for (int i = 0; i < kRowTexels; ++i) {
+            const double log_mm = kMinLogMm + double(kMaxLogMm - kMinLogMm) * i / (kRowTexels - 1);
+            const NormalBlend blend = blend_at(skin.gaussians, std::exp2(log_mm));
+            rows.push_back(texel(blend.weight, blend.lod_bias));
+        }
+    return rows;
 }
 
 // Red's curvature over kMaxCurvaturePerMm and mean of the second Legendre polynomial, over sqrt(1 - A). A is
@@ -161,10 +162,10 @@ Result<Rows> tap_rows(const TableSettings&, const SkinContext& skin) {
     return rows;
 }
 
-// The order is that of kRowZonal, kRowShadow, kRowNormals, kRowOfMean, kRowTapWeights.
+// The order is that of kRowZonal, kRowShadow, kRowNormals, kRowPublishedNormals, kRowOfMean, kRowTapWeights.
 Result<TableImage> rows_table(const TableSettings& settings, const SkinContext& skin) {
     Rows all;
-    for (const auto make : {zonal_rows, shadow_row, normals_row, row_of_mean, tap_rows}) {
+    for (const auto make : {zonal_rows, shadow_row, normals_rows, row_of_mean, tap_rows}) {
         const Result<Rows> rows = make(settings, skin);
         if (!rows) return rows.error();
         all.insert(all.end(), rows->begin(), rows->end());
@@ -175,14 +176,22 @@ Result<TableImage> rows_table(const TableSettings& settings, const SkinContext& 
 // The tenth root of Beckmann's distribution over u = sqrt(1 - N.H) and v = sqrt(alpha), which is smooth
 // enough to be interpolated; a table over N.H and alpha, as published, loses 8 % of a highlight's peak at
 // roughness 0.45.
-Result<TableImage> beckmann_table(const TableSettings& settings, const SkinContext&) {
+Result<TableImage> beckmann_table(const TableSettings& settings, const SkinContext& skin) {
     if (!settings.needs_beckmann)
         return table_image("skin_beckmann", 1, std::vector{0.0f}, ImageFormat::r32f);
+    Table own;
+    if (!skin.beckmann_table.empty()) {
+        DERMIS_TRY_ASSIGN(
+            own, read_table(skin.beckmann_table,
+                            {.kind = TableKind::beckmann, .u_axis = "n_dot_h", .v_axis = "roughness"}));
+    }
     std::vector<float> roots;
     for (int y = 0; y < kBeckmannHeight; ++y)
         for (int x = 0; x < kBeckmannWidth; ++x) {
             const double u = (x + 0.5) / kBeckmannWidth, v = (y + 0.5) / kBeckmannHeight;
-            roots.push_back(float(std::pow(beckmann(1 - u * u, v * v) / std::numbers::pi, 0.1)));
+            const double cosine = 1 - u * u, roughness = v * v;
+            const double d = own.width ? lookup(own, cosine, roughness)[0] : beckmann(cosine, roughness);
+            roots.push_back(float(std::pow(d / std::numbers::pi, 0.1)));
         }
     return table_image("skin_beckmann", kBeckmannHeight, roots, ImageFormat::r32f);
 }

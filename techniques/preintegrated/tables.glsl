@@ -37,7 +37,8 @@ vec3 profile_edge(float visibility) { return read_row(kRowShadow, visibility).rg
 
 // techniques/preintegrated/weights.h: weights of the smoother normal; its level above the sharp one in alpha.
 vec4 normal_blend(float sharp_mm) {
-    return read_row(kRowNormals, (log2(sharp_mm) - kMinLogMm) / (kMaxLogMm - kMinLogMm));
+    int row = normals == kNormalsLerp ? kRowPublishedNormals : kRowNormals;
+    return read_row(row, (log2(sharp_mm) - kMinLogMm) / (kMaxLogMm - kMinLogMm));
 }
 
 // The sphere on which red's mean normal has this length: its curvature, and the mean of the second Legendre polynomial of the

@@ -14,8 +14,9 @@ struct TableSettings {
 };
 
 /// skin_lut, skin_rows, skin_beckmann; all 32-bit float with four channels but skin_beckmann, which has one.
-/// With the scene's own diffuse table the harmonics have its factor on variances. Errors: a table of another
-/// construction or profile; a zonal table with another factor than the diffuse one.
+/// The scene's own tables replace those of the bakers. With its own diffuse table the harmonics have its
+/// factor on variances. Errors: a table of another construction or profile; a zonal table with another factor
+/// than the diffuse one.
 [[nodiscard]] Result<std::vector<TableImage>> bake_tables(const TableSettings& settings,
                                                           const SkinContext& skin);
 

@@ -36,6 +36,7 @@ enum class Normals : int32_t {
     sharp = kNormalsSharp
 };
 enum class Shadow : int32_t {
+    automatic = kShadowAuto,
     plain = kShadowPlain,
     scattered = kShadowScattered,
     gathered = kShadowGathered
@@ -53,7 +54,7 @@ struct Params {
     Curvature curvature = Curvature::vertex;
     float curvature_gain = 1;
     Normals normals = Normals::automatic;
-    Shadow shadow = Shadow::scattered;
+    Shadow shadow = Shadow::automatic;
     float shadow_width_mm = 2.5f;  // a wider filter lights the skin around a nose
     Transmission transmission = Transmission::shadow_map;
     Ambient ambient = Ambient::profile;
@@ -75,9 +76,10 @@ ParameterTable parameters() {
                 "diffuse normal: mean over the profile, baked over the UV atlas; light of two mip levels, "
                 "mixed per channel; the two normals mixed, as published; the smaller level; as mapped. auto: "
                 "baked where head and settings allow it, else blended")
-        .choice(&Params::shadow, "shadow", {"plain", "scattered", "gathered"},
+        .choice(&Params::shadow, "shadow", {"auto", "plain", "scattered", "gathered"},
                 "penumbra as filtered; with scattered light by its width; or averaged over 64 places around "
-                "the point by the profile, which needs a table")
+                "the point by the profile, which needs a table. auto: gathered where diffuse reads a table, "
+                "else scattered")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
         .choice(&Params::ambient, "ambient", {"profile", "exact", "curve_2015"},
@@ -85,9 +87,8 @@ ParameterTable parameters() {
                 "diffuse, else on the sphere; the sphere's in closed form per pixel; curves of 2015")
         .choice(&Params::specular, "specular", specular_model_names(),
                 "specular model; ksk reads its Beckmann distribution from a table")
-        .preset("cheap", "no scattering at shadow edges, no transmission",
-                {.shadow = Shadow::plain, .transmission = Transmission::none})
-        .preset("best", "gathers scattered light at shadow edges", {.shadow = Shadow::gathered})
+        .preset("cheap", "scattering at shadow edges by the penumbra's width, no transmission",
+                {.shadow = Shadow::scattered, .transmission = Transmission::none})
         .preset("source", "Penner 2011 as implemented in Unity: ring, derivatives, mixed normals",
                 {.diffuse = Diffuse::half_ring,
                  .curvature = Curvature::derivative,
@@ -109,6 +110,11 @@ bool reads_tables(const Params& params) {
            params.diffuse == Diffuse::full_ring;
 }
 
+Shadow shadow_of(const Params& params) {
+    if (params.shadow != Shadow::automatic) return params.shadow;
+    return reads_tables(params) ? Shadow::gathered : Shadow::scattered;
+}
+
 // Baked normals hold the curvature and what light from all around sees, both of the sphere. Empty where the
 // settings agree with that.
 std::string settings_against_baked(const Params& params) {
@@ -123,14 +129,16 @@ std::string refusal(const ParameterValues& values) {
     if (params.normals == Normals::baked && !needed.empty())
         return "normals=baked needs " + needed + "; set it, or normals=auto";
     if (params.shadow == Shadow::gathered && !reads_tables(params))
-        return "shadow=gathered reads a table; set diffuse=lut, or shadow=scattered";
+        return "shadow=gathered reads a table; set diffuse=lut, or shadow=auto";
     return "";
 }
 
 // Why the scene has no baked normals; empty where it has. The curvature that they hold is red's.
-std::string scene_against_baked(const FrameContext& frame) {
+std::string scene_against_baked(const Params& params, const FrameContext& frame) {
     if (!frame.atlas_fault.empty()) return frame.atlas_fault;
     if (frame.has_zonal_table) return "the scene's zonal_table replaces a part of them; drop it";
+    if (frame.has_beckmann_table && params.specular == SpecularModel::ksk)
+        return "their shader does not read the scene's beckmann_table; drop it";
     const Vec3 own = own_normal_weights(frame.skin_gaussians, {});
     const bool red_scatters_farthest = own.x < 1 && own.x <= std::min(own.y, own.z);
     return red_scatters_farthest ? "" : "red does not scatter farthest in the scene's profile";
@@ -151,7 +159,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     PassList list;
     bool baked = (params.normals == Normals::automatic && settings_against_baked(params).empty()) ||
                  params.normals == Normals::baked;
-    if (const std::string fault = baked ? scene_against_baked(frame) : ""; !fault.empty()) {
+    if (const std::string fault = baked ? scene_against_baked(params, frame) : ""; !fault.empty()) {
         baked = false;
         if (params.normals == Normals::baked)
             list.refusal = "normals=baked: " + fault + ", or set normals=auto";
@@ -165,7 +173,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                   params.specular, frame, kOwnView);
     const bool chosen = params.normals != Normals::automatic && params.normals != Normals::baked;
     pass.constants.insert(pass.constants.end(),
-                          {{"shadow", int32_t(params.shadow)},
+                          {{"shadow", int32_t(shadow_of(params))},
                            {"normals", int32_t(chosen ? params.normals : Normals::blended)}});
     if (!baked)
         pass.constants.insert(pass.constants.end(), {{"diffuse", int32_t(params.diffuse)},

@@ -43,6 +43,14 @@ double weight_of(const GaussianSum& profile, size_t channel, double s0, double s
     return std::clamp(difference / norm, 0.0, 1.0);
 }
 
+NormalBlend blend_of_levels(const GaussianSum& profile, double sharp_mm, double levels) {
+    NormalBlend blend{.lod_bias = levels};
+    const double smooth_mm = sharp_mm * std::exp2(levels);
+    for (size_t c = 0; c < 3; ++c)
+        blend.weight[c] = weight_of(profile, c, sharp_mm * sharp_mm / 12, smooth_mm * smooth_mm / 12);
+    return blend;
+}
+
 }  // namespace
 
 double widest_blend_mm(const GaussianSum& profile) {
@@ -50,14 +58,13 @@ double widest_blend_mm(const GaussianSum& profile) {
 }
 
 NormalBlend normal_blend(const GaussianSum& profile, double sharp_mm) {
-    NormalBlend blend;
-    blend.lod_bias =
-        std::clamp(std::log2(widest_blend_mm(profile) / sharp_mm), 0.0, double(kMostNormalLevels));
-    if (blend.lod_bias < 1e-3) return blend;
-    const double smooth_mm = sharp_mm * std::exp2(blend.lod_bias);
-    for (size_t c = 0; c < 3; ++c)
-        blend.weight[c] = weight_of(profile, c, sharp_mm * sharp_mm / 12, smooth_mm * smooth_mm / 12);
-    return blend;
+    const double levels =
+        std::clamp(std::log2(widest_blend_mm(profile) / sharp_mm), 0.0, double(kPublishedNormalLevels));
+    return levels < 1e-3 ? NormalBlend{} : blend_of_levels(profile, sharp_mm, levels);
+}
+
+NormalBlend published_normal_blend(const GaussianSum& profile, double sharp_mm) {
+    return blend_of_levels(profile, sharp_mm, double(kPublishedNormalLevels));
 }
 
 std::array<Rgb, 3> occlusion_blend(const GaussianSum& profile) {

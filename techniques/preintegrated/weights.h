@@ -31,8 +31,12 @@ struct NormalBlend {
 /// what the table of curvature holds already, and over the map's seams.
 [[nodiscard]] double widest_blend_mm(const GaussianSum& profile);
 
-/// `sharp_mm` is what one texel of the sharp read covers on the skin, above 0.
+/// `sharp_mm` is what one texel of the sharp read covers on the skin, above 0. The smoother read is at most
+/// kPublishedNormalLevels above it.
 [[nodiscard]] NormalBlend normal_blend(const GaussianSum& profile, double sharp_mm);
+
+/// With the mip bias of the published shader, kPublishedNormalLevels whatever the texel's size.
+[[nodiscard]] NormalBlend published_normal_blend(const GaussianSum& profile, double sharp_mm);
 
 /// Weights of the vertices' three blurred occlusions (kOcclusionVariance0Mm2 and following) per channel; the
 /// rest to 1 is the weight of the unblurred occlusion. A Gaussian of the profile is replaced by a mix of the
