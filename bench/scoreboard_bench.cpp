@@ -67,21 +67,23 @@ Result<std::vector<ScoreRow>> compare(gpu::Device& device, const std::string& na
     std::optional<Progress> techniques;
     const Result<Comparison> comparison = compare_techniques(
         device, built_in_catalog(), scene, contestants, settings,
-        {.reference =
-             [&](double done, bool first_samples) {
-                 line.set(done, "reference of " + name + (first_samples ? ", first samples" : ""));
-             },
+        {.reference = [&](double done,
+                          const std::string& reference) { line.set(done, name + ": " + reference); },
          .techniques =
              [&](double done, const std::string& technique) {
                  if (!techniques) techniques.emplace(name, 0);
                  techniques->set(done, name + ": " + technique);
              }});
     if (!comparison) return comparison.error();
-    const EffectReference& reference = comparison->reference;
-    std::printf("%s: reference of %d samples a pixel in %.0f s%s, noise %.2f of the effect%s\n", name.c_str(),
-                reference.samples, reference.time_ms / 1000, reference.from_cache ? " (from the cache)" : "",
-                reference.noise.noise_rms / reference.noise.effect_rms,
-                reference.reached ? "" : ": not as fine as asked for");
+    const auto print = [&](Integrator integrator, const EffectReference& reference) {
+        std::printf("%s: reference %s of %d samples a pixel in %.0f s%s, noise %.2f of the effect%s\n",
+                    name.c_str(), std::string(judge_name(integrator)).c_str(), reference.samples,
+                    reference.time_ms / 1000, reference.from_cache ? " (from the cache)" : "",
+                    reference.noise.noise_rms / reference.noise.effect_rms,
+                    reference.reached ? "" : ": not as fine as asked for");
+    };
+    print(comparison->integrator, comparison->reference);
+    if (comparison->second) print(*comparison->second_integrator, *comparison->second);
     return score_rows(name, *comparison);
 }
 
@@ -99,6 +101,7 @@ Result<std::string> rows_hash(const Scene& scene, const std::vector<Contestant>&
     for (const Contestant& contestant : contestants) hasher.add(std::string_view(contestant.name()));
     return hasher.add(std::span(*program))
         .add(std::string_view(hash))
+        .add(settings.second.has_value())
         .add(settings.grid)
         .add(settings.noise)
         .add(settings.samples)
@@ -216,6 +219,8 @@ Result<void> make_board(gpu::Device& device, const std::filesystem::path& direct
     if (!rows) return rows.error();
     ComparisonSettings settings = comparison_settings(size, size);
     settings.frames = 2;
+    settings.reference.integrator = Integrator::walk;
+    settings.second = Integrator::surface;
     double made_s = 0;
     size_t made = 0;
     for (size_t i = 0; i < jobs.size(); ++i) {

@@ -34,12 +34,14 @@ Result<ComparisonSettings> CompareChoice::settings() const {
     if (samples < 2 * samples_per_pixel)
         return Error{"--samples " + std::to_string(samples) + ": at least twice --samples-per-pixel, " +
                      std::to_string(2 * samples_per_pixel)};
-    const std::vector<std::string> integrators = {"surface", "walk"}, ambients = {"renderer", "traced"};
+    const std::vector<std::string> integrators = {"both", "walk", "surface"},
+                                   ambients = {"renderer", "traced"};
     if (std::ranges::find(integrators, integrator) == integrators.end())
         return Error{unknown_name("integrator", integrator, integrators)};
     if (std::ranges::find(ambients, ambient) == ambients.end())
         return Error{unknown_name("ambient model", ambient, ambients)};
-    if (integrator == "walk") settings.reference.integrator = Integrator::walk;
+    if (integrator != "surface") settings.reference.integrator = Integrator::walk;
+    if (integrator == "both") settings.second = Integrator::surface;
     if (ambient == "traced") settings.reference.lighting.ambient = AmbientModel::traced;
     return settings;
 }
@@ -52,13 +54,19 @@ Result<std::vector<Contestant>> CompareChoice::contestants() const {
 }
 
 std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {
-    std::vector<std::string> warnings = comparison.reference.warnings;
-    const EffectNoise& noise = comparison.reference.noise;
-    if (!comparison.reference.reached)
-        warnings.push_back("the reference stopped at its limit of " + std::to_string(settings.samples) +
+    std::vector<std::string> warnings;
+    const auto add = [&](Integrator integrator, const EffectReference& reference) {
+        warnings.insert(warnings.end(), reference.warnings.begin(), reference.warnings.end());
+        if (reference.reached) return;
+        const double noise = reference.noise.noise_rms / reference.noise.effect_rms;
+        warnings.push_back("the reference " + std::string(judge_name(integrator)) +
+                           " stopped at its limit of " + std::to_string(settings.samples) +
                            " samples a pixel with a noise of " +
-                           to_text(float(std::round(1000 * noise.noise_rms / noise.effect_rms) / 1000)) +
-                           " of the effect, not " + to_text(settings.noise) + "; raise --samples");
+                           to_text(float(std::round(1000 * noise) / 1000)) + " of the effect, not " +
+                           to_text(settings.noise) + "; raise --samples");
+    };
+    add(comparison.integrator, comparison.reference);
+    if (comparison.second) add(*comparison.second_integrator, *comparison.second);
     return warnings;
 }
 

@@ -15,7 +15,8 @@ inline constexpr NumberRange kReferenceNoiseRange = {1e-6, 1}, kTimedFramesRange
 struct CompareChoice {
     SceneChoice scene;
     std::string techniques, size, device;  ///< empty: every technique; 512x512, or 96x96 of each of a set
-    std::string integrator = "surface", ambient = "renderer";
+    /// "both": walk decides, surface judges too.
+    std::string integrator = "both", ambient = "renderer";
     ComparisonSettings defaults;
     double noise = defaults.noise;
     int samples = defaults.samples, samples_per_pixel = defaults.grid * defaults.grid,

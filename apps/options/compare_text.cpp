@@ -13,11 +13,62 @@ std::string share_text(const CapturedShare& share) {
     return text;
 }
 
+std::string short_text(const CapturedShare& share) {
+    char text[16] = "noise";
+    if (share.known()) std::snprintf(text, sizeof text, "%.2f", share.share);
+    return text;
+}
+
 // Right-aligned under its heading.
 std::string cell(const std::string& text, const std::string& heading) {
     constexpr size_t kWidth = 15;
     const size_t width = std::max(kWidth, heading.size() + 1);
     return std::string(width - std::min(text.size(), width), ' ') + text;
+}
+
+// The table fits 80 columns; a longer name has a line of its own.
+constexpr int kNameWidth = 24;
+
+void print_heading(const Comparison& comparison) {
+    const auto heading = [](Integrator integrator) { return "of " + std::string(judge_name(integrator)); };
+    std::printf("%-*s %10s %5s %6s %6s %6s", kNameWidth, "captured share",
+                heading(comparison.integrator).c_str(), "+-", "R", "G", "B");
+    if (comparison.second) std::printf(" %10s %5s", heading(*comparison.second_integrator).c_str(), "+-");
+    std::printf("\n");
+}
+
+std::string interval_text(const CapturedShare& share) {
+    // Without an effect there is nothing to be uncertain of.
+    char text[16] = "-";
+    if (std::isfinite(share.error)) std::snprintf(text, sizeof text, "%.3f", share.error);
+    return text;
+}
+
+void print_row(const Comparison& comparison, const Compared& row) {
+    const std::string name = row.contestant.name();
+    const bool fits = name.size() <= size_t(kNameWidth);
+    const Captured& c = row.first.captured;
+    if (!fits) std::printf("%s\n", name.c_str());
+    std::printf("%-*s %10s %5s %6s %6s %6s", kNameWidth, fits ? name.c_str() : "", share_text(c.all).c_str(),
+                interval_text(c.all).c_str(), short_text(c.channels[0]).c_str(),
+                short_text(c.channels[1]).c_str(), short_text(c.channels[2]).c_str());
+    if (comparison.second) {
+        const CapturedShare& second = row.second->captured.all;
+        std::printf(" %10s %5s", share_text(second).c_str(), interval_text(second).c_str());
+    }
+    std::printf("\n");
+}
+
+void print_effect(Integrator integrator, const EffectReference& reference, const Captured& captured) {
+    const CapturedShare& all = captured.all;
+    std::printf("%.*s: effect of scattering: rms %.5f (R %.5f, G %.5f, B %.5f);\n",
+                int(judge_name(integrator).size()), judge_name(integrator).data(), all.effect_rms,
+                captured.channels[0].effect_rms, captured.channels[1].effect_rms,
+                captured.channels[2].effect_rms);
+    std::printf("  noise %.5f (%.2f of the effect); %d samples a pixel, %s, %.0f s in all\n",
+                all.reference_noise, all.effect_rms > 0 ? all.reference_noise / all.effect_rms : 0.0,
+                reference.samples, reference.from_cache ? "from the cache" : "made now",
+                reference.time_ms / 1000);
 }
 
 std::string share_and_error(const CapturedShare& share) {
@@ -26,55 +77,55 @@ std::string share_and_error(const CapturedShare& share) {
     return text;
 }
 
-}  // namespace
-
-void print_table(const Comparison& comparison) {
-    std::printf("%-48s %8s %6s %7s %7s %7s %9s %7s %7s %9s\n", "technique", "captured", "+-", "R", "G", "B",
-                "rmse", "flip", "dE2000", "ms");
-    for (const Compared& row : comparison.rows) {
-        const Captured& c = row.captured;
-        // Without an effect there is nothing to be uncertain of.
-        char error[16] = "-";
-        if (std::isfinite(c.all.error)) std::snprintf(error, sizeof error, "%.3f", c.all.error);
-        std::printf("%-48s %8s %6s %7s %7s %7s %9.5f %7.4f %7.3f %9.2f\n", row.contestant.name().c_str(),
-                    share_text(c.all).c_str(), error, share_text(c.channels[0]).c_str(),
-                    share_text(c.channels[1]).c_str(), share_text(c.channels[2]).c_str(), row.scores.rmse,
-                    row.scores.flip, row.scores.delta_e_2000, row.cost.time_ms);
-    }
-    const CapturedShare& all = comparison.rows.front().captured.all;
-    std::printf("effect of scattering: rms %.5f (R %.5f, G %.5f, B %.5f)\n", all.effect_rms,
-                comparison.rows.front().captured.channels[0].effect_rms,
-                comparison.rows.front().captured.channels[1].effect_rms,
-                comparison.rows.front().captured.channels[2].effect_rms);
-    std::printf(
-        "the reference's noise: rms %.5f in the effect (%.2f of it), %.5f in the picture; %d samples a "
-        "pixel, %s\n",
-        all.reference_noise, all.effect_rms > 0 ? all.reference_noise / all.effect_rms : 0.0,
-        comparison.reference_rmse, comparison.reference.samples,
-        comparison.reference.from_cache ? "from the cache" : "made now");
-}
-
-void print_set_table(const std::vector<SubjectCase>& cases, const std::vector<Comparison>& comparisons) {
-    constexpr std::string_view kHeading = "captured share";
-    size_t width = kHeading.size();
+// A table of one judge: a line a scene, a column a technique.
+void print_shares(const std::vector<SubjectCase>& cases, const std::vector<Comparison>& comparisons,
+                  Integrator integrator) {
+    const std::string heading = "captured share of " + std::string(judge_name(integrator));
+    size_t width = heading.size();
     for (const SubjectCase& one : cases) width = std::max(width, one.name.size());
     const std::string exact(kExactId);
     const auto is_exact = [](const Compared& row) { return row.contestant.technique->id == kExactId; };
     std::string line = cell("effect", "") + cell(exact, exact);
     for (const Compared& row : comparisons.front().rows)
         if (!is_exact(row)) line += cell(row.contestant.name(), row.contestant.name());
-    std::printf("%-*s%s\n", int(width), kHeading.data(), line.c_str());
+    std::printf("%-*s%s\n", int(width), heading.c_str(), line.c_str());
     for (size_t i = 0; i < cases.size(); ++i) {
         const std::vector<Compared>& rows = comparisons[i].rows;
+        const auto share = [&](const Compared& row) -> const CapturedShare& {
+            return judgement_by(integrator, comparisons[i], row)->captured.all;
+        };
         char effect[16];
-        std::snprintf(effect, sizeof effect, "%.5f", rows.front().captured.all.effect_rms);
+        std::snprintf(effect, sizeof effect, "%.5f", share(rows.front()).effect_rms);
         const auto known = std::ranges::find_if(rows, is_exact);
         line = cell(effect, "") +
-               cell(known == rows.end() ? "not known" : share_and_error(known->captured.all), exact);
+               cell(known == rows.end() ? "not known" : share_and_error(share(*known)), exact);
         for (const Compared& row : rows)
-            if (!is_exact(row)) line += cell(share_and_error(row.captured.all), row.contestant.name());
+            if (!is_exact(row)) line += cell(share_and_error(share(row)), row.contestant.name());
         std::printf("%-*s%s\n", int(width), cases[i].name.c_str(), line.c_str());
     }
+}
+
+nlohmann::ordered_json judge_json(Integrator integrator, const EffectReference& reference) {
+    return {{"integrator", judge_name(integrator)}, {"effect_rms", reference.noise.effect_rms},
+            {"noise", reference.noise.noise_rms},   {"samples", reference.samples},
+            {"reached", reference.reached},         {"from_cache", reference.from_cache},
+            {"time_ms", reference.time_ms}};
+}
+
+}  // namespace
+
+void print_table(const Comparison& comparison) {
+    print_heading(comparison);
+    for (const Compared& row : comparison.rows) print_row(comparison, row);
+    print_effect(comparison.integrator, comparison.reference, comparison.rows.front().first.captured);
+    if (comparison.second)
+        print_effect(*comparison.second_integrator, *comparison.second,
+                     comparison.rows.front().second->captured);
+}
+
+void print_set_table(const std::vector<SubjectCase>& cases, const std::vector<Comparison>& comparisons) {
+    print_shares(cases, comparisons, comparisons.front().integrator);
+    if (const auto second = comparisons.front().second_integrator) print_shares(cases, comparisons, *second);
 }
 
 nlohmann::ordered_json to_json(const std::string& output, const SubjectCase& one,
@@ -89,8 +140,11 @@ nlohmann::ordered_json to_json(const std::string& output, const SubjectCase& one
         }
         rows.push_back(std::move(entry));
     }
+    auto judges = nlohmann::ordered_json::array({judge_json(comparison.integrator, comparison.reference)});
+    if (comparison.second) judges.push_back(judge_json(*comparison.second_integrator, *comparison.second));
     return {{"scene", one.scene.name},
             {"output", output},
+            {"judges", judges},
             {"reference_samples", comparison.reference.samples},
             {"reference_reached", comparison.reference.reached},
             {"reference_from_cache", comparison.reference.from_cache},

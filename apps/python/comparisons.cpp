@@ -31,7 +31,8 @@ Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
         Comparison compared,
         compare_techniques(
             device, built_in_catalog(), one.scene, contestants, settings,
-            {.reference = [&](double done, bool) { watch.report(from + share * kReferenceShare * done); },
+            {.reference = [&](double done,
+                              const std::string&) { watch.report(from + share * kReferenceShare * done); },
              .techniques =
                  [&](double done, const std::string&) {
                      watch.report(from + share * (kReferenceShare + (1 - kReferenceShare) * done));

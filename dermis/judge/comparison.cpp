@@ -30,19 +30,28 @@ EffectReferenceSettings reference_settings(const ComparisonSettings& settings) {
     return wanted;
 }
 
+Result<Judgement> judgement_of(const Image& effect, const EffectReference& reference,
+                               const Comparison& comparison) {
+    DERMIS_TRY_ASSIGN(const Captured share, captured(effect, reference.effect, comparison.masks.skin));
+    DERMIS_TRY_ASSIGN(std::vector<RegionShare> regions,
+                      captured_by_region(effect, reference.effect, comparison.regions));
+    return Judgement{share, std::move(regions)};
+}
+
 Result<void> judge(const Comparison& comparison, const Scene& scene, Compared& row) {
     const Image& reference = comparison.reference_radiance;
     const Display display{scene.tone_map, std::exp2(scene.exposure_ev)};
     const auto failed = [&](const Error& error) {
         return Error{row.contestant.name() + ": " + error.message};
     };
-    const Result<Captured> share = captured(row.effect, comparison.reference.effect, comparison.masks.skin);
-    if (!share) return failed(share.error());
-    row.captured = *share;
-    Result<std::vector<RegionShare>> regions =
-        captured_by_region(row.effect, comparison.reference.effect, comparison.regions);
-    if (!regions) return failed(regions.error());
-    row.regions = std::move(*regions);
+    Result<Judgement> first = judgement_of(row.effect, comparison.reference, comparison);
+    if (!first) return failed(first.error());
+    row.first = std::move(*first);
+    if (comparison.second) {
+        Result<Judgement> second = judgement_of(row.effect, *comparison.second, comparison);
+        if (!second) return failed(second.error());
+        row.second = std::move(*second);
+    }
     const Result<Scores> scores = score(row.radiance, reference, comparison.masks, display);
     if (!scores) return failed(scores.error());
     row.scores = *scores;
@@ -68,6 +77,35 @@ double noise_rmse(const EffectReference& reference, const Image& mask) {
         count += 3;
     }
     return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+// The first and, where wanted, the second.
+Result<void> make_references(const Scene& scene, const ComparisonSettings& settings,
+                             const ComparisonHooks& hooks, Comparison& comparison) {
+    const int count = settings.second ? 2 : 1;
+    int made = 0;
+    const auto make = [&](Integrator integrator) {
+        EffectReferenceSettings wanted = reference_settings(settings);
+        wanted.reference.integrator = integrator;
+        const auto progress = [&](double done, bool first_samples) {
+            if (hooks.reference)
+                hooks.reference((made + done) / count, "reference " + std::string(judge_name(integrator)) +
+                                                           (first_samples ? ", first samples" : ""));
+        };
+        return make_effect_reference(scene, wanted, progress, hooks.stop);
+    };
+    comparison.integrator = settings.reference.integrator;
+    comparison.second_integrator = settings.second;
+    Result<EffectReference> first = make(comparison.integrator);
+    if (!first) return first.error();
+    comparison.reference = std::move(*first);
+    comparison.reference_radiance = comparison.reference.radiance();
+    if (!settings.second) return {};
+    ++made;
+    Result<EffectReference> second = make(*settings.second);
+    if (!second) return second.error();
+    comparison.second = std::move(*second);
+    return {};
 }
 
 // How the work on the techniques divides, in pictures of one of them: pictures, timed frames, judging.
@@ -143,8 +181,12 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
 
 ComparisonSettings comparison_settings(int width, int height) {
     ComparisonSettings settings{.width = width, .height = height};
-    settings.reference = {
-        .width = width, .height = height, .samples = 256, .noise = 0.01, .filter = PixelFilter::center};
+    settings.reference = {.width = width,
+                          .height = height,
+                          .samples = 256,
+                          .noise = 0.01,
+                          .filter = PixelFilter::center,
+                          .entry = LightEntry::all};
     settings.reference.lighting = {.ambient = AmbientModel::renderer,
                                    .specular = SpecularReflection::ggx,
                                    .penumbra_mm = DrawSettings{}.penumbra_mm};
@@ -160,11 +202,7 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
     DERMIS_TRY_ASSIGN(Renderer renderer,
                       Renderer::create(device, gpu::embedded_shaders(catalog.shaders), scene));
     Comparison comparison{.device = device.info().name};
-    Result<EffectReference> reference =
-        make_effect_reference(scene, reference_settings(settings), hooks.reference, hooks.stop);
-    if (!reference) return reference.error();
-    comparison.reference = std::move(*reference);
-    comparison.reference_radiance = comparison.reference.radiance();
+    if (Result<void> made = make_references(scene, settings, hooks, comparison); !made) return made.error();
     if (Result<void> drawn =
             draw_techniques(renderer, catalog, scene, contestants, settings, hooks, comparison);
         !drawn)
@@ -183,13 +221,27 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
     return comparison;
 }
 
+const Judgement* judgement_by(Integrator integrator, const Comparison& comparison, const Compared& row) {
+    if (comparison.integrator == integrator) return &row.first;
+    return comparison.second_integrator == integrator && row.second ? &*row.second : nullptr;
+}
+
+std::string_view judge_name(Integrator integrator) {
+    return integrator == Integrator::walk ? "walk" : "surface";
+}
+
 std::vector<ScoreRow> score_rows(const std::string& scene, const Comparison& comparison) {
     std::vector<ScoreRow> rows;
+    const auto share_by = [&](Integrator integrator, const Compared& row) {
+        const Judgement* found = judgement_by(integrator, comparison, row);
+        return found ? std::optional(found->captured) : std::nullopt;
+    };
     for (const Compared& row : comparison.rows)
         rows.push_back({.scene = scene,
                         .technique = row.contestant.technique->id,
                         .settings = row.contestant.settings,
-                        .captured = row.captured,
+                        .walk = share_by(Integrator::walk, row),
+                        .surface = share_by(Integrator::surface, row),
                         .scores = row.scores,
                         .time_ms = row.cost.time_ms,
                         .bytes = row.cost.bytes(),

@@ -2,6 +2,9 @@
 // Techniques compared with the reference of the same scene: captured share, pictures, errors, times,
 // bytes.
 //
+// Two references can judge: random walks through the volume (what light does) and the surface integral of the
+// profile (what most techniques approximate). Both start from the same picture without scattering.
+//
 // Both sides share lights, shadows, GGX reflection and the renderer's approximation of the environment
 // (order-2 harmonics, split sum, occlusion), so only the transport in the skin differs. With
 // AmbientModel::traced the approximation counts as an error of every technique. Only pixels that are wholly
@@ -36,6 +39,8 @@ struct ComparisonSettings {
     /// Integrator, lighting and seed of the reference. Its size is the comparison's. The defaults are
     /// for a reference that is compared with one frame without multisampling.
     ReferenceSettings reference;
+    /// Another integrator that judges too, with all else as in `reference`.
+    std::optional<Integrator> second;
     /// Given: the exact answer is a row too, after the techniques, so that the reference is held against it.
     ExactExitance exact;
 };
@@ -46,20 +51,29 @@ inline constexpr std::string_view kExactId = "exact";
 /// Reference settings that show what the renderer shows, at the comparison's size.
 [[nodiscard]] ComparisonSettings comparison_settings(int width, int height);
 
+/// What one reference says of a technique.
+struct Judgement {
+    Captured captured;
+    std::vector<RegionShare> regions;  ///< in the order of kRegions
+};
+
 struct Compared {
     Contestant contestant;
     Image radiance;  ///< linear, RGBA; beyond the skin as drawn
     Image effect;    ///< RGB: radiance less the baseline's
     Image flip,
         distance;  ///< one channel: FLIP of the tone-mapped pictures, largest difference of linear channels
-    Captured captured;
-    std::vector<RegionShare> regions;  ///< in the order of kRegions
-    Scores scores;
+    Judgement first;                  ///< by the integrator of ComparisonSettings::reference
+    std::optional<Judgement> second;  ///< by ComparisonSettings::second
+    Scores scores;                    ///< against the first
     TechniqueCost cost;
 };
 
 struct Comparison {
+    Integrator integrator = Integrator::surface;  ///< of `reference`
     EffectReference reference;
+    std::optional<Integrator> second_integrator;
+    std::optional<EffectReference> second;
     Image reference_radiance;  ///< mean of its halves
     SkinMasks masks;
     RegionMasks regions;
@@ -69,7 +83,8 @@ struct Comparison {
 };
 
 struct ComparisonHooks {
-    ReferenceDone reference;
+    /// With the share of all references that is done, and the name of the one in work.
+    std::function<void(double done, const std::string& name)> reference;
     /// Before each picture, timed frame and judgement, with the share of the work that is done.
     std::function<void(double done, const std::string& name)> techniques;
     const std::atomic<bool>* stop = nullptr;
@@ -83,11 +98,17 @@ struct ComparisonHooks {
                                                     const ComparisonSettings& settings,
                                                     const ComparisonHooks& hooks = {});
 
+/// The judgement by `integrator`; null if that reference was not made.
+[[nodiscard]] const Judgement* judgement_by(Integrator integrator, const Comparison& comparison,
+                                            const Compared& row);
+
+/// "walk", "surface".
+[[nodiscard]] std::string_view judge_name(Integrator integrator);
+
 [[nodiscard]] std::vector<ScoreRow> score_rows(const std::string& scene, const Comparison& comparison);
 
-/// scene,technique,settings,region,pixels,captured,captured_r,captured_g,captured_b,captured_error,effect_rms,
-/// reference_noise: a row for every technique and region that the scene has; a share whose reference is too
-/// noisy is empty.
+/// scene,technique,settings,region,pixels and score_columns() up to reference_noise: a row for every
+/// technique and region that the scene has; a share whose reference is too noisy or was not made is empty.
 [[nodiscard]] std::string regions_csv(const std::string& scene, const Comparison& comparison);
 
 }  // namespace dermis::inline judge

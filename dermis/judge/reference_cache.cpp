@@ -14,7 +14,7 @@ void add(Hasher& hasher, const ReferenceSettings& s) {
     hasher.add(s.probes).add(s.width_scale).add(s.normalisation).add(s.cavities).add(s.filter);
     hasher.add(s.filter == PixelFilter::grid ? s.grid : 0);
     hasher.add(s.lighting.shadows).add(s.lighting.ambient).add(s.lighting.specular);
-    hasher.add(s.lighting.penumbra_mm).add(s.lighting.entry_eta);
+    hasher.add(s.lighting.penumbra_mm).add(s.lighting.entry_eta).add(s.entry);
     hasher.add(s.medium ? hash_of({.name = {}, .source = {}, .model = DipoleProfile{*s.medium}}) : "");
 }
 

@@ -94,6 +94,9 @@ Result<Json> images_of(const Scene& scene, const Comparison& comparison, const I
         add("picture", row.contestant.name(), picture_uri(row.radiance, scene));
     add("regions", "regions of the skin", data_uri(region_picture(comparison.regions, skin)));
     add("effect", "reference", signed_uri(effect));
+    if (comparison.second)
+        add("effect", "reference by " + std::string(judge_name(*comparison.second_integrator)),
+            signed_uri(mean_effect(comparison.second->effect)));
     for (const Compared& row : comparison.rows) add("effect", row.contestant.name(), signed_uri(row.effect));
     for (const Compared& row : comparison.rows)
         add("what is left", row.contestant.name(), signed_uri(difference(row.effect, effect)));
@@ -130,10 +133,10 @@ Json regions_of(const Comparison& comparison) {
         const Vec3 c = region_color(region) * 255;
         Json shares = Json::array();
         for (const Compared& row : comparison.rows) {
-            const std::optional<Captured>& found = row.regions[size_t(region)].captured;
+            const std::optional<Captured>& found = row.first.regions[size_t(region)].captured;
             shares.push_back(found && found->all.known() ? Json(found->all.share) : Json(nullptr));
         }
-        const std::optional<Captured>& first = comparison.rows.front().regions[size_t(region)].captured;
+        const std::optional<Captured>& first = comparison.rows.front().first.regions[size_t(region)].captured;
         regions.push_back({{"name", region_name(region)},
                            {"text", region_text(region)},
                            {"color", {std::lround(c.x), std::lround(c.y), std::lround(c.z)}},
@@ -154,19 +157,31 @@ size_t covered(const Image& mask) {
     return size_t(std::ranges::count_if(mask.floats(), [](float v) { return v > 0; }));
 }
 
+Json judge_json(Integrator integrator, const EffectReference& reference) {
+    return {{"name", judge_name(integrator)},
+            {"integrator", integrator_text(integrator)},
+            {"samples", reference.samples},
+            {"effect_rms", reference.noise.effect_rms},
+            {"reference_noise", reference.noise.noise_rms}};
+}
+
+// The first decides.
+Json judges_of(const Comparison& comparison) {
+    Json judges = Json::array({judge_json(comparison.integrator, comparison.reference)});
+    if (comparison.second) judges.push_back(judge_json(*comparison.second_integrator, *comparison.second));
+    return judges;
+}
+
 Json facts_of(const Scene& scene, const Comparison& comparison, const ComparisonSettings& settings) {
     const ReferenceSettings& reference = settings.reference;
     const bool traced = reference.lighting.ambient == AmbientModel::traced;
     return {{"width", settings.width},
             {"height", settings.height},
             {"profile", scene.skin.profile},
-            {"integrator", integrator_text(reference.integrator)},
             {"ambient", traced ? "traced" : "as the renderer approximates it, on both sides"},
-            {"samples", comparison.reference.samples},
             {"grid", settings.grid},
             {"probes", settings.probes},
-            {"effect_rms", comparison.reference.noise.effect_rms},
-            {"reference_noise", comparison.reference.noise.noise_rms},
+            {"judges", judges_of(comparison)},
             {"reference_rmse", comparison.reference_rmse},
             {"camera", camera_text(scene.camera)},
             {"light", light_text(scene.key_light())},
@@ -193,7 +208,7 @@ Json color_stops(Vec3 (*color)(float), float first) {
 Json scales_json(const Scales& scales) {
     const Json heat = color_stops(heat_color, 0), both = color_stops(signed_color, -1);
     return Json::array({{{"label",
-                          "effect: darker or brighter than without scattering; what is left: than the ground "
+                          "effect: darker or brighter than without scattering; what is left: than the "
                           "reference; mean of the channels"},
                          {"stops", both},
                          {"from", -scales.effect},

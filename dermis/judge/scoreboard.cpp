@@ -38,7 +38,7 @@ std::vector<std::string> scenes_of(const std::vector<ScoreRow>& rows) {
 }
 
 bool better(const ScoreRow& a, const ScoreRow& b) {
-    const CapturedShare &x = a.captured.all, &y = b.captured.all;
+    const CapturedShare &x = headline(a).all, &y = headline(b).all;
     if (x.known() != y.known()) return x.known();
     return x.known() && x.share != y.share ? x.share > y.share : a.scores.rmse < b.scores.rmse;
 }
@@ -81,18 +81,39 @@ std::string ratio_text(std::optional<double> ratio) {
 }
 
 std::string markdown_row(const ScoreRow& row) {
-    const Captured& captured = row.captured;
+    const Captured& captured = headline(row);
     std::string settings = row.settings.empty() ? "" : " " + row.settings;
     for (size_t at = 0; (at = settings.find(',', at)) != std::string::npos; at += 2)
         settings.insert(at + 1, " ");
     std::string text = "| `" + row.technique + "`" + settings + " | " + share_and_error_text(captured.all);
     for (const CapturedShare& channel : captured.channels) text += " | " + share_text(channel);
+    text += " | " + (row.walk && row.surface ? share_and_error_text(row.surface->all) : "");
     return text + " | " + figures(row.time_ratio, "%.2f") + " | " + ratio_text(row.model_ratio) + " | " +
            memory_text(row.bytes) + " |\n";
 }
 
-// A row a scene and a column a technique with its defaults, the exact answer first.
-std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& set) {
+std::string effect_text(const std::optional<Captured>& captured, const std::string& judge) {
+    if (!captured) return "";
+    return "By `" + judge + "`, scattering changes the picture by " +
+           figures(captured->all.effect_rms, "%.2g") +
+           " (RMS); noise of the reference: " + figures(captured->all.reference_noise, "%.2g") + ".";
+}
+
+std::string effects_text(const ScoreRow& row) {
+    const std::string walk = effect_text(row.walk, "walk"), surface = effect_text(row.surface, "surface");
+    return walk + (walk.empty() || surface.empty() ? "" : "\n") + surface;
+}
+
+using Share = std::optional<Captured> ScoreRow::*;
+
+// A row a scene and a column a technique with its defaults, the exact answer first. Empty: no row has this
+// share.
+std::string set_table(const std::vector<ScoreRow>& rows, const std::string& set, Share which,
+                      const std::string& judge) {
+    if (std::ranges::none_of(rows, [&](const ScoreRow& row) {
+            return row.scene.starts_with(set + "/") && (row.*which).has_value();
+        }))
+        return "";
     std::vector<std::string> techniques = {std::string(kExactId)}, scenes;
     for (const ScoreRow& row : rows) {
         if (!row.scene.starts_with(set + "/") || !row.settings.empty()) continue;
@@ -100,10 +121,7 @@ std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& s
             techniques.push_back(row.technique);
         if (std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
     }
-    std::string
-        text = "## " + set + "\n\nCaptured share. `" + std::string(kExactId) +
-               "` is the share of the exact answer. Intervals are in scoreboard.csv.\n\n| scene | effect ",
-        rule = "|---|---";
+    std::string text = "Captured share of `" + judge + "`.\n\n| scene | effect ", rule = "|---|---";
     for (const std::string& technique : techniques) {
         text += "| `" + technique + "` ";
         rule += "|---";
@@ -112,15 +130,22 @@ std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& s
     for (const std::string& scene : scenes) {
         const std::vector<ScoreRow> own = rows_of(rows, scene);
         text += "| " + scene.substr(set.size() + 1) + " | " +
-                figures(own.front().captured.all.effect_rms, "%.2g");
+                (own.front().*which ? figures((own.front().*which)->all.effect_rms, "%.2g") : "");
         for (const std::string& technique : techniques) {
             const auto row = std::ranges::find_if(
                 own, [&](const ScoreRow& r) { return r.technique == technique && r.settings.empty(); });
-            text += " | " + (row == own.end() ? "" : share_text(row->captured.all));
+            text += " | " + (row == own.end() || !((*row).*which) ? "" : share_text(((*row).*which)->all));
         }
         text += " |\n";
     }
     return text + "\n";
+}
+
+std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& set) {
+    return "## " + set + "\n\n`" + std::string(kExactId) +
+           "` is the share of the profile's exact answer. Intervals are in scoreboard.csv.\n\n" +
+           set_table(rows, set, &ScoreRow::walk, "walk") +
+           set_table(rows, set, &ScoreRow::surface, "surface");
 }
 
 PlotPanel plot_panel(const std::string& scene, const std::vector<ScoreRow>& own) {
@@ -128,14 +153,14 @@ PlotPanel plot_panel(const std::string& scene, const std::vector<ScoreRow>& own)
                     .x = {.label = "frame time over lambert's", .scale = PlotScale::logarithmic},
                     .y = {.label = "captured share", .min = kLowestPlotted, .max = 1.0}};
     for (const ScoreRow& row : own) {
-        if (!row.captured.all.known()) continue;
+        if (!headline(row).all.known()) continue;
         auto series = std::ranges::find(panel.series, row.technique, &PlotSeries::name);
         if (series == panel.series.end()) {
             panel.series.push_back({.name = row.technique, .mark = PlotMark::points, .width_px = 3});
             series = std::prev(panel.series.end());
         }
         series->x.push_back(row.time_ratio);
-        series->y.push_back(std::max(row.captured.all.share, kLowestPlotted));
+        series->y.push_back(std::max(headline(row).all.share, kLowestPlotted));
     }
     std::ranges::sort(panel.series, {}, &PlotSeries::name);
     return panel;
@@ -169,12 +194,10 @@ std::string scoreboard_markdown(const std::vector<ScoreRow>& rows) {
             continue;
         }
         const std::vector<ScoreRow> own = rows_of(rows, scene);
-        const CapturedShare& effect = own.front().captured.all;
-        text += "## " + scene + "\n\nScattering changes the picture by " +
-                figures(effect.effect_rms, "%.2g") +
-                " (RMS); noise of the reference: " + figures(effect.reference_noise, "%.2g") +
-                ".\n\n| technique | captured | R | G | B | × lambert measured | modelled | memory |\n"
-                "|---|---|---|---|---|---|---|---|\n";
+        text += "## " + scene + "\n\n" + effects_text(own.front()) + "\n\n| technique | of `" +
+                std::string(own.front().walk ? "walk" : "surface") +
+                "` | R | G | B | of `surface` | × lambert measured | modelled | memory |\n"
+                "|---|---|---|---|---|---|---|---|---|\n";
         for (const ScoreRow& row : own) text += markdown_row(row);
         text += "\n";
     }

@@ -46,6 +46,11 @@ Image masked_radiance(const Image& radiance, const Image& reference, const Image
     return result;
 }
 
+const Captured& headline(const ScoreRow& row) {
+    static const Captured kNone;
+    return row.walk ? *row.walk : row.surface ? *row.surface : kNone;
+}
+
 Result<Scores> score(const Image& radiance, const Image& reference, const SkinMasks& masks,
                      const Display& display) {
     if (radiance.width != reference.width || radiance.height != reference.height)

@@ -53,8 +53,9 @@ struct Display {
 /// One row of scores.csv.
 struct ScoreRow {
     std::string scene, technique, settings;
-    Captured captured;
-    Scores scores;
+    /// Against each reference; missing where it was not made.
+    std::optional<Captured> walk, surface;
+    Scores scores;  ///< against `walk` where it was made, else against `surface`
     double time_ms = 0;
     size_t bytes = 0;
     double time_ratio = 0;      ///< frame time over the baseline's in the same rounds; 0: not known
@@ -63,8 +64,11 @@ struct ScoreRow {
     std::optional<double> model_ratio;
 };
 
-/// A numeric column of scores.csv. A missing value is a share whose reference is too noisy, a part that the
-/// scene has not, or a cost that was not modelled.
+/// The share that decides: against `walk` where it was made, else against `surface`.
+[[nodiscard]] const Captured& headline(const ScoreRow& row);
+
+/// A numeric column of scores.csv. A missing value is a share whose reference is too noisy or was not made, a
+/// part that the scene has not, or a cost that was not modelled.
 struct ScoreColumn {
     std::string_view name;
     std::optional<double> (*get)(const ScoreRow& row);
@@ -72,10 +76,14 @@ struct ScoreColumn {
     bool may_be_missing = false;
 };
 
-/// In order: captured, captured_r, captured_g, captured_b, captured_error (half of the 95 % interval of
-/// captured), effect_rms, reference_noise, rmse, rel_mse, psnr_db, ssim, delta_e_2000, flip, terminator_rmse,
-/// penumbra_rmse, time_ms, bytes, time_ratio, reference_rmse, model_ratio.
+/// In order: the share against walk: walk_captured, walk_captured_r, walk_captured_g, walk_captured_b,
+/// walk_captured_error (half of the 95 % interval of walk_captured), walk_effect_rms, walk_reference_noise;
+/// the share against surface: captured, captured_r ... reference_noise, the same seven without "walk_"; rmse,
+/// rel_mse, psnr_db, ssim, delta_e_2000, flip, terminator_rmse, penumbra_rmse, time_ms, bytes, time_ratio,
+/// reference_rmse, model_ratio.
 [[nodiscard]] std::span<const ScoreColumn> score_columns();
+/// The columns of one share, those of walk first, at the beginning of score_columns().
+inline constexpr size_t kShareColumns = 7;
 
 /// scene,technique,settings and score_columns(); fields with commas are quoted, a missing value is empty.
 [[nodiscard]] std::string scores_csv(const std::vector<ScoreRow>& rows);

@@ -31,41 +31,81 @@ constexpr ScoreColumn row_column(std::string_view name) {
             [](ScoreRow& row, Value value) { row.*member = *value; }};
 }
 
-template <double CapturedShare::*member>
-constexpr ScoreColumn effect_column(std::string_view name) {
-    return {name, [](const ScoreRow& row) { return Value(row.captured.all.*member); },
-            [](ScoreRow& row, Value value) { row.captured.all.*member = *value; }};
+using Share = std::optional<Captured> ScoreRow::*;
+
+// The row has the share from the first of its columns with a value on.
+Captured& made(std::optional<Captured>& captured) {
+    if (captured) return *captured;
+    captured.emplace();
+    for (CapturedShare* share :
+         {&captured->all, &captured->channels[0], &captured->channels[1], &captured->channels[2]})
+        share->share = std::nan("");
+    return *captured;
 }
 
-// A share that was too noisy when it was written stays so when it is read.
-void set_share(CapturedShare& share, Value value) {
-    share.share = value.value_or(std::nan(""));
-}
-
-Value if_known(const CapturedShare& share, double value) {
-    return share.known() ? Value(value) : Value();
-}
+constexpr size_t kAllChannels = 3;
 
 template <size_t channel>
+auto& share_in(auto& captured) {
+    if constexpr (channel == kAllChannels)
+        return captured.all;
+    else
+        return captured.channels[channel];
+}
+
+// The columns of one share. A share that was too noisy when it was written has no number when it is read.
+template <Share which, size_t channel>
 constexpr ScoreColumn channel_column(std::string_view name) {
     return {name,
             [](const ScoreRow& row) {
-                const CapturedShare& share = row.captured.channels[channel];
-                return if_known(share, share.share);
+                if (!(row.*which)) return Value();
+                const CapturedShare& share = share_in<channel>(*(row.*which));
+                return share.known() ? Value(share.share) : Value();
             },
-            [](ScoreRow& row, Value value) { set_share(row.captured.channels[channel], value); }, true};
+            [](ScoreRow& row, Value value) {
+                if (value) share_in<channel>(made(row.*which)).share = *value;
+            },
+            true};
 }
 
+template <Share which, double CapturedShare::*member>
+constexpr ScoreColumn share_column(std::string_view name) {
+    return {name, [](const ScoreRow& row) { return row.*which ? Value((row.*which)->all.*member) : Value(); },
+            [](ScoreRow& row, Value value) {
+                if (value) made(row.*which).all.*member = *value;
+            },
+            true};
+}
+
+template <Share which>
+constexpr ScoreColumn interval_column(std::string_view name) {
+    return {name,
+            [](const ScoreRow& row) {
+                return row.*which && (row.*which)->all.known() ? Value((row.*which)->all.error) : Value();
+            },
+            [](ScoreRow& row, Value value) {
+                if (value) made(row.*which).all.error = *value;
+            },
+            true};
+}
+
+constexpr Share kWalk = &ScoreRow::walk, kSurface = &ScoreRow::surface;
+
 constexpr ScoreColumn kColumns[] = {
-    {"captured", [](const ScoreRow& row) { return if_known(row.captured.all, row.captured.all.share); },
-     [](ScoreRow& row, Value value) { set_share(row.captured.all, value); }, true},
-    channel_column<0>("captured_r"),
-    channel_column<1>("captured_g"),
-    channel_column<2>("captured_b"),
-    {"captured_error", [](const ScoreRow& row) { return if_known(row.captured.all, row.captured.all.error); },
-     [](ScoreRow& row, Value value) { row.captured.all.error = value.value_or(0); }, true},
-    effect_column<&CapturedShare::effect_rms>("effect_rms"),
-    effect_column<&CapturedShare::reference_noise>("reference_noise"),
+    channel_column<kWalk, kAllChannels>("walk_captured"),
+    channel_column<kWalk, 0>("walk_captured_r"),
+    channel_column<kWalk, 1>("walk_captured_g"),
+    channel_column<kWalk, 2>("walk_captured_b"),
+    interval_column<kWalk>("walk_captured_error"),
+    share_column<kWalk, &CapturedShare::effect_rms>("walk_effect_rms"),
+    share_column<kWalk, &CapturedShare::reference_noise>("walk_reference_noise"),
+    channel_column<kSurface, kAllChannels>("captured"),
+    channel_column<kSurface, 0>("captured_r"),
+    channel_column<kSurface, 1>("captured_g"),
+    channel_column<kSurface, 2>("captured_b"),
+    interval_column<kSurface>("captured_error"),
+    share_column<kSurface, &CapturedShare::effect_rms>("effect_rms"),
+    share_column<kSurface, &CapturedShare::reference_noise>("reference_noise"),
     error_column<&Scores::rmse>("rmse"),
     error_column<&Scores::rel_mse>("rel_mse"),
     error_column<&Scores::psnr_db>("psnr_db"),
@@ -126,10 +166,10 @@ std::vector<std::string> csv_fields(std::string_view line) {
     return fields;
 }
 
-// The columns of a file in order. None: the heading lacks one that no row may be without, or has another.
 // The name of the column reference_noise in files of earlier versions.
-constexpr std::string_view kOldReferenceNoise = "reference_noise";
+constexpr std::string_view kOldReferenceNoise = "truth_noise";
 
+// The columns of a file in order. None: the heading lacks one that no row may be without, or has another.
 std::vector<const ScoreColumn*> columns_of(std::string_view line) {
     const std::vector<std::string_view> names = split(line, ',');
     size_t at = 0;
@@ -192,20 +232,24 @@ std::string scores_csv(const std::vector<ScoreRow>& rows) {
 }
 
 std::string regions_csv(const std::string& scene, const Comparison& comparison) {
-    constexpr size_t kShareColumns = 7;  // captured to reference_noise
+    const std::span<const ScoreColumn> columns = score_columns().first(2 * kShareColumns);
     std::string text = "scene,technique,settings,region,pixels";
-    for (const ScoreColumn& column : score_columns().first(kShareColumns))
-        text += "," + std::string(column.name);
+    for (const ScoreColumn& column : columns) text += "," + std::string(column.name);
     text += "\n";
+    const auto share_by = [&](Integrator integrator, const Compared& row, size_t region) {
+        const Judgement* found = judgement_by(integrator, comparison, row);
+        return found ? found->regions[region].captured : std::nullopt;
+    };
     for (const Compared& row : comparison.rows)
-        for (const RegionShare& share : row.regions) {
+        for (size_t region = 0; region < row.first.regions.size(); ++region) {
+            const RegionShare& share = row.first.regions[region];
             if (!share.captured) continue;
             std::vector<std::string> fields = {
                 csv_field(scene), csv_field(row.contestant.technique->id), csv_field(row.contestant.settings),
                 std::string(region_name(share.region)), std::to_string(share.captured->pixels)};
-            const ScoreRow numbers{.captured = *share.captured};
-            for (const ScoreColumn& column : score_columns().first(kShareColumns))
-                fields.push_back(number(column.get(numbers)));
+            const ScoreRow numbers{.walk = share_by(Integrator::walk, row, region),
+                                   .surface = share_by(Integrator::surface, row, region)};
+            for (const ScoreColumn& column : columns) fields.push_back(number(column.get(numbers)));
             text += join(fields, ",") + "\n";
         }
     return text;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "dermis/base/angle.h"
+#include "dermis/base/parallel.h"
 
 namespace dermis::inline rays {
 namespace {
@@ -70,24 +72,43 @@ GuidedStep sample_guided_step(const WalkMedium& medium, const WalkGuide& guide, 
 
 GuidedWeight after_step(const WalkMedium& medium, const WalkGuide& guide, const GuidedWeight& weight,
                         const GuidedStep& step, float cosine_out, float distance_mm, bool collides) {
-    Vec3 carried, drawn;  // drawn: the density if this channel led
+    Vec3 carried, drawn, plain;  // the densities if this channel led a guided, a plain walk
     float density = 0;
     for (float Vec3::*c : kChannels) {
         const float sigma_t = medium.sigma_t_per_mm.*c, nu = guide.diffusion_length.*c;
         const float stretched = sigma_t * (1 - cosine_out / nu);
         const float passing = std::exp(-sigma_t * distance_mm);
         carried.*c = passing * (collides ? medium.sigma_s_per_mm.*c : 1.0f);
-        if (weight.led_by.*c <= 0) continue;
+        plain.*c = passing * (collides ? sigma_t : 1.0f);
         // Densities of the direction are over the phase function, which the path carries too.
         const float towards =
             step.phase > 0 ? 2 / (guide.log_ratio.*c * (nu - cosine_out) * step.phase) : 1.0f;
         const float guided = towards * std::exp(-stretched * distance_mm) * (collides ? stretched : 1.0f);
-        drawn.*c = guide.chance * guided + (1 - guide.chance) * passing * (collides ? sigma_t : 1.0f);
-        density += weight.led_by.*c * drawn.*c;
+        drawn.*c = guide.chance * guided + (1 - guide.chance) * plain.*c;
+        density += weight.led_by.*c * drawn.*c + weight.plain_by.*c * plain.*c;
     }
     if (!(density > 0)) return {.throughput = {}};
     return {.throughput = weight.throughput * carried * (1 / density),
-            .led_by = weight.led_by * drawn * (1 / density)};
+            .led_by = weight.led_by * drawn * (1 / density),
+            .plain_by = weight.plain_by * plain * (1 / density)};
+}
+
+HalfSpaceAlbedo guided_half_space_albedo(const ScatteringMedium& medium, int walks, uint32_t seed) {
+    const WalkMedium prepared = walk_medium(medium);
+    const WalkGuide guide = walk_guide(medium);
+    // Of one walk led by each channel.
+    std::vector<Vec3> means(size_t(walks / 3));
+    parallel_for(means.size(), 256, [&](size_t begin, size_t end) {
+        const Vec3 n{0, 0, 1};
+        for (size_t i = begin; i < end; ++i)
+            for (int hero = 0; hero < 3; ++hero) {
+                Pcg32 random(seed, uint32_t(3 * i) + uint32_t(hero));
+                const Vec3 start = sample_entry_direction(n, prepared.eta, random);
+                means[i] += guided_walk(prepared, guide, HalfSpace{}, {}, n, start, hero, random).throughput *
+                            (1.0f / 3);
+            }
+    });
+    return mean_of(means);
 }
 
 }  // namespace dermis::inline rays

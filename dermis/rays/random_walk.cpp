@@ -83,6 +83,22 @@ std::optional<Vec3> reflected_at(const BoundaryHit& hit, Vec3 direction, float e
     return normalize(direction - hit.n_out * (2 * cosine));
 }
 
+HalfSpaceAlbedo mean_of(std::span<const Vec3> values) {
+    const auto count = double(values.size());
+    HalfSpaceAlbedo result;
+    for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+        double sum = 0, squares = 0;
+        for (const Vec3& v : values) {
+            sum += v.*c;
+            squares += double(v.*c) * v.*c;
+        }
+        const double mean = sum / count;
+        result.mean.*c = float(mean);
+        result.standard_error.*c = float(std::sqrt(std::max(0.0, squares / count - mean * mean) / count));
+    }
+    return result;
+}
+
 HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<Vec3> start, int walks,
                                   uint32_t seed) {
     const WalkMedium prepared = walk_medium(medium);
@@ -94,18 +110,7 @@ HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<
             values[i] = random_walk(prepared, HalfSpace{}, {}, direction, random).throughput;
         }
     });
-    HalfSpaceAlbedo result;
-    for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) {
-        double sum = 0, squares = 0;
-        for (const Vec3& v : values) {
-            sum += v.*c;
-            squares += double(v.*c) * v.*c;
-        }
-        const double mean = sum / walks;
-        result.mean.*c = float(mean);
-        result.standard_error.*c = float(std::sqrt(std::max(0.0, squares / walks - mean * mean) / walks));
-    }
-    return result;
+    return mean_of(values);
 }
 
 }  // namespace dermis::inline rays

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "dermis/optics/medium.h"
 #include "dermis/rays/random.h"
@@ -111,6 +112,7 @@ struct HalfSpace {
 struct HalfSpaceAlbedo {
     Vec3 mean, standard_error;
 };
+[[nodiscard]] HalfSpaceAlbedo mean_of(std::span<const Vec3> values);
 /// How much of the light that entered a half-space comes out again, red, green, blue, 0..1. `start`: the
 /// direction just inside (z < 0), or none for diffuse light. Deterministic; about 1 microsecond a collision.
 [[nodiscard]] HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<Vec3> start,

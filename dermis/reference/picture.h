@@ -29,6 +29,11 @@ enum class Integrator { surface, walk, lambert };
 /// a cell (as a renderer that draws `grid` times the size and averages has it).
 enum class PixelFilter { box, center, grid };
 
+/// The part of the light that walks let into the medium. fresnel: 1 - F(angle, eta), as a smooth dielectric.
+/// all: everything that arrives, as `lambert`, `surface` and the techniques have it; a plane's walks then
+/// return what `lambert` returns, at any eta and angle. Paths inside are reflected by Fresnel in both.
+enum class LightEntry { fresnel, all };
+
 struct ReferenceSettings {
     Integrator integrator = Integrator::surface;
     int width = 512, height = 512;  ///< 1..16384
@@ -41,7 +46,8 @@ struct ReferenceSettings {
     Cavities cavities = Cavities::flesh;
     PixelFilter filter = PixelFilter::box;
     int grid = 4;  ///< PixelFilter::grid: cells on a side, 1..16; samples are a multiple of its square
-    LightingSettings lighting;               ///< entry_eta is set from the medium
+    LightingSettings lighting;               ///< entry_eta is set from medium and `entry`
+    LightEntry entry = LightEntry::fresnel;  ///< walk
     std::optional<ScatteringMedium> medium;  ///< walk: else walk_medium_of the scene's profile
 };
 

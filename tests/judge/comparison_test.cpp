@@ -63,8 +63,8 @@ TEST_F(Comparisons, the_reference_is_made_once_and_the_page_holds_every_picture)
     EXPECT_TRUE(second->reference.from_cache);
     EXPECT_EQ(first->rows[1].scores.rmse, second->rows[1].scores.rmse);
     EXPECT_EQ(first->reference.effect.b.bytes, second->reference.effect.b.bytes);
-    EXPECT_EQ(first->rows[0].captured.all.share, 0) << "lambert is where the share begins";
-    EXPECT_GT(first->rows[1].captured.all.share, 0.3);
+    EXPECT_EQ(first->rows[0].first.captured.all.share, 0) << "lambert is where the share begins";
+    EXPECT_GT(first->rows[1].first.captured.all.share, 0.3);
     EXPECT_LT(first->rows[1].scores.terminator_rmse, first->rows[0].scores.terminator_rmse)
         << "scattering should come closer to the reference than none";
     EXPECT_EQ(first->rows[0].cost.bytes(), 0u);

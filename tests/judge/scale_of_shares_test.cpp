@@ -97,8 +97,8 @@ TEST_F(ScaleOfShares, lambert_has_none_of_the_effect_on_every_scene) {
         const std::string name = file.path().stem().string();
         const auto comparison = compare_techniques(device(), built_in_catalog(), load(name), *list, settings);
         ASSERT_TRUE(comparison) << name << ": " << comparison.error().message;
-        const CapturedShare &none = comparison->rows[0].captured.all,
-                            &wrap = comparison->rows[1].captured.all;
+        const CapturedShare &none = comparison->rows[0].first.captured.all,
+                            &wrap = comparison->rows[1].first.captured.all;
         EXPECT_EQ(none.share, 0) << name;
         EXPECT_LE(none.error, 1e-9) << name;
         EXPECT_NE(wrap.share, 0) << name << ": the effect was not measured";

@@ -106,7 +106,7 @@ TEST_F(ScoreboardProgram, fills_in_modelled_costs_and_keeps_the_shares) {
     std::vector<ScoreRow> rows = {{.scene = "spheres", .technique = "lambert", .time_ratio = 1},
                                   {.scene = "spheres", .technique = "screen_space_burley", .time_ratio = 3},
                                   {.scene = "spheres", .technique = "exact"}};
-    rows[1].captured.all.share = 0.25;
+    rows[1].surface->all.share = 0.25;
     ASSERT_TRUE(write_text_file(directory_ / "scoreboard.csv", scores_csv(rows)));
     const Run models = run("", {"--models"});
     EXPECT_EQ(models.status, 0) << models.output;
@@ -119,7 +119,7 @@ TEST_F(ScoreboardProgram, fills_in_modelled_costs_and_keeps_the_shares) {
     ASSERT_TRUE((*now)[1].model_ratio);
     EXPECT_GT(*(*now)[1].model_ratio, 1.01);
     EXPECT_LT(*(*now)[1].model_ratio, 3);
-    EXPECT_EQ((*now)[1].captured.all.share, 0.25);
+    EXPECT_EQ((*now)[1].surface->all.share, 0.25);
     EXPECT_EQ((*now)[1].time_ratio, 3);
     EXPECT_FALSE((*now)[2].model_ratio);
     const auto page = read_text_file(directory_ / "scoreboard.md");

@@ -19,7 +19,7 @@ class Scoreboards : public RenderTest {};
 
 ScoreRow row(const std::string& scene, const std::string& technique, double share) {
     ScoreRow r{.scene = scene, .technique = technique, .time_ratio = 1.25, .reference_rmse = 1e-3};
-    r.captured.all.share = share;
+    r.surface.emplace().all.share = share;
     r.scores.penumbra_rmse = 0.5;
     return r;
 }
@@ -80,7 +80,7 @@ TEST(Scoreboard, survives_its_own_file_and_keeps_the_rows_of_other_scenes) {
     const auto both = merged(*again, {row("bust", "lambert", 0.125)});
     ASSERT_EQ(both.size(), 2u);
     EXPECT_EQ(both[0].scene, "spheres");
-    EXPECT_EQ(both[1].captured.all.share, 0.125);
+    EXPECT_EQ(both[1].surface->all.share, 0.125);
 }
 
 TEST(Scoreboard, every_prefix_is_read_or_refused_in_one_line) {
@@ -186,8 +186,8 @@ void expect_no_less_than_recorded(const std::vector<ScoreRow>& made, const std::
             ADD_FAILURE() << name << " has no recorded share; run with DERMIS_UPDATE_SCORES=1";
             continue;
         }
-        EXPECT_TRUE(now.captured.all.known()) << name << " +- " << now.captured.all.error;
-        const double a = now.captured.all.share, b = before->captured.all.share;
+        EXPECT_TRUE(now.surface->all.known()) << name << " +- " << now.surface->all.error;
+        const double a = now.surface->all.share, b = before->surface->all.share;
         EXPECT_GE(a, b - kTolerance * std::max(1.0, 1 - b)) << name;
         EXPECT_LE(now.scores.flip, before->scores.flip * flip_rise + 2e-4) << name << ", FLIP";
     }
@@ -197,7 +197,7 @@ void expect_no_less_on(gpu::Device& device, const std::string& name, const Scene
     const auto comparison =
         compare_techniques(device, built_in_catalog(), scene, ratcheted_techniques(), small(64, noise));
     ASSERT_TRUE(comparison) << comparison.error().message;
-    EXPECT_EQ(comparison->rows[0].captured.all.share, 0) << name << ": lambert";
+    EXPECT_EQ(comparison->rows[0].first.captured.all.share, 0) << name << ": lambert";
     expect_no_less_than_recorded(score_rows(name, *comparison), device.info().driver);
 }
 
@@ -225,8 +225,8 @@ void expect_exact_answers(gpu::Device& device, bool in_every_run) {
         const auto comparison =
             compare_techniques(device, built_in_catalog(), one.scene, ratcheted_techniques(), settings);
         ASSERT_TRUE(comparison) << one.name << ": " << comparison.error().message;
-        EXPECT_EQ(comparison->rows[0].captured.all.share, 0) << one.name << ": lambert";
-        EXPECT_LT(comparison->rows[0].captured.all.error, 1e-9) << one.name << ": lambert";
+        EXPECT_EQ(comparison->rows[0].first.captured.all.share, 0) << one.name << ": lambert";
+        EXPECT_LT(comparison->rows[0].first.captured.all.error, 1e-9) << one.name << ": lambert";
         size_t exact_answers = 0;
         for (ScoreRow& r : score_rows(one.name, *comparison)) {
             if (r.technique != kExactId) {
@@ -234,7 +234,7 @@ void expect_exact_answers(gpu::Device& device, bool in_every_run) {
                 continue;
             }
             ++exact_answers;
-            const CapturedShare& share = r.captured.all;
+            const CapturedShare& share = r.surface->all;
             EXPECT_GT(share.share, 0.9) << one.name;
             EXPECT_GT(share.share + share.error, 0.98) << one.name << ": " << share.share;
             EXPECT_LT(share.error, 0.06) << one.name;
@@ -275,7 +275,7 @@ TEST(Scoreboard, no_techniques_default_is_worse_than_lambert) {
     for (const ScoreRow& row : *recorded) {
         if (!row.settings.empty() || row.technique == "oren_nayar") continue;
         ++count;
-        if (row.captured.all.share + row.captured.all.error >= -kRounding) continue;
+        if (row.surface->all.share + row.surface->all.error >= -kRounding) continue;
         worse.push_back(row.technique + " " + row.scene);
     }
     EXPECT_THAT(worse, testing::IsEmpty());

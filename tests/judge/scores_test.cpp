@@ -116,28 +116,55 @@ TEST(Scores, nan_and_other_sizes_are_refused) {
 TEST(Scores, the_table_has_the_stated_columns_and_quotes_settings) {
     ScoreRow row{
         .scene = "head, scanned", .technique = "wrap", .settings = "wrap=0.4,specular=ggx", .bytes = 7};
-    row.captured.all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .reference_noise = 0.125};
-    row.captured.channels[1].error = 1;  // too noisy to tell
+    row.surface.emplace().all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .reference_noise = 0.125};
+    row.surface->channels[1].error = 1;  // too noisy to tell
     row.scores.terminator_rmse = 0.125;
     row.scores.psnr_db = std::numeric_limits<double>::infinity();
     EXPECT_EQ(
         scores_csv({row}),
-        "scene,technique,settings,captured,captured_r,captured_g,captured_b,captured_error,effect_rms,"
+        "scene,technique,settings,walk_captured,walk_captured_r,walk_captured_g,walk_captured_b,"
+        "walk_captured_error,walk_effect_rms,walk_reference_noise,captured,captured_r,captured_g,captured_b,"
+        "captured_error,effect_rms,"
         "reference_noise,rmse,rel_mse,psnr_db,ssim,delta_e_2000,flip,terminator_rmse,penumbra_rmse,time_ms,"
         "bytes,time_ratio,reference_rmse,model_ratio\n"
-        "\"head, scanned\",wrap,\"wrap=0.4,specular=ggx\",0.25,0,,0,0.01,0.5,0.125,0,0,inf,0,0,0,0.125,"
+        "\"head, "
+        "scanned\",wrap,\"wrap=0.4,specular=ggx\",,,,,,,,0.25,0,,0,0.01,0.5,0.125,0,0,inf,0,0,0,0.125,"
         ",0,7,0,0,\n");
 }
 
 TEST(Scores, a_table_of_an_earlier_version_is_read) {
     ScoreRow row{.scene = "spheres", .technique = "wrap"};
-    row.captured.all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .reference_noise = 0.125};
+    row.surface.emplace().all = {.share = 0.25, .error = 0.01, .effect_rms = 0.5, .reference_noise = 0.125};
+    // Earlier versions had one reference and another name for its noise.
     std::string text = scores_csv({row});
-    const std::string_view name = "reference_noise";
-    text.replace(text.find(name), name.size(), "reference_noise");
+    const std::string walk =
+        "walk_captured,walk_captured_r,walk_captured_g,walk_captured_b,walk_captured_error,walk_effect_rms,"
+        "walk_reference_noise,";
+    text.erase(text.find(walk), walk.size());
+    text.replace(text.find(",reference_noise"), 16, ",truth_noise");
+    text.erase(text.find("wrap,") + 6, 7);
     const auto rows = parse_scores(text);
-    ASSERT_TRUE(rows) << rows.error().message;
-    EXPECT_EQ(rows->at(0).captured.all.reference_noise, 0.125);
+    ASSERT_TRUE(rows) << rows.error().message << "\n" << text;
+    EXPECT_EQ(rows->at(0).surface->all.reference_noise, 0.125);
+    EXPECT_EQ(rows->at(0).surface->all.share, 0.25);
+    EXPECT_FALSE(rows->at(0).walk);
+}
+
+TEST(Scores, the_shares_of_both_references_are_read_back) {
+    ScoreRow row{.scene = "spheres", .technique = "wrap"};
+    row.walk.emplace().all = {.share = 0.125, .error = 0.01, .effect_rms = 0.5, .reference_noise = 0.125};
+    row.walk->channels[2].error = 1;  // too noisy to tell
+    const auto one = parse_scores(scores_csv({row}));
+    ASSERT_TRUE(one) << one.error().message;
+    EXPECT_FALSE(one->at(0).surface) << "it was not made";
+    row.surface.emplace().all = {.share = 0.75, .error = 0.02, .effect_rms = 0.25, .reference_noise = 0.25};
+    const auto both = parse_scores(scores_csv({row}));
+    ASSERT_TRUE(both) << both.error().message;
+    EXPECT_EQ(both->at(0).walk->all.share, 0.125);
+    EXPECT_FALSE(both->at(0).walk->channels[2].known());
+    EXPECT_EQ(both->at(0).surface->all.share, 0.75);
+    EXPECT_EQ(both->at(0).surface->all.error, 0.02);
+    EXPECT_EQ(headline(both->at(0)).all.share, 0.125) << "walk decides";
 }
 
 TEST(HeatMap, lightness_rises_with_the_value_and_what_is_outside_is_grey) {

@@ -137,6 +137,34 @@ TEST(GuidedWalk, a_half_space_of_skin_has_less_than_half_of_the_variance) {
     EXPECT_LT(guided.variance(2), 0.4 * plain.variance(2));
 }
 
+// Guided steps alone had single walks of a thousand times the mean in a ball, so that the spread of some
+// thousand walks did not show the error of their mean.
+TEST(GuidedWalk, no_walk_in_a_ball_carries_more_than_a_plain_one_over_the_part_of_plain_ones) {
+    const ScatteringMedium medium = skin(1.3);
+    const WalkMedium prepared = walk_medium(medium);
+    const WalkGuide guide = walk_guide(medium);
+    float most = 0;
+    for (int i = 0; i < 60'000; ++i) {
+        Pcg32 random(3, uint32_t(i));
+        const Vec3 n{0, 0, 1}, start = sample_entry_direction(n, prepared.eta, random);
+        const Vec3 t = guided_walk(prepared, guide, Ball{10}, {}, n, start, i % 3, random).throughput;
+        most = std::max({most, t.x, t.y, t.z});
+    }
+    // A plain walk is led by three channels in turn.
+    EXPECT_LT(most, 3 / kPlainWalks * 1.01f);
+    EXPECT_GT(most, 0.5f);
+}
+
+TEST(GuidedWalk, the_albedo_of_a_half_space_is_that_of_plain_walks) {
+    const HalfSpaceAlbedo plain = half_space_albedo(skin(1.3), std::nullopt, 60'000, 1),
+                          guided = guided_half_space_albedo(skin(1.3), 60'000, 2);
+    for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+        EXPECT_LT(std::abs(plain.mean.*c - guided.mean.*c),
+                  4 * std::hypot(plain.standard_error.*c, guided.standard_error.*c));
+        EXPECT_LT(guided.standard_error.*c, plain.standard_error.*c);
+    }
+}
+
 TEST(GuidedWalk, the_diffusion_length_solves_its_equation_and_nears_that_of_diffusion) {
     for (const double albedo : {0.5, 0.8, 0.99}) {
         const double nu = diffusion_length_in_paths(albedo);

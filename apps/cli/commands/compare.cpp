@@ -45,10 +45,7 @@ Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const st
     std::optional<Progress> techniques;
     return compare_techniques(
         device, built_in_catalog(), one.scene, contestants, settings,
-        {.reference =
-             [&](double done, bool first_samples) {
-                 line.set(done, prefix + "reference" + (first_samples ? ", first samples" : ""));
-             },
+        {.reference = [&](double done, const std::string& name) { line.set(done, prefix + name); },
          .techniques =
              [&](double done, const std::string& name) {
                  if (!techniques) techniques.emplace("techniques", 0);
@@ -178,7 +175,7 @@ void add_compare_command(CommandLine& line) {
                         "WIDTHxHEIGHT in pixels (512x512; of the unit scenes 96x96)");
     command
         ->add_option("--integrator", options->choice.integrator,
-                     "integrator of the reference: surface or walk")
+                     "references: walk (transport), surface (the profile), both")
         ->capture_default_str();
     command
         ->add_option("--ambient", options->choice.ambient,

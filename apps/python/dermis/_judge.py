@@ -88,7 +88,7 @@ class Comparison:
 
 
 def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: Size | None=None,
-            integrator: str='surface', ambient: str='renderer', samples_per_pixel: int=36, noise: float=0.2,
+            integrator: str='both', ambient: str='renderer', samples_per_pixel: int=36, noise: float=0.2,
             samples: int=2048, frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None,
             progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison]:
     """Techniques compared with the reference of the same scene, as `dermis compare`.
@@ -96,8 +96,9 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
     techniques: "lambert,wrap[wrap=0.4]", a list of such texts, or None for all. size: pixels (512x512, of a set
     of test scenes 96x96). noise: of the reference at which it stops, over the effect of scattering. samples:
     of the reference a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
-    number. frames: that are timed. The reference is kept in the cache. Returns a Comparison; of a set of
-    scenes, such as "unit", a list.
+    number. frames: that are timed. integrator: "walk", "surface", or "both": rows have both shares, walk_captured
+    and captured, and the pictures are of walk. The references are kept in the cache. Returns a Comparison; of
+    a set of scenes, such as "unit", a list.
     """
     listed = techniques if isinstance(techniques, str) else ",".join(techniques or [])
     least, most = -2**31, 2**31 - 1

@@ -1,0 +1,148 @@
+// The walk's effect of scattering: walks that let in all light, less the picture of `lambert`. As for the
+// surface's: another seed has all of it, a part has its part, lambert has none, flat skin shows none.
+
+#include "dermis/judge/comparison.h"
+#include "judge/exact_shares.h"
+#include "render/render_test.h"
+
+using namespace dermis;
+
+namespace {
+
+constexpr int kWalkSide = 4, kWalkGrid = 2;
+
+class WalkEffect : public RenderTest {
+  protected:
+    static EffectReferenceSettings settings_of(double noise, uint32_t seed) {
+        EffectReferenceSettings settings{.reference = comparison_settings(kWalkSide, kWalkSide).reference,
+                                         .noise = noise,
+                                         .samples = 4096};
+        settings.reference.integrator = Integrator::walk;
+        settings.reference.grid = kWalkGrid;
+        settings.reference.probes = 512;
+        settings.reference.seed = seed;
+        return settings;
+    }
+
+    static EffectReference reference_of(const Scene& scene, const EffectReferenceSettings& settings) {
+        auto reference = make_effect_reference(scene, settings);
+        EXPECT_TRUE(reference) << reference.error().message;
+        return std::move(*reference);
+    }
+
+    static Image whole(const EffectReference& reference) {
+        Image skin = reference.skin;
+        for (float& v : skin.floats()) v = v >= 1 ? 1 : 0;
+        return skin;
+    }
+
+    static Image scaled(Image image, float by) {
+        for (float& v : image.floats()) v *= by;
+        return image;
+    }
+
+    // A refracting medium, whose walks differ from lambert's light by Fresnel's factor unless all light
+    // enters.
+    static Scene sphere() {
+        Scene scene = unit_case("sphere").scene;
+        scene.skin.profile = "jensen_skin1";
+        return scene;
+    }
+};
+
+}  // namespace
+
+TEST_F(WalkEffect, another_seed_has_all_of_it_and_a_part_has_its_part) {
+    const EffectReference reference = reference_of(sphere(), settings_of(0.01, 1)),
+                          other = reference_of(sphere(), settings_of(0.01, 2));
+    const Image skin = whole(reference);
+    const auto share = [&](float by) {
+        const auto found =
+            captured({scaled(other.effect.a, by), scaled(other.effect.b, by)}, reference.effect, skin);
+        EXPECT_TRUE(found);
+        return found->all;
+    };
+    EXPECT_GT(share(1).share + share(1).error, 0.99) << share(1).share << " +- " << share(1).error;
+    EXPECT_GT(share(1).share, 0.98);
+    EXPECT_NEAR(share(0.9f).share, 0.9, 0.02) << "+- " << share(0.9f).error;
+    EXPECT_NEAR(share(0.5f).share, 0.5, 0.015) << "+- " << share(0.5f).error;
+    EXPECT_EQ(share(0).share, 0) << "lambert";
+}
+
+// The picture of width 0 is the limit of the walk's own pictures. Where only Fresnel's part enters it is not.
+TEST_F(WalkEffect, walks_of_a_small_width_draw_the_picture_of_lambert) {
+    const auto share_left = [&](LightEntry entry) {
+        EffectReferenceSettings settings = settings_of(0.01, 1);
+        const EffectReference full = reference_of(sphere(), settings);
+        settings.reference.width_scale = 0.01;
+        settings.reference.probes = 256;
+        settings.samples = 16;
+        settings.reference.entry = entry;
+        const EffectReference narrow = reference_of(sphere(), settings);
+        return effect_noise(narrow.effect, whole(narrow)).effect_rms /
+               effect_noise(full.effect, whole(full)).effect_rms;
+    };
+    EXPECT_LT(share_left(LightEntry::all), 0.02);
+    EXPECT_GT(share_left(LightEntry::fresnel), 0.1) << "the test cannot tell";
+}
+
+// Deep skin under oblique light returns as much as lambert's: the normalisation has the same boundary.
+TEST_F(WalkEffect, flat_skin_shows_none) {
+    Scene scene = unit_case("slab_behind").scene;
+    scene.skin.profile = "jensen_skin1";
+    // The light shines on the side that the camera sees, 60 degrees from its normal.
+    Vec3& to_light = scene.lights.front().to_light_world;
+    to_light = normalize(Vec3{0.866f, 0, 0.5f});
+    // Walks are short beside the slab.
+    EffectReferenceSettings settings = settings_of(0.001, 1);
+    settings.reference.width_scale = 0.02;
+    settings.reference.probes = 256;
+    settings.samples = 64;
+    const EffectReference reference = reference_of(scene, settings);
+    const Image effect = mean_effect(reference.effect), picture = reference.radiance();
+    for (size_t c = 0; c < 3; ++c) {
+        double sum = 0, light = 0;
+        for (size_t y = 1; y < 3; ++y)
+            for (size_t x = 1; x < 3; ++x) {
+                sum += effect.floats()[3 * (y * kWalkSide + x) + c];
+                light += picture.floats()[4 * (y * kWalkSide + x) + c];
+            }
+        EXPECT_GT(light, 0.1);
+        EXPECT_LT(std::abs(sum), 0.004 * light) << c;
+    }
+}
+
+TEST_F(WalkEffect, both_references_judge_each_technique) {
+    const auto list = parse_technique_list(built_in_catalog().techniques, "lambert,preintegrated");
+    ASSERT_TRUE(list);
+    ComparisonSettings settings = comparison_settings(24, 24);
+    settings.grid = kWalkGrid;
+    settings.probes = 16;
+    settings.samples = 256;
+    settings.noise = 0.1;
+    settings.frames = 0;
+    settings.reference.integrator = Integrator::walk;
+    settings.second = Integrator::surface;
+    const auto both = compare_techniques(device(), built_in_catalog(), sphere(), *list, settings);
+    ASSERT_TRUE(both) << both.error().message;
+    const auto share = [&](size_t row, Integrator integrator) {
+        const Judgement* found = judgement_by(integrator, *both, both->rows[row]);
+        EXPECT_TRUE(found);
+        return found->captured.all.share;
+    };
+    EXPECT_EQ(share(0, Integrator::walk), 0);
+    EXPECT_EQ(share(0, Integrator::surface), 0);
+    EXPECT_GT(share(1, Integrator::surface), 0.9);
+    EXPECT_LT(share(1, Integrator::walk), 0.9) << "a profile is not transport";
+    const std::vector<ScoreRow> rows = score_rows("sphere", *both);
+    EXPECT_EQ(rows[1].walk->all.share, share(1, Integrator::walk));
+    EXPECT_EQ(rows[1].surface->all.share, share(1, Integrator::surface));
+    // One reference alone leaves the other's columns empty.
+    settings.second = {};
+    const auto one = compare_techniques(device(), built_in_catalog(), sphere(), *list, settings);
+    ASSERT_TRUE(one);
+    EXPECT_EQ(judgement_by(Integrator::surface, *one, one->rows[1]), nullptr);
+    EXPECT_EQ(judgement_by(Integrator::walk, *one, one->rows[1])->captured.all.share,
+              share(1, Integrator::walk));
+    EXPECT_FALSE(score_rows("sphere", *one)[1].surface);
+}
