@@ -9,6 +9,10 @@
 namespace dermis::inline render {
 namespace {
 
+Vec3 to_vec3(const Rgb& rgb) {
+    return {float(rgb[0]), float(rgb[1]), float(rgb[2])};
+}
+
 // Any direction that is not along `d`.
 Vec3 up_for(Vec3 d) {
     return std::abs(d.y) < 0.99f ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
@@ -147,6 +151,9 @@ gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings)
         {"exposure", std::exp2(scene.exposure_ev)},
         {"second_light", int32_t(second)},
         {"second_light_view_projection", light_matrix_of(scene, second)},
+        {"gain_slope_mm", to_vec3(settings.gain.slope_mm)},
+        {"gain_length_mm", to_vec3(settings.gain.length_mm)},
+        {"gain_bend_mm", to_vec3(settings.gain.bend_mm)},
         {"pixel_per_distance", 2 * std::tan(scene.camera.vertical_fov_rad / 2) / float(settings.height)}};
     const std::array<Vec3, 9> terms = environment_terms(settings.environment_sh, yaw_rad);
     for (size_t i = 0; i < terms.size(); ++i)

@@ -2,6 +2,7 @@
 // The values of a frame for the shaders, by the names of shaders/include/frame.glsl.
 
 #include "dermis/gpu/executor.h"
+#include "dermis/optics/gain_form.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::inline render {
@@ -12,6 +13,7 @@ struct FrameValueSettings {
     float penumbra_mm = 2;
     int environment_mip_count = 1;
     std::array<Vec3, 9> environment_sh = {};  ///< EnvironmentLight::radiance_sh
+    GainForm gain;                            ///< of the skin
 };
 
 /// Coefficients of shaders/include/frame.glsl's environment_terms: radiance from the directions of the world

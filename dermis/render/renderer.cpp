@@ -5,13 +5,16 @@
 
 #include "dermis/base/hash.h"
 #include "dermis/base/text.h"
+#include "dermis/optics/conversions.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
+#include "dermis/rays/curvature_gain.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"
+#include "dermis/technique/gain.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline render {
@@ -220,6 +223,18 @@ Result<void> Renderer::prepare_diffused_normals(const GaussianSum& profile) {
     return {};
 }
 
+// Walks, which are cached, for the first frame with a gain.
+void Renderer::prepare_gain(const Profile& profile) {
+    const auto has_gain = [](const Pass& pass) {
+        return std::ranges::any_of(pass.constants, [](const auto& constant) {
+            return constant.first == kGainConstant && constant.second != kGainNone;
+        });
+    };
+    if (std::ranges::none_of(list_.passes, has_gain) || gain_profile_ == profile.name) return;
+    gain_form_ = walked_gain_form(walk_medium_of(profile));
+    gain_profile_ = profile.name;
+}
+
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
     gpu::FrameInputs inputs = {.width = settings.width, .height = settings.height};
     inputs.textures["environment_cube"] = &uploaded_->environment_cube();
@@ -239,7 +254,8 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
                                .shadow_map_size = settings.shadow_map_size,
                                .penumbra_mm = settings.penumbra_mm,
                                .environment_mip_count = uploaded_->environment_mip_count(),
-                               .environment_sh = uploaded_->environment_sh()});
+                               .environment_sh = uploaded_->environment_sh(),
+                               .gain = gain_form_});
     inputs.blocks["Params"] = parameter_block(values);
     inputs.blocks["Skin"] = skin_values_;
     inputs.arrays["Lights"] = light_values(*scene_);
@@ -301,6 +317,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     check_maps();
     DERMIS_TRY(prepare_seams());
     DERMIS_TRY(prepare_diffused_normals((*skin)->gaussians));
+    prepare_gain((*skin)->profile);
     history_key_ = key;
     history_distance_mm_ = frame.camera_distance_mm;
     return {};

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "dermis/gpu/executor.h"
+#include "dermis/optics/gain_form.h"
 #include "dermis/render/scene_upload.h"
 #include "dermis/render/seam_textures.h"
 #include "dermis/render/shared_passes.h"
@@ -78,6 +79,7 @@ class Renderer {
     void check_maps();
     Result<void> prepare_seams();
     Result<void> prepare_diffused_normals(const GaussianSum& profile);
+    void prepare_gain(const Profile& profile);
     [[nodiscard]] Result<const SkinContext*> skin_context();
 
     gpu::Device* device_;
@@ -101,6 +103,8 @@ class Renderer {
     std::optional<SeamTextures> seams_;
     std::map<std::string, gpu::Texture> diffused_normals_;
     std::string diffused_normals_key_;
+    GainForm gain_form_;
+    std::string gain_profile_;         ///< that gain_form_ is of; empty: none
     std::optional<SkinContext> skin_;  ///< of the profile that the scene named last
 };
 

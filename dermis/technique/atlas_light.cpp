@@ -45,6 +45,7 @@ const ParameterTable& atlas_parameters() {
             .number(&P::kernel_growth, "kernel_growth", "", 0, 10,
                     "radii of the blur grow by this share where the kernel-size map is 1")
             .choice(&P::transmission, "transmission", transmission_names(), kTransmissionHelp)
+            .choice(&P::gain, "gain", gain_names(), kGainHelp)
             .build();
     return kTable;
 }

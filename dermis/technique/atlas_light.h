@@ -7,6 +7,7 @@
 
 #include "dermis/technique/atlas_cull.h"
 #include "dermis/technique/forward.h"
+#include "dermis/technique/gain.h"
 #include "dermis/technique/shadow_channels.h"
 #include "dermis/technique/transmission.h"
 
@@ -22,6 +23,7 @@ struct AtlasParams {
     AtlasCull cull = AtlasCull::both;
     float kernel_growth = 0.5f;
     Transmission transmission = Transmission::shadow_map;
+    Gain gain = Gain::none;
 };
 [[nodiscard]] const ParameterTable& atlas_parameters();
 

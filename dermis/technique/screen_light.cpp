@@ -18,13 +18,14 @@ void add_screen_light(PassList& list, SpecularModel specular, const FrameContext
     list.passes.push_back(std::move(light));
 }
 
-void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular,
-                     Transmission transmission, const FrameContext& frame, std::string_view own_view) {
+void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular, BeyondBlur beyond,
+                     const FrameContext& frame, std::string_view own_view) {
     Pass skin = forward_skin_pass("screen/final.frag", specular, frame, own_view);
     skin.reads.push_back({"blurred_light", blurred});
     skin.reads.push_back("skin_z");
     skin.reads.push_back("skin_key_visibility");
-    read_transmission(skin, transmission, frame);
+    read_transmission(skin, beyond.transmission, frame);
+    use_gain(skin, beyond.gain);
     list.passes.push_back(std::move(skin));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dermis/technique/forward.h"
+#include "dermis/technique/gain.h"
 #include "dermis/technique/technique.h"
 #include "dermis/technique/transmission.h"
 
@@ -15,9 +16,14 @@ namespace dermis::inline technique {
 /// how much of the key light arrives.
 void add_screen_light(PassList& list, SpecularModel specular, const FrameContext& frame);
 
+struct BeyondBlur {
+    Transmission transmission = Transmission::shadow_map;
+    Gain gain = Gain::none;
+};
+
 /// Draws the skin with the diffuse light of `blurred`, an image as "skin_light" is, but without meaning in
 /// its alpha. `own_view` shows that light alone.
-void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular,
-                     Transmission transmission, const FrameContext& frame, std::string_view own_view);
+void add_screen_skin(PassList& list, const std::string& blurred, SpecularModel specular, BeyondBlur beyond,
+                     const FrameContext& frame, std::string_view own_view);
 
 }  // namespace dermis::inline technique

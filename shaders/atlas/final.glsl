@@ -5,6 +5,7 @@
 #include "shaders/atlas/constants.h"
 #include "shaders/atlas/light.glsl"
 #include "shaders/atlas/written.glsl"
+#include "shaders/include/gain.glsl"
 #include "shaders/include/specular.glsl"
 #include "shaders/include/transmission.glsl"
 #include "shaders/include/view.glsl"

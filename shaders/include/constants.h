@@ -36,6 +36,9 @@ const float kBeckmannAsGgxAt0 = 0.77, kBeckmannAsGgxSlope = 0.38, kBeckmannAsGgx
 const int kTransmissionNone = 0, kTransmissionShadowMap = 1;
 const int kTransmissionTexels = 1025;  // of the table skin_transmission
 
+// Specialisation constant gain.
+const int kGainNone = 0, kGainCurvature = 1;
+
 // Specialisation constant view. Own: the technique's own debug view.
 const int kViewFinal = 0, kViewDiffuse = 1, kViewSpecular = 2, kViewOwn = 3;
 

@@ -10,6 +10,7 @@
 #endif
 
 #include "shaders/include/environment.glsl"
+#include "shaders/include/gain.glsl"
 #include "shaders/include/lights.glsl"
 #include "shaders/include/reduced_diffuse.glsl"
 #include "shaders/include/shadow.glsl"
@@ -57,6 +58,13 @@ vec3 direct_response(Surface s, vec3 to_light_world);
 vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility);
 #else
 vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) { return vec3(visibility); }
+#endif
+
+// With DERMIS_OWN_CURVATURE defined: the mean curvature that the gain takes, else that of the vertices.
+#ifdef DERMIS_OWN_CURVATURE
+float gain_curvature_per_mm(Surface s);
+#else
+float gain_curvature_per_mm(Surface s) { return mean_curvature_per_mm(s); }
 #endif
 
 // Irradiance from the environment, occluded, after the response of the skin.
@@ -135,6 +143,7 @@ void main() {
         specular_radiance += light.irradiance_linear * arriving.visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
+    exitance *= gain_at(gain_curvature_per_mm(s));
     load_albedo(s);
     vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, own_radiance), 1.0);

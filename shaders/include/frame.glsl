@@ -48,6 +48,8 @@ layout(scalar) uniform Frame {
     int second_light;            // the first light that is not the key, -1: none
     mat4 second_light_view_projection;
     float pixel_per_distance;    // side of a pixel over its distance along the view
+    // Of the skin's gain (shaders/include/skin/gain.glsl); 0 where no pass asks for it.
+    vec3 gain_slope_mm, gain_length_mm, gain_bend_mm;
     LightSource first_light;     // lights[0]
 };
 

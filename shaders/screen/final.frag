@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The mesh through the camera: diffuse light from the blurred picture, specular as every technique has it.
+#include "shaders/include/gain.glsl"
 #include "shaders/include/specular.glsl"
 #include "shaders/include/transmission.glsl"
 #include "shaders/include/view.glsl"
@@ -112,6 +113,7 @@ void main() {
             specular_reflection(s.n_world, s.to_eye_world, arriving.light.to_light_world, s.roughness, s.f0);
     }
     specular_radiance += reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
+    exitance *= gain_at(mean_curvature_per_mm(s));
     load_albedo(s);
     vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);

@@ -33,6 +33,7 @@ float shadow_filter_mm(vec3 n_world, vec3 to_light_world) {
 #define DERMIS_OWN_VIEW
 #define DERMIS_TRANSMISSION
 #define DERMIS_OWN_BODY
+#define DERMIS_OWN_CURVATURE
 #define DERMIS_SCATTERED_VISIBILITY
 #ifndef DERMIS_TABLES
 #define DERMIS_TRANSMISSION_EXPRESSION
@@ -92,6 +93,12 @@ void choose_curvature(Surface s) {
     skin_diagonal_per_mm = sphere_diagonal(curvature_gain * k, s.n_geometry_world);
     skin_mixed_per_mm = sphere_mixed(curvature_gain * k, s.n_geometry_world);
 #endif
+}
+
+// A map's curvature has a sign as the vertices' has; that of derivatives has none.
+float gain_curvature_per_mm(Surface s) {
+    if (curvature == kCurvatureImage) return 0.5 * dot(skin_diagonal_per_mm, vec3(1.0));
+    return curvature_gain * mean_curvature_per_mm(s);
 }
 
 float texel_of_normal_map_mm(Surface s) {

@@ -7,6 +7,7 @@
 
 #include "dermis/optics/diffused_normals.h"
 #include "dermis/technique/forward.h"
+#include "dermis/technique/gain.h"
 #include "dermis/technique/transmission.h"
 #include "techniques/preintegrated/figures.h"
 #include "techniques/preintegrated/tables.h"
@@ -57,6 +58,7 @@ struct Params {
     Shadow shadow = Shadow::automatic;
     float shadow_width_mm = 2.5f;  // a wider filter lights the skin around a nose
     Transmission transmission = Transmission::shadow_map;
+    Gain gain = Gain::none;
     Ambient ambient = Ambient::profile;
     SpecularModel specular = SpecularModel::ggx;
 };
@@ -82,6 +84,7 @@ ParameterTable parameters() {
                 "else scattered")
         .number(&Params::shadow_width_mm, "shadow_width_mm", "mm", 1, 40, "width of the filtered penumbra")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
+        .choice(&Params::gain, "gain", gain_names(), kGainHelp)
         .choice(&Params::ambient, "ambient", {"profile", "exact", "curve_2015"},
                 "zonal harmonics for light from the environment: of the profile, on the ring of "
                 "diffuse, else on the sphere; the sphere's in closed form per pixel; curves of 2015")
@@ -190,6 +193,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     for (size_t i = 0; i < weights.size(); ++i)
         pass.values.push_back({"occlusion_weight_" + std::to_string(i),
                                Vec3{float(weights[i][0]), float(weights[i][1]), float(weights[i][2])}});
+    use_gain(pass, params.gain);
     if (baked) read_baked_normals(pass, list, frame);
     list.passes = {std::move(pass)};
     if (params.curvature == Curvature::image) list.needed_maps = {"curvature_map"};

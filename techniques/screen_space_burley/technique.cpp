@@ -20,6 +20,7 @@ struct Params {
     float width = 1;
     bool rotate = true;
     Transmission transmission = Transmission::shadow_map;
+    Gain gain = Gain::none;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -29,6 +30,7 @@ ParameterTable parameters() {
         .number(&Params::width, "width", "", 0.01, 10, "scales the profile's lengths")
         .toggle(&Params::rotate, "rotate", "turns the disk from pixel to pixel: noise instead of bands")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
+        .choice(&Params::gain, "gain", gain_names(), kGainHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .preset("cheap", "half of the samples", {.samples = 8})
         .preset("best", "four times the samples: hardly any noise in one frame", {.samples = 64})
@@ -47,7 +49,8 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
          .reads = {{"light", "skin_light"}, "skin_z", "skin_density", "skin_radius"},
          .colors = {{.image = "skin_light_gathered", .load = LoadOp::discard}},
          .constants = {{"sample_count", params.samples}, {"rotate", int32_t(params.rotate)}}});
-    add_screen_skin(list, "skin_light_gathered", params.specular, params.transmission, frame, kOwnView);
+    add_screen_skin(list, "skin_light_gathered", params.specular, {params.transmission, params.gain}, frame,
+                    kOwnView);
     return list;
 }
 

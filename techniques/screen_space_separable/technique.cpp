@@ -31,6 +31,7 @@ struct Params {
     Taps taps = Taps::taps_17;
     Follow follow = Follow::surface;
     Transmission transmission = Transmission::shadow_map;
+    Gain gain = Gain::none;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -48,6 +49,7 @@ ParameterTable parameters() {
         .choice(&Params::follow, "follow", {"none", "surface"},
                 "distance to a tap: on the picture's plane, or between the points on the skin")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
+        .choice(&Params::gain, "gain", gain_names(), kGainHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .preset("cheap", "fewer taps", {.taps = Taps::taps_11})
         .preset("source_artists", "the source's own code: a kernel by strength and falloff",
@@ -86,7 +88,8 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                            {"along_v", int32_t(along_v)},
                            {"follow", int32_t(params.follow)}},
              .values = {{"reach_mm", reach}}});
-    add_screen_skin(list, "skin_light_xy", params.specular, params.transmission, frame, kOwnView);
+    add_screen_skin(list, "skin_light_xy", params.specular, {params.transmission, params.gain}, frame,
+                    kOwnView);
     return list;
 }
 

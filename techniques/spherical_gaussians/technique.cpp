@@ -5,6 +5,7 @@
 
 #include "dermis/optics/gaussian_lobes.h"
 #include "dermis/technique/forward.h"
+#include "dermis/technique/gain.h"
 #include "dermis/technique/transmission.h"
 #include "techniques/spherical_gaussians/constants.h"
 
@@ -17,6 +18,7 @@ struct Params {
     int32_t lobes = 2;
     LobeWidth width = LobeWidth::deviation;
     Transmission transmission = Transmission::shadow_map;
+    Gain gain = Gain::none;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -28,6 +30,7 @@ ParameterTable parameters() {
                 "what a lobe keeps of the profile's Gaussians that it replaces: their mean standard "
                 "deviation, so that the terminator has the right light, or their variance")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
+        .choice(&Params::gain, "gain", gain_names(), kGainHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .preset("cheap", "one lobe, no transmission", {.lobes = 1, .transmission = Transmission::none})
         .preset("best", "a lobe for each Gaussian of the profile", {.lobes = kMaxLobes})
@@ -39,6 +42,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     Pass skin = forward_skin_pass("spherical_gaussians/spherical_gaussians.frag", params.specular, frame);
     skin.constants.emplace_back("lobe_count", params.lobes);
     read_transmission(skin, params.transmission, frame);
+    use_gain(skin, params.gain);
     return {.passes = {std::move(skin)}};
 }
 

@@ -249,6 +249,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
                                                  {"detail", plan.in_mm ? kDetailPixel : kDetailMap}});
     read_shadow_channels(skin, atlas.shadow, frame);
     read_transmission(skin, params.atlas.transmission, frame);
+    use_gain(skin, params.atlas.gain);
     list.passes.push_back(std::move(skin));
     return list;
 }

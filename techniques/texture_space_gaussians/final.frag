@@ -14,6 +14,7 @@ void main() {
                              light.specular + light.key_specular * shadow_factor(key_light, light.key_passing);
     // The base colour where light enters is taken to be that where it leaves.
     exitance += pow(s.albedo_linear, vec3(pre_scatter)) * light.transmitted;
+    exitance *= gain_at(mean_curvature_per_mm(s));
     vec3 diffuse_radiance = diffuse_exit(s) * pow(s.albedo_linear, vec3(1.0 - pre_scatter)) * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);
 }

@@ -189,6 +189,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     skin.constants.emplace_back("detail", int32_t(params.detail));
     read_shadow_channels(skin, atlas.shadow, frame);
     read_transmission(skin, params.atlas.transmission, frame);
+    use_gain(skin, params.atlas.gain);
     list.passes.push_back(std::move(skin));
     return list;
 }

@@ -4,6 +4,7 @@
 
 #include "dermis/optics/wrap_reach.h"
 #include "dermis/technique/forward.h"
+#include "dermis/technique/gain.h"
 #include "dermis/technique/transmission.h"
 #include "techniques/wrap/constants.h"
 
@@ -18,6 +19,7 @@ struct Params {
     float scatter_width = 0.15f;
     Vec3 scatter_color_linear = {0.07f, 0.012f, 0.006f};
     Transmission transmission = Transmission::shadow_map;
+    Gain gain = Gain::none;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -34,6 +36,7 @@ ParameterTable parameters() {
         .color(&Params::scatter_color_linear, "scatter_color_linear", 0, 1,
                "width=source: added irradiance in the middle of the band")
         .choice(&Params::transmission, "transmission", transmission_names(), kTransmissionHelp)
+        .choice(&Params::gain, "gain", gain_names(), kGainHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .preset("source", "Green 2004: widths and colour by eye",
                 {.width = Width::source, .transmission = Transmission::none})
@@ -52,6 +55,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     skin.values = {{"second_moment_mm2", to_vec3(reach.second_moment_mm2)},
                    {"bend_mm2", to_vec3(reach.bend_mm2)}};
     read_transmission(skin, params.transmission, frame);
+    use_gain(skin, params.gain);
     return {.passes = {std::move(skin)}};
 }
 

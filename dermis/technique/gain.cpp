@@ -1,0 +1,14 @@
+#include "dermis/technique/gain.h"
+
+namespace dermis::inline technique {
+
+const std::vector<std::string>& gain_names() {
+    static const std::vector<std::string> kNames = {"none", "curvature"};
+    return kNames;
+}
+
+void use_gain(Pass& pass, Gain gain) {
+    pass.constants.emplace_back(kGainConstant, int32_t(gain));
+}
+
+}  // namespace dermis::inline technique

@@ -1,0 +1,23 @@
+#pragma once
+// What a normalised profile leaves out: how much more or less than flat skin a place returns
+// (docs/transport.md). For every technique whose shader includes shaders/include/gain.glsl.
+
+#include <string>
+#include <vector>
+
+#include "dermis/technique/pass_list.h"
+#include "shaders/include/constants.h"
+
+namespace dermis::inline technique {
+
+enum class Gain : int32_t { none = kGainNone, curvature = kGainCurvature };
+
+[[nodiscard]] const std::vector<std::string>& gain_names();
+inline constexpr const char* kGainHelp =
+    "light that curved skin returns beyond the profile: none, or by the mean curvature in closed form";
+
+/// The specialisation constant; the renderer supplies the form to frames with a pass that has it.
+inline constexpr const char* kGainConstant = "gain";
+void use_gain(Pass& pass, Gain gain);
+
+}  // namespace dermis::inline technique

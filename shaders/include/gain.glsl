@@ -1,0 +1,16 @@
+// How much more or less a place returns than flat skin: what a normalised profile leaves out (docs/transport.md). The
+// includer multiplies all of the skin's diffuse light by it.
+#ifndef DERMIS_GAIN_GLSL
+#define DERMIS_GAIN_GLSL
+
+#include "shaders/include/skin/gain.glsl"
+#include "shaders/include/surface.glsl"
+
+layout(constant_id = 56) const int gain = kGainNone;
+
+vec3 gain_at(float mean_curvature_per_mm) {
+    if (gain == kGainNone) return vec3(1.0);
+    return gain_of_curvature(mean_curvature_per_mm, gain_slope_mm, gain_length_mm, gain_bend_mm);
+}
+
+#endif

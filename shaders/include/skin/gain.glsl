@@ -1,0 +1,15 @@
+// The gain of a curved place: how much of uniform light skin of a mean curvature returns, over flat skin. More
+// paths leave a convex body before they are absorbed, fewer a concave one. dermis/optics/gain_form.h has the terms
+// and the error.
+#ifndef DERMIS_SKIN_GAIN_GLSL
+#define DERMIS_SKIN_GAIN_GLSL
+
+// curvature_per_mm: the mean curvature, above 0 on convex skin. Convex skin of a small radius returns at most
+// 1 / albedo.
+vec3 gain_of_curvature(float curvature_per_mm, vec3 slope_mm, vec3 length_mm, vec3 bend_mm) {
+    vec3 h = max(curvature_per_mm, 0.0) * length_mm;
+    vec3 v = curvature_per_mm * inversesqrt(1.0 + h * h);
+    return max(1.0 + slope_mm * v / max(1.0 - bend_mm * v, 1e-3), vec3(0.0));
+}
+
+#endif

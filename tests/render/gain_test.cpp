@@ -1,0 +1,55 @@
+// The gain of curved skin in pictures.
+
+#include "dermis/technique/gain.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dermis/optics/conversions.h"
+#include "dermis/optics/presets.h"
+#include "dermis/rays/curvature_gain.h"
+#include "render/render_test.h"
+#include "support/built_in.h"
+
+using namespace dermis;
+
+namespace {
+
+const DrawSettings kDraw = {
+    .width = 96, .height = 96, .view = "diffuse", .gbuffer = true, .deep = true, .shadow_map_size = 512};
+
+using Gains = RenderTest;
+
+TEST_F(Gains, multiply_the_light_of_every_technique_that_scatters_by_the_form_of_the_curvature) {
+    const Scene scene = load("builtin:spheres");
+    const GainForm form = walked_gain_form(walk_medium_of(*find_profile(scene.skin.profile)));
+    Renderer renderer = make_renderer(scene);
+    int techniques = 0;
+    for (const Technique& technique : built_in_catalog().techniques) {
+        ParameterValues values = small_map_values(technique);
+        if (!technique.parameters.find("gain")) continue;
+        ++techniques;
+        ASSERT_TRUE(values.set("gain", "none"));
+        const Image without = radiance(renderer, technique, values, kDraw);
+        ASSERT_TRUE(values.set("gain", "curvature"));
+        const Image with = radiance(renderer, technique, values, kDraw);
+        const Result<Image> normal = renderer.read("gbuffer_normal");
+        ASSERT_TRUE(normal) << normal.error().message;
+        const Image per_mm = to_linear_float(*normal);  // in alpha
+        double worst = 0, largest = 1;
+        for (int y = 0; y < with.height; ++y)
+            for (int x = 0; x < with.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    if (without.at(x, y, c) < 0.01f) continue;
+                    const double wanted = gain(form, c, per_mm.at(x, y, 3));
+                    worst = std::max(worst, std::abs(with.at(x, y, c) / without.at(x, y, c) / wanted - 1));
+                    largest = std::max(largest, wanted);
+                }
+        EXPECT_LT(worst, 0.01) << technique.id;
+        EXPECT_GT(largest, 1.2) << "the spheres are too flat to tell";
+    }
+    EXPECT_EQ(techniques, 7);
+}
+
+}  // namespace
