@@ -13,6 +13,7 @@ namespace {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* kClose = "distance_mm=600";
+constexpr const char* kNear = "target_mm=14,36,80 distance_mm=400 fov_deg=14";
 constexpr const char* kSource = "after Yeung 2015, Pre-Integrated Skin Shading";
 
 // What every table and curve can have, so that a difference is theirs.
@@ -190,7 +191,7 @@ Figure heads_figure(std::string id, std::string title, const FigureCell& common)
             cell.id = name + suffix;
             cell.settings = std::move(settings);
             cell.albedo = albedo;
-            cell.camera = kClose;
+            cell.camera = albedo == CellAlbedo::white ? kNear : kClose;
             if (name == "lambert") cell.technique = "lambert";
             if (name != "table") cell.compare_to = "table" + suffix;
             row.cells.push_back(std::move(cell));
@@ -200,6 +201,13 @@ Figure heads_figure(std::string id, std::string title, const FigureCell& common)
         add("Lambert", "lambert", {});
         figure.rows.push_back(std::move(row));
     }
+    FigureRow differences = {.label = "Without albedo, difference to the table, times 8"};
+    for (const char* of : {"curve", "lambert"})
+        differences.cells.push_back({.label = of == std::string("curve") ? "curves of 2015" : "Lambert",
+                                     .kind = CellKind::difference,
+                                     .subject = std::string(of) + "_light",
+                                     .compare_to = "table_light"});
+    figure.rows.push_back(std::move(differences));
     return figure;
 }
 

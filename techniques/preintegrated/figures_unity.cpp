@@ -7,6 +7,16 @@ namespace {
 
 constexpr const char* kSource = "after a Unity implementation of Penner 2011";
 constexpr const char* kClose = "distance_mm=520";
+constexpr const char* kMouth = "target_mm=-4,14,85 distance_mm=400 fov_deg=12";
+constexpr const char* kNoseShadow = "target_mm=22,42,80 distance_mm=400 fov_deg=10";
+
+FigureCell difference_cell(std::string label, std::string subject, std::string compare_to, float gain) {
+    return {.label = std::move(label) + ", times " + std::to_string(int(gain)),
+            .kind = CellKind::difference,
+            .subject = std::move(subject),
+            .compare_to = std::move(compare_to),
+            .gain = gain};
+}
 
 FigureCell table_cell(std::string id, std::string diffuse, CellEncoding encoding) {
     return {.label = encoding == CellEncoding::linear ? "linear values shown unchanged"
@@ -41,7 +51,7 @@ Figure table_figure() {
     };
     FigureRow published = {"The article's script: ring in steps of 0.05 rad, variances times 1.414",
                            {script(CellEncoding::linear, "script"), script(CellEncoding::srgb, "")}};
-    FigureRow ring = {"The same ring, exact",
+    FigureRow ring = {"The same ring, integrated exactly",
                       {table_cell("ring", "half_ring", CellEncoding::linear),
                        table_cell("", "half_ring", CellEncoding::srgb)}};
     FigureRow sphere = {
@@ -72,8 +82,8 @@ Figure curvature_figure() {
                           .view = "diffuse"};
     };
     FigureRow shown = {"Curvature",
-                       {vertex, used("|1/r| used, from the vertices", "vertex"),
-                        used("|1/r| used, from derivatives", "derivative")}};
+                       {vertex, used("|1/r|, by the length of the mean normals", "vertex"),
+                        used("|1/r|, from derivatives", "derivative")}};
     FigureRow shades = {"Diffuse light",
                         {shaded("from the vertices", "vertex"), shaded("from derivatives", "derivative")}};
     shades.cells[1].compare_to = "vertex";
@@ -87,30 +97,37 @@ Figure curvature_figure() {
             .source = std::string(kSource) + ": the curvature of the model",
             .note =
                 "Derivatives of the interpolated normal are constant within a facet, so the facets are "
-                "visible; the estimate at the vertices is smoothed over 1.8 mm of skin.",
+                "visible; the estimate at the vertices is smoothed over 1.8 mm of skin. By default the "
+                "curvature is that of the baked mean normals.",
             .rows = {shown, shades}};
 }
 
 Figure normals_figure() {
     const auto cell = [](std::string label, std::string normals) {
-        return FigureCell{.label = std::move(label),
-                          .id = normals,
-                          .settings = {{"normals", normals}},
-                          .view = "diffuse",
-                          .camera = kClose};
+        FigureCell made = {.label = std::move(label),
+                           .id = normals,
+                           .settings = {{"normals", normals}},
+                           .view = "diffuse",
+                           .camera = kMouth};
+        if (normals != "sharp") made.compare_to = "sharp";
+        return made;
     };
-    FigureRow row = {
-        "",
-        {cell("as mapped: \"too crispy\"", "sharp"), cell("blended, one normal in each channel", "blended"),
-         cell("from a mip level that is three higher", "smooth")}};
-    row.cells[1].compare_to = row.cells[2].compare_to = "sharp";
+    FigureRow published = {
+        "As published",
+        {cell("as mapped: \"too crispy\"", "sharp"), cell("three mip levels higher", "smooth"),
+         cell("one mixed normal in each channel: lerp", "lerp")}};
+    FigureRow ours = {"Light instead of normals",
+                      {cell("the light of two levels, mixed: blended", "blended"),
+                       cell("mean normals over the profile: baked", "baked"),
+                       difference_cell("what baked changes", "baked", "sharp", 4)}};
     return {.id = "normals",
             .title = "Scattering at small bumps",
             .source = std::string(kSource) + ": \"Softening Finer Details\", mip bias 3.0",
             .note =
-                "The weights follow from the profile and the map's scale in mm, not from tuning by eye; the "
-                "smoother read is not wider than the scattering of red.",
-            .rows = {row}};
+                "The article tunes the weights of lerp by eye; here they follow from the profile and the "
+                "map's scale in mm. Three levels up, texels at the nostril's rim average normals that "
+                "face apart.",
+            .rows = {published, ours}};
 }
 
 Figure parts_figure() {
@@ -143,19 +160,21 @@ Figure shadow_figure() {
                           .id = shadow,
                           .settings = {{"shadow", shadow}},
                           .view = "diffuse",
-                          .camera = kClose};
+                          .camera = kNoseShadow,
+                          .environment = "none"};
     };
-    FigureRow row = {"",
-                     {cell("filtered, not scattered", "plain"),
-                      cell("scattered into the filter's width", "scattered"),
-                      {.label = "difference times 8",
-                       .kind = CellKind::difference,
-                       .subject = "scattered",
-                       .compare_to = "plain"}}};
+    FigureRow shadows = {
+        "",
+        {cell("filtered, not scattered", "plain"), cell("scattered into the filter's width", "scattered"),
+         cell("gathered around the point", "gathered")}};
+    FigureRow changes = {"",
+                         {difference_cell("what scattered changes", "scattered", "plain", 4),
+                          difference_cell("what gathered changes", "gathered", "plain", 4)}};
     return {.id = "shadow",
             .title = "Scattering into the shadow's edge",
             .source = "Penner 2011; both articles left it out",
-            .rows = {row}};
+            .note = "The shadow of the nose under one light.",
+            .rows = {shadows, changes}};
 }
 
 }  // namespace

@@ -48,15 +48,22 @@ FigureCell image_cell(std::string label, std::string image, FigureImageChannels 
 
 Figure light_map_figure() {
     // An even number of passes, none of whose maps is kept: the last is light_map_a.
-    const Settings raw = {{"cull", "none"}, {"blur_passes", "0"}},
-                   blurred = {{"preset", "source"}, {"cull", "none"}, {"blur_passes", "2"}};
-    return {
+    const Settings raw = {{"preset", "source"}, {"cull", "none"}, {"blur_passes", "0"}},
+                   blurred = {{"preset", "source"},
+                              {"cull", "none"},
+                              {"dilate", "written_only"},
+                              {"blur_passes", "2"},
+                              {"blur_radius", "5"}};
+    Figure figure = {
         .id = "light_map",
         .title = "The light map",
         .source = kSource + "2.8.2",
+        .note = "Each pass of the blur fills texels outside the charts with the mean of those inside.",
         .rows = {{"",
                   {image_cell("lit, without blur", "light_map_a", FigureImageChannels::rgb, raw),
                    image_cell("dilated and blurred", "light_map_a", FigureImageChannels::rgb, blurred)}}}};
+    for (FigureCell& one : figure.rows[0].cells) one.light = "intensity=1.2";
+    return figure;
 }
 
 Figure shadow_map_figure() {
