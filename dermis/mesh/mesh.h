@@ -58,6 +58,8 @@ struct Mesh {
     std::vector<Vec4> tangents;  ///< unit xyz along +u; w = +1 or -1, bitangent = w * cross(normal, tangent)
                                  ///< points up in the texture image (towards smaller v), as glTF has it
     std::vector<Vec2> uvs;
+    std::vector<Vec2> atlas_uvs;  ///< where the scene's skin has texels of its own, for light maps and maps
+                                  ///< that Dermis bakes (scene/skin_atlas.h); empty: uvs
     std::vector<Vec4> colors_linear;  ///< multiply base colour and opacity
     std::vector<CurvatureTensor> curvatures_per_mm;
     std::vector<float> occlusions;    ///< ambient visibility, 0 closed in, 1 open
@@ -67,5 +69,9 @@ struct Mesh {
 
     [[nodiscard]] size_t triangle_count() const { return indices.size() / 3; }
 };
+
+[[nodiscard]] inline const std::vector<Vec2>& atlas_uvs_of(const Mesh& mesh) {
+    return mesh.atlas_uvs.empty() ? mesh.uvs : mesh.atlas_uvs;
+}
 
 }  // namespace dermis::inline mesh

@@ -49,6 +49,7 @@ void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
     gather(mesh.normals, from);
     gather(mesh.tangents, from);
     gather(mesh.uvs, from);
+    gather(mesh.atlas_uvs, from);
     gather(mesh.curvatures_per_mm, from);
     gather(mesh.occlusions, from);
     gather(mesh.colors_linear, from);

@@ -384,6 +384,7 @@ Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
     for (const SceneObject& object : scene.objects) {
         add_shape(hasher, object);
         hasher.add(object.mesh.tangents).add(object.mesh.uvs);
+        if (!object.mesh.atlas_uvs.empty()) hasher.add(object.mesh.atlas_uvs);
         for (const Material& material : object.mesh.materials) {
             hasher.add(material.normal_space).add(material.normal_scale).add(material.dilate_texels);
             DERMIS_TRY(add_image(hasher, material.normal_map));

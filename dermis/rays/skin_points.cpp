@@ -198,12 +198,27 @@ void make_unit(Image& image) {
 float mm2_per_uv2(const Mesh& mesh, uint32_t triangle) {
     const uint32_t* corner = &mesh.indices[3 * size_t(triangle)];
     const Vec3 origin = mesh.positions_mm[corner[0]];
-    const Vec2 uv = mesh.uvs[corner[0]], u = mesh.uvs[corner[1]] - uv, v = mesh.uvs[corner[2]] - uv;
+    const std::vector<Vec2>& uvs = atlas_uvs_of(mesh);
+    const Vec2 uv = uvs[corner[0]], u = uvs[corner[1]] - uv, v = uvs[corner[2]] - uv;
     const float area = std::abs(u.x * v.y - u.y * v.x);
     return area > 0
                ? length(cross(mesh.positions_mm[corner[1]] - origin, mesh.positions_mm[corner[2]] - origin)) /
                      area
                : 0;
+}
+
+// The UVs of the file that a texel of the atlas covers.
+UvFootprint texel_footprint(const Mesh& mesh, uint32_t triangle, int size) {
+    const float side = 1 / float(size);
+    if (mesh.atlas_uvs.empty()) return {{side, 0}, {0, side}};
+    if (mesh.uvs.empty()) return {};
+    const uint32_t* corner = &mesh.indices[3 * size_t(triangle)];
+    const auto edge = [&](const std::vector<Vec2>& uvs, size_t k) { return uvs[corner[k]] - uvs[corner[0]]; };
+    const Vec2 a = edge(mesh.atlas_uvs, 1), b = edge(mesh.atlas_uvs, 2);
+    const float area = cross(a, b);
+    if (area == 0) return {};
+    const Vec2 uv_a = edge(mesh.uvs, 1), uv_b = edge(mesh.uvs, 2);
+    return {(uv_a * b.y - uv_b * a.y) * (side / area), (uv_b * a.x - uv_a * b.x) * (side / area)};
 }
 
 }  // namespace
@@ -240,7 +255,7 @@ Result<SkinTexelReader> SkinTexelReader::create(const Scene& scene) {
 }
 
 SkinTexels SkinTexelReader::read(int size) const {
-    const UvRaster raster = rasterise_uv(impl_->scene->objects, size, size);
+    const UvRaster raster = rasterise_uv(impl_->scene->objects, size, size, is_skin, UvSet::atlas);
     SkinTexels skin{.size = size, .texels = {}, .coverage = coverage_mask(raster)};
     for (size_t i = 0; i < raster.texels.size(); ++i)
         if (raster.texels[i].covered()) skin.texels.push_back({.index = uint32_t(i)});
@@ -249,7 +264,7 @@ SkinTexels SkinTexelReader::read(int size) const {
             const UvTexel& place = raster.texels[texel.index];
             const Mesh& mesh = impl_->scene->objects[place.object].mesh;
             SurfaceAttributes at = impl_->rays.surface_at(place.as_hit(face_normal(mesh, place.triangle)));
-            at.footprint = {{1 / float(size), 0}, {0, 1 / float(size)}};
+            at.footprint = texel_footprint(mesh, place.triangle, size);
             texel.p_mm = at.p_world_mm;
             texel.n_geometry = at.n_geometry_world;
             texel.n =

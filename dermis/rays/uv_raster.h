@@ -36,11 +36,14 @@ struct UvRaster {
 using MaterialFilter = std::function<bool(const SceneObject& object, uint32_t material)>;
 [[nodiscard]] bool is_skin(const SceneObject& object, uint32_t material);
 
+/// The UVs of the file, or those of the skin's atlas (Mesh::atlas_uvs).
+enum class UvSet { file, atlas };
+
 /// The triangles of the materials that pass. Centres on a shared edge belong to one side only (top-left
 /// rule). Triangles without UVs or without area in UV are not drawn. 2048 x 2048 of 17,684 triangles takes
 /// about 40 ms on one core.
 [[nodiscard]] UvRaster rasterise_uv(std::span<const SceneObject> objects, int width, int height,
-                                    const MaterialFilter& wanted = is_skin);
+                                    const MaterialFilter& wanted = is_skin, UvSet set = UvSet::file);
 
 /// One channel, u8: 255 where a triangle covers the texel.
 [[nodiscard]] Image coverage_mask(const UvRaster& raster);

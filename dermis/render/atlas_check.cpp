@@ -20,11 +20,12 @@ std::string percent(double share) {
 // The warning about the UVs of one skin material; empty when they are fine.
 std::string tiles_warning(const Mesh& mesh, const Submesh& submesh) {
     const uint32_t count = submesh.index_count / 3;
+    const std::vector<Vec2>& uvs = atlas_uvs_of(mesh);
     std::vector<int> tiles;
     uint32_t outside = 0;
     for (uint32_t t = 0; t < count; ++t) {
         const uint32_t* corner = &mesh.indices[submesh.first_index + 3 * size_t(t)];
-        const Vec2 middle = (mesh.uvs[corner[0]] + mesh.uvs[corner[1]] + mesh.uvs[corner[2]]) * (1.0f / 3);
+        const Vec2 middle = (uvs[corner[0]] + uvs[corner[1]] + uvs[corner[2]]) * (1.0f / 3);
         const int tile = udim_tile(middle);
         if (tile == kFirstTile) continue;
         ++outside;
@@ -45,7 +46,8 @@ void append_skin(const SceneObject& object, Mesh& all) {
     const auto base = uint32_t(all.positions_mm.size());
     all.positions_mm.insert(all.positions_mm.end(), object.mesh.positions_mm.begin(),
                             object.mesh.positions_mm.end());
-    all.uvs.insert(all.uvs.end(), object.mesh.uvs.begin(), object.mesh.uvs.end());
+    const std::vector<Vec2>& uvs = atlas_uvs_of(object.mesh);
+    all.uvs.insert(all.uvs.end(), uvs.begin(), uvs.end());
     for (const Submesh& submesh : object.mesh.submeshes) {
         if (object.classes[submesh.material] != MaterialClass::skin) continue;
         for (uint32_t i = 0; i < submesh.index_count; ++i)
@@ -65,7 +67,8 @@ bool is_skin(const SceneObject& object, const Submesh& submesh) {
 std::optional<std::string> without_uvs(const Scene& scene) {
     for (const SceneObject& object : scene.objects)
         for (const Submesh& submesh : object.mesh.submeshes)
-            if (is_skin(object, submesh) && object.mesh.uvs.size() != object.mesh.positions_mm.size())
+            if (is_skin(object, submesh) &&
+                atlas_uvs_of(object.mesh).size() != object.mesh.positions_mm.size())
                 return "'" + object.name + "': skin material '" + name_of(object, submesh) + "' has no UVs";
     return std::nullopt;
 }
@@ -120,7 +123,7 @@ bool has_skin_outside_atlas(const Scene& scene) {
         for (const Submesh& submesh : object.mesh.submeshes) {
             if (!is_skin(object, submesh)) continue;
             for (uint32_t i = 0; i < submesh.index_count; ++i) {
-                const Vec2 uv = object.mesh.uvs[object.mesh.indices[submesh.first_index + i]];
+                const Vec2 uv = atlas_uvs_of(object.mesh)[object.mesh.indices[submesh.first_index + i]];
                 if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return true;
             }
         }

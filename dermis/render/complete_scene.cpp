@@ -9,6 +9,7 @@
 #include "dermis/mesh/curvature.h"
 #include "dermis/rays/vertex_occlusion.h"
 #include "dermis/scene/scene_hash.h"
+#include "dermis/scene/skin_atlas.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline render {
@@ -34,11 +35,14 @@ Result<void> complete_scene(Scene& scene) {
         if (object.mesh.curvatures_per_mm.size() == object.mesh.positions_mm.size()) continue;
         DERMIS_TRY_ASSIGN(object.mesh.curvatures_per_mm, cached_curvature(object));
     }
-    if (std::ranges::all_of(scene.objects, has_occlusion)) return {};
-    Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(scene.objects);
-    if (!occlusions) return occlusions.error();
-    for (size_t i = 0; i < scene.objects.size(); ++i)
-        if (!has_occlusion(scene.objects[i])) scene.objects[i].mesh.occlusions = std::move((*occlusions)[i]);
+    if (!std::ranges::all_of(scene.objects, has_occlusion)) {
+        Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(scene.objects);
+        if (!occlusions) return occlusions.error();
+        for (size_t i = 0; i < scene.objects.size(); ++i)
+            if (!has_occlusion(scene.objects[i]))
+                scene.objects[i].mesh.occlusions = std::move((*occlusions)[i]);
+    }
+    lay_out_skin_atlas(scene);
     return {};
 }
 

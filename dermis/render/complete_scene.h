@@ -1,6 +1,6 @@
 #pragma once
-// Adds what shading needs and files lack: the curvature of the skin at each vertex, and the occlusion of
-// the environment there.
+// Adds what shading needs and files lack: the curvature of the skin at each vertex, the occlusion of the
+// environment there, and an atlas for the skin.
 
 #include "dermis/base/result.h"
 #include "dermis/scene/scene.h"
@@ -9,7 +9,7 @@ namespace dermis::inline render {
 
 /// Fills Mesh::curvatures_per_mm with its tensors, averaged over kCurvatureSmoothingMm, and Mesh::occlusions
 /// of every object that lacks them, occluded by all opaque ones; cached by content, so that a second start
-/// costs a file read.
+/// costs a file read. Then lay_out_skin_atlas().
 [[nodiscard]] Result<void> complete_scene(Scene& scene);
 
 /// One per vertex: its occlusion blurred over the surface by three variances (kOcclusionVariance0Mm2 and

@@ -10,6 +10,7 @@
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"
 #include "dermis/scene/object_checks.h"
+#include "dermis/scene/skin_atlas.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline render {
@@ -42,6 +43,7 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
     const auto normals = filled(mesh.normals, count, Vec3{0, 0, 1});
     const auto tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
     const auto uvs = filled(mesh.uvs, count, Vec2{});
+    const auto atlas_uvs = filled(atlas_uvs_of(mesh), count, Vec2{});
     const auto colors = filled(mesh.colors_linear, count, Vec4{1, 1, 1, 1});
     std::vector<Vec3> diagonals, mixed;
     for (const CurvatureTensor& tensor : filled(mesh.curvatures_per_mm, count, CurvatureTensor{})) {
@@ -52,13 +54,14 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
     const Result<std::vector<Vec3>> occlusions_blurred = blurred_occlusions(mesh);
     if (!occlusions_blurred) return Error{std::string(name) + ": " + occlusions_blurred.error().message};
     const UvDerivatives derivatives =
-        mesh.uvs.size() == count ? vertex_uv_derivatives(mesh) : UvDerivatives{};
+        atlas_uvs_of(mesh).size() == count ? vertex_uv_derivatives(over_atlas(mesh)) : UvDerivatives{};
     const auto du_mm = filled(derivatives.du_mm, count, Vec3{}),
                dv_mm = filled(derivatives.dv_mm, count, Vec3{});
     const gpu::VertexStream streams[] = {{"position_mm", 3, floats_of(mesh.positions_mm)},
                                          {"normal", 3, floats_of(normals)},
                                          {"tangent", 4, floats_of(tangents)},
                                          {"uv", 2, floats_of(uvs)},
+                                         {"atlas_uv", 2, floats_of(atlas_uvs)},
                                          {"curvature_diagonal_per_mm", 3, floats_of(diagonals)},
                                          {"curvature_mixed_per_mm", 3, floats_of(mixed)},
                                          {"occlusion", 1, occlusions},

@@ -10,24 +10,10 @@
 #include "dermis/mesh/uv_report.h"
 #include "dermis/mesh/uv_seams.h"
 #include "dermis/optics/diffused_normals.h"
+#include "dermis/scene/skin_atlas.h"
 
 namespace dermis::inline render {
 namespace {
-
-std::vector<AtlasPart> skin_parts(const Scene& scene) {
-    std::vector<AtlasPart> parts;
-    for (const SceneObject& object : scene.objects) {
-        if (object.mesh.uvs.size() != object.mesh.positions_mm.size()) continue;
-        AtlasPart part{.mesh = &object.mesh, .triangles = {}};
-        for (const Submesh& submesh : object.mesh.submeshes) {
-            if (object.classes[submesh.material] != MaterialClass::skin) continue;
-            for (uint32_t i = 0; i < submesh.index_count / 3; ++i)
-                part.triangles.push_back(submesh.first_index / 3 + i);
-        }
-        if (!part.triangles.empty()) parts.push_back(std::move(part));
-    }
-    return parts;
-}
 
 void put_half(std::byte* target, float value) {
     const uint16_t half = to_half(value);
@@ -65,7 +51,8 @@ float quantile(std::vector<AreaSample>& samples, double share) {
 }  // namespace
 
 Result<SeamTextures> make_seam_textures(gpu::Device& device, const Scene& scene, const SeamRequest& request) {
-    const SeamMap map = make_seam_map(skin_parts(scene), request.size, request.width_texels);
+    const SkinParts skin = skin_over_atlas(scene);
+    const SeamMap map = make_seam_map(skin.parts, request.size, request.width_texels);
     DERMIS_TRY_ASSIGN(gpu::Texture seams, gpu::Texture::upload(device, {.name = "seam_map",
                                                                         .format = ImageFormat::rgba16f,
                                                                         .width = map.size,
@@ -83,7 +70,8 @@ Result<SeamTextures> make_seam_textures(gpu::Device& device, const Scene& scene,
 
 UvDensity uv_density(const Scene& scene) {
     std::vector<AreaSample> densest, typical;  // UV per mm
-    for (const AtlasPart& part : skin_parts(scene)) {
+    const SkinParts skin = skin_over_atlas(scene);
+    for (const AtlasPart& part : skin.parts) {
         const std::vector<UvMetric> metrics = triangle_uv_metrics(*part.mesh);
         const std::vector<float> areas = triangle_areas_mm2(*part.mesh);
         for (const uint32_t triangle : part.triangles) {

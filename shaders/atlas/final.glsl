@@ -20,12 +20,12 @@ bool outside_atlas(vec2 uv) { return any(greaterThan(abs(uv - 0.5), vec2(0.5001)
 // False where the light map lacks the point: outside the atlas, between unwritten texels, and on
 // skin seen from inside through the holes of an open mesh, whose texels may have been culled.
 bool read_light_map(texture2D map, Surface s, int texels, out vec3 exitance) {
-    vec4 blurred = texels == kTexelsWritten ? light_and_coverage(map, s.uv)
-                                            : textureLod(sampler2D(map, linear_clamp), s.uv, 0.0);
+    vec4 blurred = texels == kTexelsWritten ? light_and_coverage(map, s.atlas_uv)
+                                            : textureLod(sampler2D(map, linear_clamp), s.atlas_uv, 0.0);
     if (texels == kTexelsAsTheyAre) blurred.a = 1.0;
     exitance = blurred.rgb / max(blurred.a, 1e-4);
     bool from_inside = dot(s.n_geometry_world, s.to_eye_world) + kCullBias <= 0.0;
-    return !(outside_atlas(s.uv) || from_inside || blurred.a < 1e-3);
+    return !(outside_atlas(s.atlas_uv) || from_inside || blurred.a < 1e-3);
 }
 
 layout(constant_id = 4) const int detail = kDetailPixel;
@@ -33,7 +33,7 @@ layout(constant_id = 4) const int detail = kDetailPixel;
 // Side of a square on the skin as large as a texel, or as a pixel if that is larger: light here holds no
 // shorter waves. The first fundamental form gives the ratio of areas on the skin and in the atlas.
 float coarser_side_mm(Surface s, vec2 texels) {
-    vec2 across = dFdx(s.uv) * texels, down = dFdy(s.uv) * texels;
+    vec2 across = dFdx(s.atlas_uv) * texels, down = dFdy(s.atlas_uv) * texels;
     float pixel_mm2 = length(cross(dFdx(s.p_world_mm), dFdy(s.p_world_mm)));
     float pixel_texels = abs(across.x * down.y - across.y * down.x);
     return sqrt(pixel_mm2 / clamp(pixel_texels, 1e-12, 1.0));

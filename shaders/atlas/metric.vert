@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Draws in the UV atlas, with the derivatives of the position by u and v.
+// Draws in the skin's atlas, with the derivatives of the position by u and v.
 #include "shaders/include/mesh_vertex.glsl"
 
-layout(location = 9) in vec3 du_mm;  // of a step of 1 in u
-layout(location = 10) in vec3 dv_mm;
-layout(location = 9) out vec3 du_mm_out;
-layout(location = 10) out vec3 dv_mm_out;
+layout(location = 10) in vec3 du_mm;  // of a step of 1 in the atlas's u
+layout(location = 11) in vec3 dv_mm;
+layout(location = 10) out vec3 du_mm_out;
+layout(location = 11) out vec3 dv_mm_out;
 
 invariant gl_Position;  // passes that test for equal depth rely on it
 
@@ -14,5 +14,5 @@ void main() {
     write_varyings();
     du_mm_out = du_mm;
     dv_mm_out = dv_mm;
-    gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4(atlas_uv * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -11,6 +11,7 @@ layout(location = 5) in vec3 curvature_diagonal_per_mm;
 layout(location = 6) in vec3 curvature_mixed_per_mm;
 layout(location = 7) in vec3 occlusion_blurred;
 layout(location = 8) in vec4 color_linear;
+layout(location = 9) in vec2 atlas_uv;
 
 layout(location = 0) out vec3 p_world_mm_out;
 layout(location = 1) out vec3 n_world_out;
@@ -21,6 +22,7 @@ layout(location = 5) out vec3 curvature_diagonal_per_mm_out;
 layout(location = 6) out vec3 curvature_mixed_per_mm_out;
 layout(location = 7) out vec3 occlusion_blurred_out;
 layout(location = 8) out vec4 color_linear_out;
+layout(location = 9) out vec2 atlas_uv_out;
 
 void write_varyings() {
     p_world_mm_out = position_mm;
@@ -32,4 +34,5 @@ void write_varyings() {
     curvature_mixed_per_mm_out = curvature_mixed_per_mm;
     occlusion_blurred_out = occlusion_blurred;
     color_linear_out = color_linear;
+    atlas_uv_out = atlas_uv;
 }

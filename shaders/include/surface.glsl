@@ -13,6 +13,7 @@ layout(location = 5) in vec3 curvature_diagonal_per_mm_in;
 layout(location = 6) in vec3 curvature_mixed_per_mm_in;
 layout(location = 7) in vec3 occlusion_blurred_in;
 layout(location = 8) in vec4 color_linear_in;
+layout(location = 9) in vec2 atlas_uv_in;
 
 layout(scalar) uniform Material {
     vec3 albedo_linear;
@@ -50,7 +51,8 @@ struct Surface {
     vec3 n_world;
     float n_mean_length;    // of the mean of the normal map's normals over the pixel: below 1 where they differ
     vec3 to_eye_world;
-    vec2 uv;
+    vec2 uv;                // of the material's maps
+    vec2 atlas_uv;          // of light maps and baked normals: dermis/scene/skin_atlas.h
     vec3 albedo_linear;
     float roughness;        // perceptual; alpha = roughness^2
     float f0;
@@ -99,6 +101,7 @@ Surface load_geometry() {
     s.p_world_mm = p_world_mm_in;
     s.n_geometry_world = normalize(n_world_in);
     s.uv = uv_in;
+    s.atlas_uv = atlas_uv_in;
     s.occlusion_vertex = occlusion_in;
     s.occlusion_blurred = occlusion_blurred_in;
     s.curvature_diagonal_per_mm = curvature_diagonal_per_mm_in;

@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Every point of the surface at its place in the UV atlas (Gosselin, Sander, Mitchell 2004).
+// Every point of the surface at its place in the skin's atlas (Gosselin, Sander, Mitchell 2004).
 #include "shaders/include/mesh_vertex.glsl"
 
 invariant gl_Position;  // passes that test for equal depth rely on it
 
 void main() {
     write_varyings();
-    gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4(atlas_uv * 2.0 - 1.0, 0.0, 1.0);
 }

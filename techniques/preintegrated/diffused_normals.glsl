@@ -42,12 +42,12 @@ float diffused_normals_level(vec2 uv, float texels) {
 
 // own_weight, green_spread: dermis/optics/diffused_normals.h. Outside the atlas the surface is a sphere of around_per_mm.
 DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight, float green_spread, float around_per_mm, float level) {
-    vec3 red = 2.0 * textureLod(sampler2D(diffused_normals_red, trilinear_clamp), s.uv, level).rgb - 1.0;
-    vec4 green = textureLod(sampler2D(diffused_normals_green, trilinear_clamp), s.uv, level);
-    vec2 uneven = 2.0 * textureLod(sampler2D(diffused_normals_uneven, trilinear_clamp), s.uv, level).rg - 1.0;
+    vec3 red = 2.0 * textureLod(sampler2D(diffused_normals_red, trilinear_clamp), s.atlas_uv, level).rgb - 1.0;
+    vec4 green = textureLod(sampler2D(diffused_normals_green, trilinear_clamp), s.atlas_uv, level);
+    vec2 uneven = 2.0 * textureLod(sampler2D(diffused_normals_uneven, trilinear_clamp), s.atlas_uv, level).rg - 1.0;
     vec3 apart = green.rgb * (255.0 / 127.0) - 128.0 / 127.0;
     float shorter = green.a * green.a;
-    bool in_atlas = all(equal(clamp(s.uv, 0.0, 1.0), s.uv)) && dot(red, red) > kNoSkin;
+    bool in_atlas = all(equal(clamp(s.atlas_uv, 0.0, 1.0), s.atlas_uv)) && dot(red, red) > kNoSkin;
     if (!in_atlas) own_weight = vec3(1.0);
     red *= inversesqrt(max(dot(red, red), kNoSkin));
     vec3 n_green = red + apart * abs(apart);

@@ -111,7 +111,7 @@ void prepare_geometry(Surface s) {
     curvature_around_per_mm = min(curvature_around(skin_diagonal_per_mm, skin_mixed_per_mm), kMaxCurvaturePerMm);
     if (normals == kNormalsSharp) return;
 #ifdef DERMIS_BAKED_NORMALS
-    diffused_level = diffused_normals_level(s.uv, diffused_texels);
+    diffused_level = diffused_normals_level(s.atlas_uv, diffused_texels);
 #endif
     float lod = max(textureQueryLod(normal_map, s.uv).x, 0.0);
     sharp_normal_mm = max(texel_of_normal_map_mm(s), 1e-8) * exp2(lod);

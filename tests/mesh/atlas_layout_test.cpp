@@ -1,0 +1,162 @@
+#include "dermis/mesh/atlas_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "dermis/mesh/pack_rectangles.h"
+#include "dermis/mesh/primitives.h"
+#include "dermis/mesh/uv_report.h"
+
+using namespace dermis;
+
+namespace {
+
+AtlasPart whole(const Mesh& mesh) {
+    AtlasPart part{.mesh = &mesh, .triangles = {}};
+    for (uint32_t t = 0; t < mesh.triangle_count(); ++t) part.triangles.push_back(t);
+    return part;
+}
+
+// The layout as a mesh without shared vertices.
+Mesh laid_out(std::span<const AtlasPart> parts, const AtlasLayout& layout) {
+    Mesh all;
+    for (size_t i = 0; i < parts.size(); ++i)
+        for (size_t t = 0; t < parts[i].triangles.size(); ++t)
+            for (size_t k = 0; k < 3; ++k) {
+                const Mesh& mesh = *parts[i].mesh;
+                all.positions_mm.push_back(
+                    mesh.positions_mm[mesh.indices[3 * size_t(parts[i].triangles[t]) + k]]);
+                all.uvs.push_back(layout.parts[i][t].uvs[k]);
+                all.indices.push_back(uint32_t(all.indices.size()));
+            }
+    all.materials.resize(1);
+    all.submeshes = {{.name = "all", .first_index = 0, .index_count = uint32_t(all.indices.size())}};
+    return all;
+}
+
+void expect_clean(std::span<const AtlasPart> parts, const AtlasLayout& layout, double least_coverage) {
+    ASSERT_FALSE(layout.is_as_it_was);
+    const UvReport report = analyze_uvs(laid_out(parts, layout));
+    EXPECT_EQ(report.tiles, std::vector<int>{1001});
+    EXPECT_LT(report.overlap, 1e-3);
+    EXPECT_GT(report.coverage, least_coverage);
+    // Texels of equal size on all parts of the surface but for the layout's own stretch.
+    EXPECT_LT(report.mm_per_texel_2048.p95, 3 * report.mm_per_texel_2048.p5);
+}
+
+// A grid of n by n materials on a square of skin, each with UVs over all of 0..1.
+Mesh patches(uint32_t n) {
+    Mesh mesh;
+    for (uint32_t i = 0; i < n * n; ++i) {
+        const float x = float(i % n), y = float(i / n);
+        const auto base = uint32_t(mesh.positions_mm.size());
+        for (const Vec2 at : {Vec2{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+            mesh.positions_mm.push_back({x + at.x, y + at.y, 0});
+            mesh.uvs.push_back({at.x, 1 - at.y});
+        }
+        for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(base + k);
+        mesh.submeshes.push_back({"", 6 * i, 6, i});
+        mesh.materials.emplace_back();
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TEST(AtlasLayout, one_clean_tile_stays_as_it_is) {
+    const Mesh ball = make_sphere(40, 20);
+    const AtlasPart parts[] = {whole(ball)};
+    EXPECT_TRUE(lay_out_atlas(parts).is_as_it_was);
+    EXPECT_TRUE(lay_out_atlas({}).is_as_it_was);
+}
+
+TEST(AtlasLayout, two_objects_of_one_tile_get_texels_by_area) {
+    const Mesh small = make_sphere(10, 20), large = make_sphere(20, 20);
+    const AtlasPart parts[] = {whole(small), whole(large)};
+    const AtlasLayout layout = lay_out_atlas(parts);
+    EXPECT_EQ(layout.layers, 2u);
+    expect_clean(parts, layout, 0.4);
+}
+
+TEST(AtlasLayout, other_tiles_and_uvs_across_borders_come_into_the_atlas) {
+    Mesh moved = make_sphere(20, 20), across = make_sphere(20, 20);
+    for (Vec2& uv : moved.uvs) uv = uv + Vec2{3, -2};
+    for (Vec2& uv : across.uvs) uv = uv * 2 + Vec2{0.3f, -0.6f};
+    for (const Mesh* mesh : {&moved, &across}) {
+        const AtlasPart parts[] = {whole(*mesh)};
+        expect_clean(parts, lay_out_atlas(parts), 0.3);
+    }
+}
+
+TEST(AtlasLayout, mirrored_halves_get_texels_of_their_own) {
+    Mesh plane = patches(1);
+    Mesh other = plane;
+    for (Vec3& p : other.positions_mm) p.x = -p.x;
+    std::swap(other.indices[1], other.indices[2]), std::swap(other.indices[4], other.indices[5]);
+    // One mesh, one material; both halves share the vertices of the seam at x = 0.
+    plane.positions_mm.push_back({-1, 0, 0}), plane.uvs.push_back({1, 1});
+    plane.positions_mm.push_back({-1, 1, 0}), plane.uvs.push_back({1, 0});
+    for (const uint32_t i : {0u, 5u, 4u, 0u, 3u, 5u}) plane.indices.push_back(i);
+    plane.submeshes[0].index_count = 12;
+    const AtlasPart parts[] = {whole(plane)};
+    const AtlasLayout layout = lay_out_atlas(parts);
+    EXPECT_EQ(layout.layers, 2u);
+    expect_clean(parts, layout, 0.4);
+}
+
+TEST(AtlasLayout, two_hundred_materials) {
+    const Mesh mesh = patches(15);
+    const AtlasPart parts[] = {whole(mesh)};
+    const AtlasLayout layout = lay_out_atlas(parts);
+    EXPECT_EQ(layout.layers, 225u);
+    expect_clean(parts, layout, 0.6);
+}
+
+TEST(AtlasLayout, a_hundred_udim_tiles) {
+    Mesh mesh = patches(10);
+    for (size_t v = 0; v < mesh.uvs.size(); ++v)
+        mesh.uvs[v] = mesh.uvs[v] + Vec2{float(v / 4 % 10), -float(v / 40)};
+    mesh.materials.resize(1);
+    mesh.submeshes = {{.name = "", .first_index = 0, .index_count = uint32_t(mesh.indices.size())}};
+    const AtlasPart parts[] = {whole(mesh)};
+    const AtlasLayout layout = lay_out_atlas(parts);
+    EXPECT_EQ(layout.layers, 100u);
+    expect_clean(parts, layout, 0.6);
+}
+
+TEST(AtlasLayout, degenerate_uvs_end_inside) {
+    Mesh mesh = patches(2);
+    for (size_t v = 0; v < 8; ++v) mesh.uvs[v] = {};
+    const AtlasPart parts[] = {whole(mesh)};
+    const AtlasLayout layout = lay_out_atlas(parts);
+    for (const AtlasLayout::Corners& corners : layout.parts[0])
+        for (const Vec2 uv : corners.uvs) {
+            EXPECT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1) << uv.x << " " << uv.y;
+        }
+}
+
+TEST(PackRectangles, stay_apart_and_fill_most_of_the_square) {
+    std::vector<Vec2> sides;
+    for (int i = 1; i <= 60; ++i) sides.push_back({1 + float(i * 7 % 13), 1 + float(i * 5 % 11)});
+    constexpr float kGap = 0.01f;
+    const Packing packing = pack_rectangles(sides, kGap);
+    ASSERT_EQ(packing.rectangles.size(), sides.size());
+    std::vector<std::pair<Vec2, Vec2>> boxes;
+    float area = 0;
+    for (size_t i = 0; i < sides.size(); ++i) {
+        Vec2 side = sides[i] * packing.scale;
+        if (packing.rectangles[i].is_turned) std::swap(side.x, side.y);
+        area += side.x * side.y;
+        boxes.push_back({packing.rectangles[i].corner, packing.rectangles[i].corner + side});
+        EXPECT_GE(boxes.back().first.x, kGap / 2 - 1e-5f);
+        EXPECT_LE(boxes.back().second.y, 1 - kGap / 2 + 1e-5f);
+    }
+    for (size_t i = 0; i < boxes.size(); ++i)
+        for (size_t k = 0; k < i; ++k) {
+            const auto& [a, b] = std::tie(boxes[i], boxes[k]);
+            EXPECT_TRUE(a.second.x + kGap <= b.first.x + 1e-4f || b.second.x + kGap <= a.first.x + 1e-4f ||
+                        a.second.y + kGap <= b.first.y + 1e-4f || b.second.y + kGap <= a.first.y + 1e-4f);
+        }
+    EXPECT_GT(area, 0.6f);
+}

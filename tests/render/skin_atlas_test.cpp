@@ -1,0 +1,124 @@
+// The same head with UVs as other tools make them looks as with one clean atlas.
+
+#include "dermis/scene/skin_atlas.h"
+
+#include <gmock/gmock.h>
+
+#include "dermis/mesh/primitives.h"
+#include "dermis/render/atlas_check.h"
+#include "dermis/scene/placement.h"
+#include "render/render_test.h"
+#include "support/uv_variants.h"
+
+using namespace dermis;
+using testing::IsEmpty;
+
+namespace {
+
+class SkinAtlas : public RenderTest {
+  protected:
+    static inline const DrawSettings kSmall = {
+        .width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 1024};
+
+    // Maps would move with the UVs.
+    static Scene bust_without_maps() {
+        Result<Scene> scene = load_built_in_scene("builtin:bust");
+        EXPECT_TRUE(scene) << scene.error().message;
+        for (SceneObject& object : scene->objects)
+            for (Material& material : object.mesh.materials) {
+                Material plain;
+                plain.name = material.name;
+                material = plain;
+            }
+        return std::move(*scene);
+    }
+
+    static SceneObject& skin_of(Scene& scene) {
+        for (SceneObject& object : scene.objects)
+            if (object.classes[0] == MaterialClass::skin) return object;
+        ADD_FAILURE() << "no skin";
+        return scene.objects[0];
+    }
+
+    static ParameterValues values_of(const Technique& technique) {
+        ParameterValues values(technique.parameters);
+        if (technique.parameters.find("light_map_size")) EXPECT_TRUE(values.set("light_map_size", "1024"));
+        if (technique.id == "preintegrated") EXPECT_TRUE(values.set("normals", "baked"));
+        return values;
+    }
+
+    static Image drawn(Renderer& renderer, const std::string& id) {
+        const Technique& technique = built_in_technique(id);
+        return radiance(renderer, technique, values_of(technique), kSmall);
+    }
+
+    // Error against `wanted`, relative to what scattering changes there; root mean squares.
+    static double error_of(const Image& image, const Image& wanted, const Image& lambert) {
+        double error = 0, effect = 0;
+        for (size_t i = 0; i < wanted.floats().size(); ++i) {
+            if (i % 4 == 3) continue;
+            error += std::pow(image.floats()[i] - wanted.floats()[i], 2);
+            effect += std::pow(wanted.floats()[i] - lambert.floats()[i], 2);
+        }
+        return std::sqrt(error / effect);
+    }
+};
+
+}  // namespace
+
+TEST_F(SkinAtlas, tiles_mirrored_halves_and_eight_materials_look_like_one_atlas) {
+    Scene clean = bust_without_maps();
+    ASSERT_TRUE(complete_scene(clean));
+    clean.camera.vertical_fov_rad *= 0.3f;
+    clean.camera.target_mm += Vec3{0, 40, 0};
+    Scene tiles = clean, mirrored = clean, eight = clean;
+    move_half_to_next_tile(skin_of(tiles).mesh, tiles.bounds_center_mm.y);
+    mirror_halves(skin_of(mirrored).mesh);
+    split_into_eight_materials(skin_of(eight), eight.bounds_center_mm);
+    const Scene without_layout = eight;
+    for (Scene* scene : {&tiles, &mirrored, &eight}) lay_out_skin_atlas(*scene);
+    EXPECT_TRUE(skin_of(clean).mesh.atlas_uvs.empty());
+    Renderer of_clean = make_renderer(clean);
+    const Image lambert = drawn(of_clean, "lambert");
+    for (const auto& [name, scene] :
+         {std::pair{"tiles", &tiles}, {"mirrored", &mirrored}, {"eight", &eight}}) {
+        EXPECT_FALSE(skin_of(*scene).mesh.atlas_uvs.empty()) << name;
+        EXPECT_THAT(*check_skin_atlas(*scene), IsEmpty()) << name;
+        Renderer renderer = make_renderer(*scene);
+        for (const char* id : {"texture_space", "texture_space_gaussians", "preintegrated"}) {
+            const Image wanted = drawn(of_clean, id);
+            // Other texels alone make .05 to .08 of it, along the mouth and the eyelids.
+            const double error = error_of(drawn(renderer, id), wanted, lambert);
+            EXPECT_LT(error, 0.35) << name << " " << id;
+        }
+    }
+    Renderer shared = make_renderer(without_layout);
+    const Image wanted = drawn(of_clean, "texture_space_gaussians");
+    EXPECT_GT(error_of(drawn(shared, "texture_space_gaussians"), wanted, lambert), 1.0);
+}
+
+TEST_F(SkinAtlas, no_skin_and_skin_without_uvs_are_left_alone) {
+    Scene scene;
+    for (const char* name : {"stone", "hide"})
+        scene.objects.push_back({.name = name,
+                                 .mesh = make_sphere(20, 16),
+                                 .classes = {name[0] == 's' ? MaterialClass::other : MaterialClass::skin}});
+    place_in_studio(scene);
+    scene.objects[1].mesh.uvs.clear();
+    lay_out_skin_atlas(scene);
+    for (const SceneObject& object : scene.objects) EXPECT_TRUE(object.mesh.atlas_uvs.empty());
+}
+
+TEST_F(SkinAtlas, only_skin_gets_texels) {
+    Scene scene;
+    for (int i = 0; i < 3; ++i)
+        scene.objects.push_back({.name = "ball",
+                                 .mesh = make_sphere(20, 16),
+                                 .classes = {i == 1 ? MaterialClass::other : MaterialClass::skin}});
+    place_in_studio(scene);
+    ASSERT_TRUE(complete_scene(scene));
+    EXPECT_TRUE(scene.objects[1].mesh.atlas_uvs.empty());
+    const SkinParts skin = skin_over_atlas(scene);
+    ASSERT_EQ(skin.parts.size(), 2u);
+    EXPECT_THAT(*check_skin_atlas(scene), IsEmpty());
+}
