@@ -208,6 +208,17 @@ TEST(GltfMaterial, coloured_maps_that_no_renderer_here_reads_are_left_out_with_t
     EXPECT_TRUE(any_contains(loaded.warnings, "specularColorTexture: is not read"));
 }
 
+TEST(GltfMaterial, factors_that_no_renderer_here_reads_are_named) {
+    const LoadedMesh loaded =
+        load_with(R"({"occlusionTexture":{"index":0,"strength":0.4},)"
+                  R"("extensions":{"KHR_materials_specular":{"specularColorFactor":[1,0.5,0.2]}}})");
+    EXPECT_TRUE(any_contains(loaded.warnings, "specularColorFactor: is not read; reflections are white"));
+    EXPECT_TRUE(any_contains(loaded.warnings, "strength: is not read; the map has its full strength"));
+    EXPECT_FALSE(any_contains(
+        load_with(R"({"extensions":{"KHR_materials_specular":{"specularColorFactor":[1,1,1]}}})").warnings,
+        "specularColorFactor"));
+}
+
 TEST(GltfMaterial, an_empty_embedded_picture_is_named_once_with_its_factor) {
     const auto loaded = parse_gltf_text(
         square_gltf("",

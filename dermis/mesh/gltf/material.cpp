@@ -81,7 +81,9 @@ class MaterialReader {
         }
         if (read_map(source["normalTexture"], "", material.normal_map))
             material.normal_scale = float(source["normalTexture"]["scale"].number(1));
-        read_map(source["occlusionTexture"], "", material.occlusion_map);
+        const JsonView occlusion = source["occlusionTexture"];
+        if (read_map(occlusion, "", material.occlusion_map) && occlusion["strength"].number(1) != 1)
+            occlusion["strength"].warn("is not read; the map has its full strength");
         if (read_map(source["emissiveTexture"], "emissiveFactor", material.emission_map))
             material.emission_linear = color(source["emissiveFactor"], {0, 0, 0});
         material.double_sided = source["doubleSided"].boolean(false);
@@ -103,7 +105,9 @@ class MaterialReader {
         const JsonView specular = extensions["KHR_materials_specular"];
         if (read_map(specular["specularTexture"], "specularFactor", material.specular_map))
             material.specular = number(specular["specularFactor"], 1, 0, 1);
-        read_color_without_map(specular, "specularColor", {1, 1, 1});
+        if (const Vec3 tint = read_color_without_map(specular, "specularColor", {1, 1, 1});
+            tint != Vec3{1, 1, 1})
+            specular["specularColorFactor"].warn("is not read; reflections are white");
         // 0 means "no Fresnel at all", which no material here has.
         const JsonView ior = extensions["KHR_materials_ior"]["ior"];
         const double eta = ior.number(1.5);
