@@ -95,17 +95,46 @@ ScatteringMedium medium_of(const BurleyProfile& burley, double g, double eta) {
     return medium_of(burley.albedo, path_mm, g, eta);
 }
 
+bool is_pure_blur(const Profile& profile, int channel) {
+    // Sums of rounded weights are not exactly 1.
+    constexpr double kPure = 0.999;
+    return !std::holds_alternative<DipoleProfile>(profile.model) && diffuse_albedo(profile, channel) >= kPure;
+}
+
+std::string walk_volume_note(const Profile& profile) {
+    std::vector<std::string> channels;
+    for (int c = 0; c < 3; ++c)
+        if (is_pure_blur(profile, c)) channels.push_back(channel_name(c));
+    if (channels.empty()) return "";
+    return "walk: " + join(channels, ", ") + " of profile " + profile.name +
+           " has albedo 1, a blur whose colour is in the map; the walk takes a volume of albedo " +
+           to_text(kBlurAlbedo) + " and the same mean radius";
+}
+
 ScatteringMedium walk_medium_of(const Profile& profile) {
-    constexpr double kMostAlbedo = 0.8, kBlurAlbedo = 0.5;
     if (const auto* dipole = std::get_if<DipoleProfile>(&profile.model)) return dipole->medium;
     BurleyProfile burley = burley_equivalent(profile);
-    for (double& albedo : burley.albedo)
-        if (albedo > kMostAlbedo) albedo = kBlurAlbedo;
-    return medium_of(burley, 0, 1);
+    for (int c = 0; c < 3; ++c)
+        if (is_pure_blur(profile, c)) burley.albedo[size_t(c)] = kBlurAlbedo;
+    return medium_of(burley, burley.g, 1);
+}
+
+BurleyProfile with_anisotropy(BurleyProfile isotropic, double g) {
+    isotropic.g = g;
+    for (size_t c = 0; c < 3; ++c)
+        isotropic.d_mm[c] /= 1 - single_scatter_albedo_of(isotropic.albedo[c], g) * g;
+    return isotropic;
+}
+
+BurleyProfile without_anisotropy(BurleyProfile burley) {
+    for (size_t c = 0; c < 3; ++c)
+        burley.d_mm[c] *= 1 - single_scatter_albedo_of(burley.albedo[c], burley.g) * burley.g;
+    burley.g = 0;
+    return burley;
 }
 
 BurleyProfile burley_of(const ScatteringMedium& medium) {
-    BurleyProfile burley;
+    BurleyProfile burley{.g = medium.g};
     for (size_t c = 0; c < 3; ++c) {
         burley.albedo[c] =
             std::clamp(multiscatter_albedo(single_scatter_albedo(medium, int(c)), medium.g), 0.0, 1.0);

@@ -80,10 +80,20 @@ struct ToolSettings {
 /// surface.
 [[nodiscard]] ScatteringMedium medium_of(const BurleyProfile& burley, double g, double eta);
 /// The volume of a random walk for a profile: a dipole's own, else the medium above for the Burley profile of
-/// the same albedo and mean radius, isotropic and index-matched. Against that profile, a half-space has up to
-/// 2.4 % of the light at a wrong distance and a mean radius up to 7 % too short (albedo 0.1 to 0.8, tested).
-/// An albedo above 0.8 means a blur whose colour lies in a map; the medium's albedo is 0.5 then.
+/// the same albedo, mean radius and g, index-matched. docs/figures.md has the error of its half-space.
 [[nodiscard]] ScatteringMedium walk_medium_of(const Profile& profile);
+
+/// An albedo of 1 means a pure blur whose colour lies in a map: no volume that absorbs looks so. Its walks
+/// take a volume of kBlurAlbedo and the same mean radius.
+inline constexpr double kBlurAlbedo = 0.5;
+[[nodiscard]] bool is_pure_blur(const Profile& profile, int channel);
+/// One line that names the channels that got kBlurAlbedo; "" if none did.
+[[nodiscard]] std::string walk_volume_note(const Profile& profile);
+
+/// d / (1 - alpha g) and times (1 - alpha g): between a length that tools state for sigma_t and that of
+/// isotropic scattering of the same sigma_t' = sigma_t (1 - alpha g).
+[[nodiscard]] BurleyProfile with_anisotropy(BurleyProfile isotropic, double g);
+[[nodiscard]] BurleyProfile without_anisotropy(BurleyProfile burley);
 /// The other way, within 1e-4 in albedo (that of the inversion).
 [[nodiscard]] BurleyProfile burley_of(const ScatteringMedium& medium);
 

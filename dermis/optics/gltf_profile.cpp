@@ -29,7 +29,9 @@ Json model_json(const GaussianSum& sum) {
     return json;
 }
 Json model_json(const BurleyProfile& burley) {
-    return {{"model", "burley"}, {"albedo", burley.albedo}, {"d_mm", burley.d_mm}};
+    Json json = {{"model", "burley"}, {"albedo", burley.albedo}, {"d_mm", burley.d_mm}};
+    if (burley.g != 0) json["g"] = burley.g;
+    return json;
 }
 Json model_json(const DipoleProfile& dipole) {
     const ScatteringMedium& medium = dipole.medium;
@@ -56,6 +58,10 @@ class Members {
             if (!error_) error_ = Error{std::string(key) + " is missing or of another type"};
             return T{};
         }
+    }
+    template <class T>
+    T value_or(const char* key, T missing) {
+        return json_.contains(key) ? value<T>(key) : missing;
     }
     [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
@@ -89,7 +95,8 @@ Result<Profile> profile_of(Members& members, const std::string& model) {
         DERMIS_TRY_ASSIGN(const GaussianSum sum, gaussians_of(members));
         profile.model = sum;
     } else if (model == "burley") {
-        profile.model = BurleyProfile{members.value<Rgb>("albedo"), members.value<Rgb>("d_mm")};
+        profile.model = BurleyProfile{members.value<Rgb>("albedo"), members.value<Rgb>("d_mm"),
+                                      members.value_or("g", 0.0)};
     } else if (model == "dipole") {
         profile.model = DipoleProfile{{.sigma_s_per_mm = members.value<Rgb>("sigma_s_per_mm"),
                                        .sigma_a_per_mm = members.value<Rgb>("sigma_a_per_mm"),
@@ -278,9 +285,9 @@ class MaterialReader {
         if (!(std::abs(g) <= 0.99)) return fail("scatterAnisotropy must be -0.99 to 0.99");
         if (g == 0) return {};
         notes_.push_back("scatterAnisotropy " + to_text(g) +
-                         " is replaced by isotropic scattering of the same reduced mean free path");
-        for (size_t c = 0; c < 3; ++c)
-            burley.d_mm[c] /= 1 - single_scatter_albedo_of(burley.albedo[c], g) * g;
+                         ": the profile is that of isotropic scattering of the same reduced mean free path; "
+                         "walks keep g");
+        burley = with_anisotropy(burley, g);
         return {};
     }
 

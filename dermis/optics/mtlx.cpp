@@ -77,13 +77,13 @@ class SurfaceReader {
         DERMIS_TRY(read_weight());
         DERMIS_TRY(read_color());
         DERMIS_TRY(read_lengths());
-        DERMIS_TRY(apply_anisotropy());
+        DERMIS_TRY_ASSIGN(const double g, anisotropy());
         DERMIS_TRY(surface());
         note_what_is_left();
         const Result<BurleyProfile> burley = to_canonical(settings_);
         if (!burley) return Error{at_surface() + burley.error().message};
         return Profile{utf8_path(place_).stem().string(), printable_line(place_ + ": " + join(notes_, "; ")),
-                       *burley};
+                       g == 0 ? *burley : with_anisotropy(*burley, g)};
     }
 
     Result<MtlxSurface> read_surface() {
@@ -233,14 +233,13 @@ class SurfaceReader {
 
     // Burley's d is that of isotropic scattering with the same reduced mean free path 1 / sigma_t', which is
     // the mean free path over 1 - alpha g.
-    Result<void> apply_anisotropy() {
+    Result<double> anisotropy() {
         DERMIS_TRY_ASSIGN(const double g, scalar(kAnisotropy, 0, -0.99, 0.99));
-        if (g == 0) return {};
-        notes_.push_back(std::string(kAnisotropy) + " " + to_text(g) +
-                         " is replaced by isotropic scattering of the same reduced mean free path");
-        for (size_t c = 0; c < 3; ++c)
-            settings_.values[2][c] /= 1 - single_scatter_albedo_of(settings_.values[0][c], g) * g;
-        return {};
+        if (g != 0)
+            notes_.push_back(std::string(kAnisotropy) + " " + to_text(g) +
+                             ": the profile is that of isotropic scattering of the same reduced mean free "
+                             "path; walks keep g");
+        return g;
     }
 
     void note_what_is_left() {
@@ -306,7 +305,8 @@ Result<MtlxSurface> read_mtlx_surface(const std::filesystem::path& path) {
 }
 
 std::string mtlx_text(const Profile& profile) {
-    const std::vector<Rgb> values = to_tool(ToolId::openpbr, burley_equivalent(profile)).values;
+    const BurleyProfile burley = burley_equivalent(profile);
+    const std::vector<Rgb> values = to_tool(ToolId::openpbr, without_anisotropy(burley)).values;
     const std::string name = element_name(profile.name);
     pugi::xml_document document;
     pugi::xml_node root = document.append_child("materialx");
@@ -324,7 +324,7 @@ std::string mtlx_text(const Profile& profile) {
     radius.append_attribute("unittype") = "distance";
     radius.append_attribute("unit") = "centimeter";
     add_input(surface, kScale, "color3", color_text(values[2]));
-    add_input(surface, kAnisotropy, "float", "0");
+    add_input(surface, kAnisotropy, "float", to_text(burley.g));
     add_input(surface, "specular_ior", "float", to_text(ScatteringMedium{}.eta));
     pugi::xml_node material = root.append_child("surfacematerial");
     material.append_attribute("name") = (name + "_material").c_str();

@@ -77,6 +77,7 @@ Result<void> check_model(const BurleyProfile& burley) {
             return out_of_range("the albedo of " + channel_name(c), albedo, "0 to 1");
         if (!(d >= 1e-6 && d <= 1e6)) return out_of_range("d_mm of " + channel_name(c), d, "1e-6 to 1e6");
     }
+    if (!(std::abs(burley.g) <= 0.99)) return out_of_range("g", burley.g, "-0.99 to 0.99");
     if (*std::ranges::max_element(burley.albedo) == 0) return Error{"all albedos are 0; one must be > 0"};
     return {};
 }
@@ -238,6 +239,7 @@ struct ProfileHash {
     void operator()(const BurleyProfile& burley) const {
         add(burley.albedo);
         add(burley.d_mm);
+        if (burley.g != 0) hasher.add(burley.g);
     }
     void operator()(const DipoleProfile& dipole) const {
         add(dipole.medium.sigma_s_per_mm);
@@ -311,6 +313,8 @@ double slab_transmittance(const Profile& profile, int channel, double thickness_
 
 BurleyProfile burley_equivalent(const Profile& profile) {
     BurleyProfile burley;
+    if (const auto* own = std::get_if<BurleyProfile>(&profile.model)) burley.g = own->g;
+    if (const auto* dipole = std::get_if<DipoleProfile>(&profile.model)) burley.g = dipole->medium.g;
     for (int c = 0; c < 3; ++c) {
         burley.albedo[size_t(c)] = diffuse_albedo(profile, c);
         burley.d_mm[size_t(c)] = mean_radius_mm(profile, c) / 2.5;

@@ -58,6 +58,9 @@ struct GaussianSum {
 struct BurleyProfile {
     Rgb albedo = {1, 1, 1};  ///< 0..1
     Rgb d_mm = {1, 1, 1};    ///< > 0
+    /// Mean cosine of the phase function of the volume that the profile describes, -0.99..0.99. Does not
+    /// change R; walks and conversions between volumes keep it.
+    double g = 0;
 };
 
 /// The dipole of Jensen, Marschner, Levoy, Hanrahan 2001, A Practical Model for Subsurface Light Transport,
@@ -104,7 +107,8 @@ struct Profile {
 /// 2007, section 14.5. It ignores the far boundary.
 [[nodiscard]] double slab_transmittance(const Profile& profile, int channel, double thickness_mm);
 
-/// The Burley profile of the same albedo and mean radius: d = mean / 2.5. The common currency of conversions.
+/// The Burley profile of the same albedo, mean radius (d = mean / 2.5) and g. The common currency of
+/// conversions.
 [[nodiscard]] BurleyProfile burley_equivalent(const Profile& profile);
 
 /// Of the model and its numbers, not of names: for keys of the cache.

@@ -161,7 +161,7 @@ BurleyProfile read_gltf(const Values& values) {
 constexpr double kSkinEta = 1.4;
 
 Values write_pbrt(const BurleyProfile& burley) {
-    const ScatteringMedium medium = medium_of(burley, 0, kSkinEta);
+    const ScatteringMedium medium = medium_of(burley, burley.g, kSkinEta);
     return {medium.sigma_a_per_mm, medium.sigma_s_per_mm, {medium.g}, {medium.eta}, {1}};
 }
 BurleyProfile read_pbrt(const Values& values) {

@@ -139,6 +139,10 @@ Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSet
     }
     if (pass == 0) return Error{"stopped before the first pass was complete: there is no picture yet"};
     ReferencePicture picture = picture_of(canvas.sums);
+    if (settings.integrator == Integrator::walk && !settings.medium) {
+        DERMIS_TRY_ASSIGN(const Profile profile, find_profile(scene.skin.profile));
+        if (std::string note = walk_volume_note(profile); !note.empty()) picture.warnings.push_back(note);
+    }
     picture.passes = pass;
     picture.reached_noise = !settings.noise || picture.relative_error <= *settings.noise;
     picture.time_ms =

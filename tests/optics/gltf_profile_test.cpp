@@ -176,6 +176,15 @@ TEST(GltfProfile, anisotropic_scattering_keeps_its_reduced_mean_free_path) {
         EXPECT_NEAR(mean_radius_mm(forward, c) * (1 - alpha * g), mean_radius_mm(isotropic, c), 1e-9);
     }
     EXPECT_THAT(forward.source, HasSubstr("isotropic scattering of the same reduced mean free path"));
+    EXPECT_EQ(std::get<BurleyProfile>(forward.model).g, g);
+    const ScatteringMedium walked = walk_medium_of(forward);
+    EXPECT_EQ(walked.g, g) << "the walk keeps it";
+    for (int c = 0; c < 3; ++c) {
+        const double path_mm = mean_free_path_mm(walked, c);
+        const double length_mm = std::get<BurleyProfile>(isotropic.model).d_mm[size_t(c)] *
+                                 mean_free_path_per_d(diffuse_albedo(isotropic, c));
+        EXPECT_NEAR(path_mm, length_mm, 1e-9 * length_mm) << "the mean free path of the file";
+    }
 }
 
 TEST(GltfProfile, what_is_missing_or_wrong_is_named) {

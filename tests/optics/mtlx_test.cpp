@@ -95,6 +95,10 @@ TEST(Mtlx, forward_scattering_becomes_isotropic_scattering_of_the_same_reduced_m
     EXPECT_NEAR(forward.d_mm[0] * mean_free_path_per_d(0.8), 1 / reduced_sigma_t_per_mm(medium, 0), 1e-9);
     EXPECT_GT(forward.d_mm[0], 3 * isotropic.d_mm[0]);
     EXPECT_EQ(forward.albedo, isotropic.albedo);
+    EXPECT_EQ(forward.g, 0.8);
+    const BurleyProfile back = burley_read(mtlx_text({.name = "forward", .source = {}, .model = forward}));
+    EXPECT_EQ(back.g, 0.8);
+    for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(back.d_mm[c], forward.d_mm[c], 1e-6 * forward.d_mm[c]);
 }
 
 TEST(Mtlx, what_is_not_kept_is_told) {

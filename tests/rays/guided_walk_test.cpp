@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "dermis/optics/conversions.h"
 #include "dermis/optics/presets.h"
 
 namespace dermis {
@@ -92,10 +93,9 @@ Measured measure(const ScatteringMedium& medium, const Boundary& boundary, bool 
 
 // Compared with the plain walk.
 template <class Boundary>
-void expect_the_same_means(const ScatteringMedium& medium, const Boundary& boundary) {
-    constexpr int kWalks = 80'000;
-    const Measured plain = measure(medium, boundary, false, kWalks),
-                   guided = measure(medium, boundary, true, kWalks);
+void expect_the_same_means(const ScatteringMedium& medium, const Boundary& boundary, int walks = 80'000) {
+    const Measured plain = measure(medium, boundary, false, walks),
+                   guided = measure(medium, boundary, true, walks);
     for (int i = 0; i < 9; ++i) {
         const double error = std::sqrt(plain.variance_of_mean(i) + guided.variance_of_mean(i));
         EXPECT_LT(std::abs(plain.mean(i) - guided.mean(i)), 4 * error + 1e-6)
@@ -118,6 +118,14 @@ TEST(GuidedWalk, has_the_means_of_the_plain_walk_in_a_ball) {
 TEST(GuidedWalk, has_the_means_of_the_plain_walk_whatever_the_phase_function) {
     for (const double g : {-0.5, 0.4, 0.8}) expect_the_same_means(skin(1.3, g), HalfSpace{});
     expect_the_same_means(skin(1.3, 0.8), Slab{1.5f});
+}
+
+TEST(GuidedWalk, has_the_means_of_the_plain_walk_in_light_skin) {
+    for (const char* name : {"openpbr_skin_1", "unreal_default"}) {
+        const ScatteringMedium medium = walk_medium_of(*find_profile(name));
+        expect_the_same_means(medium, HalfSpace{}, 20'000);
+        expect_the_same_means(medium, Ball{8}, 20'000);
+    }
 }
 
 TEST(GuidedWalk, copes_without_scattering_and_without_absorption) {
