@@ -18,7 +18,7 @@ struct GainForm {
     Rgb slope_mm = {0, 0, 0}, length_mm = {0, 0, 0}, bend_mm = {0, 0, 0};
 };
 
-/// 0 upwards. Walks in balls and cavities of 2 mm radius or more differ by 4 % at most (tested).
+/// 0 upwards. Walks in balls and cavities of 2 mm radius or more differ by 6 % at most (tested).
 [[nodiscard]] double gain(const GainForm& form, int channel, double curvature_per_mm);
 
 /// A gain measured at one curvature.

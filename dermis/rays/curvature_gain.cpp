@@ -8,34 +8,13 @@
 #include "dermis/base/parallel.h"
 #include "dermis/rays/guided_walk.h"
 #include "dermis/rays/rays_version.h"
+#include "dermis/rays/sphere_boundary.h"
 
 namespace dermis::inline rays {
 namespace {
 
 constexpr int kFormWalks = 1 << 14;
 constexpr std::array kCurvatures = {-0.5, -0.25, -0.125, -0.0625, 0.0625, 0.125, 0.25, 0.5};
-
-// A sphere that touches the origin from below (ball, curvature above 0) or from above (cavity), where the
-// outward normal is +z.
-struct Sphere {
-    float radius_mm, side;  // side: 1 ball, -1 cavity
-
-    explicit Sphere(double curvature_per_mm)
-        : radius_mm(float(1 / std::abs(curvature_per_mm))), side(curvature_per_mm > 0 ? 1.0f : -1.0f) {}
-
-    std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) const {
-        const Vec3 from_centre = p_mm + Vec3{0, 0, side * radius_mm};
-        const float along = dot(from_centre, direction);
-        // |from_centre|^2 - r^2 without cancellation at the start, where p is 0.
-        const float outside = dot(p_mm, p_mm) + 2 * side * radius_mm * p_mm.z;
-        const float root2 = along * along - outside;
-        if (side < 0 && (along >= 0 || root2 <= 0)) return std::nullopt;
-        const float root = std::sqrt(std::max(root2, 0.0f));
-        const float distance_mm = std::max(-along + side * root, 0.0f);
-        if (distance_mm > max_mm) return std::nullopt;
-        return BoundaryHit{distance_mm, normalize(from_centre + direction * distance_mm) * side};
-    }
-};
 
 struct Moments {
     Rgb mean = {}, standard_error = {};
@@ -85,7 +64,7 @@ WalkedGains walk_gain(const ScatteringMedium& medium, std::span<const double> cu
     WalkedGains gains{.flat = flat.mean};
     for (const double curvature : curvatures_per_mm) {
         const uint32_t own_seed = hash_u32(seed, uint32_t(gains.samples.size()) + 1);
-        const Moments curved = returned_light(medium, Sphere(curvature), walks, own_seed);
+        const Moments curved = returned_light(medium, SphereBoundary(curvature), walks, own_seed);
         GainSample sample{.curvature_per_mm = curvature};
         Rgb error = {0, 0, 0};
         for (size_t c = 0; c < 3; ++c) {

@@ -8,7 +8,7 @@ namespace dermis {
 
 // Specialisation constants: the order of the parameters' choices.
 const int kDiffuseLut = 0, kDiffuseHalfRing = 1, kDiffuseFullRing = 2, kDiffuseCurve2015 = 3,
-          kDiffuseClosedForm = 4;
+          kDiffuseClosedForm = 4, kDiffuseWalk = 5;
 const int kShadowAuto = 0, kShadowPlain = 1, kShadowScattered = 2, kShadowGathered = 3;
 const int kCurvatureVertex = 0, kCurvatureDerivative = 1, kCurvatureImage = 2;
 const int kNormalsAuto = 0, kNormalsBaked = 1, kNormalsBlended = 2, kNormalsLerp = 3, kNormalsSmooth = 4,

@@ -11,7 +11,10 @@
 #include "dermis/bake/table_io.h"
 #include "dermis/bake/zonal_table.h"
 #include "dermis/base/text.h"
+#include "dermis/optics/conversions.h"
 #include "dermis/optics/gaussian_lobes.h"
+#include "dermis/rays/ball_exitance.h"
+#include "dermis/rays/curvature_gain.h"
 #include "shaders/include/constants.h"
 #include "techniques/preintegrated/weights.h"
 
@@ -69,6 +72,43 @@ Result<TableImage> diffuse_table(const TableSettings& settings, const SkinContex
             for (int c = 0; c < 3; ++c) rgba.push_back(table->at(x, y, c));
             rgba.push_back(1);
         }
+    return table_image("skin_lut", kLutHeight, rgba);
+}
+
+// Light over N.L on balls of the table's curvatures, over the form of their gain, which the shader multiplies
+// by. Linear between the balls that are walked; flat skin is Lambert's.
+TableImage walked_table(const SkinContext& skin) {
+    constexpr int kWalks = 1 << 16;
+    const std::vector<double> curvatures = {1.0 / 64, 1.0 / 32, 1.0 / 16, 3.0 / 32, 1.0 / 8, 3.0 / 16,
+                                            1.0 / 4,  3.0 / 8,  1.0 / 2,  3.0 / 4,  1.0};
+    const ScatteringMedium medium = walk_medium_of(skin.profile);
+    const GainForm form = walked_gain_form(medium);
+    std::vector<std::vector<Rgb>> rows(1);
+    for (int x = 0; x < kLutWidth; ++x) {
+        const double lit = std::max(-1 + 2 * (x + 0.5) / kLutWidth, 0.0);
+        rows[0].push_back({lit, lit, lit});
+    }
+    for (const BallExitance& ball : walk_balls(medium, curvatures, kWalks)) {
+        rows.emplace_back();
+        for (int x = 0; x < kLutWidth; ++x) {
+            Rgb light = light_on_ball(ball, -1 + 2 * (x + 0.5) / kLutWidth);
+            for (int c = 0; c < 3; ++c) light[size_t(c)] /= gain(form, c, ball.curvature_per_mm);
+            rows.back().push_back(light);
+        }
+    }
+    std::vector<float> rgba;
+    for (int y = 0; y < kLutHeight; ++y) {
+        const double curvature = kMaxCurvaturePerMm * (y + 0.5) / kLutHeight;
+        size_t i = 0;
+        while (i + 1 < curvatures.size() && curvatures[i] < curvature) ++i;
+        const double before = i == 0 ? 0 : curvatures[i - 1];
+        const double part = (curvature - before) / (curvatures[i] - before);
+        for (size_t x = 0; x < size_t(kLutWidth); ++x) {
+            for (size_t c = 0; c < 3; ++c)
+                rgba.push_back(float(std::lerp(rows[i][x][c], rows[i + 1][x][c], part)));
+            rgba.push_back(1);
+        }
+    }
     return table_image("skin_lut", kLutHeight, rgba);
 }
 
@@ -209,6 +249,8 @@ Result<std::vector<TableImage>> bake_tables(const TableSettings& settings, const
                       settings, skin));
         used.how = own.convention.how;
         images.push_back(resampled(own));
+    } else if (settings.by_walks) {
+        images.push_back(walked_table(skin));
     } else {
         DERMIS_TRY_ASSIGN(TableImage lut, diffuse_table(used, skin));
         images.push_back(std::move(lut));

@@ -10,6 +10,7 @@ namespace dermis::preintegrated {
 struct TableSettings {
     Preintegration how = {};  ///< of every table
     double shadow_width_mm = 2.5;
+    bool by_walks = false;        ///< the diffuse table by walks in balls, over their gain
     bool needs_beckmann = false;  ///< otherwise the table is one texel
 };
 

@@ -21,7 +21,8 @@ enum class Diffuse : int32_t {
     half_ring = kDiffuseHalfRing,
     full_ring = kDiffuseFullRing,
     curve_2015 = kDiffuseCurve2015,
-    closed_form = kDiffuseClosedForm
+    closed_form = kDiffuseClosedForm,
+    walk = kDiffuseWalk
 };
 enum class Curvature : int32_t {
     vertex = kCurvatureVertex,
@@ -65,11 +66,12 @@ struct Params {
 
 ParameterTable parameters() {
     return ParameterTableBuilder<Params>()
-        .choice(&Params::diffuse, "diffuse", {"lut", "half_ring", "full_ring", "curve_2015", "closed_form"},
+        .choice(&Params::diffuse, "diffuse",
+                {"lut", "half_ring", "full_ring", "curve_2015", "closed_form", "walk"},
                 "light over N.L and curvature: exact table of the sphere; of the half ring of the Unity "
                 "script or the "
                 "full ring of Yeung 2015, which do not conserve energy; his curves, or closed form, without "
-                "any table")
+                "any table; walk: by random walks in balls, which with gain=curvature are exact on spheres")
         .choice(&Params::curvature, "curvature", {"vertex", "derivative", "image"},
                 "source of the curvature; derivative depends on facets and camera")
         .number(&Params::curvature_gain, "curvature_gain", "", 0, 10,
@@ -110,7 +112,7 @@ ParameterTable parameters() {
 
 bool reads_tables(const Params& params) {
     return params.diffuse == Diffuse::lut || params.diffuse == Diffuse::half_ring ||
-           params.diffuse == Diffuse::full_ring;
+           params.diffuse == Diffuse::full_ring || params.diffuse == Diffuse::walk;
 }
 
 Shadow shadow_of(const Params& params) {
@@ -121,7 +123,7 @@ Shadow shadow_of(const Params& params) {
 // Baked normals hold the curvature and what light from all around sees, both of the sphere. Empty where the
 // settings agree with that.
 std::string settings_against_baked(const Params& params) {
-    if (params.diffuse != Diffuse::lut) return "diffuse=lut";
+    if (params.diffuse != Diffuse::lut && params.diffuse != Diffuse::walk) return "diffuse=lut";
     if (params.curvature != Curvature::vertex) return "curvature=vertex";
     return params.ambient != Ambient::profile ? "ambient=profile" : "";
 }
@@ -205,6 +207,7 @@ preintegrated::TableSettings table_settings(const Params& params) {
                    : params.diffuse == Diffuse::full_ring ? kYeung2015Ring
                                                           : Preintegration{},
             .shadow_width_mm = params.shadow_width_mm,
+            .by_walks = params.diffuse == Diffuse::walk,
             .needs_beckmann = params.specular == SpecularModel::ksk};
 }
 

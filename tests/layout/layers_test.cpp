@@ -164,7 +164,7 @@ TEST(Layout, an_undeclared_and_an_unused_dependency_are_found) {
 
 TEST(Layout, techniques_and_subjects_include_no_renderer) {
     const std::map<std::string, std::set<std::string>> allowed = {
-        {"techniques", {"base", "image", "mesh", "optics", "bake", "technique"}},
+        {"techniques", {"base", "image", "mesh", "optics", "bake", "rays", "technique"}},
         {"subjects", {"base", "image", "mesh", "optics", "scene"}}};
     for (const auto& [tree, folders] : allowed)
         for (const fs::path& path : files_under(tree, is_source)) {

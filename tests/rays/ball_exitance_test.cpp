@@ -1,0 +1,49 @@
+#include "dermis/rays/ball_exitance.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "dermis/optics/conversions.h"
+#include "dermis/optics/presets.h"
+#include "dermis/rays/curvature_gain.h"
+
+namespace dermis {
+namespace {
+
+constexpr int kWalks = 1 << 14;
+const std::vector<double> kCurvatures = {1.0 / 64, 0.25};
+
+std::vector<BallExitance> balls() {
+    return walk_balls(walk_medium_of(*find_profile("openpbr_skin_3")), kCurvatures, kWalks);
+}
+
+TEST(BallExitance, LightFromAllAroundIsTheGain) {
+    const ScatteringMedium medium = walk_medium_of(*find_profile("openpbr_skin_3"));
+    const WalkedGains gains = walk_gain(medium, kCurvatures, kWalks, 2);
+    for (size_t i = 0; i < kCurvatures.size(); ++i) {
+        // The clamped cosine has the mean 1/4 over all directions.
+        Rgb mean = {0, 0, 0};
+        constexpr int kSteps = 512;
+        for (int step = 0; step < kSteps; ++step) {
+            const Rgb light = light_on_ball(balls()[i], -1 + (2 * step + 1.0) / kSteps);
+            for (size_t c = 0; c < 3; ++c) mean[c] += light[c] / kSteps;
+        }
+        for (size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(4 * mean[c], gains.samples[i].gain[c], 5 * gains.standard_errors[i][c] + 0.005);
+    }
+}
+
+TEST(BallExitance, ALargeBallIsNearlyLambertAndASmallOneGlowsBehindTheTerminator) {
+    const std::vector<BallExitance> made = balls();
+    for (size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(light_on_ball(made[0], 0.7)[c], 0.7, 0.04);
+        EXPECT_LT(light_on_ball(made[0], -0.3)[c], 0.005);
+        EXPECT_GT(light_on_ball(made[1], 0)[c], 0.05);
+    }
+    EXPECT_GT(light_on_ball(made[1], -0.3)[0], light_on_ball(made[1], -0.3)[2]) << "red goes farthest";
+}
+
+}  // namespace
+}  // namespace dermis
