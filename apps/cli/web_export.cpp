@@ -9,8 +9,8 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
-#include "dermis/render/skin_tone.h"
 #include "dermis/scene/scene_files.h"
+#include "dermis/scene/skin_tone.h"
 #include "dermis/shading/skin_text.h"
 #include "techniques/preintegrated/constants.h"
 

@@ -54,7 +54,7 @@ Result<std::vector<Contestant>> CompareChoice::contestants() const {
 }
 
 std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = comparison.warnings;
     const auto add = [&](Integrator integrator, const EffectReference& reference) {
         warnings.insert(warnings.end(), reference.warnings.begin(), reference.warnings.end());
         if (reference.reached) return;

@@ -39,7 +39,8 @@ struct Prepared {
 /// A debug view that the technique has.
 [[nodiscard]] Result<void> check_view(const Technique& technique, const std::string& view);
 
-/// `technique` as parse_technique() takes it, else the scene's, else the baseline; then `settings`,
+/// `technique` as parse_technique() takes it, else the scene's, else the default
+/// that suits it; then `settings`,
 /// "name=value". The scene's own settings apply to its technique, unless brackets say what to set.
 [[nodiscard]] Result<Contestant> chosen_technique(const std::string& technique,
                                                   const std::vector<std::string>& settings,

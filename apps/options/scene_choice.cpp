@@ -22,6 +22,9 @@ void SceneChoice::add_options_to(Command& command) {
             "KEY=VALUE of the scene file, such as skin.profile=NAME or exposure_ev=0.5; may be repeated "
             "(dermis keys lists them)")
         ->allow_extra_args(false);
+    command.add_option("--unit-mm", unit_mm, kUnitRangeMm,
+                       "length of one unit of the mesh file in mm: 10 for centimetres (default: glTF 1000, "
+                       "OBJ 1, or what makes a mesh file as tall as a head)");
     command.add_option("--camera", camera,
                        "short for camera keys: \"yaw_deg=30 pitch_deg=5 distance_mm=600 fov_deg=30\"");
     command.add_option("--light", light,
@@ -35,6 +38,7 @@ Result<std::vector<SceneWord>> SceneChoice::all_words() const {
         if (!word) return Error{"--scene: " + word.error().message};
         all.push_back(std::move(*word));
     }
+    if (unit_mm > 0) all.push_back({.key = "mesh.unit_mm", .value = to_text(unit_mm)});
     for (const auto& [section, text] : {std::pair("camera", &camera), std::pair("light.key", &light)}) {
         DERMIS_TRY_ASSIGN(std::vector<SceneWord> some, parse_section_words(section, *text));
         all.insert(all.end(), some.begin(), some.end());
@@ -44,8 +48,10 @@ Result<std::vector<SceneWord>> SceneChoice::all_words() const {
 
 std::vector<SceneWord> words_for(const std::vector<SceneWord>& words, bool loading) {
     std::vector<SceneWord> some;
-    std::ranges::copy_if(words, std::back_inserter(some),
-                         [&](const SceneWord& word) { return is_loading_key(word.key) == loading; });
+    // A profile gives skin without a colour its own while it is loaded, and replaces that of a loaded scene.
+    std::ranges::copy_if(words, std::back_inserter(some), [&](const SceneWord& word) {
+        return is_loading_key(word.key) == loading || (loading && word.key == "skin.profile");
+    });
     return some;
 }
 
@@ -56,6 +62,8 @@ Result<void> keep_scene_files(const Scene& scene, const Result<FileUse>& files) 
 
 Result<Scene> SceneChoice::load(Scene* as_filed) const {
     DERMIS_TRY_ASSIGN(const std::vector<SceneWord> all, all_words());
+    if (unit_mm > 0 && subject_name(name))
+        return Error{"--unit-mm is for mesh files; " + name + " is in millimetres"};
     Result<Scene> scene =
         load_scene(name, {.subjects = built_in_catalog().subjects, .words = words_for(all, true)});
     if (!scene) return scene;

@@ -13,8 +13,9 @@ namespace dermis::cli {
 struct SceneChoice {
     std::string name, camera, light;
     std::vector<std::string> words;
+    double unit_mm = 0;  ///< of the mesh file; 0: as the file or the scene has it
 
-    /// The scene as the first argument, and the three options.
+    /// The scene as the first argument, and the options.
     Option* add_to(Command& command);
     /// The options alone.
     void add_options_to(Command& command);

@@ -174,6 +174,7 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
                                                 "frame times, " + name);
                                     }));
     for (size_t i = 0; i < costs.size(); ++i) comparison.rows[i].cost = costs[i];
+    comparison.warnings = renderer.warnings();
     return {};
 }
 

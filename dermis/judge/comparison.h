@@ -79,6 +79,7 @@ struct Comparison {
     RegionMasks regions;
     double reference_rmse = 0;  ///< standard error of the reference over the skin: no rmse is known better
     std::vector<Compared> rows;
+    std::vector<std::string> warnings;  ///< of the renderer: what a technique left out or could not read
     std::string device;
 };
 

@@ -248,9 +248,11 @@ Result<std::string> report_html(const Scene& scene, const Comparison& comparison
                         .effect = effect_full(comparison, effect)};
     Result<Json> images = images_of(scene, comparison, effect, scales);
     if (!images) return images.error();
+    std::vector<std::string> warnings = scene.warnings;
+    warnings.insert(warnings.end(), comparison.warnings.begin(), comparison.warnings.end());
     const Json data = {{"scene", scene.name},
                        {"credit", scene.credit},
-                       {"warnings", scene.warnings},
+                       {"warnings", warnings},
                        {"images", std::move(*images)},
                        {"rows", rows_of(comparison)},
                        {"regions", regions_of(comparison)},

@@ -39,6 +39,7 @@ enum class AlphaMode { opaque, mask, blend };
 struct Material {
     std::string name;
     Vec3 base_color_linear = {0.8f, 0.8f, 0.8f};
+    bool base_color_stated = false;  ///< by the mesh file
     float opacity = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;  ///< of AlphaMode::mask: less opacity is none (cutoff_of_map)
@@ -92,7 +93,8 @@ struct Material {
 };
 
 /// Cards of hair and lashes: the value of the alpha map, times the vertices' alpha, below which there is no
-/// surface; 0 where nothing is cut out. Shadows of what is blended are cut out at 0.5 of its map.
+/// surface; 0 where nothing is cut out. Shadows of what is blended are cut out at 0.5 of its map; what is
+/// less than half opaque casts none.
 [[nodiscard]] float cutoff_of_map(const Material& material);
 
 /// Lies over what is behind it by its opacity, times that of the alpha map and the vertices.

@@ -141,7 +141,8 @@ class MtlParser {
             Vec3& color = keyword == "kd" ? material.base_color_linear : material.emission_linear;
             if (const auto read = read_color(cursor))
                 color = {clamped(keyword, read->x, most), clamped(keyword, read->y, most),
-                         clamped(keyword, read->z, most)};
+                         clamped(keyword, read->z, most)},
+                material.base_color_stated |= keyword == "kd";
             else
                 warn_once(std::string(keyword) + " is not a number; not used");
             return true;

@@ -74,14 +74,32 @@ Result<void> check_finite(Mesh& mesh, const fs::path& name, std::vector<std::str
     return {};
 }
 
+double height_of(const Mesh& mesh) {
+    const auto [low, high] = std::ranges::minmax(mesh.positions_mm, {}, &Vec3::y);
+    return double(high.y) - low.y;
+}
+
+std::string rounded(double value) {
+    return fmt::format("{:.4g}", value);
+}
+
+// The unit in which a mesh is as tall as a head: centimetres, metres, inches, decimetres, millimetres.
+// Nothing where its height of `height` units suits a head, a bust or a person already, or none of them.
+std::optional<double> likely_unit(double height, double unit_mm, size_t triangles) {
+    constexpr double kPerson_mm = 2300, kUnits_mm[] = {10, 1000, 25.4, 100, 1};
+    constexpr size_t kFewestTriangles = 500;  // fewer are not a head
+    const double height_mm = height * unit_mm;
+    if (triangles < kFewestTriangles || (height_mm >= kHeadMin_mm && height_mm <= kPerson_mm)) return {};
+    for (const double other : kUnits_mm)
+        if (height * other >= kHeadMin_mm && height * other <= kHeadMax_mm) return other;
+    return {};
+}
+
 void warn_of_height(const Mesh& mesh, const fs::path& name, const MeshOptions& options, bool is_obj,
                     std::vector<std::string>& warnings) {
-    const auto [low, high] = std::ranges::minmax(mesh.positions_mm, {}, &Vec3::y);
-    const double height_mm = (double(high.y) - low.y) * options.scale_after;
+    const double height_mm = height_of(mesh) * options.scale_after;
     if (height_mm >= kHeadMin_mm && height_mm <= kHeadMax_mm) return;
-    std::array<char, 32> rounded{};
-    std::snprintf(rounded.data(), rounded.size(), "%.4g", height_mm);
-    std::string text = name.string() + ": " + rounded.data() + " mm tall; a head is 150 to 500 mm";
+    std::string text = name.string() + ": " + rounded(height_mm) + " mm tall; a head is 150 to 500 mm";
     if (options.unit_mm)
         text += ", check the unit of " + to_text(*options.unit_mm) + " mm";
     else
@@ -144,12 +162,25 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
     if (options.unit_mm && !(*options.unit_mm > 0 && std::isfinite(*options.unit_mm)))
         return Error{name.string() + ": the unit must be a positive number of millimetres"};
     const bool is_obj = format == MeshFormat::obj;
+    const double unit_mm = options.unit_mm.value_or(is_obj ? 1 : 1000);
     Result<LoadedMesh> loaded =
         is_obj ? load_obj(bytes, name, read_sibling, options) : load_gltf(bytes, name, read_sibling, options);
     if (!loaded) return Error{printable_line(loaded.error().message)};
     Mesh& mesh = loaded->mesh;
     std::vector<std::string>& warnings = loaded->warnings;
+    loaded->unit_mm = unit_mm;
     DERMIS_TRY(check_finite(mesh, name, warnings));
+    if (const double height_mm = height_of(mesh); options.guess_unit && !options.unit_mm)
+        if (const auto unit = likely_unit(height_mm / unit_mm, unit_mm, mesh.triangle_count())) {
+            MeshOptions with_unit = options;
+            with_unit.unit_mm = unit;
+            DERMIS_TRY_ASSIGN(LoadedMesh again, parse_mesh(bytes, format, name, read_sibling, with_unit));
+            again.warnings.push_back(name.string() + ": " + rounded(height_mm) + " mm tall in units of " +
+                                     to_text(unit_mm) + " mm; taken as units of " + to_text(*unit) +
+                                     " mm, so " + rounded(height_mm / unit_mm * *unit) +
+                                     " mm tall; --unit-mm states another");
+            return again;
+        }
     drop_unused_vertices(mesh);
     if (mesh.uvs.empty()) warnings.push_back(name.string() + ": no UVs; maps cannot be used");
     warn_of_height(mesh, name, options, is_obj, warnings);

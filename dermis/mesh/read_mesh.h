@@ -20,6 +20,8 @@ struct MeshOptions {
     std::optional<double> unit_mm;
     /// Factor by which the caller scales the mesh later; used by the warning about its height.
     double scale_after = 1;
+    /// Take another unit, with a warning, if a mesh without unit_mm is as tall as no head and no person.
+    bool guess_unit = false;
     /// Catmull-Clark refinements (subdivide.h); OBJ keeps its quads for them.
     int subdivision_level = 0;
     /// Do not warn about a missing MTL: the caller has its own materials.
@@ -33,6 +35,7 @@ struct MeshOptions {
 struct LoadedMesh {
     Mesh mesh;
     std::vector<std::string> warnings;  ///< one line each, for the user
+    double unit_mm = 1;                 ///< of the file, as stated, by its format, or guessed
     /// The mesh file and the files beside it that it names, existing or not; maps are in the materials.
     std::vector<std::filesystem::path> files;
 };

@@ -12,6 +12,7 @@
 #include "dermis/base/warnings.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/presets.h"
+#include "dermis/scene/find_parts.h"
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/placement.h"
@@ -19,6 +20,7 @@
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_views.h"
+#include "dermis/scene/skin_tone.h"
 
 namespace dermis::inline scene {
 namespace fs = std::filesystem;
@@ -35,14 +37,16 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
     Result<LoadedMesh> loaded =
         read_mesh(path, {.unit_mm = mesh.unit_mm,
                          .scale_after = mesh.scale,
+                         .guess_unit = description.is_bare_mesh,
                          .subdivision_level = mesh.subdivision,
                          .ignore_missing_materials = description.maps.files.contains("albedo")});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());
     SubjectScene made;
-    made.objects.push_back(
-        {.name = mesh.name.empty() ? path.stem().string() : mesh.name, .mesh = std::move(loaded->mesh)});
+    made.objects.push_back({.name = mesh.name.empty() ? path.stem().string() : mesh.name,
+                            .mesh = std::move(loaded->mesh),
+                            .unit_mm = loaded->unit_mm});
     return made;
 }
 
@@ -87,13 +91,88 @@ Result<void> apply_maps(const SceneDescription& description, const MapsDescripti
 Result<void> apply_material(const SceneDescription& description, const MaterialDescription* given,
                             MaterialClass material_class, Material& material) {
     if (material_class == MaterialClass::skin) {
-        apply_skin(description.skin, material);
+        if (!description.is_bare_mesh || !material.scattering) apply_skin(description.skin, material);
         DERMIS_TRY(apply_maps(description, description.maps, material));
     }
     if (!given) return {};
     DERMIS_TRY(apply_maps(description, given->maps, material));
     apply(given->changes, material);
     return {};
+}
+
+// The parts of a mesh file's materials: those that the scene states, then those that are found.
+std::vector<FoundPart> parts_of(const SceneDescription& description, const MeshDescription& given,
+                                const Mesh& mesh) {
+    std::vector<FoundPart> parts = find_parts(mesh);
+    for (size_t i = 0; i < parts.size(); ++i) {
+        const auto material = description.materials.find(mesh.materials[i].name);
+        if (material != description.materials.end() && material->second.part)
+            parts[i] = {*material->second.part, "the scene's class"};
+        else if (given.default_part && !is_card(mesh, mesh.materials[i]))
+            parts[i] = {*given.default_part, "the scene's default_class"};
+        else if (given.default_part)
+            parts[i] = {HeadPart::other, "alpha cuts it out"};
+    }
+    return parts;
+}
+
+// A subject states which of its materials are not skin.
+std::vector<MaterialClass> classes_of_subject(const SceneDescription& description,
+                                              const MeshDescription& mesh, const SceneObject& object) {
+    std::vector<MaterialClass> classes;
+    for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
+        const auto given = description.materials.find(object.mesh.materials[i].name);
+        if (given != description.materials.end() && given->second.part)
+            classes.push_back(class_of(*given->second.part));
+        else if (i < object.classes.size() && object.classes[i] != MaterialClass::skin)
+            classes.push_back(object.classes[i]);
+        else
+            classes.push_back(class_of(mesh.default_part.value_or(HeadPart::skin)));
+    }
+    return classes;
+}
+
+// Skin without a colour takes that of the tone or of the profile, so that both belong to one skin.
+void complete_skin_color(const SceneDescription& description, const SceneObject& object, Material& material) {
+    if (!has_skin_color(material) && object.mesh.colors_linear.empty())
+        material.base_color_linear = usual_skin_albedo(description.skin);
+}
+
+Result<void> set_up_materials(const SceneDescription& description, const MeshDescription& mesh,
+                              SceneObject& object, Scene& scene) {
+    const bool is_file = !subject_name(mesh.file.text);
+    if (is_file) {
+        object.parts = parts_of(description, mesh, object.mesh);
+        object.classes.clear();
+        for (const FoundPart& found : object.parts) object.classes.push_back(class_of(found.part));
+        if (const std::string note = parts_note(object); !note.empty() && is_guessed(object.parts))
+            scene.warnings.push_back(note);
+    } else {
+        object.classes = classes_of_subject(description, mesh, object);
+    }
+    for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
+        Material& material = object.mesh.materials[i];
+        const auto found = description.materials.find(material.name);
+        if (is_file) complete_material(object.parts[i], material);
+        if (is_file && object.classes[i] == MaterialClass::skin)
+            complete_skin_color(description, object, material);
+        DERMIS_TRY(apply_material(description,
+                                  found == description.materials.end() ? nullptr : &found->second,
+                                  object.classes[i], material));
+    }
+    return {};
+}
+
+// Shells that are left out and materials that the scene makes invisible.
+std::vector<bool> hidden_materials(const SceneDescription& description, const SceneObject& object) {
+    std::vector<bool> hidden;
+    for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
+        const auto given = description.materials.find(object.mesh.materials[i].name);
+        const bool left_out = i < object.parts.size() && object.parts[i].left_out;
+        const bool is_given = given != description.materials.end();
+        hidden.push_back(is_given && given->second.visible ? !*given->second.visible : left_out);
+    }
+    return hidden;
 }
 
 // Adds the objects to the scene; returns what else a subject states.
@@ -105,30 +184,11 @@ Result<SubjectScene> add_objects(const SceneDescription& description, const Mesh
         place_mesh(object.mesh, {.scale = mesh.scale,
                                  .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
                                  .translation_mm = mesh.translate_mm});
-        const std::vector<MaterialClass> own = std::move(object.classes);
-        object.classes.clear();
-        std::vector<bool> hidden;
-        for (Material& material : object.mesh.materials) {
-            const auto found = description.materials.find(material.name);
-            const MaterialDescription* given =
-                found == description.materials.end() ? nullptr : &found->second;
-            // A subject states which of its materials are not skin.
-            const size_t index = object.classes.size();
-            const bool knows = index < own.size() && own[index] != MaterialClass::skin;
-            object.classes.push_back(given && given->material_class   ? *given->material_class
-                                     : knows                          ? own[index]
-                                     : is_card(object.mesh, material) ? MaterialClass::other
-                                                                      : mesh.default_class);
-            hidden.push_back(given && !given->visible.value_or(true));
-            if (const Result<void> applied =
-                    apply_material(description, given, object.classes.back(), material);
-                !applied)
-                return applied.error();
-        }
+        DERMIS_TRY(set_up_materials(description, mesh, object, scene));
         DERMIS_TRY(apply_displacement(object.mesh));
         if (!subject_name(mesh.file.text))
             std::ranges::move(object_warnings(object), std::back_inserter(scene.warnings));
-        hide_materials(object.mesh, hidden);
+        hide_materials(object.mesh, hidden_materials(description, object));
         scene.objects.push_back(std::move(object));
     }
     made->objects.clear();
@@ -148,6 +208,22 @@ Result<void> check_material_names(const SceneDescription& description, const Sce
     return {};
 }
 
+// The profile of a mesh whose skin states one, unless a word chose another; what the file has and a profile
+// has not is named.
+void take_profile_of_mesh(const SceneDescription& description, Scene& scene) {
+    const auto scatters = [](const Material& material) { return material.scattering.has_value(); };
+    const bool states = std::ranges::any_of(scene.objects, [&](const SceneObject& object) {
+        return std::ranges::any_of(object.mesh.materials, scatters);
+    });
+    if (!states || scene.skin.profile != Skin{}.profile) return;
+    const std::string& path = description.meshes.front().file.text;
+    const Result<Profile> profile = find_profile(path);
+    if (!profile)
+        return scene.warnings.push_back(profile.error().message + "; skin.profile stays " +
+                                        scene.skin.profile);
+    scene.skin.profile = path;
+}
+
 }  // namespace
 
 bool lacks_asset(const SceneDescription& description) {
@@ -165,7 +241,7 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     if (is_profile_file(description.skin.profile))
         if (const Result<fs::path> file = resolve_path(description.skin.profile, description.file))
             description.skin.profile = file->string();
-    description.skin = with_surface_of_profile(description.skin);
+    description.skin = with_profile_of_tone(with_surface_of_profile(description.skin));
     const HeadDescription& head = description.head;
     Scene scene{.name = head.name.empty() ? description.file.stem().string() : head.name};
     SubjectScene stated;
@@ -177,7 +253,8 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     }
     DERMIS_TRY(check_material_names(description, scene));
 
-    std::ranges::move(keys_without_effect(description, scene), std::back_inserter(scene.warnings));
+    if (!description.is_bare_mesh)
+        std::ranges::move(keys_without_effect(description, scene), std::back_inserter(scene.warnings));
     compute_bounds(scene);
     DERMIS_TRY(place_views(description, scene));
     if (description.camera.line > 0) stated.camera.reset();
@@ -192,8 +269,9 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
         if (!table) return Error{description.file.string() + ": " + key + table.error().message};
         *path = table->string();
     }
-    if (std::string differs = surface_difference(scene.skin); !differs.empty())
-        scene.warnings.push_back(std::move(differs));
+    if (description.is_bare_mesh) take_profile_of_mesh(description, scene);
+    DERMIS_TRY(apply_tone(scene));
+    std::ranges::move(skin_warnings(scene), std::back_inserter(scene.warnings));
     tidy_warnings(scene.warnings);  // of one file that many [[mesh]] name, for one
     scene.credit = head.credit;
     scene.technique = head.technique;

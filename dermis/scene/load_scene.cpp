@@ -1,14 +1,10 @@
 #include "dermis/scene/load_scene.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
-#include "dermis/optics/presets.h"
-#include "dermis/scene/object_checks.h"
-#include "dermis/scene/placement.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_words.h"
@@ -56,48 +52,30 @@ Result<Scene> load_scene_file(const fs::path& path, const SceneOptions& options)
     return instead;
 }
 
-// The profile of a mesh whose skin states one; what the file has and a profile has not is named.
-void take_profile(const fs::path& path, Scene& scene) {
-    const Result<Profile> profile = find_profile(path.string());
-    if (!profile)
-        return scene.warnings.push_back(profile.error().message + "; skin.profile stays " +
-                                        scene.skin.profile);
-    scene.skin.profile = path.string();
-}
-
-// Where a mesh states which of its materials scatter, those are skin; otherwise all but cards.
-std::vector<MaterialClass> classes_of(const Mesh& mesh) {
-    const auto scatters = [](const Material& m) { return m.scattering.has_value(); };
-    const bool stated = std::ranges::any_of(mesh.materials, scatters);
-    std::vector<MaterialClass> classes;
-    for (const Material& material : mesh.materials) {
-        const bool skin = stated ? scatters(material) : !is_card(mesh, material);
-        classes.push_back(skin ? MaterialClass::skin : MaterialClass::other);
-    }
-    return classes;
-}
-
-Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) {
-    DERMIS_TRY_ASSIGN(LoadedMesh loaded, read_mesh(path, {.unit_mm = options.mesh_unit_mm}));
-    Scene scene{.name = path.stem().string(),
-                .warnings = std::move(loaded.warnings),
-                .files = std::move(loaded.files)};
-    scene.objects.push_back({.name = scene.name, .mesh = std::move(loaded.mesh)});
-    SceneObject& object = scene.objects.back();
-    object.classes = classes_of(object.mesh);
-    std::ranges::move(object_warnings(object), std::back_inserter(scene.warnings));
-    const auto has_color = [](const Material& material) { return material.base_color_map.present(); };
-    if (std::ranges::none_of(object.mesh.materials, has_color) && object.mesh.colors_linear.empty())
+void warn_of_color(const fs::path& path, Scene& scene) {
+    const auto has_color = [](const SceneObject& object) {
+        return !object.mesh.colors_linear.empty() ||
+               std::ranges::any_of(object.mesh.materials,
+                                   [](const Material& m) { return m.base_color_map.present(); });
+    };
+    if (std::ranges::none_of(scene.objects, has_color))
         scene.warnings.push_back(path.string() +
-                                 ": no map of colour, so the skin has one colour; write a scene file with "
-                                 "[[mesh]] file and [maps] albedo (docs/scene_file.md)");
-    for (size_t i = 0; i < object.classes.size(); ++i)
-        if (object.classes[i] == MaterialClass::skin && !object.mesh.materials[i].scattering)
-            apply_skin(scene.skin, object.mesh.materials[i]);
-    if (std::ranges::any_of(object.mesh.materials,
-                            [](const Material& m) { return m.scattering.has_value(); }))
-        take_profile(path, scene);
-    place_in_studio(scene);
+                                 ": no map of colour, so the skin has one colour; name a map with --scene "
+                                 "maps.albedo=FILE or in a scene file (docs/scene_file.md)");
+}
+
+// A mesh file is a scene with that mesh and all defaults.
+Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) {
+    SceneDescription description{.is_bare_mesh = true};
+    description.head.name = path.stem().string();
+    description.head.exposure_ev = 0.6f;
+    MeshDescription& mesh = description.meshes.emplace_back();
+    mesh.file = {.text = path.string(), .key = "mesh.file"};
+    mesh.unit_mm = options.mesh_unit_mm;
+    for (const SceneWord& word : options.words) DERMIS_TRY(set_word(description, word, options.subjects));
+    DERMIS_TRY(check_scene(description));
+    DERMIS_TRY_ASSIGN(Scene scene, build_scene(description, options.subjects));
+    warn_of_color(path, scene);
     return scene;
 }
 
@@ -110,7 +88,7 @@ bool looks_like_a_name(std::string_view text) {
 Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& options) {
     const bool is_mesh = is_mesh_file(path_or_name);
     const auto subject = subject_name(path_or_name);
-    if (subject || is_mesh) DERMIS_TRY(refuse_words(path_or_name, options));
+    if (subject) DERMIS_TRY(refuse_words(path_or_name, options));
     if (subject) return load_subject(*subject, options.subjects);
     const fs::path path = path_or_name;
     std::error_code ec;

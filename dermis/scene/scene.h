@@ -71,6 +71,7 @@ struct Environment {
 /// load (apply_skin), where they are read from, so that a material of skin can have its own.
 struct Skin {
     std::string profile = "gpu_gems_3";
+    int tone = 0;  ///< 1 light to 6 dark, applied on loading (skin_tone.h); 0: the colour of the materials
     float ior = 1.4f;
     float roughness = 0.45f;                ///< perceptual
     float specular = 1;                     ///< scales F0
@@ -83,10 +84,23 @@ struct Skin {
 
 /// One mesh with its transform applied. A material is skin, other, or translucent (shadow-casting glass).
 enum class MaterialClass { skin, other, translucent };
+
+/// What a material shows. All but skin and translucent are drawn with the standard material; a clear shell
+/// (cornea, tears) that the mesh file draws opaque is left out, so that the eye behind it is visible.
+enum class HeadPart { skin, other, translucent, eye, clear, teeth, mouth, hair, cloth };
+
+struct FoundPart {
+    HeadPart part = HeadPart::skin;
+    std::string reason;     ///< "'eye' in its name"
+    bool left_out = false;  ///< its triangles are not drawn
+};
+
 struct SceneObject {
     std::string name;
     Mesh mesh;
     std::vector<MaterialClass> classes;  ///< one a material of the mesh
+    std::vector<FoundPart> parts = {};   ///< one a material of a mesh file; empty for subjects
+    double unit_mm = 1;                  ///< of the mesh file
 };
 
 struct Scene {

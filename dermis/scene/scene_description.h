@@ -35,7 +35,7 @@ struct MapsDescription {
 
 struct MaterialDescription {
     int line = 0;
-    std::optional<MaterialClass> material_class;
+    std::optional<HeadPart> part;
     std::optional<bool> visible;
     MaterialChanges changes;
     MapsDescription maps;
@@ -49,7 +49,7 @@ struct MeshDescription {
     float scale = 1;
     Vec3 rotate_deg, translate_mm;
     int subdivision = 0;
-    MaterialClass default_class = MaterialClass::skin;
+    std::optional<HeadPart> default_part;           ///< of materials without one; none: find_parts()
     std::map<std::string, std::string> parameters;  ///< of the subject that `file` names, as text
 };
 
@@ -95,6 +95,7 @@ struct HeadDescription {
 
 struct SceneDescription {
     std::filesystem::path file;  ///< for messages and relative paths
+    bool is_bare_mesh = false;   ///< a mesh file was named, no scene file: unit and profile are taken from it
     HeadDescription head;
     std::vector<MeshDescription> meshes;
     MapsDescription maps;

@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "dermis/base/text.h"
+#include "dermis/scene/part_words.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_keys.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline scene {
 namespace {
-
-const std::vector<std::string> kMaterialClasses = {"skin", "other", "translucent"};
 
 constexpr double kMaxLengthMm = 1e6;
 
@@ -124,10 +123,11 @@ const KeyTable<MeshDescription>& mesh_keys() {
                       .unit = "levels",
                       .doc = "Catmull-Clark subdivision; each level has four times as many faces",
                       .max = 4})
-            .choice<MaterialClass>(&D::default_class,
-                                   {.name = "default_class",
-                                    .doc = "class of materials without a class of their own",
-                                    .choices = kMaterialClasses});
+            .choice<HeadPart>(
+                &D::default_part,
+                {.name = "default_class",
+                 .doc = "class of materials without a class of their own; default: by their names",
+                 .choices = part_names()});
     return table;
 }
 
@@ -202,11 +202,12 @@ const KeyTable<MaterialDescription>& material_keys() {
     using D = MaterialDescription;
     static const KeyTable<D> table =
         KeyTable<D>()
-            .choice<MaterialClass>(&D::material_class,
-                                   {.name = "class",
-                                    .doc = "skin is drawn by the technique; translucent lets the key light "
-                                           "through, coloured by its opacity map",
-                                    .choices = kMaterialClasses})
+            .choice<HeadPart>(&D::part,
+                              {.name = "class",
+                               .doc = "skin is drawn by the technique; translucent lets the key light "
+                                      "through, coloured by its opacity map; the others have the standard "
+                                      "material",
+                               .choices = part_names()})
             .of_material(&Material::base_color_linear,
                          {.name = "albedo",
                           .unit = "linear",
@@ -235,6 +236,12 @@ const KeyTable<Skin>& skin_keys() {
                  .doc = "a diffusion profile: its name (`dermis profile list`) or its file: .csv, .mtlx (its "
                         "roughness and ior too, where the scene has none), or a .glb whose skin scatters",
                  .changeable = true})
+            .integer(&Skin::tone,
+                     {.name = "tone",
+                      .doc = "1 light to 6 dark, a skin of the OpenPBR examples: sets albedo_tint, so that "
+                             "the skin's mean colour is that of the tone, and the profile, where none is "
+                             "named; 0: the colour of the maps",
+                      .max = 6})
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})

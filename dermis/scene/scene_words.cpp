@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "dermis/optics/presets.h"
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_views.h"
+#include "dermis/scene/skin_tone.h"
 #include "dermis/scene/toml_values.h"
 
 namespace dermis::inline scene {
@@ -235,9 +237,7 @@ Result<void> set_words(Scene& scene, std::span<const SceneWord> words) {
     }
     const bool other_profile = fresh.skin.profile != scene.skin.profile;
     take_changes(old, fresh, scene);
-    if (other_profile)
-        if (std::string differs = surface_difference(scene.skin); !differs.empty())
-            scene.warnings.push_back(std::move(differs));
+    if (other_profile) std::ranges::move(skin_warnings(scene), std::back_inserter(scene.warnings));
     if (camera) fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
     return {};
 }

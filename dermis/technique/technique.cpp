@@ -22,6 +22,16 @@ Result<const Technique*> find_baseline(std::span<const Technique> techniques) {
     return &*baseline;
 }
 
+Result<const Technique*> find_default(std::span<const Technique> techniques, bool has_atlas) {
+    const Technique* found = nullptr;
+    for (const Technique& technique : techniques)
+        if (technique.default_order > 0 && (has_atlas || !technique.needs_atlas) &&
+            (!found || technique.default_order < found->default_order))
+            found = &technique;
+    if (!found) return Error{"no technique is a default: set default_order in techniques/<id>/technique.cpp"};
+    return found;
+}
+
 Result<void> check_settings(const Technique& technique, const ParameterValues& values) {
     if (Result<void> in_range = values.check(); !in_range) return in_range.error().within(technique.id);
     const std::string refused = technique.refusal ? technique.refusal(values) : "";

@@ -28,10 +28,6 @@ void Notices::expire(double now_s) {
     std::erase_if(all_, [&](const Notice& notice) { return !notice.is_error && notice.until_s < now_s; });
 }
 
-std::string tone_profile(int tone) {
-    return "openpbr_skin_" + std::to_string(tone);
-}
-
 std::string picture_key(Model& model, size_t choice) {
     const Scene& scene = *model.scene;
     TechniqueChoice& chosen = model.choices[choice];

@@ -70,9 +70,6 @@ struct Model {
     [[nodiscard]] bool compares() const { return compare != Compare::off; }
 };
 
-/// The profile of tone 1 to 6.
-[[nodiscard]] std::string tone_profile(int tone);
-
 /// Everything a picture depends on, as text: two equal keys are one picture. `choice` is 0 or 1.
 [[nodiscard]] std::string picture_key(Model& model, size_t choice);
 

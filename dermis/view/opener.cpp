@@ -5,6 +5,7 @@
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 #include "dermis/scene/scene_files.h"
+#include "dermis/scene/skin_tone.h"
 #include "dermis/view/scene_look.h"
 
 namespace dermis::view {

@@ -3,8 +3,8 @@
 #include "dermis/base/text.h"
 #include "dermis/image/colour.h"
 #include "dermis/optics/presets.h"
-#include "dermis/render/skin_tone.h"
 #include "dermis/scene/scene_words.h"
+#include "dermis/scene/skin_tone.h"
 #include "dermis/view/view_line.h"
 
 namespace dermis::view {

@@ -219,6 +219,8 @@ Technique make_texture_space_gaussians_technique() {
     return {.id = "texture_space_gaussians",
             .summary = "diffuse light blurred by each Gaussian of the profile",
             .source = "d'Eon, Luebke 2007, Advanced Techniques for Realistic Real-Time Skin Rendering",
+            .default_order = 1,
+            .needs_atlas = true,
             .parameters = parameters(),
             .views = {kOwnView},
             .build = build,

@@ -163,7 +163,7 @@ TEST(LoadScene, materials_that_alpha_cuts_out_are_not_skin) {
     EXPECT_EQ(bare->objects[0].classes, (std::vector{MaterialClass::skin, MaterialClass::other}));
     // Exporters mark whole heads so: without another material it is the skin.
     directory.put("two.mtl", "newmtl face\nmap_d a.png\nnewmtl eyes\nmap_d a.png\n");
-    const auto all = directory.load(mesh);
+    const auto all = directory.load(mesh + "default_class = \"skin\"\n");
     ASSERT_TRUE(all) << all.error().message;
     EXPECT_EQ(all->objects[0].classes, (std::vector{MaterialClass::skin, MaterialClass::skin}));
 }
@@ -344,7 +344,8 @@ TEST(LoadScene, a_bare_mesh_is_placed_in_the_studio_in_the_unit_asked_for) {
     const Result<Scene> scene = load_scene(dir.file("two.obj"), {.mesh_unit_mm = 10});
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->environment.kind, EnvironmentKind::studio);
-    EXPECT_EQ(scene->objects[0].classes, std::vector(2, MaterialClass::skin));
+    EXPECT_EQ(scene->objects[0].classes, (std::vector{MaterialClass::skin, MaterialClass::other}))
+        << "face, eyes";
     EXPECT_LT(scene->bounds_radius_mm, 10);
     EXPECT_TRUE(scene->key_light().is_key);
 }
@@ -413,4 +414,45 @@ TEST(SceneManual, is_what_the_tables_print) {
     ASSERT_TRUE(page) << page.error().message;
     EXPECT_TRUE(*page == scene_file_manual(built_in_catalog().subjects))
         << "regenerate it: build/dermis keys > docs/scene_file.md";
+}
+
+TEST(LoadScene, a_bare_mesh_takes_the_words_of_a_scene) {
+    const SceneDirectory dir;
+    const auto load = [&](std::vector<SceneWord> words) {
+        return load_scene(dir.file("two.obj"), {.words = std::move(words)});
+    };
+    const auto wide = load({{"mesh.unit_mm", "100"}, {"material.eyes.class", "teeth"}});
+    ASSERT_TRUE(wide) << wide.error().message;
+    EXPECT_EQ(wide->objects[0].unit_mm, 100);
+    EXPECT_EQ(wide->objects[0].parts[1].part, HeadPart::teeth);
+    EXPECT_FALSE(load({{"material.eye.class", "teeth"}}));
+    const auto dark = load({{"skin.tone", "6"}}), light = load({});
+    ASSERT_TRUE(dark && light);
+    EXPECT_EQ(dark->skin.profile, "openpbr_skin_6");
+    EXPECT_EQ(dark->skin.tone, 0) << "applied";
+    const auto follows = load({{"skin.profile", "openpbr_skin_6"}});
+    ASSERT_TRUE(follows) << follows.error().message;
+    const auto red = [](const Scene& scene) {
+        return scene.objects[0].mesh.materials[0].base_color_linear.x * scene.skin.albedo_tint_linear.x;
+    };
+    EXPECT_LT(red(*dark), 0.5f * red(*light));
+    EXPECT_LT(red(*follows), 0.5f * red(*light));
+}
+
+TEST(LoadScene, a_profile_that_is_too_bright_or_of_another_tone_warns) {
+    const SceneDirectory dir;
+    dir.put("bright.csv", "variance_mm2,r,g,b\n1,6.95,1,1\n");
+    const auto bright = dir.load(kMesh + "[skin]\nprofile = \"bright.csv\"\n");
+    if (!bright) {
+        EXPECT_NE(bright.error().message.find("6.95"), std::string::npos) << bright.error().message;
+    } else {
+        EXPECT_NE(all_warnings(*bright).find("has an albedo of 6.95, and skin reflects 1 at most"),
+                  std::string::npos)
+            << all_warnings(*bright);
+    }
+    const auto dark =
+        dir.load(kMesh + "[skin]\nprofile = \"openpbr_skin_6\"\n[material.face]\nalbedo = [0.7, 0.5, 0.4]\n");
+    ASSERT_TRUE(dark) << dark.error().message;
+    EXPECT_NE(all_warnings(*dark).find("set skin.tone = 1 (light) to 6 (dark) for both"), std::string::npos)
+        << all_warnings(*dark);
 }

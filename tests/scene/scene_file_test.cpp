@@ -103,7 +103,7 @@ TEST(SceneFile, every_section_arrives_in_the_description) {
     EXPECT_EQ(scene->meshes[0].translate_mm, (Vec3{1, 2.5f, 3}));
     EXPECT_EQ(changed_by(scene->maps.changes).normal_space, NormalSpace::object);
     EXPECT_EQ(changed_by(scene->maps.changes).dilate_texels, 8);
-    EXPECT_EQ(scene->materials.at("skin").material_class, MaterialClass::other);
+    EXPECT_EQ(scene->materials.at("skin").part, HeadPart::other);
     EXPECT_EQ(changed_by(scene->materials.at("skin").maps.changes).normal_scale, 0.5f);
     EXPECT_EQ(scene->skin.ior, 1.38f);
     ASSERT_EQ(scene->lights.size(), 2u);

@@ -1,4 +1,4 @@
-#include "dermis/render/skin_tone.h"
+#include "dermis/scene/skin_tone.h"
 #include "support/built_in.h"
 
 #include <gtest/gtest.h>

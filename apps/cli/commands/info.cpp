@@ -9,13 +9,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "catalog/catalog.h"
 #include "command.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/uv_report.h"
 #include "dermis/rays/flesh.h"
-#include "dermis/scene/load_scene.h"
+#include "dermis/scene/part_words.h"
+#include "scene_choice.h"
 
 namespace dermis::cli {
 namespace {
@@ -23,9 +23,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct InfoArguments {
-    std::string mesh;
-    double unit_mm = 0;
+    SceneChoice scene;
     bool json = false;
+};
+
+struct NamedMesh {
+    SceneObject object;
+    std::vector<std::string> warnings;
+    Flesh flesh = {};
 };
 
 struct MapRow {
@@ -92,11 +97,32 @@ Json uv_json(const UvReport& uv) {
             {"anisotropy", percentiles_json(uv.anisotropy)}};
 }
 
-Json to_json(const LoadedMesh& loaded, const Flesh& flesh) {
-    const Mesh& mesh = loaded.mesh;
+const FoundPart* part_of(const SceneObject& object, uint32_t material) {
+    return material < object.parts.size() ? &object.parts[material] : nullptr;
+}
+
+Json material_json(const SceneObject& object, uint32_t i) {
+    const Mesh& mesh = object.mesh;
+    Json row = {{"name", mesh.materials[i].name}, {"triangles", triangles_of(mesh, i)}};
+    if (const FoundPart* found = part_of(object, i)) {
+        row["class"] = part_name(found->part);
+        row["reason"] = found->reason;
+        row["left_out"] = found->left_out;
+    }
+    row["maps"] = Json::array();
+    for (const MapRow& map : maps_of(mesh.materials[i]))
+        row["maps"].push_back({{"kind", map.kind}, {"name", map.image->name}, {"state", map.state()}});
+    if (!mesh.uvs.empty() && row["triangles"] != 0) row["uv"] = uv_json(analyze_uvs(mesh, i));
+    return row;
+}
+
+Json to_json(const NamedMesh& named) {
+    const Mesh& mesh = named.object.mesh;
+    const Flesh& flesh = named.flesh;
     const auto [low, high] = bounding_box(mesh);
     Json json = {{"vertices", mesh.positions_mm.size()},
                  {"triangles", mesh.triangle_count()},
+                 {"unit_mm", named.object.unit_mm},
                  {"low_mm", {low.x, low.y, low.z}},
                  {"high_mm", {high.x, high.y, high.z}},
                  {"area_mm2", flesh.skin_area_mm2},
@@ -104,15 +130,9 @@ Json to_json(const LoadedMesh& loaded, const Flesh& flesh) {
                  {"hidden_area_mm2", flesh.hidden_area_mm2},
                  {"openings", flesh.mesh_openings},
                  {"materials", Json::array()},
-                 {"warnings", loaded.warnings}};
-    for (uint32_t i = 0; i < mesh.materials.size(); ++i) {
-        Json row = {
-            {"name", mesh.materials[i].name}, {"triangles", triangles_of(mesh, i)}, {"maps", Json::array()}};
-        for (const MapRow& map : maps_of(mesh.materials[i]))
-            row["maps"].push_back({{"kind", map.kind}, {"name", map.image->name}, {"state", map.state()}});
-        if (!mesh.uvs.empty() && row["triangles"] != 0) row["uv"] = uv_json(analyze_uvs(mesh, i));
-        json["materials"].push_back(row);
-    }
+                 {"warnings", named.warnings}};
+    for (uint32_t i = 0; i < mesh.materials.size(); ++i)
+        json["materials"].push_back(material_json(named.object, i));
     return json;
 }
 
@@ -148,68 +168,56 @@ void print_flesh(const Flesh& flesh) {
                    flesh.mesh_openings, flesh.mesh_openings == 1 ? "" : "s");
 }
 
-void print_text(const std::string& path, const LoadedMesh& loaded, const Flesh& flesh) {
-    const Mesh& mesh = loaded.mesh;
+void print_material(const SceneObject& object, uint32_t i) {
+    const Material& material = object.mesh.materials[i];
+    const size_t triangles = triangles_of(object.mesh, i);
+    const FoundPart* found = part_of(object, i);
+    if (triangles == 0 && !(found && found->left_out)) return;
+    const std::string name = printable_line(material.name);
+    if (triangles > 0)
+        fmt::print("  {}: {} triangles\n", name, triangles);
+    else
+        fmt::print("  {}: left out: the file has no alpha for it\n", name);
+    if (found)
+        fmt::print("    class         {}: {}\n", part_name(found->part), printable_line(found->reason));
+    if (!object.mesh.uvs.empty() && triangles > 0) print_uv(analyze_uvs(object.mesh, i));
+    for (const MapRow& map : maps_of(material))
+        fmt::print("    {:<13} {} ({})\n", map.kind, printable_line(map.image->name), map.state());
+}
+
+void print_text(const std::string& path, const NamedMesh& named) {
+    const Mesh& mesh = named.object.mesh;
     const auto [low, high] = bounding_box(mesh);
     const Vec3 size = high - low;
-    fmt::print("{}\n  {} vertices, {} triangles\n", printable_line(path), mesh.positions_mm.size(),
+    fmt::print("{}\n  {} vertices, {} triangles", printable_line(path), mesh.positions_mm.size(),
                mesh.triangle_count());
+    if (!named.object.parts.empty()) fmt::print(", one unit is {} mm", to_text(named.object.unit_mm));
     fmt::print(
-        "  box {:.1f} x {:.1f} x {:.1f} mm, from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n",
+        "\n  box {:.1f} x {:.1f} x {:.1f} mm, from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n",
         size.x, size.y, size.z, low.x, low.y, low.z, high.x, high.y, high.z);
-    print_flesh(flesh);
-    for (uint32_t i = 0; i < mesh.materials.size(); ++i) {
-        const size_t triangles = triangles_of(mesh, i);
-        if (triangles == 0) continue;
-        fmt::print("  {}: {} triangles\n", printable_line(mesh.materials[i].name), triangles);
-        if (!mesh.uvs.empty()) print_uv(analyze_uvs(mesh, i));
-        for (const MapRow& map : maps_of(mesh.materials[i]))
-            fmt::print("    {:<13} {} ({})\n", map.kind, printable_line(map.image->name), map.state());
-    }
-    for (const std::string& warning : loaded.warnings) fmt::print("  warning: {}\n", printable_line(warning));
+    print_flesh(named.flesh);
+    for (uint32_t i = 0; i < mesh.materials.size(); ++i) print_material(named.object, i);
+    for (const std::string& warning : named.warnings) fmt::print("  warning: {}\n", printable_line(warning));
 }
-
-struct NamedMesh {
-    std::string name;
-    LoadedMesh loaded;
-    Flesh flesh = {};  ///< with the whole mesh as skin
-};
 
 Result<std::vector<NamedMesh>> load_meshes(const InfoArguments& arguments) {
+    DERMIS_TRY_ASSIGN(Scene scene, arguments.scene.load());
+    DERMIS_TRY_ASSIGN(std::vector<Flesh> flesh, find_flesh(scene.objects));
     std::vector<NamedMesh> meshes;
-    if (is_mesh_file(arguments.mesh)) {
-        MeshOptions options;
-        if (arguments.unit_mm > 0) options.unit_mm = arguments.unit_mm;
-        DERMIS_TRY_ASSIGN(LoadedMesh loaded, read_mesh(arguments.mesh, options));
-        meshes.push_back({arguments.mesh, std::move(loaded)});
-        return meshes;
-    }
-    if (arguments.unit_mm > 0)
-        return Error{"--unit-mm is for mesh files; " + arguments.mesh +
-                     " states the unit of each of its meshes"};
-    DERMIS_TRY_ASSIGN(Scene scene, load_scene(arguments.mesh, {.subjects = built_in_catalog().subjects}));
-    for (SceneObject& object : scene.objects) meshes.push_back({object.name, {std::move(object.mesh), {}}});
-    if (!meshes.empty()) meshes.front().loaded.warnings = scene.warnings;
+    for (size_t i = 0; i < scene.objects.size(); ++i)
+        meshes.push_back({.object = std::move(scene.objects[i]), .flesh = std::move(flesh[i])});
+    if (!meshes.empty()) meshes.front().warnings = scene.warnings;
     return meshes;
-}
-
-Result<void> add_flesh(NamedMesh& mesh) {
-    const SceneObject object{.name = mesh.name, .mesh = mesh.loaded.mesh, .classes = {}};
-    Result<std::vector<Flesh>> flesh = find_flesh(std::span(&object, 1));
-    if (!flesh) return flesh.error();
-    mesh.flesh = std::move(flesh->front());
-    return {};
 }
 
 Result<int> run_info(const InfoArguments& arguments) {
     DERMIS_TRY_ASSIGN(std::vector<NamedMesh> meshes, load_meshes(arguments));
-    for (NamedMesh& mesh : meshes) DERMIS_TRY(add_flesh(mesh));
     Json list = Json::array();
     for (const NamedMesh& mesh : meshes)
         if (arguments.json)
-            list.push_back(to_json(mesh.loaded, mesh.flesh));
+            list.push_back(to_json(mesh));
         else
-            print_text(mesh.name, mesh.loaded, mesh.flesh);
+            print_text(is_mesh_file(arguments.scene.name) ? arguments.scene.name : mesh.object.name, mesh);
     // JSON: an object for one mesh, an array for several.
     if (arguments.json)
         fmt::print("{}\n",
@@ -224,12 +232,7 @@ void add_info_command(CommandLine& line) {
     Command* command =
         line.add("info", "Describes a mesh or a scene: size, materials, maps, UV layout, warnings",
                  "dermis info head.obj --unit-mm 45");
-    command
-        ->add_option("MESH", arguments->mesh,
-                     ".obj, .gltf, .glb, a scene file, name of a scene, or builtin:NAME")
-        ->required();
-    command->add_option("--unit-mm", arguments->unit_mm, kUnitRangeMm,
-                        "length of one unit of the file in mm (default: glTF 1000, OBJ 1)");
+    arguments->scene.add_to(*command)->required();
     command->add_flag("--json", arguments->json, "one JSON object on standard output");
     line.when_chosen(command, writes_nothing, [arguments] { return run_info(*arguments); });
 }

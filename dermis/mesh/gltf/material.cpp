@@ -74,6 +74,7 @@ class MaterialReader {
             material.base_color_linear = {base[0], base[1], base[2]};
         else
             base[3] = 1;
+        material.base_color_stated = pbr["baseColorFactor"].exists();
         if (read_map(pbr["metallicRoughnessTexture"], "metallicFactor and roughnessFactor",
                      material.metallic_roughness_map)) {
             material.metallic = number(pbr["metallicFactor"], 1, 0, 1);
