@@ -4,6 +4,8 @@
 // 2. A unit that shares texels with itself is split into charts, and these are dealt into layers, each into
 // the
 //    first whose texels are free. Other units become a layer of their own, or join a layer of the same tile.
+//    Charts that share texels with themselves, and triangles without UVs, are unwrapped: each new chart is a
+//    layer.
 // 3. Layers are scaled to their area on the surface and packed.
 
 #include "dermis/mesh/atlas_layout.h"
@@ -17,6 +19,7 @@
 
 #include "dermis/mesh/pack_rectangles.h"
 #include "dermis/mesh/topology.h"
+#include "dermis/mesh/unwrap.h"
 #include "dermis/mesh/uv_report.h"
 #include "dermis/mesh/uv_texels.h"
 
@@ -69,6 +72,7 @@ struct Layer {
     bool is_tile = true;
     Members members;
     std::vector<bool> taken = std::vector<bool>(size_t(kTexels) * kTexels, false);
+    bool is_unwrapped = false;  // joined by nothing else
 };
 
 Box box_of(std::span<const Triangle> triangles, const Members& members) {
@@ -82,12 +86,16 @@ std::vector<Triangle> triangles_of(std::span<const AtlasPart> parts) {
     std::vector<Triangle> triangles;
     for (uint32_t part = 0; part < parts.size(); ++part) {
         const Mesh& mesh = *parts[part].mesh;
-        const std::vector<UvMetric> metrics = triangle_uv_metrics(mesh);
+        const bool has_uvs = mesh.uvs.size() == mesh.positions_mm.size();
+        const std::vector<UvMetric> metrics =
+            has_uvs ? triangle_uv_metrics(mesh) : std::vector<UvMetric>(mesh.triangle_count());
         const std::vector<float> areas = triangle_areas_mm2(mesh);
         for (const uint32_t number : parts[part].triangles) {
             Triangle triangle{
                 .part = part, .corners = 3 * number, .metric = metrics[number], .area_mm2 = areas[number]};
-            for (size_t k = 0; k < 3; ++k) triangle.uvs[k] = mesh.uvs[mesh.indices[3 * size_t(number) + k]];
+            if (has_uvs)
+                for (size_t k = 0; k < 3; ++k)
+                    triangle.uvs[k] = mesh.uvs[mesh.indices[3 * size_t(number) + k]];
             triangles.push_back(triangle);
         }
     }
@@ -175,8 +183,8 @@ bool is_free(const Layer& layer, const Texels& texels) {
 void deal(std::vector<Layer>& layers, size_t first, const Unit& unit, const Members& members,
           const Texels& texels) {
     const auto fits = [&](const Layer& layer) {
-        return layer.is_tile == unit.is_tile && !(layer.frame < unit.frame) && !(unit.frame < layer.frame) &&
-               is_free(layer, texels);
+        return !layer.is_unwrapped && layer.is_tile == unit.is_tile && !(layer.frame < unit.frame) &&
+               !(unit.frame < layer.frame) && is_free(layer, texels);
     };
     auto layer = std::find_if(layers.begin() + std::ptrdiff_t(first), layers.end(), fits);
     if (layer == layers.end()) layer = layers.insert(layers.end(), {unit.frame, unit.is_tile, {}});
@@ -230,19 +238,76 @@ std::vector<Members> find_charts(std::span<const AtlasPart> parts, std::span<con
     return charts;
 }
 
+bool shares_none(const Texels& texels) {
+    return double(texels.again) <= kOverlapOfLayer * double(texels.once.size());
+}
+
+// Its triangles have an area on the surface, but none in UV.
+bool lacks_uvs(std::span<const Triangle> triangles, const Members& members) {
+    double area_mm2 = 0;
+    for (const uint32_t t : members) {
+        if (triangles[t].metric.e_mm2 > 0) return false;
+        area_mm2 += double(triangles[t].area_mm2);
+    }
+    return area_mm2 > 0;
+}
+
+// Gives triangles of one part new UVs, a layer for each chart. A chart that still covers itself is cut into
+// flatter ones.
+void unwrap_into(std::vector<Layer>& layers, const Mesh& mesh, std::span<Triangle> triangles,
+                 const Members& members, float cone_rad) {
+    constexpr float kFlattest_rad = 0.2f;
+    if (members.empty()) return;
+    std::vector<uint32_t> numbers;
+    for (const uint32_t t : members) numbers.push_back(triangles[t].corners / 3);
+    const Unwrapping unwrapping = unwrap(mesh, numbers, cone_rad);
+    std::vector<Members> charts(unwrapping.charts);
+    for (size_t i = 0; i < members.size(); ++i) {
+        Triangle& triangle = triangles[members[i]];
+        triangle.uvs = unwrapping.corners_mm[i];
+        triangle.metric = {1, 0, 1};  // in mm
+        charts[unwrapping.chart[i]].push_back(members[i]);
+    }
+    Members folded;
+    for (Members& chart : charts) {
+        if (chart.empty()) continue;
+        const Box box = box_of(triangles, chart);
+        const Frame frame{box.low, std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6f})};
+        if (cone_rad > kFlattest_rad && !shares_none(texels_of(triangles, chart, frame)))
+            folded.insert(folded.end(), chart.begin(), chart.end());
+        else
+            layers.push_back({frame, false, std::move(chart), {}, true});
+    }
+    unwrap_into(layers, mesh, triangles, folded, cone_rad / 2);
+}
+
 // Step 2.
-std::vector<Layer> find_layers(std::span<const AtlasPart> parts, std::span<const Triangle> triangles) {
+std::vector<Layer> find_layers(std::span<const AtlasPart> parts, std::span<Triangle> triangles) {
+    constexpr float kCone_rad = 0.96f;
     std::vector<Layer> layers;
+    std::vector<Members> without_layout(parts.size());
     for (const Unit& unit : find_units(parts, triangles)) {
+        Members& left = without_layout[triangles[unit.members[0]].part];
+        if (lacks_uvs(triangles, unit.members)) {
+            left.insert(left.end(), unit.members.begin(), unit.members.end());
+            continue;
+        }
         const Texels texels = texels_of(triangles, unit.members, unit.frame);
-        if (double(texels.again) <= kOverlapOfLayer * double(texels.once.size())) {
+        if (shares_none(texels)) {
             deal(layers, 0, unit, unit.members, texels);
             continue;
         }
         const size_t first = layers.size();
-        for (const Members& chart : find_charts(parts, triangles, unit.members))
-            deal(layers, first, unit, chart, texels_of(triangles, chart, unit.frame));
+        for (const Members& chart : find_charts(parts, triangles, unit.members)) {
+            const Texels of_chart = texels_of(triangles, chart, unit.frame);
+            if (lacks_uvs(triangles, chart) || !shares_none(of_chart))
+                left.insert(left.end(), chart.begin(), chart.end());
+            else
+                deal(layers, first, unit, chart, of_chart);
+        }
     }
+    for (size_t part = 0; part < parts.size(); ++part)
+        unwrap_into(layers, *parts[part].mesh, triangles, without_layout[part], kCone_rad);
     return layers;
 }
 
@@ -307,11 +372,12 @@ AtlasLayout packed(std::span<const AtlasPart> parts, std::span<const Triangle> t
 }  // namespace
 
 AtlasLayout lay_out_atlas(std::span<const AtlasPart> parts) {
-    const std::vector<Triangle> triangles = triangles_of(parts);
+    std::vector<Triangle> triangles = triangles_of(parts);
     const std::vector<Layer> layers = find_layers(parts, triangles);
-    const bool is_one_tile = layers.size() <= 1 && std::ranges::all_of(layers, [&](const Layer& layer) {
-                                 return box_of(triangles, layer.members).within({0, 0}, 1, kTileTolerance);
-                             });
+    const bool is_one_tile =
+        layers.size() <= 1 && std::ranges::all_of(layers, [&](const Layer& layer) {
+            return !layer.is_unwrapped && box_of(triangles, layer.members).within({0, 0}, 1, kTileTolerance);
+        });
     if (is_one_tile) return {.is_as_it_was = true, .parts = {}};
     return packed(parts, triangles, layers);
 }

@@ -3,7 +3,8 @@
 // tiled patches.
 //
 // Triangles that share no texels stay together in a layer, a piece of a UV plane. Layers become rectangles of
-// the atlas, as large as their area on the surface.
+// the atlas, as large as their area on the surface. Triangles without UVs, and those whose UVs fold over
+// themselves, get new ones (mesh/unwrap.h).
 
 #include <array>
 #include <cstdint>
@@ -29,7 +30,7 @@ struct AtlasLayout {
 /// Share of its texels that a layer may have under more than one triangle; exporters round.
 inline constexpr double kOverlapOfLayer = 0.01;
 
-/// Parts without UVs must be left out. Cost: 30 ms for 20,000 triangles.
+/// Cost: 30 ms for 20,000 triangles, without UVs 100 ms.
 [[nodiscard]] AtlasLayout lay_out_atlas(std::span<const AtlasPart> parts);
 
 }  // namespace dermis::inline mesh

@@ -86,6 +86,19 @@ double overlap_of_skin(const Scene& scene) {
     return analyze_uvs(all).overlap;
 }
 
+// What the layout of the atlas does for one material of an object that has atlas_uvs; empty where it only
+// moves UVs.
+std::string layout_warning(const SceneObject& object, const Submesh& submesh) {
+    const std::string name = "skin material '" + name_of(object, submesh) + "'";
+    const std::string end =
+        " for light maps and baked maps; their seams cost some accuracy: give each place UVs of its own";
+    if (object.mesh.uvs.size() != object.mesh.positions_mm.size())
+        return name + " has no UVs, so Dermis makes some" + end;
+    const double overlap = analyze_uvs(object.mesh, submesh.material, 512).overlap;
+    if (overlap <= kOverlapUnfit) return {};
+    return percent(overlap) + " of the UVs of " + name + " overlap, so Dermis spreads them" + end;
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> check_skin_atlas(const Scene& scene) {
@@ -99,7 +112,9 @@ Result<std::vector<std::string>> check_skin_atlas(const Scene& scene) {
             if (!is_skin(object, submesh)) continue;
             const std::string name = "'" + name_of(object, submesh) + "'";
             if (std::ranges::find(materials, name) == materials.end()) materials.push_back(name);
-            if (std::string warning = tiles_warning(object.mesh, submesh); !warning.empty())
+            std::string warning = object.mesh.atlas_uvs.empty() ? tiles_warning(object.mesh, submesh)
+                                                                : layout_warning(object, submesh);
+            if (!warning.empty() && std::ranges::find(warnings, warning) == warnings.end())
                 warnings.push_back(std::move(warning));
         }
     if (const double overlap = overlap_of_skin(scene); overlap > kOverlapWorthSaying)

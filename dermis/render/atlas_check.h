@@ -10,9 +10,10 @@
 
 namespace dermis::inline render {
 
-/// Warnings, one line each, naming materials: UVs in other UDIM tiles or outside 0..1 (lit without
+/// Warnings, one line each, naming materials: UVs that are missing or overlap, so that the atlas has others
+/// (scene/skin_atlas.h). Without such an atlas: UVs in other UDIM tiles or outside 0..1 (lit without
 /// scattering), UVs that overlap by more than 0.1 % (places that share texels share light). Error: skin
-/// without UVs. Cost: 20 ms for 20,000 triangles.
+/// without UVs and without an atlas. Cost: 20 ms for 20,000 triangles.
 [[nodiscard]] Result<std::vector<std::string>> check_skin_atlas(const Scene& scene);
 
 /// Why maps over the skin's atlas cannot be used, and the fix; empty if each place but 1 % has its own

@@ -186,10 +186,11 @@ void Renderer::warn(std::string warning) {
     if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
 }
 
-// Once, for the first technique that draws into the skin's atlas.
+// Once, for the first technique that has maps over the skin's atlas.
 Result<void> Renderer::check_atlas() {
     const auto draws_atlas = [](const Pass& pass) { return pass.kind == PassKind::geometry_uv_atlas; };
-    if (atlas_checked_ || std::ranges::none_of(list_.passes, draws_atlas)) return {};
+    if (atlas_checked_ || (!list_.diffused_normals && std::ranges::none_of(list_.passes, draws_atlas)))
+        return {};
     DERMIS_TRY_ASSIGN(std::vector<std::string> checked, check_skin_atlas(*scene_));
     warnings_.insert(warnings_.end(), checked.begin(), checked.end());
     atlas_checked_ = true;

@@ -58,7 +58,6 @@ void lay_out_skin_atlas(Scene& scene) {
     std::vector<Mesh*> meshes;
     for (SceneObject& object : scene.objects) {
         object.mesh.atlas_uvs.clear();
-        if (object.mesh.uvs.size() != object.mesh.positions_mm.size()) continue;
         AtlasPart part{&object.mesh, skin_triangles(object)};
         if (part.triangles.empty()) continue;
         parts.push_back(std::move(part));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <cmath>
 
 #include "dermis/mesh/pack_rectangles.h"
 #include "dermis/mesh/primitives.h"
@@ -134,6 +134,35 @@ TEST(AtlasLayout, degenerate_uvs_end_inside) {
         for (const Vec2 uv : corners.uvs) {
             EXPECT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1) << uv.x << " " << uv.y;
         }
+}
+
+TEST(AtlasLayout, skin_without_uvs_is_unwrapped_beside_skin_that_has_some) {
+    Mesh ball = make_sphere(20, 64);
+    const Mesh plane = make_plane(30, 30, 4);
+    ball.uvs.clear();
+    const AtlasPart parts[] = {whole(ball), whole(plane)};
+    const AtlasLayout layout = lay_out_atlas(parts);
+    EXPECT_LT(layout.layers, 30u);
+    expect_clean(parts, layout, 0.4);
+}
+
+// The rows of a spiral stair cover each other in every projection along the mean of their normals.
+TEST(AtlasLayout, charts_that_cover_themselves_are_cut) {
+    Mesh stair;
+    constexpr int kSteps = 96;
+    for (int i = 0; i <= kSteps; ++i) {
+        const float angle = 0.13f * float(i), y = 0.5f * float(i);
+        for (const float radius : {5.0f, 20.0f})
+            stair.positions_mm.push_back({radius * std::cos(angle), y, -radius * std::sin(angle)});
+        if (i == kSteps) break;
+        const auto k = uint32_t(2 * i);
+        for (const uint32_t corner : {k, k + 1, k + 3, k, k + 3, k + 2}) stair.indices.push_back(corner);
+    }
+    stair.materials.resize(1);
+    stair.submeshes = {{.name = "", .first_index = 0, .index_count = uint32_t(stair.indices.size())}};
+    const AtlasPart parts[] = {whole(stair)};
+    const UvReport report = analyze_uvs(laid_out(parts, lay_out_atlas(parts)));
+    EXPECT_LT(report.overlap, 0.02);
 }
 
 TEST(PackRectangles, stay_apart_and_fill_most_of_the_square) {

@@ -3,8 +3,10 @@
 #include "dermis/mesh/primitives.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/scene/placement.h"
+#include "dermis/scene/skin_atlas.h"
 #include "render/render_test.h"
 #include "support/built_in.h"
+#include "support/uv_variants.h"
 
 using namespace dermis;
 using testing::ElementsAre;
@@ -34,7 +36,6 @@ TEST_F(AtlasCheck, is_silent_about_a_good_atlas) {
 TEST_F(AtlasCheck, skin_without_uvs_is_an_error_that_names_the_material_and_a_way_out) {
     Scene scene = one_sphere();
     scene.objects[0].mesh.uvs.clear();
-    EXPECT_TRUE(complete_scene(scene));
     Renderer renderer = make_renderer(scene);
     const Technique& technique = built_in_technique("texture_space");
     const auto drawn =
@@ -43,6 +44,19 @@ TEST_F(AtlasCheck, skin_without_uvs_is_an_error_that_names_the_material_and_a_wa
     EXPECT_THAT(drawn.error().message, HasSubstr("skin material 'hide' has no UVs"));
     const Technique& lambert = built_in_technique("lambert");
     EXPECT_TRUE(renderer.draw(lambert, ParameterValues(lambert.parameters), {.width = 16, .height = 16}));
+}
+
+TEST_F(AtlasCheck, says_once_where_the_layout_of_the_file_is_replaced) {
+    Scene missing = one_sphere(), mirrored = one_sphere(), tiles = one_sphere({1, 0});
+    missing.objects[0].mesh.uvs.clear();
+    mirror_halves(mirrored.objects[0].mesh);
+    for (Scene* scene : {&missing, &mirrored, &tiles}) lay_out_skin_atlas(*scene);
+    EXPECT_THAT(*check_skin_atlas(missing),
+                ElementsAre(HasSubstr("'hide' has no UVs, so Dermis makes some")));
+    EXPECT_THAT(*check_skin_atlas(mirrored),
+                ElementsAre(HasSubstr("'hide' overlap, so Dermis spreads them")));
+    EXPECT_THAT(*check_skin_atlas(tiles), IsEmpty());
+    EXPECT_EQ(unfit_for_baked_maps(missing), "");
 }
 
 TEST_F(AtlasCheck, other_udim_tiles_are_skipped_with_a_message) {
