@@ -7,6 +7,7 @@
 #include "dermis/judge/effect_reference.h"
 #include "dermis/judge/technique_pictures.h"
 #include "dermis/render/renderer.h"
+#include "dermis/technique/gain.h"
 
 namespace dermis::inline judge {
 namespace {
@@ -48,7 +49,8 @@ Result<void> judge(const Comparison& comparison, const Scene& scene, Compared& r
     if (!first) return failed(first.error());
     row.first = std::move(*first);
     if (comparison.second) {
-        Result<Judgement> second = judgement_of(row.effect, *comparison.second, comparison);
+        const Image& effect = row.second_effect ? *row.second_effect : row.effect;
+        Result<Judgement> second = judgement_of(effect, *comparison.second, comparison);
         if (!second) return failed(second.error());
         row.second = std::move(*second);
     }
@@ -108,6 +110,12 @@ Result<void> make_references(const Scene& scene, const ComparisonSettings& setti
     return {};
 }
 
+// What this integrator judges: `surface` the technique without a gain.
+Contestant judged_by(Integrator integrator, Contestant contestant) {
+    if (integrator == Integrator::surface) contestant.values = without_gain(contestant.values);
+    return contestant;
+}
+
 // How the work on the techniques divides, in pictures of one of them: pictures, timed frames, judging.
 struct TechniqueWork {
     double pictures, frames, judging;
@@ -154,10 +162,15 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
         if (hooks.techniques)
             hooks.techniques(double(comparison.rows.size()) / work.all(), contestant.name());
         if (hooks.stop && hooks.stop->load()) return Error{"stopped"};
-        DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(contestant));
+        const Contestant first = judged_by(comparison.integrator, contestant),
+                         second = judged_by(settings.second.value_or(comparison.integrator), contestant);
+        DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(first));
         comparison.rows.push_back({.contestant = contestant,
                                    .radiance = std::move(pictures.radiance),
                                    .effect = std::move(pictures.effect)});
+        if (second.values == first.values) continue;
+        DERMIS_TRY_ASSIGN(TechniquePictures beside, maker.make(second));
+        comparison.rows.back().second_effect = std::move(beside.effect);
     }
     if (settings.exact)
         if (Result<void> added = add_exact(maker, *baseline, scene, settings, comparison); !added)

@@ -3,7 +3,8 @@
 // bytes.
 //
 // Two references can judge: random walks through the volume (what light does) and the surface integral of the
-// profile (what most techniques approximate). Both start from the same picture without scattering.
+// profile (what most techniques approximate). Both start from the same picture without scattering. `surface`
+// judges pictures with gain=none: the profile has no gain (technique/gain.h).
 //
 // Both sides share lights, shadows, GGX reflection and the renderer's approximation of the environment
 // (order-2 harmonics, split sum, occlusion), so only the transport in the skin differs. With
@@ -61,6 +62,8 @@ struct Compared {
     Contestant contestant;
     Image radiance;  ///< linear, RGBA; beyond the skin as drawn
     Image effect;    ///< RGB: radiance less the baseline's
+    /// With gain=none, where the technique has a gain and the second reference is `surface`.
+    std::optional<Image> second_effect;
     Image flip,
         distance;  ///< one channel: FLIP of the tone-mapped pictures, largest difference of linear channels
     Judgement first;                  ///< by the integrator of ComparisonSettings::reference

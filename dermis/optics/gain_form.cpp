@@ -53,7 +53,7 @@ Channel fit_channel(std::span<const GainSample> samples, size_t c, double albedo
     double slope = 1, length = 1, best = misfit(channel_of(slope, length, albedo), samples, c);
     for (double step = 1; step > 1e-4;) {
         bool better = false;
-        for (const auto [x, y] :
+        for (const auto& [x, y] :
              {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}) {
             const double new_slope = std::max(slope * std::exp(x * step), kLeastSlopeMm);
             const double new_length = std::max(length * std::exp(y * step), kLeastLengthMm);

@@ -11,4 +11,9 @@ void use_gain(Pass& pass, Gain gain) {
     pass.constants.emplace_back(kGainConstant, int32_t(gain));
 }
 
+ParameterValues without_gain(ParameterValues values) {
+    if (const Parameter* gain = values.table().find("gain")) values.put(*gain, {double(Gain::none), 0, 0});
+    return values;
+}
+
 }  // namespace dermis::inline technique

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dermis/base/parameter.h"
 #include "dermis/technique/pass_list.h"
 #include "shaders/include/constants.h"
 
@@ -19,5 +20,8 @@ inline constexpr const char* kGainHelp =
 /// The specialisation constant; the renderer supplies the form to frames with a pass that has it.
 inline constexpr const char* kGainConstant = "gain";
 void use_gain(Pass& pass, Gain gain);
+
+/// The values with gain=none, where they have it: the technique's part that the profile describes.
+[[nodiscard]] ParameterValues without_gain(ParameterValues values);
 
 }  // namespace dermis::inline technique

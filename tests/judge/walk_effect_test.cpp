@@ -113,7 +113,8 @@ TEST_F(WalkEffect, flat_skin_shows_none) {
 }
 
 TEST_F(WalkEffect, both_references_judge_each_technique) {
-    const auto list = parse_technique_list(built_in_catalog().techniques, "lambert,preintegrated");
+    const auto list = parse_technique_list(built_in_catalog().techniques,
+                                           "lambert,preintegrated,preintegrated[gain=curvature]");
     ASSERT_TRUE(list);
     ComparisonSettings settings = comparison_settings(24, 24);
     settings.grid = kWalkGrid;
@@ -134,6 +135,8 @@ TEST_F(WalkEffect, both_references_judge_each_technique) {
     EXPECT_EQ(share(0, Integrator::surface), 0);
     EXPECT_GT(share(1, Integrator::surface), 0.9);
     EXPECT_LT(share(1, Integrator::walk), 0.9) << "a profile is not transport";
+    EXPECT_EQ(share(2, Integrator::surface), share(1, Integrator::surface)) << "it judges the profile's part";
+    EXPECT_GT(share(2, Integrator::walk), share(1, Integrator::walk) + 0.1);
     const std::vector<ScoreRow> rows = score_rows("sphere", *both);
     EXPECT_EQ(rows[1].walk->all.share, share(1, Integrator::walk));
     EXPECT_EQ(rows[1].surface->all.share, share(1, Integrator::surface));
