@@ -1,5 +1,7 @@
 // All techniques against the reference, as docs/scoreboard.csv, .md and .svg. Run it by tools/scoreboard.
 //
+// Two references judge: walk, which sorts the rows, and surface.
+//
 //     build/bench/scoreboard_bench DIRECTORY [SIZE] [SCENE...] [--techniques LIST] [--models]
 //
 // --techniques takes a list as `dermis compare` does; a scene then has rows of these alone. --models keeps
@@ -24,6 +26,7 @@
 #include "dermis/gpu/statistics.h"
 #include "dermis/judge/reference_cache.h"
 #include "dermis/judge/scoreboard.h"
+#include "dermis/optics/presets.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/report/ratios.h"
 #include "dermis/scene/load_scene.h"
@@ -32,7 +35,22 @@ namespace {
 
 using namespace dermis;
 
-constexpr const char* kScenes[] = {"spheres", "unit", "bust", "head_scan", "face", "backlit"};
+// A name behind a slash is a profile that the scene's skin takes: light, medium and dark skin.
+constexpr const char* kScenes[] = {"spheres",
+                                   "unit",
+                                   "bust",
+                                   "bust/openpbr_skin_1",
+                                   "bust/openpbr_skin_3",
+                                   "bust/openpbr_skin_6",
+                                   "head_scan",
+                                   "head_scan/openpbr_skin_1",
+                                   "head_scan/openpbr_skin_3",
+                                   "head_scan/openpbr_skin_6",
+                                   "face",
+                                   "face/openpbr_skin_1",
+                                   "face/openpbr_skin_3",
+                                   "face/openpbr_skin_6",
+                                   "backlit"};
 // Of each unit scene, whose subject fills the picture.
 constexpr int kCaseSize = 96;
 // What costs are modelled for: the frame of docs/performance.md.
@@ -41,11 +59,12 @@ constexpr int kModelWidth = 1920, kModelHeight = 1080;
 
 constexpr const char* kText =
     "# Scoreboard\n\n"
-    "**captured**: how much of the effect of scattering a technique has "
+    "**of `walk`**, **of `surface`**: how much of the effect of scattering by that reference a technique has "
     "([definition](reference.md#comparing)): 1 for the\n"
     "reference, 0 for `lambert`, below 0 if worse than `lambert`; ± is half of the 95 %% interval. R, G, "
     "B: the\n"
-    "channels. Green and blue scatter a few tenths of a millimetre, less than a pixel here. noise: the "
+    "channels of the first. `bust/openpbr_skin_1` is the bust with that profile. Green and blue scatter a "
+    "few tenths of a millimetre, less than a pixel here. noise: the "
     "reference is not\n"
     "fine enough. **Measured**: a frame over lambert's in one run, %s,\n"
     "%d x %d (unit scenes 96 x 96). **Modelled**: the same for a %s at %d x %d, a model\n"
@@ -138,8 +157,15 @@ Result<std::vector<Job>> jobs_of(const std::vector<std::string>& names) {
 
 Result<SubjectCase> scene_of(Job& job) {
     if (!job.made) {
-        Result<Scene> scene = load_scene(job.name, {.subjects = built_in_catalog().subjects});
+        const size_t slash = job.name.find('/');
+        Result<Scene> scene =
+            load_scene(job.name.substr(0, slash), {.subjects = built_in_catalog().subjects});
         if (!scene) return scene.error();
+        if (slash != std::string::npos) {
+            const std::string profile = job.name.substr(slash + 1);
+            if (const Result<Profile> found = find_profile(profile); !found) return found.error();
+            scene->skin.profile = profile;
+        }
         job.made = {.name = job.name, .scene = std::move(*scene)};
     }
     if (Result<void> complete = complete_scene(job.made->scene); !complete) return complete.error();
