@@ -11,6 +11,7 @@
 #include "dermis/base/text.h"
 #include "dermis/optics/mtlx.h"
 #include "dermis/optics/presets.h"
+#include "fit_walk.h"
 #include "profile_options.h"
 
 namespace dermis::cli {
@@ -168,6 +169,22 @@ std::string tool_list() {
     return names;
 }
 
+void add_fit_walk(CommandLine& line, Command* profile, const char* name_help) {
+    const auto options = std::make_shared<FitWalkOptions>();
+    Command* command = line.add(
+        "fit-walk", "Fits a profile to random walks, and says how far Burley's and the dipole are from it",
+        "dermis profile fit-walk openpbr_skin_1 -o skin1_walks.csv", profile);
+    command->add_option("NAME", options->name, name_help);
+    command->add_option("--g", options->g, {-0.99, 0.99},
+                        "mean cosine of the volume's phase function; keeps the reduced mean free path");
+    command->add_option("--eta", options->eta, {1, 3}, "the volume's index of refraction");
+    command->add_option("--walks", options->walks, {3000, 1e9}, "number of walks")->capture_default_str();
+    command->add_output("-o,--output", options->output, "CSV file: the profile as a table");
+    command->add_flag("--albedos", options->albedos, "print the table over albedo as Markdown");
+    line.when_chosen(
+        command, [options] { return fit_walk_file(*options); }, [options] { return fit_walk(*options); });
+}
+
 }  // namespace
 
 void add_profile_command(CommandLine& line) {
@@ -217,6 +234,8 @@ void add_profile_command(CommandLine& line) {
     line.when_chosen(
         convert_command, [options] { return converted_file(*options); },
         [options] { return convert(*options); });
+
+    add_fit_walk(line, profile, name_help);
 
     Command* table_command = line.add("table", "Prints the tables of docs/profiles.md as Markdown",
                                       "dermis profile table > tables.md", profile);
