@@ -246,6 +246,50 @@ void CommandLine::when_chosen(Command* command, FileLister lister, Action run, P
     });
 }
 
+namespace {
+
+// The command of the line, "dermis bake lut": the words that name nested commands.
+const CLI::App* chosen_command(const CLI::App* app, const std::vector<std::string>& words) {
+    for (const std::string& word : words) {
+        const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
+        const auto found = std::ranges::find_if(
+            commands, [&](const CLI::App* command) { return command->get_name() == word; });
+        if (found == commands.end()) break;
+        app = *found;
+    }
+    return app;
+}
+
+std::string full_name(const CLI::App* app) {
+    const CLI::App* parent = app->get_parent();
+    return parent ? full_name(parent) + " " + app->get_name() : app->get_name();
+}
+
+std::vector<std::string> flags_of(const CLI::App* app) {
+    std::vector<std::string> flags;
+    for (const CLI::Option* option : app->get_options()) {
+        for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+        for (const std::string& name : option->get_snames()) flags.push_back("-" + name);
+    }
+    return flags;
+}
+
+// "unknown option '--tecnique'; did you mean '--technique'?", of the first one typed; empty where all are
+// known.
+std::string unknown_option(const CLI::App* app, const std::vector<std::string>& words) {
+    const std::vector<std::string> flags = flags_of(app);
+    for (const std::string& word : words) {
+        if (word == "--") break;
+        const std::string flag = word.substr(0, word.find('='));
+        if (!flag.starts_with("--") || std::ranges::find(flags, flag) != flags.end()) continue;
+        const auto closest = closest_name(flag, flags);
+        return "unknown option '" + flag + "'" + (closest ? "; did you mean '" + *closest + "'?" : "");
+    }
+    return {};
+}
+
+}  // namespace
+
 Result<void> CommandLine::parse_or_throw_help(std::vector<std::string> line) {
     words = std::move(line);
     // CLI11 would say only that a subcommand is missing.
@@ -258,8 +302,14 @@ Result<void> CommandLine::parse_or_throw_help(std::vector<std::string> line) {
         app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes the last first
     } catch (const CLI::Success&) {                                           // --help, --version
         throw;
+    } catch (const CLI::ExtrasError& wrong) {
+        const CLI::App* command = chosen_command(app_.get(), words);
+        const std::string option = unknown_option(command, words);
+        return Error{(option.empty() ? std::string(wrong.what()) : option) + " (see " + full_name(command) +
+                     " --help)"};
     } catch (const CLI::ParseError& wrong) {
-        return Error{std::string(wrong.what()) + " (see dermis --help)"};
+        return Error{std::string(wrong.what()) + " (see " + full_name(chosen_command(app_.get(), words)) +
+                     " --help)"};
     }
     return {};
 }

@@ -82,7 +82,8 @@ also found by name: `dermis render head_scan`.
     --scene mesh.tone=5                                                  a single item needs no name
     --camera "yaw_deg=30 fov_deg=20" --light "yaw_deg=-60"               short for camera.* and light.key.*
 
-Keys that are not named keep their value. Meshes, maps, materials and settings can only be changed for scene files.
+Keys that are not named keep their value. Meshes, maps, materials and settings can be
+changed for scene files and mesh files, not for `builtin:NAME`.
 )";
 
 }  // namespace

@@ -46,7 +46,7 @@ class TestCase(unittest.TestCase):
         """What the command line prints of a call that it refuses, without its name and where its help is."""
         result = run_program(*words)
         self.assertNotEqual(result.returncode, 0, words)
-        return result.stderr.removeprefix("dermis: ").rstrip("\n").removesuffix(" (see dermis --help)")
+        return result.stderr.removeprefix("dermis: ").rstrip("\n").partition(" (see dermis ")[0]
 
     def assert_error(self, sentence, call, *arguments, **options):
         with self.assertRaises(dermis.Error) as raised:
