@@ -12,16 +12,16 @@
 namespace dermis {
 namespace {
 
-constexpr int kWalks = 1 << 14;
+constexpr int kBallWalks = 1 << 14;
 const std::vector<double> kCurvatures = {1.0 / 64, 0.25};
 
 std::vector<BallExitance> balls() {
-    return walk_balls(walk_medium_of(*find_profile("openpbr_skin_3")), kCurvatures, kWalks);
+    return walk_balls(walk_medium_of(*find_profile("openpbr_skin_3")), kCurvatures, kBallWalks);
 }
 
 TEST(BallExitance, LightFromAllAroundIsTheGain) {
     const ScatteringMedium medium = walk_medium_of(*find_profile("openpbr_skin_3"));
-    const WalkedGains gains = walk_gain(medium, kCurvatures, kWalks, 2);
+    const WalkedGains gains = walk_gain(medium, kCurvatures, kBallWalks, 2);
     for (size_t i = 0; i < kCurvatures.size(); ++i) {
         // The clamped cosine has the mean 1/4 over all directions.
         Rgb mean = {0, 0, 0};
