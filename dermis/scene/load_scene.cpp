@@ -29,10 +29,11 @@ Result<SceneDescription> read_description(const fs::path& path, const SceneOptio
 
 // Only a scene file has these keys; an unknown one is reported as such first.
 Result<void> refuse_words(const std::string& name, const SceneOptions& options) {
-    if (options.words.empty()) return {};
+    const auto word = std::ranges::find_if(options.words, is_loading_key, &SceneWord::key);
+    if (word == options.words.end()) return {};
     SceneDescription any{.meshes = {{.file = {.text = name}}}};
-    if (Result<void> set = set_word(any, options.words[0], options.subjects); !set) return set;
-    return Error{options.words[0].key + ": read while a scene file is loaded, and " + name +
+    if (Result<void> set = set_word(any, *word, options.subjects); !set) return set;
+    return Error{word->key + ": read while a scene file is loaded, and " + name +
                  " is none; write a scene file with [[mesh]] file = \"" + name + "\""};
 }
 
@@ -66,6 +67,8 @@ void warn_of_color(const fs::path& path, Scene& scene) {
 
 // A mesh file is a scene with that mesh and all defaults.
 Result<Scene> load_mesh_file(const fs::path& path, const SceneOptions& options) {
+    if (std::error_code ec; !fs::exists(path, ec))
+        return Error{path.string() + ": cannot open: No such file or directory"};
     SceneDescription description{.is_bare_mesh = true};
     description.head.name = path.stem().string();
     description.head.exposure_ev = 0.6f;

@@ -82,7 +82,7 @@ TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_reference_once)
     EXPECT_EQ(json["rows"].size(), 2u);
     EXPECT_EQ(json["rows"][0]["captured"], 0) << "lambert";
     EXPECT_EQ(json["reference_samples"], 16);
-    EXPECT_THAT(first.err, HasSubstr("the reference stopped at its limit of 16 samples a pixel"));
+    EXPECT_THAT(first.err, HasSubstr("the reference walk stopped at its limit of 16 samples a pixel"));
     EXPECT_THAT(slurp(path("report/report.html")), HasSubstr("Content-Security-Policy"));
     EXPECT_THAT(slurp(path("report/scores.csv")),
                 HasSubstr("\nbuiltin:spheres,preintegrated,diffuse=closed_form,"));

@@ -53,6 +53,8 @@ constexpr OutputCall kOutputCalls[] = {
     {"jobs", "--folder", "none.txt --folder OUT"},
     {"merge", "-o", "none.exr -o OUT.exr"},
     {"merge", "--preview", "none.exr -o a.exr --preview OUT.png"},
+    {"new-scene", "-o", "none.obj -o OUT.toml"},
+    {"profile fit-walk", "-o", "none -o OUT.csv"},
     {"profile list", "--plot", "--plot OUT.svg"},
     {"profile show", "--plot", "none --plot OUT.svg"},
     {"profile convert", "-o", "none -o OUT.mtlx"},

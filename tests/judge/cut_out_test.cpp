@@ -131,10 +131,13 @@ TEST_F(CutOut, blends_what_is_blended_over_what_is_behind) {
 
 TEST_F(CutOut, blends_without_a_map_and_where_a_scene_file_says_so) {
     for (const AlphaMode mode : {AlphaMode::blend, AlphaMode::opaque}) {
-        const Pictures p =
-            pictures(card_over_skin([&](Material& m) { m.alpha_mode = mode, m.opacity = 0.4f; }));
-        expect_at(p, {-10, 0, 20}, (kCardColor * 0.4f + kSkinColor * 0.6f) * kLit);
-        expect_at(p, {30, 0, 0}, {});
+        for (const float opacity : {0.4f, 0.6f}) {
+            const Pictures p =
+                pictures(card_over_skin([&](Material& m) { m.alpha_mode = mode, m.opacity = opacity; }));
+            const Vec3 behind = kSkinColor * (1 - opacity);
+            expect_at(p, {-10, 0, 20}, (kCardColor * opacity + behind) * kLit);
+            expect_at(p, {30, 0, 0}, opacity > 0.5f ? Vec3{} : kSkinColor * kLit);
+        }
     }
 }
 

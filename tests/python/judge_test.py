@@ -45,7 +45,7 @@ class Compare(TestCase):
         counts = compared.skin > 0.5
         reference, wrap = compared.reference_effect[counts], compared.effect("wrap[wrap=0.4]")[counts]
         share = 1 - numpy.sqrt(((wrap - reference) ** 2).sum() / (reference**2).sum())
-        self.assertAlmostEqual(share, compared.rows[0]["captured"], delta=0.02)
+        self.assertAlmostEqual(share, compared.rows[0]["walk_captured"], delta=0.02)
 
     def test_a_set_of_scenes_is_a_list(self):
         compared = dermis.compare("unit", "lambert", keys={"mesh.shape": "slab_behind"}, **SAME)

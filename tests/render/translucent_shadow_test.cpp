@@ -22,7 +22,7 @@ SceneObject sheet(Vec3 color_linear, float height_mm, MaterialClass material_cla
     SceneObject object{.name = "sheet", .mesh = make_plane(60, 120), .classes = {material_class}};
     for (Vec3& p : object.mesh.positions_mm) p = p + Vec3{35, 0, height_mm};
     object.mesh.materials[0].base_color_linear = color_linear;
-    object.mesh.materials[0].opacity = 0;
+    object.mesh.materials[0].opacity = material_class == MaterialClass::translucent ? 0.0f : 1.0f;
     object.mesh.materials[0].specular = 0;
     return object;
 }
