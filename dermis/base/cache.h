@@ -25,7 +25,7 @@ namespace dermis::inline base {
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);
 
 /// Loads values into a std::tie() of them. A vector that is not empty has to have the length of the stored
-/// one. Returns false when there is no such entry; some of the values may have changed then.
+/// one. Returns false when there is no such entry; the values are then undefined.
 template <class... T>
 [[nodiscard]] bool cache_load(std::string_view kind, std::string_view hash, std::tuple<T&...> values) {
     const auto bytes = cache_load(kind, hash);

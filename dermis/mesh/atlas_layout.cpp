@@ -1,12 +1,11 @@
-// 1. Triangles of one material and one UDIM tile are a unit. A material with triangles across tile borders is
-// a
-//    unit as a whole.
-// 2. A unit that shares texels with itself is split into charts, and these are dealt into layers, each into
-// the
-//    first whose texels are free. Other units become a layer of their own, or join a layer of the same tile.
-//    Charts that share texels with themselves, and triangles without UVs, are unwrapped: each new chart is a
-//    layer.
-// 3. Layers are scaled to their area on the surface and packed.
+// Step 1: triangles of one material and one UDIM tile are a unit. A material with triangles across tile
+// borders is a unit as a whole.
+//
+// Step 2: a unit that shares texels with itself is split into charts. Each chart goes into the first layer
+// whose texels are free. Other units become a layer of their own, or join a layer of the same tile. Charts
+// that share texels with themselves, and triangles without UVs, are unwrapped: each new chart is a layer.
+//
+// Step 3: layers are scaled to their area on the surface and packed.
 
 #include "dermis/mesh/atlas_layout.h"
 

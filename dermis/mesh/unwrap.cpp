@@ -15,7 +15,8 @@ namespace dermis::inline mesh {
 namespace {
 
 constexpr uint32_t kNoFace = ~0u;
-constexpr float kSmallChart = 1e-3f;  // of the whole area: joins a neighbour
+// Charts with less than this share of the whole area join a neighbour.
+constexpr float kSmallChartShare = 1e-3f;
 
 struct Faces {
     std::vector<Vec3> normals;  // of length 0 for triangles without area
@@ -100,10 +101,10 @@ void absorb_small(const Faces& faces, std::span<const Vec3> axes, float least_co
         areas[chart[i]] += double(faces.areas_mm2[i]), total += double(faces.areas_mm2[i]);
     for (int round = 0; round < 4; ++round)
         for (uint32_t i = 0; i < chart.size(); ++i) {
-            if (areas[chart[i]] > double(kSmallChart) * total) continue;
+            if (areas[chart[i]] > double(kSmallChartShare) * total) continue;
             float best = least_cosine;
             for (const uint32_t next : faces.neighbours[i]) {
-                if (next == kNoFace || areas[chart[next]] <= double(kSmallChart) * total) continue;
+                if (next == kNoFace || areas[chart[next]] <= double(kSmallChartShare) * total) continue;
                 const float cosine = cosine_to(faces, i, axes[chart[next]]);
                 if (cosine > best) best = cosine, chart[i] = chart[next];
             }

@@ -50,7 +50,7 @@ std::vector<Ended> walk_in_ball(const ScatteringMedium& medium, double curvature
             const Vec3 up = {0, 0, 1}, start = sample_entry_direction(up, prepared.eta, random);
             // Plain: guides towards a plane do not help in a ball.
             const WalkEnd path = random_walk(prepared, ball, {}, start, random);
-            // Of the chord, which keeps small angles exact.
+            // The angle from the chord: an angle from a cosine would lose small ones to rounding.
             const double sine = std::min(0.5 * length(path.p_mm) * curvature_per_mm, 1.0);
             ends[i] = {path.throughput, float(2 * std::asin(sine))};
         }

@@ -114,7 +114,8 @@ struct HalfSpaceAlbedo {
 };
 [[nodiscard]] HalfSpaceAlbedo mean_of(std::span<const Vec3> values);
 /// How much of the light that entered a half-space comes out again, red, green, blue, 0..1. `start`: the
-/// direction just inside (z < 0), or none for diffuse light. Deterministic; about 1 microsecond a collision.
+/// direction just inside (z < 0), or none for diffuse light. Deterministic. Cost: 1 microsecond for each
+/// collision of a walk.
 [[nodiscard]] HalfSpaceAlbedo half_space_albedo(const ScatteringMedium& medium, std::optional<Vec3> start,
                                                 int walks, uint32_t seed);
 

@@ -24,7 +24,7 @@ using ScenePointer = std::unique_ptr<RTCSceneTy, SceneRelease>;
 // One mesh's triangles of one set; Embree numbers them from 0.
 struct Part {
     uint32_t object = 0;
-    std::vector<uint32_t> triangles;     // of the mesh
+    std::vector<uint32_t> triangles;     // their numbers in the mesh
     const CutOutMap* cut_out = nullptr;  // null: every hit counts
 };
 

@@ -14,7 +14,7 @@ namespace dermis::inline rays {
 using WalkProfileProgress = std::function<void(double done)>;
 
 /// A table of rings whose radii grow by a fixed ratio, scaled to the walks' own albedo. The error of a share
-/// of the light is about 1 / sqrt(walks). Lengths follow the medium; about 1 microsecond a collision. Errors:
+/// of the light is about 1 / sqrt(walks). Cost: 1 microsecond for each collision of a walk. Errors:
 /// an invalid medium, fewer than 3000 walks, a medium that returns no light.
 [[nodiscard]] Result<Profile> fit_walk_profile(const ScatteringMedium& medium, int walks, uint32_t seed,
                                                const WalkProfileProgress& progress = {});

@@ -64,7 +64,7 @@ void warn_of_back(const SceneObject& object, std::vector<std::string>& warnings)
 struct Side {
     Vec3 direction;
     const char* name;
-    const char* mend;  // rotate_deg
+    const char* rotate_deg;
 };
 constexpr std::array<Side, 5> kWrongSides = {{{{0, 0, -1}, "-Z", "[0, 180, 0]"},
                                               {{1, 0, 0}, "+X", "[0, -90, 0]"},
@@ -96,7 +96,7 @@ void warn_of_direction(const SceneObject& object, std::vector<std::string>& warn
     if (!most) return;
     warnings.push_back("'" + object.name + "' has most of its detail on its " + most->name +
                        " side; a head faces +Z, with Y up. If this one does not, turn it: rotate_deg = " +
-                       most->mend + " under [[mesh]] of a scene file");
+                       most->rotate_deg + " under [[mesh]] of a scene file");
 }
 
 }  // namespace

@@ -130,12 +130,12 @@ Result<std::vector<Token>> tokenize(const std::string& path, std::string_view te
     return Lexer(path, text).run();
 }
 
-void Cursor::expect(std::string_view text, std::string_view mend) {
+void Cursor::expect(std::string_view text, std::string_view advice) {
     if (accept(text)) return;
     std::string what = "'" + std::string(text) + "' is missing before '" + peek().text + "'";
     if (at_end()) what = "'" + std::string(text) + "' is missing at the end of the file";
     if (peek().kind == Token::Kind::comment) what = "a comment within a statement";
-    if (!mend.empty()) what += "; " + std::string(mend);
+    if (!advice.empty()) what += "; " + std::string(advice);
     fail(peek().line, what);
 }
 

@@ -55,7 +55,7 @@ class Cursor {
         return true;
     }
     /// Takes it, or fails.
-    void expect(std::string_view text, std::string_view mend);
+    void expect(std::string_view text, std::string_view advice);
     /// A name, or a failure and "".
     std::string expect_name(std::string_view of_what);
 

@@ -189,20 +189,20 @@ Statement parse_if(Cursor& cursor) {
 // for (int i = 0; i < n; ++i): one counter, which is what every language writes alike.
 Statement parse_for(Cursor& cursor) {
     Statement statement{.kind = Statement::Kind::for_loop, .line = cursor.take().line};
-    const char* mend = "write for (int i = 0; i < COUNT; ++i)";
-    cursor.expect("(", mend);
+    const char* advice = "write for (int i = 0; i < COUNT; ++i)";
+    cursor.expect("(", advice);
     Statement counter = parse_declaration(cursor);
     if (counter.type != Type::integer || counter.declarators.size() != 1 || !counter.declarators[0].value)
-        cursor.fail(statement.line, std::string("a loop counts one int; ") + mend);
+        cursor.fail(statement.line, std::string("a loop counts one int; ") + advice);
     statement.declarators = std::move(counter.declarators);
-    cursor.expect(";", mend);
+    cursor.expect(";", advice);
     statement.expressions.push_back(parse_expression(cursor));
-    cursor.expect(";", mend);
+    cursor.expect(";", advice);
     const Statement step = parse_assignment(cursor);
     if (!statement.declarators.empty() &&
         (step.operation != "++" || step.target != statement.declarators[0].name))
-        cursor.fail(statement.line, std::string("a loop counts upwards by 1; ") + mend);
-    cursor.expect(")", mend);
+        cursor.fail(statement.line, std::string("a loop counts upwards by 1; ") + advice);
+    cursor.expect(")", advice);
     statement.body = parse_body(cursor, statement.braces);
     return statement;
 }
