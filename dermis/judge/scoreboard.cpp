@@ -11,6 +11,9 @@ namespace {
 
 // Beyond the defaults of every technique.
 constexpr std::string_view kSettings =
+    "preintegrated[gain=curvature],"
+    "texture_space_gaussians[gain=curvature],"
+    "screen_space_separable[gain=curvature],"
     "preintegrated[shadow=scattered],"
     "preintegrated[shadow=plain],"
     "preintegrated[normals=blended],"
@@ -87,7 +90,7 @@ std::string markdown_row(const ScoreRow& row) {
         settings.insert(at + 1, " ");
     std::string text = "| `" + row.technique + "`" + settings + " | " + share_and_error_text(captured.all);
     for (const CapturedShare& channel : captured.channels) text += " | " + share_text(channel);
-    text += " | " + (row.walk && row.surface ? share_and_error_text(row.surface->all) : "");
+    if (row.walk && row.surface) text += " | " + share_and_error_text(row.surface->all);
     return text + " | " + figures(row.time_ratio, "%.2f") + " | " + ratio_text(row.model_ratio) + " | " +
            memory_text(row.bytes) + " |\n";
 }
@@ -194,10 +197,11 @@ std::string scoreboard_markdown(const std::vector<ScoreRow>& rows) {
             continue;
         }
         const std::vector<ScoreRow> own = rows_of(rows, scene);
+        const bool both = own.front().walk && own.front().surface;
         text += "## " + scene + "\n\n" + effects_text(own.front()) + "\n\n| technique | of `" +
-                std::string(own.front().walk ? "walk" : "surface") +
-                "` | R | G | B | of `surface` | × lambert measured | modelled | memory |\n"
-                "|---|---|---|---|---|---|---|---|---|\n";
+                std::string(own.front().walk ? "walk" : "surface") + "` | R | G | B |" +
+                (both ? " of `surface` |" : "") + " × lambert measured | modelled | memory |\n" +
+                "|---|---|---|---|---|---|---|---|" + (both ? "---|" : "") + "\n";
         for (const ScoreRow& row : own) text += markdown_row(row);
         text += "\n";
     }

@@ -82,7 +82,7 @@ TEST_F(ScoreboardProgram, goes_on_where_it_was_stopped) {
     if (!std::filesystem::exists(kProgram)) GTEST_SKIP() << "built without benchmarks";
     const Run first = run("1 of 2 scenes are left");
     EXPECT_TRUE(WIFSIGNALED(first.status)) << first.output;
-    EXPECT_THAT(first.output, HasSubstr("spheres: reference of"));
+    EXPECT_THAT(first.output, HasSubstr("spheres: reference walk of"));
     EXPECT_THAT(first.output, HasSubstr("1 of 2 scenes are left, about"));
     EXPECT_EQ(rows_of("spheres"), 2u);
     EXPECT_EQ(rows_of("backlit"), 0u);
@@ -90,9 +90,9 @@ TEST_F(ScoreboardProgram, goes_on_where_it_was_stopped) {
     const Run second = run();
     EXPECT_EQ(second.status, 0);
     EXPECT_THAT(second.output, HasSubstr("spheres: was made before"));
-    EXPECT_THAT(second.output, Not(HasSubstr("spheres: reference of")));
+    EXPECT_THAT(second.output, Not(HasSubstr("spheres: reference walk of")));
     EXPECT_THAT(second.output, HasSubstr("1 of 2 scenes are left\n")) << "the cache is no measure of time";
-    EXPECT_THAT(second.output, HasSubstr("backlit: reference of"));
+    EXPECT_THAT(second.output, HasSubstr("backlit: reference walk of"));
     EXPECT_EQ(rows_of("spheres"), 2u);
     EXPECT_EQ(rows_of("backlit"), 2u);
 
@@ -106,7 +106,7 @@ TEST_F(ScoreboardProgram, fills_in_modelled_costs_and_keeps_the_shares) {
     std::vector<ScoreRow> rows = {{.scene = "spheres", .technique = "lambert", .time_ratio = 1},
                                   {.scene = "spheres", .technique = "screen_space_burley", .time_ratio = 3},
                                   {.scene = "spheres", .technique = "exact"}};
-    rows[1].surface->all.share = 0.25;
+    rows[1].surface.emplace().all.share = 0.25;
     ASSERT_TRUE(write_text_file(directory_ / "scoreboard.csv", scores_csv(rows)));
     const Run models = run("", {"--models"});
     EXPECT_EQ(models.status, 0) << models.output;

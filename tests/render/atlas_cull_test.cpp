@@ -85,9 +85,11 @@ TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_face) {
 }
 
 TEST_F(AtlasCull, changes_no_pixel_of_6_views_of_heads_under_gaussians) {
-    for (const char* name : {"bust", "head_scan", "face"})
+    // The face's atlas holds the back of the head too, so its texels are larger and a tile reaches farther.
+    for (const auto& [name, share] : std::initializer_list<std::pair<const char*, double>>{
+             {"bust", 0.8}, {"head_scan", 0.8}, {"face", 0.85}})
         if (load_built_in_scene(name))
-            expect_same_in_12_views(name, {{"light_map_size", "512"}}, "texture_space_gaussians", 0.8, 2);
+            expect_same_in_12_views(name, {{"light_map_size", "512"}}, "texture_space_gaussians", share, 2);
     expect_same_in_12_views("bust", {{"gaussians", "profile"}}, "texture_space_gaussians", 1, 5);
 }
 
