@@ -146,6 +146,9 @@ void Swapchain::State::blit(VkCommandBuffer commands, FrameImage& source, VkImag
     barrier(context, commands, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
+// Wayland gives a hidden window no picture, and an X server can lose the event that frees one.
+constexpr uint64_t kAcquireLimit_ns = 3'000'000'000;
+
 Result<Swapchain> Swapchain::create(Device& device, const SurfaceMaker& make_surface,
                                     const SwapchainOptions& options) {
     const Context& context = device.state().context;
@@ -176,9 +179,9 @@ Result<Presented> Swapchain::present(Executor& executor, std::string_view name) 
     State::Slot& slot = state.slots[state.next_slot];
     DERMIS_TRY(slot.commands.wait(context, "the copy to the window"));
     uint32_t index = 0;
-    VkResult result = context.vk.vkAcquireNextImageKHR(context.device, state.handle.get(), UINT64_MAX,
+    VkResult result = context.vk.vkAcquireNextImageKHR(context.device, state.handle.get(), kAcquireLimit_ns,
                                                        slot.acquired.get(), VK_NULL_HANDLE, &index);
-    if (result == VK_ERROR_OUT_OF_DATE_KHR) return Presented::resize;
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_TIMEOUT) return Presented::resize;
     DERMIS_TRY(check(result, "get a picture of the window"));
     const VkSemaphore drawn = state.drawn[index].get();
     DERMIS_TRY(slot.commands.run(

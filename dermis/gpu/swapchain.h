@@ -29,7 +29,8 @@ struct SwapchainOptions {
     Pacing pacing = Pacing::vsync;
 };
 
-/// resize: the window has changed; call Swapchain::resize with its new size, then present again.
+/// resize: the window has changed, or freed no picture for 3 s; call Swapchain::resize with its size, then
+/// present again.
 enum class Presented { shown, resize };
 
 /// Movable handle; must be destroyed before its device and before the window.

@@ -6,6 +6,7 @@
 // After Vulkan, whose types switch GLFW's surface functions on.
 #include <GLFW/glfw3.h>
 
+#include "dermis/gpu/device_state.h"
 #include "test_shaders.h"
 
 namespace dermis::gpu {
@@ -75,6 +76,32 @@ TEST_F(SwapchainTest, pictures_of_a_list_are_shown_through_a_change_of_size) {
     const Result<Presented> missing = swapchain->present(*executor, "nothing");
     ASSERT_FALSE(missing);
     EXPECT_THAT(missing.error().message, HasSubstr("'nothing'"));
+}
+
+TEST_F(SwapchainTest, a_window_that_frees_no_picture_ends_no_program) {
+    Result<Executor> executor = Executor::create(*device_, basic_shaders());
+    ASSERT_TRUE(executor);
+    const PassList list{.images = {{.name = "display", .format = ImageFormat::rgba8}},
+                        .passes = {clear_pass("display", {1, 0.5f, 0, 1})}};
+    Result<Swapchain> swapchain = Swapchain::create(*device_, surface_maker(), {.width = 64, .height = 48});
+    ASSERT_TRUE(swapchain) << swapchain.error().message;
+    ASSERT_TRUE(executor->run(list, {.width = 64, .height = 48}));
+    auto& acquire = device_->state().context.vk.vkAcquireNextImageKHR;
+    const auto of_the_driver = acquire;
+    static uint64_t asked_ns = 0;
+    acquire = [](VkDevice, VkSwapchainKHR, uint64_t timeout_ns, VkSemaphore, VkFence, uint32_t*) {
+        asked_ns = timeout_ns;
+        return VK_TIMEOUT;
+    };
+    const Result<Presented> none = swapchain->present(*executor, "display");
+    acquire = of_the_driver;
+    ASSERT_TRUE(none) << none.error().message;
+    EXPECT_EQ(*none, Presented::resize);
+    EXPECT_LT(asked_ns, UINT64_MAX);
+    ASSERT_TRUE(swapchain->resize(64, 48));
+    const Result<Presented> next = swapchain->present(*executor, "display");
+    ASSERT_TRUE(next) << next.error().message;
+    EXPECT_EQ(*next, Presented::shown);
 }
 
 TEST_F(SwapchainTest, a_window_without_surface_is_an_error) {
