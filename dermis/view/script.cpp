@@ -133,6 +133,19 @@ Result<std::vector<ScriptCommand>> parse_script(std::string_view text, const std
     return commands;
 }
 
+FileUse script_files(const std::vector<ScriptCommand>& script) {
+    FileUse files;
+    for (const ScriptCommand& command : script) {
+        const bool saves = command.kind == CommandKind::save;
+        if (!saves && command.kind != CommandKind::screenshot && command.kind != CommandKind::capture)
+            continue;
+        const std::filesystem::path& path = command.words[0];
+        if (!saves || std::ranges::find(files.outputs, path) == files.outputs.end())
+            files.outputs.push_back(path);
+    }
+    return files;
+}
+
 std::deque<std::vector<Event>> input_frames(const ScriptCommand& command) {
     const auto point = [&](size_t first) {
         return Vec2{float(command.numbers[first]), float(command.numbers[first + 1])};

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dermis/base/output_check.h"
 #include "dermis/view/event.h"
 #include "dermis/view/panels.h"
 
@@ -54,6 +55,9 @@ inline constexpr size_t kMaxScriptBytes = size_t{1} << 20;
 
 /// Errors: "FILE:LINE: ...", naming the command and what it wants.
 [[nodiscard]] Result<std::vector<ScriptCommand>> parse_script(std::string_view text, const std::string& file);
+
+/// The pictures and scenes that a script writes. Scenes may be saved again, pictures not.
+[[nodiscard]] FileUse script_files(const std::vector<ScriptCommand>& script);
 
 /// The events of a command that is input, one batch a frame; empty for the others.
 [[nodiscard]] std::deque<std::vector<Event>> input_frames(const ScriptCommand& command);

@@ -86,6 +86,9 @@ constexpr LossCall kLossCalls[] = {
     {"render scene.toml --size 8 -o link.png", "link.png"},
     {"render scene.toml --size 8 --frames 3 -o numbered_%d.png", "numbered_2.png"},
     {"view scene.toml --size 8 --turntable 3 -o numbered_%d.png", "numbered_2.png"},
+    {"view scene.toml --script over_map.txt", "albedo.png"},
+    {"view scene.toml --script over_script.txt", "over_script.txt"},
+    {"view scene.toml --script twice.txt", "twice.png"},
     {"figures preintegrated scene.toml --only normals -o .", "normals.png"},
     {"profile convert skin.mtlx -o ./skin.mtlx", "skin.mtlx"},
     {"export --language hlsl --profile skin.csv -o skin.csv", "skin.csv"},
@@ -162,6 +165,11 @@ TEST_F(Outputs, a_sidecar_that_cannot_be_written_is_refused_before_the_table_is_
     expect_refused("lint /proc/none.png --write-sidecar", "/proc/none.png.json", "cannot write");
 }
 
+TEST_F(Outputs, what_a_script_of_the_viewer_cannot_write_is_refused_before_a_window_opens) {
+    write("script.txt", "save /proc/none.toml\nquit\n");
+    expect_refused("view none.toml --script script.txt", "/proc/none.toml", "cannot write");
+}
+
 TEST_F(Outputs, nothing_is_written_twice_or_over_an_input) {
     ASSERT_EQ(
         dermis("bake lut --size 8 --storage 8 -o albedo.png && cp albedo.png normals.png && "
@@ -176,6 +184,9 @@ TEST_F(Outputs, nothing_is_written_twice_or_over_an_input) {
     write("mesh.obj", kMeshOfOutputs);
     write("skin.csv", "radius_mm,r,g,b\n0,1,1,1\n1,0.5,0.2,0.1\n9,0,0,0\n");
     write("out/work.txt", "render spheres -o new.png\n");
+    write("over_map.txt", "save scene.toml\nsave scene.toml\nscreenshot ./albedo.png\nquit\n");
+    write("over_script.txt", "capture sub/../over_script.txt\nquit\n");
+    write("twice.txt", "screenshot twice.png\ncapture ./twice.png\nquit\n");
     write("same.txt", "render spheres -o new.png\nrender spheres -t wrap -o ./new.png\n");
     for (const LossCall& call : kLossCalls)
         expect_refused(call.command, call.lost, "would be replaced|two outputs");

@@ -32,8 +32,23 @@ Turntable turntable_of(const ViewOptions& options) {
     return turntable;
 }
 
+Result<std::vector<view::ScriptCommand>> read_script(const std::string& name) {
+    if (name.empty()) return std::vector<view::ScriptCommand>{};
+    DERMIS_TRY_ASSIGN(const std::string text, read_text_file(name));
+    return view::parse_script(text, name);
+}
+
+// A script may save the scene that it shows, as Ctrl+S does.
+Result<FileUse> files_of_window(const ViewOptions& options) {
+    DERMIS_TRY_ASSIGN(const std::vector<view::ScriptCommand> script, read_script(options.script));
+    FileUse files = view::script_files(script);
+    std::erase(files.outputs, std::filesystem::path(options.render.scene.name));
+    files.inputs = {options.script, options.reference, options.render.scene.name};
+    return files;
+}
+
 Result<FileUse> files_of(const ViewOptions& options) {
-    if (options.turn_frames == 0) return FileUse{};
+    if (options.turn_frames == 0) return files_of_window(options);
     for (const auto& [flag, given] :
          {std::pair("--script", !options.script.empty()),
           std::pair("--reference", !options.reference.empty()), std::pair("--frames", options.frames != 0)})
@@ -43,9 +58,10 @@ Result<FileUse> files_of(const ViewOptions& options) {
 
 // Keeps the scene of the files apart from the changes by --scene, --camera and --light, which stay when the
 // files change.
-Result<view::Start> first_scene(const RenderOptions& options) {
-    DERMIS_TRY_ASSIGN(Prepared prepared, prepare(options));
-    const Result<std::vector<SceneWord>> words = options.scene.all_words();
+Result<view::Start> first_scene(const ViewOptions& options) {
+    DERMIS_TRY_ASSIGN(Prepared prepared, prepare(options.render));
+    DERMIS_TRY(keep_scene_files(prepared.scene, files_of_window(options)));
+    const Result<std::vector<SceneWord>> words = options.render.scene.all_words();
     return view::Start{.scene = std::move(prepared.scene),
                        .loading_words = words_for(*words, true),
                        .technique = prepared.technique,
@@ -71,7 +87,7 @@ Result<int> view_scene(ViewOptions options) {
     if (!size) return size.error();
     view::ViewerOptions viewer = {.catalog = built_in_catalog(),
                                   .scene_path = options.render.scene.name,
-                                  .load = [&options] { return first_scene(options.render); },
+                                  .load = [&options] { return first_scene(options); },
                                   .size = {size->width, size->height},
                                   .device = options.render.device,
                                   .validation = options.render.validation,
@@ -86,12 +102,7 @@ Result<int> view_scene(ViewOptions options) {
     if (!options.reference.empty())
         if (const Result<LoadedImage> picture = read_image(options.reference, ImageUse::color); !picture)
             return picture.error().within("--reference");
-    if (!options.script.empty()) {
-        DERMIS_TRY_ASSIGN(const std::string text, read_text_file(options.script));
-        Result<std::vector<view::ScriptCommand>> script = view::parse_script(text, options.script);
-        if (!script) return script.error();
-        viewer.script = std::move(*script);
-    }
+    DERMIS_TRY_ASSIGN(viewer.script, read_script(options.script));
     DERMIS_TRY_ASSIGN(const view::ViewerReport report, view::run_viewer(viewer));
     if (options.frames > 0 || !options.script.empty())
         std::printf("%d frames, %s on %s\n", report.frames, first_picture_text(report).c_str(),
