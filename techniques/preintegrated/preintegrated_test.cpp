@@ -37,10 +37,10 @@ Rgb exact(double t, double curvature_per_mm, const Preintegration& how) {
 // The published tables differ in the integral and in a factor on the variances.
 TEST_F(PreintegratedDiffuse, of_the_table_is_the_librarys) {
     for (const auto& [diffuse, how] :
-         {std::pair{"lut", Preintegration{}}, {"half_ring", kUnity2011Ring}, {"full_ring", kYeung2015Ring}})
-        EXPECT_LT(largest_difference(diffuse, [&how = how](double t, double k) { return exact(t, k, how); }),
-                  1e-3)
-            << diffuse;
+         {std::pair{"lut", Preintegration{}}, {"half_ring", kUnity2011Ring}, {"full_ring", kYeung2015Ring}}) {
+        const auto integral = [&ring = how](double t, double k) { return exact(t, k, ring); };
+        EXPECT_LT(largest_difference(diffuse, integral), 1e-3) << diffuse;
+    }
 }
 
 TEST_F(PreintegratedDiffuse, of_the_closed_form_is_the_librarys_and_near_the_exact) {

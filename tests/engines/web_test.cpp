@@ -213,10 +213,10 @@ TEST_F(WebPageFolder, in_a_browser_its_controls_change_the_picture) {
 
 TEST_F(WebPageFolder, in_a_browser_a_sphere_of_8_mm_is_the_renderers_own) {
     if (!has_browser()) GTEST_SKIP() << "no chromium or no node here";
-    constexpr int kSide = 320, kBound = 2;
+    constexpr int kSphereSide = 320, kBound = 2;
     const fs::path folder = write_page(DERMIS_SOURCE_DIR "/tests/engines/web_sphere_8mm.toml");
     const fs::path ours = directory_.path / "ours.png", theirs = directory_.path / "theirs.png";
-    const std::string size = std::to_string(kSide) + "x" + std::to_string(kSide);
+    const std::string size = std::to_string(kSphereSide) + "x" + std::to_string(kSphereSide);
     const ProgramResult drawn = run_dermis(
         "render " DERMIS_SOURCE_DIR
         "/tests/engines/web_sphere_8mm.toml --technique preintegrated --set specular=two_lobe_ggx --set "
@@ -225,10 +225,10 @@ TEST_F(WebPageFolder, in_a_browser_a_sphere_of_8_mm_is_the_renderers_own) {
         directory_.path);
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const ProgramResult shot =
-        run_script("shot " + folder.string() + " " + theirs.string() + " " + std::to_string(kSide));
+        run_script("shot " + folder.string() + " " + theirs.string() + " " + std::to_string(kSphereSide));
     ASSERT_EQ(shot.exit_code, 0) << shot.err;
     const Image a = read_image(ours, ImageUse::color)->image, b = read_image(theirs, ImageUse::color)->image;
-    ASSERT_EQ(b.width, kSide);
+    ASSERT_EQ(b.width, kSphereSide);
     const SphereDifference difference = sphere_difference(a, b);
     EXPECT_GT(difference.pixels, 30'000);
     EXPECT_LE(difference.largest_level, kBound);

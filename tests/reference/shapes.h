@@ -1,6 +1,7 @@
 #pragma once
 // Meshes whose curvature, thickness and visibility are known.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
