@@ -13,12 +13,29 @@ namespace {
 constexpr int kMostGrid = 16;
 constexpr const char *kSize = "512x512", *kCaseSize = "96x96";
 
+Result<std::vector<OwnPicture>> read_pictures(const std::vector<std::string>& texts) {
+    std::vector<OwnPicture> pictures;
+    for (const std::string& text : texts) {
+        Result<OwnPictureFiles> files = parse_own_picture(text);
+        if (!files) return files.error().within("--picture");
+        Result<OwnPicture> picture = read_own_picture(*files);
+        if (!picture) return picture.error().within("--picture");
+        pictures.push_back(std::move(*picture));
+    }
+    return pictures;
+}
+
 }  // namespace
 
 Result<ComparisonSettings> CompareChoice::settings() const {
-    const char* usual_size = set_of_scenes(scene.name) != nullptr ? kCaseSize : kSize;
-    DERMIS_TRY_ASSIGN(const Size pixels, parse_size(size.empty() ? usual_size : size));
+    const bool is_set = set_of_scenes(scene.name) != nullptr;
+    if (is_set && !pictures.empty())
+        return Error{"--picture: " + scene.name + " is a set of scenes; name the one that it shows"};
+    DERMIS_TRY_ASSIGN(std::vector<OwnPicture> own, read_pictures(pictures));
+    DERMIS_TRY_ASSIGN(Size pixels, parse_size(!size.empty() ? size : is_set ? kCaseSize : kSize));
+    if (size.empty() && !own.empty()) pixels = {own.front().with.width, own.front().with.height};
     ComparisonSettings settings = comparison_settings(pixels.width, pixels.height);
+    settings.pictures = std::move(own);
     settings.frames = frames;
     settings.noise = noise;
     settings.samples = samples;
@@ -59,6 +76,13 @@ std::vector<std::string> warnings_of(const Comparison& comparison, const Compari
         warnings.insert(warnings.end(), reference.warnings.begin(), reference.warnings.end());
         if (reference.reached) return;
         const double noise = reference.noise.noise_rms / reference.noise.effect_rms;
+        if (reference.stopped) {
+            warnings.push_back("the reference " + std::string(judge_name(integrator)) +
+                               " was stopped with a noise of " +
+                               to_text(float(std::round(1000 * noise) / 1000)) +
+                               " of the effect; the same command goes on from there");
+            return;
+        }
         warnings.push_back("the reference " + std::string(judge_name(integrator)) +
                            " stopped at its limit of " + std::to_string(settings.samples) +
                            " samples a pixel with a noise of " +

@@ -14,7 +14,9 @@ inline constexpr NumberRange kReferenceNoiseRange = {1e-6, 1}, kTimedFramesRange
 
 struct CompareChoice {
     SceneChoice scene;
-    std::string techniques, size, device;  ///< empty: every technique; 512x512, or 96x96 of each of a set
+    /// Empty: every technique; the size of the pictures, 512x512, or 96x96 of each of a set.
+    std::string techniques, size, device;
+    std::vector<std::string> pictures;  ///< parse_own_picture()
     /// "both": walk decides, surface judges too.
     std::string integrator = "both", ambient = "renderer";
     ComparisonSettings defaults;
@@ -22,6 +24,7 @@ struct CompareChoice {
     int samples = defaults.samples, samples_per_pixel = defaults.grid * defaults.grid,
         frames = defaults.frames;
 
+    /// Reads the pictures.
     [[nodiscard]] Result<ComparisonSettings> settings() const;
     [[nodiscard]] Result<std::vector<Contestant>> contestants() const;
 };

@@ -24,20 +24,25 @@ struct OneComparison {
 Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
                                   const std::vector<Contestant>& contestants, ComparisonSettings settings,
                                   Watch& watch, double from, double share) {
-    // The reference takes most of the time.
-    constexpr double kReferenceShare = 0.8;
+    // The references' first samples, the techniques, the rest of the references.
+    constexpr double kFirstEnd = 0.2, kTechniquesEnd = 0.4;
+    bool drawn = false;
+    const auto report = [&](double done) { watch.report(from + share * done); };
     settings.exact = one.exact;
-    DERMIS_TRY_ASSIGN(
-        Comparison compared,
-        compare_techniques(
-            device, built_in_catalog(), one.scene, contestants, settings,
-            {.reference = [&](double done,
-                              const std::string&) { watch.report(from + share * kReferenceShare * done); },
-             .techniques =
-                 [&](double done, const std::string&) {
-                     watch.report(from + share * (kReferenceShare + (1 - kReferenceShare) * done));
-                 },
-             .stop = &watch.stopped()}));
+    DERMIS_TRY_ASSIGN(Comparison compared,
+                      compare_techniques(device, built_in_catalog(), one.scene, contestants, settings,
+                                         {.reference =
+                                              [&](double done, const std::string&) {
+                                                  report(drawn ? kTechniquesEnd + (1 - kTechniquesEnd) * done
+                                                               : kFirstEnd * done);
+                                              },
+                                          .techniques =
+                                              [&](double done, const std::string&) {
+                                                  drawn = true;
+                                                  report(kFirstEnd + (kTechniquesEnd - kFirstEnd) * done);
+                                              },
+                                          .stop = &watch.stopped(),
+                                          .cancel = &watch.stopped()}));
     OneComparison made{.comparison = std::move(compared),
                        .reference_effect = {},
                        .json = {},
@@ -67,8 +72,19 @@ Result<std::vector<OneComparison>> compare_all(const cli::CompareChoice& choice,
     return made;
 }
 
+OwnPicture own_picture(const py::handle& name, const py::handle& pair) {
+    const std::string text = py::str(name), place = "pictures['" + text + "']";
+    if (!py::isinstance<py::sequence>(pair) || py::len(pair) != 2)
+        throw py::type_error(place + ": two arrays, with and without scattering");
+    const auto both = pair.cast<py::sequence>();
+    return {.name = text,
+            .with = picture_from(both[0], place + "[0]"),
+            .without = picture_from(both[1], place + "[1]")};
+}
+
 std::vector<OneComparison> compare(const SceneArguments& scene, const std::string& techniques,
-                                   const py::dict& given, const py::object& progress) {
+                                   const py::dict& pictures, const py::dict& given,
+                                   const py::object& progress) {
     cli::CompareChoice choice;
     choice.scene = scene_choice(scene);
     choice.techniques = techniques;
@@ -80,7 +96,8 @@ std::vector<OneComparison> compare(const SceneArguments& scene, const std::strin
     take(choice.samples_per_pixel, given, "samples_per_pixel");
     take(choice.frames, given, "frames");
     take(choice.noise, given, "noise");
-    const ComparisonSettings settings = value_of(choice.settings());
+    ComparisonSettings settings = value_of(choice.settings());
+    for (const auto& [name, pair] : pictures) settings.pictures.push_back(own_picture(name, pair));
     return watched(progress, [&](Watch& watch) { return compare_all(choice, settings, watch); });
 }
 

@@ -81,32 +81,68 @@ double noise_rmse(const EffectReference& reference, const Image& mask) {
     return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-// The first and, where wanted, the second.
-Result<void> make_references(const Scene& scene, const ComparisonSettings& settings,
-                             const ComparisonHooks& hooks, Comparison& comparison) {
-    const int count = settings.second ? 2 : 1;
-    int made = 0;
-    const auto make = [&](Integrator integrator) {
-        EffectReferenceSettings wanted = reference_settings(settings);
-        wanted.reference.integrator = integrator;
-        const auto progress = [&](double done, bool first_samples) {
-            if (hooks.reference)
-                hooks.reference((made + done) / count, "reference " + std::string(judge_name(integrator)) +
-                                                           (first_samples ? ", first samples" : ""));
-        };
-        return make_effect_reference(scene, wanted, progress, hooks.stop);
+// One of the references: the samples that say how many it takes, or all.
+struct ReferencePart {
+    Integrator integrator;
+    bool first_samples;
+    double from, share;  ///< of the work on all references
+};
+
+// The shares of all rows, of the reference so far.
+void report_shares(const Comparison& comparison, Integrator integrator, const EffectReference& reference,
+                   const ComparisonHooks& hooks) {
+    std::vector<CapturedShare> shares;
+    for (const Compared& row : comparison.rows) {
+        const bool second = integrator == comparison.second_integrator && row.second_effect;
+        const Result<Captured> share =
+            captured(second ? *row.second_effect : row.effect, reference.effect, comparison.masks.skin);
+        if (!share) return;  // judge() names it
+        shares.push_back(share->all);
+    }
+    hooks.shares(integrator, comparison.rows, shares);
+}
+
+Result<void> make_reference(const Scene& scene, const ComparisonSettings& settings,
+                            const ComparisonHooks& hooks, const ReferencePart& part,
+                            const Comparison& comparison, EffectReference& reference) {
+    EffectReferenceSettings wanted = reference_settings(settings);
+    wanted.reference.integrator = part.integrator;
+    if (part.first_samples) wanted.samples = 2 * settings.grid * settings.grid;
+    EffectReferenceHooks reference_hooks{.stop = hooks.stop};
+    const std::string name = "reference " + std::string(judge_name(part.integrator));
+    reference_hooks.done = [&](double done, bool first) {
+        if (hooks.reference)
+            hooks.reference(part.from + part.share * done, first ? name + ", first samples" : name);
     };
+    if (hooks.shares && !comparison.rows.empty())
+        reference_hooks.refined = [&](const EffectReference& so_far) {
+            report_shares(comparison, part.integrator, so_far, hooks);
+        };
+    Result<EffectReference> made = make_effect_reference(scene, wanted, reference_hooks);
+    if (!made) return made.error();
+    made->from_cache = made->from_cache && (part.first_samples || reference.from_cache);
+    for (const std::string& warning : reference.warnings)
+        if (std::ranges::find(made->warnings, warning) == made->warnings.end())
+            made->warnings.push_back(warning);
+    reference = std::move(*made);
+    return {};
+}
+
+// Both references: first their first samples, whose skin the techniques are drawn for; then, with the
+// techniques' pictures, all.
+Result<void> make_references(const Scene& scene, const ComparisonSettings& settings,
+                             const ComparisonHooks& hooks, bool first_samples, Comparison& comparison) {
+    const double share = settings.second ? 0.5 : 1;
     comparison.integrator = settings.reference.integrator;
-    comparison.second_integrator = settings.second;
-    Result<EffectReference> first = make(comparison.integrator);
-    if (!first) return first.error();
-    comparison.reference = std::move(*first);
+    DERMIS_TRY(make_reference(scene, settings, hooks, {comparison.integrator, first_samples, 0, share},
+                              comparison, comparison.reference));
+    if (settings.second) {
+        comparison.second_integrator = settings.second;
+        if (!comparison.second) comparison.second.emplace();
+        DERMIS_TRY(make_reference(scene, settings, hooks, {*settings.second, first_samples, share, share},
+                                  comparison, *comparison.second));
+    }
     comparison.reference_radiance = comparison.reference.radiance();
-    if (!settings.second) return {};
-    ++made;
-    Result<EffectReference> second = make(*settings.second);
-    if (!second) return second.error();
-    comparison.second = std::move(*second);
     return {};
 }
 
@@ -116,16 +152,15 @@ Contestant judged_by(Integrator integrator, Contestant contestant) {
     return contestant;
 }
 
-// How the work on the techniques divides, in pictures of one of them: pictures, timed frames, judging.
+// How the work on the techniques divides, in pictures of one of them.
 struct TechniqueWork {
-    double pictures, frames, judging;
+    double pictures, frames;
 
     explicit TechniqueWork(size_t contestants, const ComparisonSettings& settings)
         : pictures(double(contestants)),
           frames(settings.frames > 0 ? pictures * (settings.frames + 1) / (settings.grid * settings.grid)
-                                     : 0),
-          judging(0.25 * pictures) {}
-    [[nodiscard]] double all() const { return pictures + frames + judging; }
+                                     : 0) {}
+    [[nodiscard]] double all() const { return pictures + frames; }
 };
 
 // A row as a technique has it, whose effect is the formula's.
@@ -146,6 +181,41 @@ Result<void> add_exact(PictureMaker& maker, const Technique& baseline, const Sce
     return {};
 }
 
+// RMS of their difference over that of the first, over the skin.
+double relative_difference(const Image& base, const Image& other, const Image& mask) {
+    double squares = 0, base_squares = 0;
+    for (size_t i = 0; i < mask.pixel_count(); ++i)
+        for (size_t c = 0; mask.floats()[i] > 0 && c < 3; ++c) {
+            const double is = base.floats()[size_t(base.channels) * i + c];
+            squares += std::pow(other.floats()[size_t(other.channels) * i + c] - is, 2);
+            base_squares += is * is;
+        }
+    return base_squares > 0 ? std::sqrt(squares / base_squares) : 0;
+}
+
+// After the masks, which say where `without` is held against the baseline.
+Result<void> add_pictures(PictureMaker& maker, const Technique& baseline, const ComparisonSettings& settings,
+                          Comparison& comparison) {
+    static const Technique kPicture = {.id = std::string(kPictureId),
+                                       .summary = "a picture of another renderer"};
+    if (settings.pictures.empty()) return {};
+    DERMIS_TRY_ASSIGN(const TechniquePictures base,
+                      maker.make({&baseline, ParameterValues(baseline.parameters)}));
+    for (const OwnPicture& picture : settings.pictures) {
+        Compared row{.contestant = {&kPicture, ParameterValues(kPicture.parameters), picture.name},
+                     .radiance = picture.with,
+                     .effect = difference(picture.with, picture.without)};
+        const double far = relative_difference(base.radiance, picture.without, comparison.masks.skin);
+        if (far > kPictureDifference)
+            comparison.warnings.push_back(
+                row.contestant.name() + ": without scattering it differs from Dermis' own picture by " +
+                std::to_string(std::lround(100 * far)) +
+                " % (rms); its share means little until camera, light, albedo and exposure agree");
+        comparison.rows.push_back(std::move(row));
+    }
+    return {};
+}
+
 // Drawing and timing in one renderer: pictures first, then the costs in rounds.
 Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const Scene& scene,
                              const std::vector<Contestant>& contestants, const ComparisonSettings& settings,
@@ -161,7 +231,7 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
     for (const Contestant& contestant : contestants) {
         if (hooks.techniques)
             hooks.techniques(double(comparison.rows.size()) / work.all(), contestant.name());
-        if (hooks.stop && hooks.stop->load()) return Error{"stopped"};
+        if (hooks.cancel && hooks.cancel->load()) return Error{"stopped"};
         const Contestant first = judged_by(comparison.integrator, contestant),
                          second = judged_by(settings.second.value_or(comparison.integrator), contestant);
         DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(first));
@@ -188,7 +258,7 @@ Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const S
                                     }));
     for (size_t i = 0; i < costs.size(); ++i) comparison.rows[i].cost = costs[i];
     comparison.warnings = renderer.warnings();
-    return {};
+    return add_pictures(maker, *baseline, settings, comparison);
 }
 
 }  // namespace
@@ -210,28 +280,26 @@ ComparisonSettings comparison_settings(int width, int height) {
 Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalog, const Scene& scene,
                                       const std::vector<Contestant>& contestants,
                                       const ComparisonSettings& settings, const ComparisonHooks& hooks) {
-    if (contestants.empty()) return Error{"no technique to compare"};
+    if (contestants.empty() && settings.pictures.empty()) return Error{"no technique to compare"};
     DERMIS_TRY(check_grid(settings));
+    for (const OwnPicture& picture : settings.pictures)
+        DERMIS_TRY(check_own_picture(picture, settings.width, settings.height));
     // First, as it says at once what it cannot do.
     DERMIS_TRY_ASSIGN(Renderer renderer,
                       Renderer::create(device, gpu::embedded_shaders(catalog.shaders), scene));
     Comparison comparison{.device = device.info().name};
-    if (Result<void> made = make_references(scene, settings, hooks, comparison); !made) return made.error();
+    DERMIS_TRY(make_references(scene, settings, hooks, true, comparison));
     if (Result<void> drawn =
             draw_techniques(renderer, catalog, scene, contestants, settings, hooks, comparison);
         !drawn)
         return drawn.error();
+    DERMIS_TRY(make_references(scene, settings, hooks, false, comparison));
+    if (hooks.cancel && hooks.cancel->load()) return Error{"stopped"};
     Result<RegionMasks> regions = find_regions(scene, comparison.masks.skin);
     if (!regions) return regions.error();
     comparison.regions = std::move(*regions);
     comparison.reference_rmse = noise_rmse(comparison.reference, comparison.masks.skin);
-    const TechniqueWork work(contestants.size(), settings);
-    for (size_t i = 0; i < comparison.rows.size(); ++i) {
-        const double judged = double(i) / double(comparison.rows.size());
-        if (hooks.techniques)
-            hooks.techniques((work.pictures + work.frames + judged * work.judging) / work.all(), "scores");
-        DERMIS_TRY(judge(comparison, scene, comparison.rows[i]));
-    }
+    for (Compared& row : comparison.rows) DERMIS_TRY(judge(comparison, scene, row));
     return comparison;
 }
 

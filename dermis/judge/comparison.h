@@ -17,6 +17,7 @@
 
 #include "dermis/gpu/device.h"
 #include "dermis/judge/effect_reference.h"
+#include "dermis/judge/own_picture.h"
 #include "dermis/judge/regions.h"
 #include "dermis/judge/scores.h"
 #include "dermis/judge/technique_cost.h"
@@ -44,6 +45,8 @@ struct ComparisonSettings {
     std::optional<Integrator> second;
     /// Given: the exact answer is a row too, after the techniques, so that the reference is held against it.
     ExactExitance exact;
+    /// Rows after the techniques; their cost is not known.
+    std::vector<OwnPicture> pictures;
 };
 
 /// The row's id.
@@ -82,16 +85,24 @@ struct Comparison {
     RegionMasks regions;
     double reference_rmse = 0;  ///< standard error of the reference over the skin: no rmse is known better
     std::vector<Compared> rows;
-    std::vector<std::string> warnings;  ///< of the renderer: what a technique left out or could not read
+    /// Of the renderer: what a technique left out or could not read; of pictures: another light or camera.
+    std::vector<std::string> warnings;
     std::string device;
 };
 
+/// The references' first samples are made first, then the techniques' pictures, then the rest.
 struct ComparisonHooks {
-    /// With the share of all references that is done, and the name of the one in work.
+    /// With the share of this round over all references that is done, and the name of the one in work.
     std::function<void(double done, const std::string& name)> reference;
-    /// Before each picture, timed frame and judgement, with the share of the work that is done.
+    /// Before each picture and timed frame, with the share of the work on techniques that is done.
     std::function<void(double done, const std::string& name)> techniques;
+    /// After each batch of a reference, once the techniques are drawn: the share of each row so far.
+    std::function<void(Integrator, const std::vector<Compared>& rows, const std::vector<CapturedShare>&)>
+        shares;
+    /// Ends the references early; what they have is judged. Set before the first samples are there: an error.
     const std::atomic<bool>* stop = nullptr;
+    /// Ends everything with an error.
+    const std::atomic<bool>* cancel = nullptr;
 };
 
 /// The scene must be complete (complete_scene). `lambert` is the technique without scattering, which every

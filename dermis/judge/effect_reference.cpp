@@ -105,6 +105,32 @@ int next_passes(const State& state, const EffectReferenceSettings& settings) {
     return cells * std::min({left, kMostRounds, std::max(1, int(std::ceil(wanted)))});
 }
 
+// A batch of both halves, or none of it.
+Result<void> refine(const Scene& scene, const ReferenceSettings& reference,
+                    const EffectReferenceSettings& settings, const EffectReferenceHooks& hooks,
+                    State& state) {
+    State next = state;
+    next.reference.from_cache = false;
+    for (int half = 0; half < 2; ++half) {
+        const auto done = [&](double share) {
+            if (!hooks.done) return;
+            const bool first = state.passes == 0;
+            const double passes = state.passes + (half + share) / 2 * reference.samples;
+            const double wanted = first ? reference.samples : passes_wanted(state, settings);
+            hooks.done(std::min(1.0, passes / std::max(wanted, 1.0)), first);
+        };
+        DERMIS_TRY(add_batch(scene, reference, half, next, done, hooks.stop));
+    }
+    next.passes += reference.samples;
+    next.reference.samples = 2 * next.passes;
+    const Image mask = whole_skin(next.reference.skin);
+    if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
+        return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
+    next.reference.noise = effect_noise(next.reference.effect, mask);
+    state = std::move(next);
+    return {};
+}
+
 }  // namespace
 
 Image EffectReference::radiance() const {
@@ -115,7 +141,7 @@ Image EffectReference::radiance() const {
 }
 
 Result<EffectReference> make_effect_reference(const Scene& scene, const EffectReferenceSettings& settings,
-                                              const ReferenceDone& progress, const std::atomic<bool>* stop) {
+                                              const EffectReferenceHooks& hooks) {
     ReferenceSettings reference = settings.reference;
     reference.filter = PixelFilter::grid;
     reference.noise = {};
@@ -129,30 +155,19 @@ Result<EffectReference> make_effect_reference(const Scene& scene, const EffectRe
         state.reference.noise = effect_noise(state.reference.effect, whole_skin(state.reference.skin));
     else
         state = State(reference);
+    state.reference.samples = 2 * state.passes;
     state.reference.from_cache = true;
     while (!fine_enough(state, settings)) {
         reference.samples = next_passes(state, settings);
         if (reference.samples == 0) break;
-        state.reference.from_cache = false;
-        for (int half = 0; half < 2; ++half) {
-            const auto done = [&](double share) {
-                if (!progress) return;
-                const bool first = state.passes == 0;
-                const double passes = state.passes + (half + share) / 2 * reference.samples;
-                const double wanted = first ? reference.samples : passes_wanted(state, settings);
-                progress(std::min(1.0, passes / std::max(wanted, 1.0)), first);
-            };
-            DERMIS_TRY(add_batch(scene, reference, half, state, done, stop));
-        }
-        state.passes += reference.samples;
-        const Image mask = whole_skin(state.reference.skin);
-        if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
-            return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
-        state.reference.noise = effect_noise(state.reference.effect, mask);
+        const Result<void> refined = refine(scene, reference, settings, hooks, state);
+        state.reference.stopped = hooks.stop && hooks.stop->load();
+        if (!refined && (!state.reference.stopped || state.passes == 0)) return refined.error();
+        if (!refined) break;
         cache_store("effect", hash, state.parts());
+        if (hooks.refined) hooks.refined(state.reference);
     }
     state.reference.reached = fine_enough(state, settings);
-    state.reference.samples = 2 * state.passes;
     return std::move(state.reference);
 }
 

@@ -29,6 +29,7 @@ struct EffectReference {
     EffectNoise noise;            ///< over whole pixels of skin
     bool reached = false;         ///< the noise that was asked for
     bool from_cache = false;      ///< nothing had to be made
+    bool stopped = false;         ///< by the caller, before that noise
     double time_ms = 0;           ///< of everything that was ever made for it
     std::vector<std::string> warnings;
 
@@ -36,18 +37,21 @@ struct EffectReference {
     [[nodiscard]] Image radiance() const;
 };
 
-/// How much is done, 0 to 1: of the first samples, whose noise says how many are needed, and then of all. The
-/// second never falls by more than the estimate of all grows.
-using ReferenceDone = std::function<void(double done, bool first_samples)>;
+struct EffectReferenceHooks {
+    /// How much is done, 0 to 1: of the first samples, whose noise says how many are needed, and then of all.
+    /// The second never falls by more than the estimate of all grows.
+    std::function<void(double done, bool first_samples)> done;
+    /// After each batch of samples, with the reference so far.
+    std::function<void(const EffectReference&)> refined;
+    const std::atomic<bool>* stop = nullptr;
+};
 
-/// Reuses a finer cached state and continues a coarser one, so
-/// that a run that was stopped loses little. Width 0 takes the same places in the pixels and the same
-/// reflections as the skin's width, so that their noise cancels. Errors: as render_reference; stopped; no
-/// skin in sight.
+/// Reuses a finer cached state and continues a coarser one, so that a run that was stopped loses a batch.
+/// Width 0 takes the same places in the pixels and the same reflections as the skin's width, so that their
+/// noise cancels. Errors: as render_reference; stopped before the first samples; no skin in sight.
 [[nodiscard]] Result<EffectReference> make_effect_reference(const Scene& scene,
                                                             const EffectReferenceSettings& settings,
-                                                            const ReferenceDone& progress = {},
-                                                            const std::atomic<bool>* stop = nullptr);
+                                                            const EffectReferenceHooks& hooks = {});
 
 // The effect of scattering as a picture where a subject knows it exactly: what reference and techniques are
 // both held against.

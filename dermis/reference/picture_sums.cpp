@@ -77,7 +77,9 @@ void put(Image& image, size_t pixel, Vec3 value) {
 }
 
 void add_warnings(const PictureSums& sums, std::vector<std::string>& warnings) {
-    if (sums.lost_walks > 0)
+    // What fewer take away is far below the noise of any picture.
+    constexpr double kLostShare = 1e-5;
+    if (double(sums.lost_walks) > kLostShare * double(sums.walks))
         warnings.push_back(std::to_string(sums.lost_walks) + " of " + std::to_string(sums.walks) +
                            " walks were lost: the skin has holes, and the picture is too dark near them");
     if (sums.cut_channels > 0)

@@ -94,6 +94,10 @@ TEST_F(BadInput, comparisons_that_cannot_be_made_leave_nothing) {
     expect_error("compare builtin:spheres --techniques 'wrap[wrap=9]'" + to,
                  "'9' is not in its range, 0 to 1");
     expect_error("compare builtin:spheres --size 9x" + to, "--size '9x'");
+    expect_error("compare builtin:spheres --picture mine=a.exr" + to,
+                 "--picture: 'mine=a.exr': write NAME=with.exr,without.exr");
+    expect_error("compare builtin:spheres --picture mine=none.exr,b.exr" + to, "--picture: none.exr: ");
+    expect_error("compare unit --picture mine=a.exr,b.exr" + to, "--picture: unit is a set of scenes");
     expect_error("compare builtin:spheres --frames 0" + to, "--frames: 0 is not in its range, 1 to 1000");
     expect_error("compare builtin:spheres --integrator walkk" + to, "did you mean 'walk'?");
     expect_error("compare builtin:spheres --size 16x16 --samples 1" + to,

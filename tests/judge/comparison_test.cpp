@@ -87,7 +87,7 @@ TEST_F(Comparisons, the_reference_is_made_once_and_the_page_holds_every_picture)
     EXPECT_THAT(*page, Not(HasSubstr("https://")));
 }
 
-TEST_F(Comparisons, progress_rises_from_0_through_pictures_frames_and_scores) {
+TEST_F(Comparisons, progress_rises_from_0_through_pictures_and_frames) {
     std::vector<double> seen;
     std::vector<std::string> names;
     ComparisonSettings settings = quick();
@@ -99,14 +99,73 @@ TEST_F(Comparisons, progress_rises_from_0_through_pictures_frames_and_scores) {
                                names.push_back(name);
                            }});
     ASSERT_TRUE(comparison) << comparison.error().message;
-    ASSERT_EQ(seen.size(), 2u + 3 * 2 + 2);  // pictures, frames of three rounds, scores
+    ASSERT_EQ(seen.size(), 2u + 3 * 2);  // pictures, frames of three rounds
     EXPECT_EQ(seen.front(), 0);
     for (size_t i = 1; i < seen.size(); ++i) EXPECT_GT(seen[i], seen[i - 1]) << i;
     EXPECT_GT(seen.back(), 0.8);
     EXPECT_LT(seen.back(), 1);
     EXPECT_EQ(names[1], "wrap");
     EXPECT_EQ(names[3], "frame times, wrap");
-    EXPECT_EQ(names.back(), "scores");
+}
+
+TEST_F(Comparisons, a_picture_of_ones_own_gets_the_share_of_what_drew_it) {
+    const Scene scene = load("builtin:spheres");
+    const auto list = contestants("lambert,wrap");
+    ComparisonSettings settings = quick();
+    const auto drawn = compare_techniques(device(), built_in_catalog(), scene, list, settings);
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    OwnPicture same{"same", drawn->rows[1].radiance, drawn->rows[0].radiance}, bright = same;
+    bright.name = "bright";
+    for (float& value : bright.without.floats()) value *= 1.5f;
+    settings.pictures = {same, bright};
+    const auto judged = compare_techniques(device(), built_in_catalog(), scene, list, settings);
+    ASSERT_TRUE(judged) << judged.error().message;
+    ASSERT_EQ(judged->rows.size(), 4u);
+    EXPECT_EQ(judged->rows[2].contestant.name(), "picture[same]");
+    EXPECT_NEAR(judged->rows[2].first.captured.all.share, judged->rows[1].first.captured.all.share, 1e-5);
+    EXPECT_LT(judged->rows[3].first.captured.all.share, -1);
+    EXPECT_THAT(judged->warnings, testing::ElementsAre(HasSubstr("picture[bright]: without scattering it")));
+
+    settings.pictures = {{"small", Image(32, 32, 3), Image(32, 32, 3)}};
+    const auto small = compare_techniques(device(), built_in_catalog(), scene, list, settings);
+    ASSERT_FALSE(small);
+    EXPECT_EQ(small.error().message, "small, with scattering: is 32x32, the comparison 64x64");
+    same.without.floats()[5] = NAN;
+    settings.pictures = {same};
+    const auto no_number = compare_techniques(device(), built_in_catalog(), scene, list, settings);
+    ASSERT_FALSE(no_number);
+    EXPECT_THAT(no_number.error().message, HasSubstr("same, without scattering: has values"));
+}
+
+TEST_F(Comparisons, a_reference_that_is_stopped_is_judged_with_what_it_has_and_goes_on_later) {
+    const Scene scene = load("builtin:spheres");
+    ComparisonSettings settings = quick();
+    settings.noise = 1e-6;
+    std::atomic<bool> stop = false;
+    int refined = 0;
+    const ComparisonHooks hooks{
+        .shares =
+            [&](Integrator, const std::vector<Compared>& rows, const std::vector<CapturedShare>& shares) {
+                EXPECT_EQ(rows.size(), shares.size());
+                EXPECT_GT(shares[1].error, 0);
+                ++refined;
+                stop = true;
+            },
+        .stop = &stop};
+    const auto list = contestants("lambert,wrap");
+    settings.samples = 128;
+    const auto first = compare_techniques(device(), built_in_catalog(), scene, list, settings, hooks);
+    ASSERT_TRUE(first) << first.error().message;
+    EXPECT_TRUE(first->reference.stopped);
+    EXPECT_FALSE(first->reference.reached);
+    EXPECT_LT(first->reference.samples, settings.samples);
+    EXPECT_EQ(refined, 1);
+    const auto whole = compare_techniques(device(), built_in_catalog(), scene, list, settings);
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_EQ(whole->reference.samples, settings.samples);
+    stop = true;
+    ::setenv("DERMIS_CACHE", (directory_.path / "empty").c_str(), 1);
+    EXPECT_FALSE(compare_techniques(device(), built_in_catalog(), scene, list, settings, hooks));
 }
 
 TEST_F(Comparisons, a_finer_reference_of_another_run_is_taken_as_it_is) {

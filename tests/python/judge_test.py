@@ -47,6 +47,16 @@ class Compare(TestCase):
         share = 1 - numpy.sqrt(((wrap - reference) ** 2).sum() / (reference**2).sum())
         self.assertAlmostEqual(share, compared.rows[0]["walk_captured"], delta=0.02)
 
+    def test_pictures_of_ones_own_get_a_row(self):
+        drawn = dermis.compare("spheres", "lambert,wrap", **SAME)
+        same = drawn.radiance("wrap"), drawn.radiance("lambert")
+        settings = {name: value for name, value in SAME.items() if name != "size"}
+        compared = dermis.compare("spheres", "lambert", pictures={"same": same}, **settings)
+        self.assertEqual(compared.names, ["lambert", "picture[same]"])
+        self.assertAlmostEqual(compared.rows[1]["walk_captured"], drawn.rows[1]["walk_captured"], places=5)
+        with self.assertRaisesRegex(TypeError, "two arrays"):
+            dermis.compare("spheres", pictures={"one": [same[0]]}, **SAME)
+
     def test_a_set_of_scenes_is_a_list(self):
         compared = dermis.compare("unit", "lambert", keys={"mesh.shape": "slab_behind"}, **SAME)
         self.assertEqual(compared.scene.split("/")[-1], "slab_behind")

@@ -1,5 +1,6 @@
 // dermis compare: techniques compared with the reference, as a page and a table.
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -12,10 +13,12 @@
 #include "compare_scenes.h"
 #include "compare_text.h"
 #include "dermis/base/file.h"
+#include "dermis/base/hash.h"
 #include "dermis/base/progress.h"
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/report.h"
 #include "job_hash.h"
+#include "stop_on_signals.h"
 
 namespace dermis::cli {
 namespace {
@@ -33,31 +36,65 @@ Result<FileUse> files_of(const CompareOptions& options) {
     std::error_code ec;
     if (fs::exists(directory, ec) && !fs::is_directory(directory, ec))
         return Error{"-o " + directory.string() + ": is a file; name a directory for the report"};
-    return FileUse{
-        .outputs = {directory / "report.html", directory / "scores.csv", directory / "regions.csv"},
-        .inputs = {options.choice.scene.name}};
+    FileUse files{.outputs = {directory / "report.html", directory / "scores.csv", directory / "regions.csv"},
+                  .inputs = {options.choice.scene.name}};
+    for (const std::string& text : options.choice.pictures)
+        if (const Result<OwnPictureFiles> picture = parse_own_picture(text)) {
+            files.inputs.push_back(picture->with);
+            files.inputs.push_back(picture->without);
+        }
+    return files;
 }
 
-// One line of progress for the reference and one for the techniques; for a set, with the scene's name.
-Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const std::string& prefix,
-                           const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
-    Progress line(prefix + "reference", 0);
-    std::optional<Progress> techniques;
-    return compare_techniques(
-        device, built_in_catalog(), one.scene, contestants, settings,
-        {.reference = [&](double done, const std::string& name) { line.set(done, prefix + name); },
-         .techniques =
-             [&](double done, const std::string& name) {
-                 if (!techniques) techniques.emplace("techniques", 0);
-                 techniques->set(done, prefix + name);
-             }});
-}
+// One line at a time: the references' first samples, the techniques, the rest of the references, with the
+// best share so far. For a set, with the scene's name.
+class ComparisonProgress {
+  public:
+    explicit ComparisonProgress(std::string prefix) : prefix_(std::move(prefix)) {}
+
+    [[nodiscard]] ComparisonHooks hooks() {
+        return {.reference = [this](double done,
+                                    const std::string& name) { show(drawn_ ? 3 : 1, done, name + best_); },
+                .techniques =
+                    [this](double done, const std::string& name) {
+                        drawn_ = true;
+                        show(2, done, name);
+                    },
+                .shares = [this](Integrator, const std::vector<Compared>& rows,
+                                 const std::vector<CapturedShare>& shares) { keep_best(rows, shares); },
+                .stop = &stop_requested()};
+    }
+
+  private:
+    void show(int step, double done, const std::string& text) {
+        if (step != step_) line_.emplace(prefix_, 0);
+        step_ = step;
+        line_->set(done, std::to_string(step) + "/3 " + prefix_ + text);
+    }
+    void keep_best(const std::vector<Compared>& rows, const std::vector<CapturedShare>& shares) {
+        const size_t best =
+            size_t(std::ranges::max_element(shares, {}, &CapturedShare::share) - shares.begin());
+        best_ = fmt::format(": {} {:.2f} +-{:.2f}", rows[best].contestant.technique->id, shares[best].share,
+                            shares[best].error);
+    }
+
+    std::string prefix_, best_;
+    std::optional<Progress> line_;
+    int step_ = 0;
+    bool drawn_ = false;
+};
 
 // report.html in the directory; for a set, one per scene in a folder of its own.
 fs::path report_path(const CompareOptions& options, const ComparedScenes& scenes, const SubjectCase& one) {
     const fs::path directory(options.output);
     return scenes.is_set ? directory / fs::path(one.name).filename() / "report.html"
                          : directory / "report.html";
+}
+
+Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const std::string& prefix,
+                           const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
+    ComparisonProgress progress(prefix);
+    return compare_techniques(device, built_in_catalog(), one.scene, contestants, settings, progress.hooks());
 }
 
 Result<ComparedScenes> scenes_of(const CompareOptions& options) {
@@ -77,6 +114,7 @@ Result<std::vector<Comparison>> compare_all(const CompareOptions& options, const
     DERMIS_TRY_ASSIGN(gpu::Device device, gpu::Device::create({.name_contains = options.choice.device}));
     std::vector<Comparison> comparisons;
     for (const SubjectCase& one : scenes.all) {
+        if (!comparisons.empty() && stop_requested()) break;
         const std::string prefix = scenes.is_set ? one.name + ": " : "";
         print_warnings(one.scene.warnings, prefix);
         settings.exact = one.exact;
@@ -132,23 +170,27 @@ void print_results(const CompareOptions& options, const ComparedScenes& scenes,
 Result<int> run(const CompareOptions& options) {
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, options.choice.contestants());
-    DERMIS_TRY_ASSIGN(const ComparedScenes scenes, scenes_of(options));
+    DERMIS_TRY_ASSIGN(ComparedScenes scenes, scenes_of(options));
+    const StopOnSignals stop_on_signals;
     DERMIS_TRY_ASSIGN(const std::vector<Comparison> comparisons,
                       compare_all(options, scenes, contestants, settings));
+    scenes.all.resize(comparisons.size());  // those before Ctrl-C
     DERMIS_TRY(write_tables(options, scenes, comparisons));
     print_results(options, scenes, comparisons);
-    return 0;
+    return stop_requested() ? stopped_exit_code() : 0;
 }
 
 // One job: the techniques share the reference.
 Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::string>& words) {
-    if (const Result<ComparisonSettings> settings = options.choice.settings(); !settings)
-        return settings.error();
+    DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
     DERMIS_TRY(options.choice.contestants());
     DERMIS_TRY_ASSIGN(const ComparedScenes scenes, scenes_of(options));
     std::vector<const Scene*> all;
     for (const SubjectCase& one : scenes.all) all.push_back(&one.scene);
-    const Result<std::string> hash = hash_of_job(all, words);
+    std::vector<std::string> content = words;
+    for (const OwnPicture& picture : settings.pictures)
+        content.push_back(Hasher().add(picture.with.bytes).add(picture.without.bytes).hex());
+    const Result<std::string> hash = hash_of_job(all, content);
     if (!hash) return hash.error();
     return JobPlan{.work = {{.name = options.output,
                              .hash = *hash,
@@ -164,15 +206,20 @@ void add_compare_command(CommandLine& line) {
     Command* command = line.add(
         "compare", "Compares techniques with the reference: captured shares, errors, a report with pictures",
         "dermis compare head_scan -t \"wrap,preintegrated[shadow=plain]\" -o out/compare\n"
-        "  dermis compare unit -o out/unit   (small scenes with exact answers)");
+        "  dermis compare unit -o out/unit   (small scenes with exact answers)\n"
+        "  dermis compare bust --picture mine=with.exr,without.exr -o out/mine");
     options->choice.scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->choice.techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
     command
         ->add_output("-o,--output", options->output, "directory for report.html, scores.csv and regions.csv")
         ->required();
+    command->add_option(
+        "--picture", options->choice.pictures,
+        "NAME=with.exr,without.exr: another renderer's picture of the scene, with and without "
+        "scattering, gets a row; repeatable");
     command->add_option("--size", options->choice.size,
-                        "WIDTHxHEIGHT in pixels (512x512; of the unit scenes 96x96)");
+                        "WIDTHxHEIGHT in pixels (that of --picture, else 512x512; of the unit scenes 96x96)");
     command
         ->add_option("--integrator", options->choice.integrator,
                      "references: walk (transport), surface (the profile), both")

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
+import numpy
+
 from dermis import _dermis
 from dermis._words import given, scene_arguments, size_text, whole
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-    import numpy
+    from collections.abc import Callable, Iterable, Mapping
     from numpy.typing import ArrayLike, NDArray
     from dermis._words import Path, Size, Words
 
@@ -88,18 +89,25 @@ class Comparison:
 
 
 def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: Size | None=None,
+            pictures: Mapping[str, tuple[ArrayLike, ArrayLike]] | None=None,
             integrator: str='both', ambient: str='renderer', samples_per_pixel: int=36, noise: float=0.2,
             samples: int=2048, frames: int=5, device: str='', camera: Words=None, light: Words=None, keys: Words=None,
             progress: Callable[[float], object] | None=None) -> Comparison | list[Comparison]:
     """Techniques compared with the reference of the same scene, as `dermis compare`.
 
-    techniques: "lambert,wrap[wrap=0.4]", a list of such texts, or None for all. size: pixels (512x512, of a set
+    techniques: "lambert,wrap[wrap=0.4]", a list of such texts, or None for all. pictures: of another renderer by
+    name, each with and without scattering, linear floats, height x width x 3; size is theirs if it is not given.
+    They get rows "picture[NAME]". size: pixels (512x512, of a set
     of test scenes 96x96). noise: of the reference at which it stops, over the effect of scattering. samples:
     of the reference a pixel, at most. samples_per_pixel: points of a pixel that both sides take, a square
     number. frames: that are timed. integrator: "walk", "surface", or "both": rows have both shares, walk_captured
     and captured, and the pictures are of walk. The references are kept in the cache. Returns a Comparison; of
     a set of scenes, such as "unit", a list.
     """
+    pictures = dict(pictures or {})
+    if pictures and size is None:
+        height, width = numpy.shape(next(iter(pictures.values()))[0])[:2]
+        size = (width, height)
     listed = techniques if isinstance(techniques, str) else ",".join(techniques or [])
     least, most = -2**31, 2**31 - 1
     options = given(size=None if size is None else size_text(size), integrator=integrator, ambient=ambient,
@@ -107,7 +115,7 @@ def compare(scene: Path, techniques: str | Iterable[str] | None=None, *, size: S
                     samples=whole(samples, "samples", least, most), frames=whole(frames, "frames", least, most),
                     device=device)
     arguments = scene_arguments(scene, keys, camera, light)
-    made = [Comparison(one) for one in _dermis.compare(arguments, listed, options, progress)]
+    made = [Comparison(one) for one in _dermis.compare(arguments, listed, pictures, options, progress)]
     return made[0] if len(made) == 1 else made
 
 
