@@ -86,7 +86,6 @@ constexpr LossCall kLossCalls[] = {
     {"render scene.toml --size 8 -o link.png", "link.png"},
     {"render scene.toml --size 8 --frames 3 -o numbered_%d.png", "numbered_2.png"},
     {"view scene.toml --size 8 --turntable 3 -o numbered_%d.png", "numbered_2.png"},
-    {"view scene.toml --script over_map.txt", "albedo.png"},
     {"view scene.toml --script over_script.txt", "over_script.txt"},
     {"view scene.toml --script twice.txt", "twice.png"},
     {"figures preintegrated scene.toml --only normals -o .", "normals.png"},
@@ -184,7 +183,6 @@ TEST_F(Outputs, nothing_is_written_twice_or_over_an_input) {
     write("mesh.obj", kMeshOfOutputs);
     write("skin.csv", "radius_mm,r,g,b\n0,1,1,1\n1,0.5,0.2,0.1\n9,0,0,0\n");
     write("out/work.txt", "render spheres -o new.png\n");
-    write("over_map.txt", "save scene.toml\nsave scene.toml\nscreenshot ./albedo.png\nquit\n");
     write("over_script.txt", "capture sub/../over_script.txt\nquit\n");
     write("twice.txt", "screenshot twice.png\ncapture ./twice.png\nquit\n");
     write("same.txt", "render spheres -o new.png\nrender spheres -t wrap -o ./new.png\n");

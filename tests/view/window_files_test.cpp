@@ -50,6 +50,17 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_other_files_make_a_n
     EXPECT_THAT(last_state(result), HasSubstr("environment studio\n"));
 }
 
+TEST_F(ViewWindow, a_script_draws_over_no_map_of_the_scene) {
+    const std::string mesh = square();
+    const Result<std::string> before = read_text_file(path("white.png"));
+    const ProgramResult result =
+        view(mesh + " --size 160x120",
+             "screenshot DIR/../" + directory_.path.filename().string() + "/white.png\nquit\n");
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("white.png: is an input of this command"));
+    EXPECT_EQ(*read_text_file(path("white.png")), *before);
+}
+
 TEST_F(ViewWindow, dropped_panoramas_become_the_environment_and_other_pictures_the_right_side) {
     ASSERT_TRUE(write_image(path("red.hdr"), plain(16, 8, {2, 0, 0})));
     ASSERT_TRUE(write_image(path("green.exr"), plain(16, 8, {0, 2, 0})));
