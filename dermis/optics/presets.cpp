@@ -11,6 +11,7 @@
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/primaries.h"
 #include "dermis/optics/profile_file.h"
+#include "dermis/optics/tissue/skin_model.h"
 
 namespace dermis::inline optics {
 namespace {
@@ -166,6 +167,10 @@ Result<Profile> find_profile(std::string_view name) {
     for (const Preset& preset : presets())
         if (preset.name == name) return preset.make();
     if (name.starts_with("burley:")) return burley_from_lengths(name);
+    if (is_skin_model(name)) {
+        DERMIS_TRY_ASSIGN(const SkinModel model, parse_skin_model(name));
+        return skin_profile(model);
+    }
     if (is_profile_file(name)) {
         const std::string lower = to_lower(name);
         const std::filesystem::path path = utf8_path(name);
@@ -174,7 +179,7 @@ Result<Profile> find_profile(std::string_view name) {
                                           : read_gltf_profile(path);
     }
     return Error{unknown_name("profile", name, profile_names()) +
-                 ", or a .csv, .mtlx, .glb or .gltf file, or burley:d_mm"};
+                 ", or a .csv, .mtlx, .glb or .gltf file, burley:d_mm, or skin:melanin=0.02,blood=0.015"};
 }
 
 }  // namespace dermis::inline optics
