@@ -25,8 +25,7 @@ Result<Profile> walked(const ScatteringMedium& medium, int walks, const std::str
 // The volume of the profile's walks; g and eta replaced keep albedo and reduced mean free path.
 Result<ScatteringMedium> medium_of(const FitWalkOptions& options) {
     DERMIS_TRY_ASSIGN(const Profile profile, find_profile(options.name));
-    if (const std::string note = walk_volume_note(profile); !note.empty())
-        std::fprintf(stderr, "%s\n", note.c_str());
+    if (const std::string note = walk_volume_note(profile); !note.empty()) print_warning(note);
     ScatteringMedium medium = walk_medium_of(profile);
     if (options.g || options.eta)
         medium = dermis::medium_of(burley_of(medium), options.g.value_or(medium.g),

@@ -26,6 +26,7 @@ inline void PrintTo(const Case& one, std::ostream* out) {
 constexpr const char* kParts =
     "$DERMIS reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 0:4 -o a.exr && "
     "$DERMIS reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 4:8 -o b.exr";
+constexpr const char* kPicture = "$DERMIS render scene.toml --size 16x16 -o a.exr";
 constexpr const char* kTable = "$DERMIS bake lut --size 16x16 --storage 8 -o table.png";
 
 constexpr Case kCases[] = {
@@ -46,6 +47,8 @@ constexpr Case kCases[] = {
     {"profile_list", "profile list"},
     {"profile_convert", "profile convert gpu_gems_3 --to all"},
     {"profile_mtlx", "profile convert gpu_gems_3 --to openpbr -o out/a.mtlx"},
+    {"profile_fit_walk", "profile fit-walk openpbr_skin_3 --walks 3000 -o out/a.csv"},
+    {"new_scene", "new-scene cube.obj --unit-mm 50 -o out/a.toml"},
     {"lint", "lint table.png", Made::together, Case::slow, kTable},
     {"lint_sidecar", "lint out/a.dds --write-sidecar", Made::each, Case::slow,
      "$DERMIS bake lut --size 16x16 -o out/a.dds && rm out/a.dds.json"},
@@ -76,6 +79,10 @@ constexpr Case kCases[] = {
     {"compare",
      "compare scene.toml --size 16x16 --samples 8 --samples-per-pixel 4 --frames 1 -t lambert -o out",
      Made::varies, Case::draws},
+    {"compare_picture",
+     "compare scene.toml --samples 8 --samples-per-pixel 4 --frames 1 -t lambert --picture a=a.exr,a.exr -o "
+     "out",
+     Made::varies, Case::draws, kPicture},
 };
 
 }  // namespace dermis
