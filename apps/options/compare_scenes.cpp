@@ -32,7 +32,7 @@ Result<ComparedScenes> scenes_of_set(const Subject& subject, const SceneChoice& 
                 return w.key.starts_with("light") || w.key.starts_with("environment");
             }))
             one.exact = {};
-        DERMIS_TRY(set_words(one.scene, changes));
+        DERMIS_TRY(change_scene(one.scene, changes));
         DERMIS_TRY(complete_scene(one.scene));
     }
     return ComparedScenes{std::move(*cases), true};

@@ -60,6 +60,15 @@ Result<void> keep_scene_files(const Scene& scene, const Result<FileUse>& files) 
     return check_outputs({.outputs = files->outputs, .inputs = files_of(scene)});
 }
 
+Result<void> change_scene(Scene& scene, const std::vector<SceneWord>& words) {
+    DERMIS_TRY(set_words(scene, words));
+    const Vec3 eye_mm = scene.camera.eye_mm;
+    if (length(eye_mm - scene.camera.target_mm) > 0) return {};
+    return Error{"camera.eye_mm and camera.target_mm are the same point, " + to_text(eye_mm.x) + " " +
+                 to_text(eye_mm.y) + " " + to_text(eye_mm.z) +
+                 ": the camera looks nowhere; move one of them"};
+}
+
 Result<Scene> SceneChoice::load(Scene* as_filed) const {
     DERMIS_TRY_ASSIGN(const std::vector<SceneWord> all, all_words());
     if (unit_mm > 0 && subject_name(name))
@@ -68,11 +77,7 @@ Result<Scene> SceneChoice::load(Scene* as_filed) const {
         load_scene(name, {.subjects = built_in_catalog().subjects, .words = words_for(all, true)});
     if (!scene) return scene;
     if (as_filed) *as_filed = without_objects(*scene);
-    DERMIS_TRY(set_words(*scene, words_for(all, false)));
-    if (length(scene->camera.eye_mm - scene->camera.target_mm) == 0)
-        return Error{"camera.eye_mm and camera.target_mm are the same point, " +
-                     to_text(scene->camera.eye_mm.x) + " " + to_text(scene->camera.eye_mm.y) + " " +
-                     to_text(scene->camera.eye_mm.z) + ": the camera looks nowhere; move one of them"};
+    DERMIS_TRY(change_scene(*scene, words_for(all, false)));
     return scene;
 }
 

@@ -31,6 +31,9 @@ struct SceneChoice {
 /// Whether the outputs of a command replace none of the files that the loaded scene is made of.
 [[nodiscard]] Result<void> keep_scene_files(const Scene& scene, const Result<FileUse>& files);
 
+/// set_words(), and an error for a camera that looks nowhere.
+[[nodiscard]] Result<void> change_scene(Scene& scene, const std::vector<SceneWord>& words);
+
 /// Those of `words` that is_loading_key() says are, or are not, read while a scene is loaded.
 [[nodiscard]] std::vector<SceneWord> words_for(const std::vector<SceneWord>& words, bool loading);
 

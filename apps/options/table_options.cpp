@@ -50,9 +50,9 @@ Result<void> choose_construction(const LutChoice& choice, Convention& convention
     else if (!choice.ring_weights.empty() && choice.ring_weights != "line")
         return Error{
             unknown_name("ring weights", choice.ring_weights, std::vector<std::string>{"line", "area"})};
-    if (choice.variance_scale == 0) return {};
-    convention.how.variance_scale = choice.variance_scale;
-    return check_number("--variance-scale", choice.variance_scale, kVarianceScaleRange);
+    if (!choice.variance_scale) return {};
+    convention.how.variance_scale = *choice.variance_scale;
+    return check_number("--variance-scale", *choice.variance_scale, kVarianceScaleRange);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 // The options of `dermis bake lut`, `zh` and `shadow`, and the tables that they ask for.
 
+#include <optional>
 #include <string>
 
 #include "command.h"
@@ -12,10 +13,10 @@ namespace dermis::cli {
 
 inline constexpr NumberRange kVarianceScaleRange = {1e-6, 1e6};
 
-/// Empty text and a scale of 0: as the convention has it.
+/// Empty text and no scale: as the convention has it.
 struct LutChoice {
     std::string convention = "dermis", construction, ring_weights, profile, size, axis, range, warp;
-    double variance_scale = 0;
+    std::optional<double> variance_scale;
 
     [[nodiscard]] Result<LutOptions> options() const;
 };

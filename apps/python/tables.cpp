@@ -27,13 +27,13 @@ MadeTable bake(const py::object& progress, Options options, const std::optional<
 }
 
 MadeTable bake_lut(const std::optional<Profile>& profile, const std::vector<std::string>& texts,
-                   double variance_scale, const py::object& progress) {
+                   std::optional<double> variance_scale, const py::object& progress) {
     cli::LutChoice choice;
     std::string* const members[] = {&choice.convention, &choice.construction, &choice.ring_weights,
                                     &choice.size,       &choice.axis,         &choice.range,
                                     &choice.warp};
     for (size_t i = 0; i < std::size(members); ++i) take_text(*members[i], texts.at(i));
-    choice.variance_scale = finite("--variance-scale", variance_scale);
+    if (variance_scale) choice.variance_scale = finite("--variance-scale", *variance_scale);
     return bake(progress, value_of(choice.options()), profile);
 }
 

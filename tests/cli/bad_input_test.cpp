@@ -230,6 +230,8 @@ TEST_F(BadInput, a_camera_that_looks_nowhere_is_refused) {
         " --scene camera.eye_mm=1,2,3 --scene camera.target_mm=1,2,3 --size 16 -o " + path("a.exr");
     expect_error("render spheres" + words, "camera.eye_mm and camera.target_mm are the same point, 1 2 3");
     expect_error("reference spheres" + words, "the same point");
+    expect_error("compare unit --scene camera.eye_mm=1,2,3 --scene camera.target_mm=1,2,3 -o " + path("out"),
+                 "the same point");
 }
 
 TEST_F(BadInput, viewers_that_would_wait_for_ever_or_show_something_else_are_refused) {

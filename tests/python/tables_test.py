@@ -98,6 +98,8 @@ class Tables(TestCase):
         for sizes in (-5, 2**40, "nan", (8, 8, 8)):
             with self.assertRaisesRegex(dermis.Error, "--size"):
                 dermis.bake_lut(size=sizes)
+        with self.assertRaisesRegex(dermis.Error, "--variance-scale: 0 is not in its range"):
+            dermis.bake_lut(variance_scale=0)
 
 
 if __name__ == "__main__":

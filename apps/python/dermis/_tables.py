@@ -94,8 +94,7 @@ def bake_lut(profile: Profile | str | None=None, *, convention: str='dermis', co
     (mm). range: (min, max) in that unit. warp: linear, squared. size: pixels, 256, "256x64" or (256, 64).
     """
     texts = [convention, construction, ring_weights, size_text(size), axis, range_text(range), warp]
-    scale = 0 if variance_scale is None else variance_scale
-    return Table(_dermis.bake_lut(_profile(profile), texts, scale, progress))
+    return Table(_dermis.bake_lut(_profile(profile), texts, variance_scale, progress))
 
 
 def bake_zh(profile: Profile | str | None=None, *, construction: str='sphere', axis: str='curvature',
