@@ -38,6 +38,16 @@ struct Mat3 {
     }
 };
 
+/// By cofactors; the determinant must not be 0.
+[[nodiscard]] constexpr Mat3 inverse(const Mat3& m) {
+    const Vec3 a = m.row[0], b = m.row[1], c = m.row[2];
+    const Vec3 columns[3] = {cross(b, c), cross(c, a), cross(a, b)};
+    const float scale = 1 / dot(a, columns[0]);
+    return {{Vec3{columns[0].x, columns[1].x, columns[2].x} * scale,
+             Vec3{columns[0].y, columns[1].y, columns[2].y} * scale,
+             Vec3{columns[0].z, columns[1].z, columns[2].z} * scale}};
+}
+
 /// Linear sRGB to CIE XYZ (Y = 1 for white) and back; from the primaries of BT.709 and D65 = (0.3127,
 /// 0.3290). A test derives both from those chromaticities.
 inline constexpr Mat3 kXyzFromLinear = {{{0.4123908f, 0.3575843f, 0.1804808f},

@@ -241,7 +241,8 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     if (is_profile_file(description.skin.profile))
         if (const Result<fs::path> file = resolve_path(description.skin.profile, description.file))
             description.skin.profile = file->string();
-    description.skin = with_profile_of_tone(with_surface_of_profile(description.skin));
+    description.skin =
+        with_profile_of_tone(with_profile_of_pigments(with_surface_of_profile(description.skin)));
     const HeadDescription& head = description.head;
     Scene scene{.name = head.name.empty() ? description.file.stem().string() : head.name};
     SubjectScene stated;
@@ -270,6 +271,7 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
         *path = table->string();
     }
     if (description.is_bare_mesh) take_profile_of_mesh(description, scene);
+    DERMIS_TRY(apply_pigments(scene));
     DERMIS_TRY(apply_tone(scene));
     std::ranges::move(skin_warnings(scene), std::back_inserter(scene.warnings));
     tidy_warnings(scene.warnings);  // of one file that many [[mesh]] name, for one

@@ -242,6 +242,19 @@ const KeyTable<Skin>& skin_keys() {
                              "the skin's mean colour is that of the tone, and the profile, where none is "
                              "named; 0: the colour of the maps",
                       .max = 6})
+            .number(
+                &Skin::melanin,
+                {.name = "melanin",
+                 .doc = "skin from its pigments (skin_model.md): sets albedo_tint, so that the skin's mean "
+                        "colour is that of the model, and the profile, where none is named. This key: "
+                        "volume fraction of melanosomes in the epidermis, 0.01 light to 0.43 dark"})
+            .number(&Skin::blood, {.name = "blood",
+                                   .doc = "the same: volume fraction of blood in the dermis, 0.002 to 0.07"})
+            .number(&Skin::oxygen, {.name = "oxygen", .doc = "the same: oxygen saturation of the blood"})
+            .number(&Skin::pheomelanin,
+                    {.name = "pheomelanin", .doc = "the same: share of the melanin that is pheomelanin"})
+            .number(&Skin::epidermis_mm,
+                    {.name = "epidermis_mm", .unit = "mm", .doc = "the same: thickness of the epidermis"})
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})

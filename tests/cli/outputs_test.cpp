@@ -55,6 +55,7 @@ constexpr OutputCall kOutputCalls[] = {
     {"merge", "--preview", "none.exr -o a.exr --preview OUT.png"},
     {"new-scene", "-o", "none.obj -o OUT.toml"},
     {"profile fit-walk", "-o", "none -o OUT.csv"},
+    {"profile skin", "--chart", "--melanin .1 --chart OUT.png"},
     {"profile list", "--plot", "--plot OUT.svg"},
     {"profile show", "--plot", "none --plot OUT.svg"},
     {"profile convert", "-o", "none -o OUT.mtlx"},

@@ -11,6 +11,7 @@
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
+#include "dermis/scene/skin_tone.h"
 #include "support/built_in.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
@@ -437,6 +438,28 @@ TEST(LoadScene, a_bare_mesh_takes_the_words_of_a_scene) {
     };
     EXPECT_LT(red(*dark), 0.5f * red(*light));
     EXPECT_LT(red(*follows), 0.5f * red(*light));
+}
+
+TEST(LoadScene, skin_from_pigments_has_the_colour_and_the_profile_of_the_model) {
+    const SceneDirectory dir;
+    const std::string face = kMesh + "[material.face]\nalbedo = [0.7, 0.5, 0.4]\n[skin]\n";
+    const auto scene = dir.load(face + "melanin = 0.1\nblood = 0.03\n");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->skin.profile, "skin:melanin=0.1,blood=0.03");
+    const Rgb albedo = skin_albedo({.melanin = 0.1, .blood = 0.03});
+    const Result<Vec3> mean = mean_skin_albedo(*scene);
+    ASSERT_TRUE(mean);
+    EXPECT_NEAR(mean->y * scene->skin.albedo_tint_linear.y, albedo[1], 1e-4);
+    EXPECT_EQ(all_warnings(*scene).find("skin.profile"), std::string::npos) << all_warnings(*scene);
+    const auto own = dir.load(face + "melanin = 0.1\nprofile = \"jensen_skin1\"\n");
+    ASSERT_TRUE(own);
+    EXPECT_EQ(own->skin.profile, "jensen_skin1");
+    const auto twice = dir.load(face + "melanin = 0.1\ntone = 3\n");
+    ASSERT_FALSE(twice);
+    EXPECT_NE(twice.error().message.find("state one colour twice"), std::string::npos);
+    const auto beyond = dir.load(face + "oxygen = 1.5\n");
+    ASSERT_FALSE(beyond);
+    EXPECT_NE(beyond.error().message.find("skin.oxygen"), std::string::npos) << beyond.error().message;
 }
 
 TEST(LoadScene, a_profile_that_is_too_bright_or_of_another_tone_warns) {

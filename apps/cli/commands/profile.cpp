@@ -13,6 +13,7 @@
 #include "dermis/optics/presets.h"
 #include "fit_walk.h"
 #include "profile_options.h"
+#include "profile_skin.h"
 
 namespace dermis::cli {
 namespace {
@@ -193,7 +194,8 @@ void add_profile_command(CommandLine& line) {
                  "dermis profile convert jensen_skin1 --to hdrp");
     profile->require_subcommand();
     const auto options = std::make_shared<ProfileOptions>();
-    const char* name_help = "a preset's name, a .csv, .mtlx or .glb file, or burley:R,G,B (d in mm)";
+    const char* name_help =
+        "a preset's name, a .csv, .mtlx or .glb file, burley:R,G,B (d in mm), or skin:melanin=0.02";
 
     Command* list_command =
         line.add("list", "Lists the built-in profiles", "dermis profile list --json", profile);
@@ -236,6 +238,7 @@ void add_profile_command(CommandLine& line) {
         [options] { return convert(*options); });
 
     add_fit_walk(line, profile, name_help);
+    add_profile_skin(line, profile);
 
     Command* table_command = line.add("table", "Prints the tables of docs/profiles.md as Markdown",
                                       "dermis profile table > tables.md", profile);

@@ -15,8 +15,8 @@ from dermis._meshes import (Map, Mesh, bake_curvature, bake_kernel_size, bake_oc
                             bake_thickness, load_mesh, scene_meshes)
 from dermis._pictures import (Picture, ReferencePicture, parameters, read_image, reference, render, scene_names,
                               subject_names, technique_names)
-from dermis._profiles import (GaussianFit, Profile, burley_profile, convert, gaussian_profile, profile,
-                              profile_names, table_profile)
+from dermis._profiles import (GaussianFit, Profile, burley_profile, convert, gaussian_profile, profile, profile_names,
+                              skin_profile, table_profile)
 from dermis._tables import (ClosedForm, Table, bake_closed_form, bake_lut, bake_shadow, bake_zh, read_table)
 
 __version__ = _version().split()[-1]
@@ -26,5 +26,5 @@ __all__ = [
     "bake_stretch", "bake_thickness", "bake_zh", "burley_profile", "ciede2000", "compare", "convert", "flip",
     "flip_map", "gaussian_profile", "load_mesh", "max_abs_error", "parameters", "profile", "profile_names",
     "psnr_db", "read_image", "read_table", "reference", "rel_mse", "render", "rmse", "scene_meshes", "scene_names",
-    "ssim", "subject_names", "table_profile", "technique_names",
+    "skin_profile", "ssim", "subject_names", "table_profile", "technique_names",
 ]

@@ -133,6 +133,15 @@ def profile(name: str) -> Profile:
     return Profile(_dermis.find_profile(name))
 
 
+def skin_profile(melanin: float=0.02, blood: float=0.015, oxygen: float=0.75, **others: float) -> Profile:
+    """A skin from its pigments: volume fractions and oxygen saturation, 0 to 1; `dermis profile skin --help` has all.
+
+    profile.albedo is its colour, linear Rec. 709. Others by name: pheomelanin, epidermis_mm, scattering_per_mm, ...
+    """
+    values = {"melanin": melanin, "blood": blood, "oxygen": oxygen, **others}
+    return profile("skin:" + ",".join(f"{key}={float(value)!r}" for key, value in values.items()))
+
+
 def gaussian_profile(variances_mm2: ArrayLike, weights: ArrayLike, name: str='gaussians') -> Profile:
     """A sum of Gaussians: variances in mm^2, N; weights, N x 3, whose sum in a channel is its albedo."""
     return Profile(_dermis.profile_of_gaussians(name, variances_mm2, weights))
