@@ -25,6 +25,12 @@ Result<std::vector<OwnPicture>> read_pictures(const std::vector<std::string>& te
     return pictures;
 }
 
+std::string noise_text(const EffectNoise& noise) {
+    if (!(noise.noise_rms < noise.effect_rms)) return "more noise than effect";
+    const double share = noise.noise_rms / noise.effect_rms;
+    return "a noise of " + to_text(float(std::round(1000 * share) / 1000)) + " of the effect";
+}
+
 }  // namespace
 
 Result<ComparisonSettings> CompareChoice::settings() const {
@@ -75,19 +81,14 @@ std::vector<std::string> warnings_of(const Comparison& comparison, const Compari
     const auto add = [&](Integrator integrator, const EffectReference& reference) {
         warnings.insert(warnings.end(), reference.warnings.begin(), reference.warnings.end());
         if (reference.reached) return;
-        const double noise = reference.noise.noise_rms / reference.noise.effect_rms;
-        if (reference.stopped) {
-            warnings.push_back("the reference " + std::string(judge_name(integrator)) +
-                               " was stopped with a noise of " +
-                               to_text(float(std::round(1000 * noise) / 1000)) +
-                               " of the effect; the same command goes on from there");
-            return;
-        }
-        warnings.push_back("the reference " + std::string(judge_name(integrator)) +
-                           " stopped at its limit of " + std::to_string(settings.samples) +
-                           " samples a pixel with a noise of " +
-                           to_text(float(std::round(1000 * noise) / 1000)) + " of the effect, not " +
-                           to_text(settings.noise) + "; raise --samples");
+        const std::string name = "the reference " + std::string(judge_name(integrator));
+        if (reference.stopped)
+            warnings.push_back(name + " was stopped with " + noise_text(reference.noise) +
+                               "; the same command goes on from there");
+        else
+            warnings.push_back(name + " stopped at its limit of " + std::to_string(settings.samples) +
+                               " samples a pixel with " + noise_text(reference.noise) + ", not " +
+                               to_text(settings.noise) + "; raise --samples");
     };
     add(comparison.integrator, comparison.reference);
     if (comparison.second) add(*comparison.second_integrator, *comparison.second);

@@ -1,11 +1,12 @@
 #pragma once
-// Values as bytes, one after the other, vectors with their length: what an entry of the cache holds.
+// Values as bytes, one after the other, vectors and text with their length: what an entry of the cache holds.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -15,6 +16,12 @@ template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     const auto view = std::as_bytes(std::span(&value, 1));
+    bytes.insert(bytes.end(), view.begin(), view.end());
+}
+
+inline void append(std::vector<std::byte>& bytes, const std::string& text) {
+    append(bytes, uint64_t(text.size()));
+    const auto view = std::as_bytes(std::span(text));
     bytes.insert(bytes.end(), view.begin(), view.end());
 }
 
@@ -35,6 +42,14 @@ template <class T>
     if (bytes.size() < sizeof value) return false;
     std::memcpy(&value, bytes.data(), sizeof value);
     bytes = bytes.subspan(sizeof value);
+    return true;
+}
+
+[[nodiscard]] inline bool take(std::span<const std::byte>& bytes, std::string& text) {
+    uint64_t count = 0;
+    if (!take(bytes, count) || count > bytes.size()) return false;
+    text.assign(reinterpret_cast<const char*>(bytes.data()), count);
+    bytes = bytes.subspan(count);
     return true;
 }
 

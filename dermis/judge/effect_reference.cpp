@@ -36,7 +36,7 @@ struct State {
     [[nodiscard]] auto parts() {
         return std::tie(passes, batches, reference.time_ms, reference.effect.a.bytes,
                         reference.effect.b.bytes, reference.halves[0].bytes, reference.halves[1].bytes,
-                        reference.skin.bytes);
+                        reference.skin.bytes, reference.warnings);
     }
 };
 

@@ -106,9 +106,8 @@ std::string walk_volume_note(const Profile& profile) {
     for (int c = 0; c < 3; ++c)
         if (is_pure_blur(profile, c)) channels.push_back(channel_name(c));
     if (channels.empty()) return "";
-    return "walk: " + join(channels, ", ") + " of profile " + profile.name +
-           " has albedo 1, a blur whose colour is in the map; the walk takes a volume of albedo " +
-           to_text(kBlurAlbedo) + " and the same mean radius";
+    return profile.name + " has no volume (albedo 1 in " + join(channels, ", ") +
+           "); walk takes one of albedo " + to_text(kBlurAlbedo) + " and the same mean radius";
 }
 
 ScatteringMedium walk_medium_of(const Profile& profile) {

@@ -152,6 +152,11 @@ bool is_buried(const RayScene& scene, uint32_t triangle) {
     return 2 * backs > kBuriedRays;
 }
 
+std::array<Vec3, 3> corners_mm(const Mesh& mesh, uint32_t triangle) {
+    const uint32_t* i = &mesh.indices[3 * size_t(triangle)];
+    return {mesh.positions_mm[i[0]], mesh.positions_mm[i[1]], mesh.positions_mm[i[2]]};
+}
+
 Triangles measure(const SceneObject& object) {
     const Mesh& mesh = object.mesh;
     const size_t count = mesh.triangle_count();
@@ -161,11 +166,51 @@ Triangles measure(const SceneObject& object) {
         const uint32_t material = material_of_triangle(mesh, t);
         triangles.skin[t] =
             material >= object.classes.size() || object.classes[material] == MaterialClass::skin;
-        const Vec3 a = mesh.positions_mm[mesh.indices[3 * t]], b = mesh.positions_mm[mesh.indices[3 * t + 1]],
-                   c = mesh.positions_mm[mesh.indices[3 * t + 2]];
+        const auto [a, b, c] = corners_mm(mesh, uint32_t(t));
         triangles.area_mm2[t] = 0.5 * double(length(cross(b - a, c - a)));
     }
     return triangles;
+}
+
+using Caps = std::vector<std::array<Vec3, 3>>;
+
+// The area of the skin as a vector: where its front looks.
+Vec3 front_of(const Mesh& mesh, const std::vector<uint32_t>& skin) {
+    Vec3 sum;
+    for (const uint32_t t : skin) {
+        const auto [a, b, c] = corners_mm(mesh, t);
+        sum += cross(b - a, c - a);
+    }
+    return normalize(sum);
+}
+
+// Volume between the skin and its caps; the tetrahedra start at a point of it, so that little cancels.
+double enclosed_mm3(const Mesh& mesh, const std::vector<uint32_t>& skin, const Caps& caps) {
+    const Vec3 from = mesh.positions_mm[mesh.indices[3 * skin.front()]];
+    double sum = 0;
+    const auto add = [&](Vec3 a, Vec3 b, Vec3 c) {
+        sum += double(dot(a - from, cross(b - from, c - from))) / 6;
+    };
+    for (const uint32_t t : skin) {
+        const auto [a, b, c] = corners_mm(mesh, t);
+        add(a, b, c);
+    }
+    for (const auto& [a, b, c] : caps) add(a, b, c);
+    return sum;
+}
+
+// Walls from the border backwards, and its cap as their floor. The border turns as the skin does, so the body
+// is to its left.
+void set_back(const std::vector<BorderLoop>& loops, Vec3 front, Caps& caps) {
+    const Vec3 back = front * -float(kSheetDepthMm);
+    for (auto& cap : caps)
+        for (Vec3& corner : cap) corner += back;
+    for (const BorderLoop& loop : loops)
+        for (size_t i = 0; i < loop.size(); ++i) {
+            const Vec3 a = loop[i], b = loop[(i + 1) % loop.size()];
+            caps.push_back({a, a + back, b});
+            caps.push_back({b, a + back, b + back});
+        }
 }
 
 // Makes caps for the openings that `flesh.faces` leave, and sums the areas.
@@ -191,6 +236,10 @@ void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
         flesh.caps.insert(flesh.caps.end(), cap.begin(), cap.end());
         if (i < of_cavities) flesh.cavity_caps = flesh.caps.size();
     }
+    if (loops.empty() || flesh.hidden_triangles > 0) return;
+    // Below 0 where the cap of a saddle lies in front of it.
+    if (enclosed_mm3(mesh, skin, flesh.caps) < kSheetMm * flesh.skin_area_mm2)
+        set_back(loops, front_of(mesh, skin), flesh.caps);
 }
 
 // Hides what cannot be seen from outside: the steps of flesh.h, in their order.

@@ -5,7 +5,8 @@
 // A face is hidden if no ray that leaves it reaches the outside. The hidden part grows over neighbours that
 // see almost nothing (the inner side of closed lips), includes what it encloses, and loses patches too small
 // to be a cavity (bottoms of creases). Caps close the holes where hidden faces were and where the mesh is
-// open (a neck); walks are reflected by caps, as if the flesh continued behind them.
+// open (a neck); walks are reflected by caps, as if the flesh continued behind them. A sheet, which encloses
+// almost nothing, is the front of a body: its caps are walls and a floor behind it.
 
 #include <array>
 #include <cstdint>
@@ -17,6 +18,9 @@
 #include "dermis/scene/scene.h"
 
 namespace dermis::inline rays {
+
+/// Below this volume over area skin is a sheet; the body behind it is so deep, more than light goes in skin.
+inline constexpr double kSheetMm = 0.2, kSheetDepthMm = 30;
 
 /// A face of skin: seen by the outside; the inner side of a cavity; or inside another part's flesh.
 enum class SkinFace : uint8_t { visible, cavity, buried };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "dermis/image/colour.h"
 #include "dermis/reference/pixel_sampler.h"
@@ -76,12 +77,20 @@ void put(Image& image, size_t pixel, Vec3 value) {
     at[2] = value.z;
 }
 
+// One digit, so that the batches of a reference say the same.
+std::string percent_text(double percent) {
+    char text[32];
+    std::snprintf(text, sizeof text, percent >= 10 ? "%.0f %%" : "%.1g %%", percent);
+    return text;
+}
+
 void add_warnings(const PictureSums& sums, std::vector<std::string>& warnings) {
     // What fewer take away is far below the noise of any picture.
     constexpr double kLostShare = 1e-5;
     if (double(sums.lost_walks) > kLostShare * double(sums.walks))
-        warnings.push_back(std::to_string(sums.lost_walks) + " of " + std::to_string(sums.walks) +
-                           " walks were lost: the skin has holes, and the picture is too dark near them");
+        warnings.push_back(
+            percent_text(100 * double(sums.lost_walks) / double(sums.walks)) +
+            " of the walks were lost: the skin has holes, and the picture is too dark near them");
     if (sums.cut_channels > 0)
         warnings.push_back(
             std::to_string(sums.cut_channels) + " channels of samples were not finite, or above " +

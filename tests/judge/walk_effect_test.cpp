@@ -69,6 +69,28 @@ TEST_F(WalkEffect, another_seed_has_all_of_it_and_a_part_has_its_part) {
     EXPECT_EQ(share(0).share, 0) << "lambert";
 }
 
+// Plates, strips and reliefs are sheets: without a body behind them half of the light would be lost there.
+TEST_F(WalkEffect, no_walk_is_lost_in_a_unit_scene_and_flat_skin_in_full_light_has_no_effect) {
+    EffectReferenceSettings settings = settings_of(1, 1);
+    settings.reference.probes = 64;
+    settings.samples = 2 * kWalkGrid * kWalkGrid;
+    for (const std::string name : {"sphere", "cylinder", "saddle", "shadow_edge", "albedo_step", "strip",
+                                   "slab_behind", "relief_1mm"}) {
+        const EffectReference reference = reference_of(unit_case(name).scene, settings);
+        for (const std::string& warning : reference.warnings)
+            EXPECT_EQ(warning.find("were lost"), std::string::npos) << name << ": " << warning;
+    }
+    const Scene blur = unit_case("sphere").scene;  // the profile has no volume
+    const std::vector<std::string> warnings = reference_of(blur, settings).warnings;
+    EXPECT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(reference_of(blur, settings).warnings, warnings) << "from the cache";
+    Scene flat = unit_case("shadow_edge").scene;
+    std::erase_if(flat.objects, [](const SceneObject& object) { return object.name == "board"; });
+    settings.reference.probes = 4096;
+    const EffectReference reference = reference_of(flat, settings);
+    EXPECT_LT(reference.noise.effect_rms, 0.02);
+}
+
 // The picture of width 0 is the limit of the walk's own pictures. Where only Fresnel's part enters it is not.
 TEST_F(WalkEffect, walks_of_a_small_width_draw_the_picture_of_lambert) {
     const auto share_left = [&](LightEntry entry) {

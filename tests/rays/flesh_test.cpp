@@ -113,6 +113,21 @@ TEST(Flesh, an_open_border_is_an_opening_with_a_cap) {
     EXPECT_LT(facing.y, -0.9 * M_PI * 300);
 }
 
+TEST(Flesh, a_sheet_is_the_front_of_a_body) {
+    const Mesh plane = test::grid(4, 4, [](float u, float v) {
+        return std::pair(Vec3{10 * u, -10 * v, 0}, Vec3{0, 0, 1});
+    });
+    const Flesh flesh = flesh_of(skin(plane));
+    double volume_mm3 = 0, lowest_mm = 0;
+    for (const auto& [a, b, c] : flesh.caps) {
+        volume_mm3 += double(dot(a, cross(b, c))) / 6;  // the plane itself is at z = 0
+        lowest_mm = std::min({lowest_mm, double(a.z), double(b.z), double(c.z)});
+    }
+    EXPECT_NEAR(volume_mm3, 100 * kSheetDepthMm, 1) << "caps face out and leave no hole";
+    EXPECT_NEAR(lowest_mm, -kSheetDepthMm, 1e-4);
+    EXPECT_EQ(flesh.mesh_openings, 1u);
+}
+
 TEST(Flesh, other_objects_and_translucent_surfaces_hide_nothing) {
     const Mesh shell = test::sphere(30, 2);
     const SceneObject objects[] = {skin(test::sphere(20, 2)), skin(shell)};

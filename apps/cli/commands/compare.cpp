@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "catalog/catalog.h"
 #include "command.h"
@@ -108,19 +109,29 @@ Result<ComparedScenes> scenes_of(const CompareOptions& options) {
     return scenes;
 }
 
+// Those that an earlier scene of the set did not have.
+void print_new(const std::vector<std::string>& warnings, const std::string& prefix,
+               std::set<std::string>& printed) {
+    std::vector<std::string> fresh;
+    std::ranges::copy_if(warnings, std::back_inserter(fresh),
+                         [&](const std::string& text) { return printed.insert(text).second; });
+    print_warnings(fresh, prefix);
+}
+
 Result<std::vector<Comparison>> compare_all(const CompareOptions& options, const ComparedScenes& scenes,
                                             const std::vector<Contestant>& contestants,
                                             ComparisonSettings settings) {
     DERMIS_TRY_ASSIGN(gpu::Device device, gpu::Device::create({.name_contains = options.choice.device}));
     std::vector<Comparison> comparisons;
+    std::set<std::string> printed;
     for (const SubjectCase& one : scenes.all) {
         if (!comparisons.empty() && stop_requested()) break;
         const std::string prefix = scenes.is_set ? one.name + ": " : "";
-        print_warnings(one.scene.warnings, prefix);
+        print_new(one.scene.warnings, prefix, printed);
         settings.exact = one.exact;
         Result<Comparison> comparison = compare(device, one, prefix, contestants, settings);
         if (!comparison) return Error{prefix + comparison.error().message};
-        print_warnings(warnings_of(*comparison, settings), prefix);
+        print_new(warnings_of(*comparison, settings), prefix, printed);
         DERMIS_TRY_ASSIGN(const std::string page, report_html(one.scene, *comparison, settings));
         DERMIS_TRY(write_text_file(report_path(options, scenes, one), page));
         comparisons.push_back(std::move(*comparison));
