@@ -145,13 +145,13 @@ Result<int> run_skin(const ProfileSkinOptions& options) {
     return 0;
 }
 
+}  // namespace
+
 std::string skin_flag_of(std::string_view key) {
     std::string flag = "--" + std::string(key);
     std::replace(flag.begin(), flag.end(), '_', '-');
     return flag;
 }
-
-}  // namespace
 
 void add_profile_skin(CommandLine& line, Command* profile) {
     const auto options = std::make_shared<ProfileSkinOptions>();

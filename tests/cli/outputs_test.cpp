@@ -42,6 +42,7 @@ constexpr OutputCall kOutputCalls[] = {
     {"bake stretch", "-o", "none.obj -o OUT.exr"},
     {"bake occlusion", "-o", "none.obj -o OUT.exr"},
     {"bake normals", "-o", "none.obj -o OUT.exr"},
+    {"bake pigments", "-o", "none.png -o OUT.png"},
     {"compare", "-o", "none.toml -o OUT"},
     {"export", "-o", "--language hlsl --profile none -o OUT.hlsl"},
     {"export", "-o", "--language all --profile none -o OUT"},
