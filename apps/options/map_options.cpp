@@ -22,7 +22,7 @@ Result<BakeMapSettings> MapChoice::settings_for(const std::string& scene_profile
                                          check_number("--gutter", chosen.gutter_texels, kMapGutterRange)})
         if (!in_range) return in_range.error();
     if (!material.empty()) chosen.material = material;
-    if (chosen.kind == MapKind::kernel_size) {
+    if (chosen.kind == MapKind::kernel_size || chosen.kind == MapKind::gain) {
         DERMIS_TRY_ASSIGN(Profile found, find_profile(profile.empty() ? scene_profile : profile));
         chosen.profile = std::move(found);
     }

@@ -17,7 +17,7 @@ struct MadeMap {
 
 MapKind kind_of(const std::string& name) {
     constexpr MapKind kAll[] = {MapKind::curvature, MapKind::thickness, MapKind::kernel_size,
-                                MapKind::stretch, MapKind::occlusion};
+                                MapKind::stretch,   MapKind::occlusion, MapKind::gain};
     return *std::ranges::find_if(kAll, [&](MapKind kind) { return map_kind_name(kind) == name; });
 }
 
@@ -34,6 +34,7 @@ cli::MapChoice choice_of(const std::string& kind, const py::dict& options) {
     take(s.max_mm, options, "max_mm");
     take(s.cone_rad, options, "cone_rad");
     take(s.smoothing_mm, options, "smoothing_mm");
+    take(s.walks_per_mm2, options, "walks_per_mm2");
     return choice;
 }
 

@@ -97,6 +97,18 @@ Result<Geometry> Geometry::streamed(std::string_view name, std::span<const Verte
     return Geometry(std::move(state));
 }
 
+Result<void> Geometry::replace(Device& device, const VertexStream& stream) {
+    const auto found = state_->streams.find(stream.name);
+    if (found == state_->streams.end() || found->second.components != stream.components ||
+        stream.values.size() != size_t(stream.components) * state_->vertex_count)
+        return geometry_error(state_->name, "has no stream '" + stream.name + "' of this size to replace");
+    DERMIS_TRY_ASSIGN(Buffer buffer,
+                      upload_buffer(device.state(), state_->name + " " + stream.name,
+                                    VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, std::as_bytes(stream.values)));
+    found->second.data.buffer = std::move(buffer);
+    return {};
+}
+
 uint32_t Geometry::vertex_count() const {
     return state_->vertex_count;
 }

@@ -50,7 +50,68 @@ SurfaceOperators operators_of(const Mesh& mesh, const Weld& weld) {
     return made;
 }
 
+constexpr double kLeastMassMm2 = 1e-6;  // of a vertex without samples
+
+// The integral's matrix and right sides, one column a channel.
+struct FitEquations {
+    Sparse mass;
+    Eigen::MatrixX3d values;
+};
+
+FitEquations equations_of(std::span<const uint32_t> corners, std::span<const SurfaceSamples> samples,
+                          Eigen::Index count) {
+    constexpr size_t kPairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
+    FitEquations made{Sparse(count, count), Eigen::MatrixX3d::Zero(count, 3)};
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index i = 0; i < count; ++i) entries.emplace_back(int(i), int(i), kLeastMassMm2);
+    for (size_t t = 0; t < samples.size(); ++t) {
+        const uint32_t* corner = &corners[3 * t];
+        for (size_t i = 0; i < 6; ++i) {
+            const int a = int(corner[kPairs[i][0]]), b = int(corner[kPairs[i][1]]);
+            const double product = double(samples[t].products[i]);
+            entries.emplace_back(a, b, product);
+            if (i >= 3) entries.emplace_back(b, a, product);
+        }
+        for (size_t k = 0; k < 3; ++k) {
+            const Vec3 value = samples[t].values[k];
+            made.values.row(Eigen::Index(corner[k])) +=
+                Eigen::RowVector3d(double(value.x), double(value.y), double(value.z));
+        }
+    }
+    made.mass.setFromTriplets(entries.begin(), entries.end());
+    return made;
+}
+
 }  // namespace
+
+void SurfaceSamples::add(const std::array<float, 3>& weights, float area_mm2, Vec3 value) {
+    for (size_t k = 0; k < 3; ++k) {
+        products[k] += area_mm2 * weights[k] * weights[k];
+        products[3 + k] += area_mm2 * weights[(k + 1) % 3] * weights[(k + 2) % 3];
+        values[k] += value * (area_mm2 * weights[k]);
+    }
+}
+
+Result<std::vector<Vec3>> fit_over_surface(const Mesh& mesh, std::span<const SurfaceSamples> samples,
+                                           double variance_mm2) {
+    const Weld weld = weld_positions(mesh.positions_mm);
+    const SurfaceOperators surface = operators_of(mesh, weld);
+    const FitEquations equations =
+        equations_of(welded_indices(mesh.indices, weld), samples, Eigen::Index(weld.count()));
+    const Sparse system = equations.mass + surface.laplacian * (variance_mm2 / 2);
+    Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver(system);
+    solver.setTolerance(kTolerance);
+    const Eigen::MatrixX3d u = solver.solve(equations.values);
+    if (solver.info() != Eigen::Success)
+        return Error{"fit over the surface: no solution; the mesh has triangles without area"};
+    std::vector<Vec3> fitted;
+    fitted.reserve(weld.ids.size());
+    for (const uint32_t id : weld.ids) {
+        const auto row = u.row(Eigen::Index(id));
+        fitted.push_back({float(row[0]), float(row[1]), float(row[2])});
+    }
+    return fitted;
+}
 
 Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const float> values,
                                              double variance_mm2) {

@@ -1,10 +1,12 @@
 #pragma once
-// Values at vertices blurred over the surface.
+// Values at vertices, blurred over the surface or fitted to samples on it.
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/base/vec.h"
 #include "dermis/mesh/mesh.h"
 
 namespace dermis::inline mesh {
@@ -18,5 +20,21 @@ namespace dermis::inline mesh {
 /// t = variance / 4. The kernel has the Gaussian's variance, a sharper peak and longer tails.
 [[nodiscard]] Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const float> values,
                                                            double variance_mm2);
+
+/// Sums over the samples on one triangle, whose corners have the barycentric weights w0, w1, w2.
+struct SurfaceSamples {
+    std::array<float, 6> products = {};  ///< area * w0 w0, w1 w1, w2 w2, w1 w2, w2 w0, w0 w1, in mm^2
+    std::array<Vec3, 3> values = {};     ///< area * value * w0, w1, w2
+
+    void add(const std::array<float, 3>& weights, float area_mm2, Vec3 value);
+};
+
+/// The function u, linear in each triangle, that minimises
+/// sum(area * |u - value|^2) + variance_mm2 / 2 * integral(|grad u|^2):
+/// a least-squares fit, blurred along the surface by a kernel of about this variance an axis. `samples`: one
+/// entry a triangle. Parts of the surface without samples continue the rest; those without any near get 0.
+[[nodiscard]] Result<std::vector<Vec3>> fit_over_surface(const Mesh& mesh,
+                                                         std::span<const SurfaceSamples> samples,
+                                                         double variance_mm2);
 
 }  // namespace dermis::inline mesh

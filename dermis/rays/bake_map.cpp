@@ -10,9 +10,11 @@
 #include "dermis/image/resample.h"
 #include "dermis/mesh/curvature.h"
 #include "dermis/mesh/uv_report.h"
+#include "dermis/optics/conversions.h"
 #include "dermis/rays/random.h"
 #include "dermis/rays/sampling.h"
 #include "dermis/rays/uv_raster.h"
+#include "dermis/rays/vertex_gain.h"
 #include "dermis/rays/vertex_occlusion.h"
 
 namespace dermis::inline rays {
@@ -94,6 +96,24 @@ Image stretch_values(std::span<const SceneObject> objects, const UvRaster& raste
         values[3 * i + 1] = sum.mm_per_v();
         const float product = sum.mm_per_u() * sum.mm_per_v();
         values[3 * i + 2] = product > 0 ? std::clamp(sum.f_mm2 / product, -1.0f, 1.0f) : 0;
+    }
+    return image;
+}
+
+Result<Image> gain_values(std::span<const SceneObject> objects, const UvRaster& raster,
+                          const BakeMapSettings& settings, BakedMap& map) {
+    DERMIS_TRY_ASSIGN(const VertexGains walked, walk_vertex_gains(objects, walk_medium_of(*settings.profile),
+                                                                  {.walks_per_mm2 = settings.walks_per_mm2}));
+    map.noise = walked.noise;
+    Image image(raster.width, raster.width, 3);
+    for (size_t i = 0; i < raster.texels.size(); ++i) {
+        const UvTexel& t = raster.texels[i];
+        if (!t.covered()) continue;
+        const uint32_t* corner = &objects[t.object].mesh.indices[3 * size_t(t.triangle)];
+        const std::vector<Vec3>& gains = walked.gains[t.object];
+        const Vec3 value =
+            gains[corner[0]] * (1 - t.u - t.v) + gains[corner[1]] * t.u + gains[corner[2]] * t.v;
+        std::ranges::copy(std::array{value.x, value.y, value.z}, &image.floats()[3 * i]);
     }
     return image;
 }
@@ -202,7 +222,8 @@ Result<void> check_settings(const BakeMapSettings& s) {
         return wrong("smoothing_mm", s.smoothing_mm, "0..100");
     if (!(s.cone_rad >= 0 && s.cone_rad <= 1.5f)) return wrong("cone_rad", s.cone_rad, "0..1.5");
     if (!(s.max_mm >= 0 && s.max_mm <= 1e6f)) return wrong("max_mm", s.max_mm, "0..1000000");
-    if (s.kind == MapKind::kernel_size && !s.profile) return Error{"kernel-size needs a diffusion profile"};
+    if ((s.kind == MapKind::kernel_size || s.kind == MapKind::gain) && !s.profile)
+        return Error{std::string(map_kind_name(s.kind)) + " needs a diffusion profile"};
     return {};
 }
 
@@ -254,6 +275,8 @@ std::string_view map_kind_name(MapKind kind) {
             return "stretch";
         case MapKind::occlusion:
             return "occlusion";
+        case MapKind::gain:
+            return "gain";
     }
     return "curvature";
 }
@@ -284,6 +307,11 @@ Result<BakedMap> bake_map(std::span<const SceneObject> objects, const BakeMapSet
             map.values = stretch_values(objects, raster);
             map.unit = "mm per unit of u, mm per unit of v, cosine";
             break;
+        case MapKind::gain: {
+            DERMIS_TRY_ASSIGN(map.values, gain_values(objects, raster, settings, map));
+            map.unit = "1";
+            break;
+        }
         default: {
             Result<Image> values = traced_values(objects, raster, settings, progress, map);
             if (!values) return values.error();

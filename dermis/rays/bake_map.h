@@ -24,10 +24,11 @@ enum class MapKind {
                 ///< BakeMapSettings::cone_rad
     kernel_size,  ///< 0..0.996: how thin the skin is against the reach of light; blurs grow with it
     stretch,      ///< mm per unit of u, mm per unit of v, cosine of the angle between the two directions
-    occlusion     ///< ambient visibility 0..1, as vertex_occlusion.h has it
+    occlusion,    ///< ambient visibility 0..1, as vertex_occlusion.h has it
+    gain          ///< of uniform light, over flat skin: red, green, blue of vertex_gain.h, between vertices
 };
 
-/// "curvature", "thickness", "kernel-size", "stretch", "occlusion".
+/// "curvature", "thickness", "kernel-size", "stretch", "occlusion", "gain".
 [[nodiscard]] std::string_view map_kind_name(MapKind kind);
 
 struct BakeMapSettings {
@@ -45,16 +46,18 @@ struct BakeMapSettings {
     float cone_rad = 0.7853982f;
     float max_mm =
         200;  ///< thickness where no ray finds the far side; occlusion: how far it looks (0: any distance)
-    std::optional<Profile> profile;       ///< kernel_size needs it
+    float walks_per_mm2 = 32;             ///< gain: 0.1..10000
+    std::optional<Profile> profile;       ///< kernel_size and gain need it
     std::optional<std::string> material;  ///< else all skin
 };
 
 struct BakedMap {
     MapKind kind = MapKind::curvature;
-    Image values;    ///< f32, linear, 1 channel (curvature, stretch: 3), gutter included
+    Image values;    ///< f32, linear, 1 channel (curvature, stretch, gain: 3), gutter included
     Image coverage;  ///< u8: 255 where a triangle lies
     std::string unit;
     float min = 0, max = 0;  ///< over covered texels, first channel
+    Vec3 noise;              ///< gain: its standard error, root mean square
     std::vector<std::string> warnings;
 };
 

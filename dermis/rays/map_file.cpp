@@ -11,6 +11,7 @@
 namespace dermis::inline rays {
 namespace {
 
+constexpr float kGainPreview = 0.5f;  // grey of flat skin
 constexpr Vec3 kBackground = {0.02f, 0.02f, 0.02f};
 
 bool is_engine_map(const std::filesystem::path& path, MapKind kind) {
@@ -63,6 +64,12 @@ std::string sidecar_text(const BakedMap& map, const MapOrigin& origin, bool is_p
             json["rays"] = s.rays;
             json["max_mm"] = s.max_mm;
             break;
+        case MapKind::gain:
+            json["meaning"] = "uniform light that skin returns, over flat skin: red, green, blue";
+            json["profile"] = s.profile->name;
+            json["walks_per_mm2"] = s.walks_per_mm2;
+            json["noise"] = {map.noise.x, map.noise.y, map.noise.z};
+            break;
         case MapKind::stretch:
             break;
     }
@@ -90,6 +97,19 @@ Vec3 diverging(float t) {
     return white + (end - white) * std::min(std::abs(t), 1.0f);
 }
 
+constexpr MapKind kMapKinds[] = {MapKind::curvature, MapKind::thickness, MapKind::kernel_size,
+                                 MapKind::stretch,   MapKind::occlusion, MapKind::gain};
+
+// The sidecar of a map; null where there is none.
+nlohmann::json sidecar_of(const std::filesystem::path& path) {
+    const Result<std::string> text = read_text_file(map_sidecar_path(path));
+    if (!text) return {};
+    nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
+    const auto is_kind = [&](MapKind kind) { return json["kind"] == map_kind_name(kind); };
+    const bool is_map = json.is_object() && json.contains("kind") && std::ranges::any_of(kMapKinds, is_kind);
+    return is_map ? json : nlohmann::json{};
+}
+
 }  // namespace
 
 std::filesystem::path map_sidecar_path(const std::filesystem::path& path) {
@@ -107,7 +127,9 @@ Image map_preview(const BakedMap& map) {
     for (size_t i = 0; i < picture.pixel_count(); ++i) {
         const float* value = &map.values.floats()[i * channels];
         Vec3 color = kBackground;
-        if (map.coverage.bytes[i] != std::byte{0}) {
+        if (map.coverage.bytes[i] != std::byte{0} && map.kind == MapKind::gain) {
+            color = Vec3{value[0], value[1], value[2]} * kGainPreview;
+        } else if (map.coverage.bytes[i] != std::byte{0}) {
             const float t = value[0] / scale;
             color = map.kind == MapKind::curvature ? diverging(t)
                                                    : Vec3{t, channels == 3 ? value[1] / scale : t, t};
@@ -118,6 +140,27 @@ Image map_preview(const BakedMap& map) {
         to[2] = color.z;
     }
     return convert(picture, PixelFormat::u8, Encoding::srgb);
+}
+
+Result<std::optional<std::string>> describe_map(const std::filesystem::path& path) {
+    const nlohmann::json json = sidecar_of(path);
+    if (json.is_null()) return std::optional<std::string>();
+    DERMIS_TRY_ASSIGN(const LoadedImage loaded, read_image(path, ImageUse::data));
+    const Image& image = loaded.image;
+    const auto number = [&](const char* name) {
+        return json.contains(name) && json[name].is_number() ? json[name].get<double>() : -1.0;
+    };
+    if (number("width") != image.width || number("height") != image.height ||
+        number("channels") != image.channels)
+        return Error{path.string() + ": its size is not that in " + map_sidecar_path(path).string() +
+                     "; bake the map again"};
+    const auto text = [&](const char* name) {
+        return json.contains(name) && json[name].is_string() ? json[name].get<std::string>() : std::string();
+    };
+    std::string line = "a map of " + text("kind") + " over the UVs of " + text("mesh") + ", unit " +
+                       text("unit") + ", " + std::to_string(image.width) + "x" + std::to_string(image.height);
+    if (const std::string profile = text("profile"); !profile.empty()) line += ", for profile " + profile;
+    return std::optional(line);
 }
 
 Result<void> check_map_path(const std::filesystem::path& path, const BakeMapSettings& settings) {

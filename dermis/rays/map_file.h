@@ -3,6 +3,8 @@
 // thickness as 8-bit PNG too, which engines read.
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "dermis/base/result.h"
 #include "dermis/image/image.h"
@@ -23,12 +25,16 @@ struct MapOrigin {
 [[nodiscard]] Result<void> write_map(const std::filesystem::path& path, const BakedMap& map,
                                      const MapOrigin& origin);
 
-/// u8 sRGB: curvature blue (concave) over white to red (convex), others grey from black at 0; the 98th
-/// percentile is full. Background is dark grey.
+/// u8 sRGB: curvature blue (concave) over white to red (convex), gain its colour times 0.5, others grey from
+/// black at 0; the 98th percentile is full. Background is dark grey.
 [[nodiscard]] Image map_preview(const BakedMap& map);
 
 /// Whether a map of these settings can be written with this extension, before it is baked.
 [[nodiscard]] Result<void> check_map_path(const std::filesystem::path& path, const BakeMapSettings& settings);
+
+/// What a map that write_map() made holds, by its sidecar: a line, or nothing for another file. Errors: the
+/// picture is not that of its sidecar, or cannot be read.
+[[nodiscard]] Result<std::optional<std::string>> describe_map(const std::filesystem::path& path);
 
 [[nodiscard]] std::filesystem::path map_sidecar_path(const std::filesystem::path& path);
 [[nodiscard]] std::filesystem::path map_preview_path(const std::filesystem::path& path);

@@ -9,6 +9,7 @@
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
 #include "dermis/rays/curvature_gain.h"
+#include "dermis/rays/vertex_gain.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
@@ -225,15 +226,30 @@ Result<void> Renderer::prepare_diffused_normals(const GaussianSum& profile) {
 }
 
 // Walks, which are cached, for the first frame with a gain.
-void Renderer::prepare_gain(const Profile& profile) {
-    const auto has_gain = [](const Pass& pass) {
-        return std::ranges::any_of(pass.constants, [](const auto& constant) {
-            return constant.first == kGainConstant && constant.second != kGainNone;
+Result<void> Renderer::prepare_gain(const Profile& profile) {
+    const auto asks_for = [&](int32_t gain) {
+        return std::ranges::any_of(list_.passes, [&](const Pass& pass) {
+            return std::ranges::find(pass.constants, std::pair(std::string(kGainConstant), gain)) !=
+                   pass.constants.end();
         });
     };
-    if (std::ranges::none_of(list_.passes, has_gain) || gain_profile_ == profile.name) return;
+    if (asks_for(kGainMap)) DERMIS_TRY(prepare_walked_gains(profile));
+    if (!asks_for(kGainCurvature) || gain_profile_ == profile.name) return {};
     gain_form_ = walked_gain_form(walk_medium_of(profile));
     gain_profile_ = profile.name;
+    return {};
+}
+
+Result<void> Renderer::prepare_walked_gains(const Profile& profile) {
+    Hasher hasher;
+    hasher.add(profile.name);
+    for (const SceneObject& object : scene_->objects) hasher.add(object.classes);
+    std::string key = hasher.hex();
+    if (key == uploaded_->gains_key) return {};
+    DERMIS_TRY_ASSIGN(const VertexGains walked, walk_vertex_gains(scene_->objects, walk_medium_of(profile)));
+    DERMIS_TRY(uploaded_->replace_gains(*device_, walked.gains));
+    uploaded_->gains_key = std::move(key);
+    return {};
 }
 
 gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSettings& settings) const {
@@ -318,7 +334,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     check_maps();
     DERMIS_TRY(prepare_seams());
     DERMIS_TRY(prepare_diffused_normals((*skin)->gaussians));
-    prepare_gain((*skin)->profile);
+    DERMIS_TRY(prepare_gain((*skin)->profile));
     history_key_ = key;
     history_distance_mm_ = frame.camera_distance_mm;
     return {};

@@ -79,7 +79,8 @@ class Renderer {
     void check_maps();
     Result<void> prepare_seams();
     Result<void> prepare_diffused_normals(const GaussianSum& profile);
-    void prepare_gain(const Profile& profile);
+    Result<void> prepare_gain(const Profile& profile);
+    Result<void> prepare_walked_gains(const Profile& profile);
     [[nodiscard]] Result<const SkinContext*> skin_context();
 
     gpu::Device* device_;

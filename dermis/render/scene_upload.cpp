@@ -57,6 +57,7 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
         atlas_uvs_of(mesh).size() == count ? vertex_uv_derivatives(over_atlas(mesh)) : UvDerivatives{};
     const auto du_mm = filled(derivatives.du_mm, count, Vec3{}),
                dv_mm = filled(derivatives.dv_mm, count, Vec3{});
+    const std::vector<Vec3> no_gain(count, Vec3{1, 1, 1});
     const gpu::VertexStream streams[] = {{"position_mm", 3, floats_of(mesh.positions_mm)},
                                          {"normal", 3, floats_of(normals)},
                                          {"tangent", 4, floats_of(tangents)},
@@ -66,6 +67,7 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
                                          {"curvature_mixed_per_mm", 3, floats_of(mixed)},
                                          {"occlusion", 1, occlusions},
                                          {"occlusion_blurred", 3, floats_of(*occlusions_blurred)},
+                                         {"walked_gain", 3, floats_of(no_gain)},
                                          {"du_mm", 3, floats_of(du_mm)},
                                          {"dv_mm", 3, floats_of(dv_mm)},
                                          {"color_linear", 4, floats_of(colors)}};
@@ -181,6 +183,12 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
             draws_.push_back(std::move(draw));
         }
     }
+    return {};
+}
+
+Result<void> SceneOnDevice::replace_gains(gpu::Device& device, std::span<const std::vector<Vec3>> gains) {
+    for (size_t i = 0; i < gains.size(); ++i)
+        DERMIS_TRY(geometries_[i]->replace(device, {"walked_gain", 3, floats_of(gains[i])}));
     return {};
 }
 

@@ -21,6 +21,9 @@ class SceneOnDevice {
     /// After a change of its skin (tint, roughness, ...) or of the values of its materials; maps stay.
     void update_materials(const Scene& scene);
 
+    /// Gains of the vertices (dermis/rays/vertex_gain.h), one array an object; 1 before.
+    [[nodiscard]] Result<void> replace_gains(gpu::Device& device, std::span<const std::vector<Vec3>> gains);
+
     [[nodiscard]] const std::vector<gpu::Draw>& draws() const { return draws_; }
     [[nodiscard]] bool has(gpu::DrawClass draw_class) const;
     /// Warnings about its maps, one line each.
@@ -37,6 +40,8 @@ class SceneOnDevice {
     [[nodiscard]] UvDensity uv_density() const { return uv_density_; }
     [[nodiscard]] int environment_mip_count() const { return environment_mip_count_; }
     [[nodiscard]] const std::array<Vec3, 9>& environment_sh() const { return environment_sh_; }
+
+    std::string gains_key;  ///< what replace_gains() was called for; empty: not yet
 
   private:
     Result<void> upload_maps(gpu::Device& device, const Scene& scene);

@@ -3,7 +3,7 @@
 namespace dermis::inline technique {
 
 const std::vector<std::string>& gain_names() {
-    static const std::vector<std::string> kNames = {"none", "curvature"};
+    static const std::vector<std::string> kNames = {"none", "curvature", "map"};
     return kNames;
 }
 

@@ -11,11 +11,13 @@
 
 namespace dermis::inline technique {
 
-enum class Gain : int32_t { none = kGainNone, curvature = kGainCurvature };
+enum class Gain : int32_t { none = kGainNone, curvature = kGainCurvature, map = kGainMap };
 
 [[nodiscard]] const std::vector<std::string>& gain_names();
 inline constexpr const char* kGainHelp =
-    "light that curved skin returns beyond the profile: none, or by the mean curvature in closed form";
+    "light that skin returns beyond the profile, by its form: none, curvature in closed form, or map, walked "
+    "at each "
+    "vertex";
 
 /// The specialisation constant; the renderer supplies the form to frames with a pass that has it.
 inline constexpr const char* kGainConstant = "gain";

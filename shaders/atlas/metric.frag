@@ -7,8 +7,8 @@
 
 layout(location = 1) in vec3 n_world;
 layout(location = 3) in vec2 uv;
-layout(location = 10) in vec3 du_mm;
-layout(location = 11) in vec3 dv_mm;
+layout(location = 11) in vec3 du_mm;
+layout(location = 12) in vec3 dv_mm;
 uniform sampler2D kernel_size_map;
 layout(push_constant, scalar) uniform PassValues {
     float size;            // texels a side

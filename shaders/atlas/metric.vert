@@ -3,10 +3,10 @@
 // Draws in the skin's atlas, with the derivatives of the position by u and v.
 #include "shaders/include/mesh_vertex.glsl"
 
-layout(location = 10) in vec3 du_mm;  // of a step of 1 in the atlas's u
-layout(location = 11) in vec3 dv_mm;
-layout(location = 10) out vec3 du_mm_out;
-layout(location = 11) out vec3 dv_mm_out;
+layout(location = 11) in vec3 du_mm;  // of a step of 1 in the atlas's u
+layout(location = 12) in vec3 dv_mm;
+layout(location = 11) out vec3 du_mm_out;
+layout(location = 12) out vec3 dv_mm_out;
 
 invariant gl_Position;  // passes that test for equal depth rely on it
 

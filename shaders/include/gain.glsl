@@ -10,6 +10,7 @@ layout(constant_id = 56) const int gain = kGainNone;
 
 vec3 gain_at(float mean_curvature_per_mm) {
     if (gain == kGainNone) return vec3(1.0);
+    if (gain == kGainMap) return walked_gain_in;
     return gain_of_curvature(mean_curvature_per_mm, gain_slope_mm, gain_length_mm, gain_bend_mm);
 }
 

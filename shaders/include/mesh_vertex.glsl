@@ -12,6 +12,7 @@ layout(location = 6) in vec3 curvature_mixed_per_mm;
 layout(location = 7) in vec3 occlusion_blurred;
 layout(location = 8) in vec4 color_linear;
 layout(location = 9) in vec2 atlas_uv;
+layout(location = 10) in vec3 walked_gain;
 
 layout(location = 0) out vec3 p_world_mm_out;
 layout(location = 1) out vec3 n_world_out;
@@ -23,6 +24,7 @@ layout(location = 6) out vec3 curvature_mixed_per_mm_out;
 layout(location = 7) out vec3 occlusion_blurred_out;
 layout(location = 8) out vec4 color_linear_out;
 layout(location = 9) out vec2 atlas_uv_out;
+layout(location = 10) out vec3 walked_gain_out;
 
 void write_varyings() {
     p_world_mm_out = position_mm;
@@ -35,4 +37,5 @@ void write_varyings() {
     occlusion_blurred_out = occlusion_blurred;
     color_linear_out = color_linear;
     atlas_uv_out = atlas_uv;
+    walked_gain_out = walked_gain;
 }

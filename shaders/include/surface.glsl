@@ -14,6 +14,7 @@ layout(location = 6) in vec3 curvature_mixed_per_mm_in;
 layout(location = 7) in vec3 occlusion_blurred_in;
 layout(location = 8) in vec4 color_linear_in;
 layout(location = 9) in vec2 atlas_uv_in;
+layout(location = 10) in vec3 walked_gain_in;  // dermis/rays/vertex_gain.h
 
 layout(scalar) uniform Material {
     vec3 albedo_linear;

@@ -41,6 +41,7 @@ constexpr OutputCall kOutputCalls[] = {
     {"bake kernel-size", "-o", "none.obj -o OUT.exr"},
     {"bake stretch", "-o", "none.obj -o OUT.exr"},
     {"bake occlusion", "-o", "none.obj -o OUT.exr"},
+    {"bake gain", "-o", "none.obj -o OUT.exr"},
     {"bake normals", "-o", "none.obj -o OUT.exr"},
     {"bake pigments", "-o", "none.png -o OUT.png"},
     {"compare", "-o", "none.toml -o OUT"},

@@ -42,6 +42,7 @@ constexpr Case kCases[] = {
     {"bake_kernel_size", "bake kernel-size scene.toml --size 16 -o out/a.exr"},
     {"bake_stretch", "bake stretch scene.toml --size 16 -o out/a.exr"},
     {"bake_occlusion", "bake occlusion scene.toml --size 16 --rays 4 -o out/a.exr"},
+    {"bake_gain", "bake gain scene.toml --size 16 --walks-per-mm2 0.1 -o out/a.exr"},
     {"bake_normals", "bake normals scene.toml --size 16 -o out/a.exr"},
     {"profile", "profile show gpu_gems_3"},
     {"profile_list", "profile list"},

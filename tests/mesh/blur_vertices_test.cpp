@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "dermis/mesh/primitives.h"
@@ -47,4 +48,51 @@ TEST(BlurOverSurface, of_no_variance_changes_nothing) {
     const auto blurred = blur_over_surface(mesh, values, 0);
     ASSERT_TRUE(blurred);
     for (size_t i = 0; i < values.size(); ++i) EXPECT_NEAR((*blurred)[i], values[i], 1e-4);
+}
+
+TEST(FitOverSurface, finds_a_linear_function_from_samples_anywhere_in_the_triangles) {
+    const Mesh mesh = make_plane(10, 10, 4);
+    std::vector<SurfaceSamples> samples(mesh.triangle_count());
+    for (size_t t = 0; t < samples.size(); ++t)
+        for (const std::array<float, 3>& w :
+             {std::array{0.7f, 0.2f, 0.1f}, std::array{0.1f, 0.1f, 0.8f}, std::array{0.2f, 0.6f, 0.2f}}) {
+            Vec3 p;
+            for (size_t k = 0; k < 3; ++k) p += mesh.positions_mm[mesh.indices[3 * t + k]] * w[k];
+            samples[t].add(w, 1, {p.x, 2 * p.y, 3});
+        }
+    const auto fitted = fit_over_surface(mesh, samples, 0);
+    ASSERT_TRUE(fitted) << fitted.error().message;
+    for (size_t i = 0; i < fitted->size(); ++i) {
+        EXPECT_NEAR((*fitted)[i].x, mesh.positions_mm[i].x, 1e-2);
+        EXPECT_NEAR((*fitted)[i].y, 2 * mesh.positions_mm[i].y, 2e-2);
+        EXPECT_NEAR((*fitted)[i].z, 3, 1e-2);
+    }
+}
+
+TEST(FitOverSurface, of_a_variance_damps_a_wave_and_continues_where_samples_are_missing) {
+    const Mesh mesh = make_plane(40, 40, 80);
+    const double wavelength_mm = 10, variance_mm2 = 2;
+    std::vector<SurfaceSamples> samples(mesh.triangle_count());
+    for (size_t t = 0; t < samples.size(); ++t) {
+        Vec3 middle;
+        for (size_t k = 0; k < 3; ++k) middle += mesh.positions_mm[mesh.indices[3 * t + k]] * (1.0f / 3);
+        if (middle.x > 18) continue;
+        const auto wave = float(std::cos(2 * 3.14159265 * double(middle.x) / wavelength_mm));
+        for (size_t k = 0; k < 3; ++k) {
+            std::array<float, 3> corner = {};
+            corner[k] = 1;
+            samples[t].add(corner, 0.125f / 3, {wave, 1, 0});
+        }
+    }
+    const auto fitted = fit_over_surface(mesh, samples, variance_mm2);
+    ASSERT_TRUE(fitted) << fitted.error().message;
+    // One implicit step has (1 + 2 pi^2 v / wavelength^2)^-1.
+    const double factor = 1 / (1 + 2 * 9.8696 * variance_mm2 / (wavelength_mm * wavelength_mm));
+    for (size_t i = 0; i < fitted->size(); ++i) {
+        const double x = double(mesh.positions_mm[i].x);
+        if (std::abs(x) < 12) {
+            EXPECT_NEAR((*fitted)[i].x, factor * std::cos(2 * 3.14159265 * x / wavelength_mm), 0.03);
+        }
+        EXPECT_NEAR((*fitted)[i].y, 1, 0.02);
+    }
 }

@@ -121,6 +121,7 @@ class Maps(TestCase):
                 ("kernel-size", dermis.bake_kernel_size, ("--rays", 4, "--profile", "jensen_skin1"),
                  {"rays": 4, "profile": "jensen_skin1"}),
                 ("stretch", dermis.bake_stretch, (), {}),
+                ("gain", dermis.bake_gain, ("--walks-per-mm2", 2), {"walks_per_mm2": 2}),
                 ("occlusion", dermis.bake_occlusion, ("--rays", 4), {"rays": 4})):
             path, mine = self.folder / f"{kind}.exr", self.folder / f"{kind}_python.exr"
             result = run_program("bake", kind, "spheres", "--size", 64, *words, "-o", path)
@@ -129,7 +130,7 @@ class Maps(TestCase):
             made.save(mine)
             self.assert_same_bytes(path, mine)
             self.assert_same_bytes(f"{path}.json", f"{mine}.json")
-            self.assertEqual(made.values.shape, (64, 64, 3) if kind in ("stretch", "curvature") else (64, 64))
+            self.assertEqual(made.values.shape, (64, 64, 3) if kind in ("stretch", "curvature", "gain") else (64, 64))
             self.assertTrue(made.coverage.any())
 
     def test_thickness_of_a_sphere_from_arrays(self):

@@ -1,4 +1,5 @@
-// `dermis bake curvature | thickness | kernel-size | stretch | occlusion`: maps of a mesh over its UV atlas.
+// `dermis bake curvature | thickness | kernel-size | stretch | occlusion | gain`: maps of a mesh over its UV
+// atlas.
 
 #include <atomic>
 #include <cstdio>
@@ -102,7 +103,12 @@ void add_map(CommandLine& line, Command* group, MapKind kind, const std::string&
             ->add_option("--smoothing-mm", s.smoothing_mm, {0, 100},
                          "averages features narrower than about twice this")
             ->capture_default_str();
-    if (kind == MapKind::kernel_size)
+    if (kind == MapKind::gain)
+        command
+            ->add_option("--walks-per-mm2", s.walks_per_mm2, {0.1, 10000},
+                         "random walks that start on each mm^2 of the skin")
+            ->capture_default_str();
+    if (kind == MapKind::kernel_size || kind == MapKind::gain)
         command->add_option("--profile", options->map.profile, "diffusion profile instead of the scene's");
     line.when_chosen(
         command, [options] { return files_of(*options); }, [options] { return run(*options); });
@@ -123,6 +129,8 @@ void add_bake_maps_command(CommandLine& line) {
             "dermis bake stretch head_scan -o stretch.exr");
     add_map(line, group, MapKind::occlusion, "Occlusion: cosine-weighted visibility of the environment",
             "dermis bake occlusion head_scan -o occlusion.exr");
+    add_map(line, group, MapKind::gain, "Gain: uniform light that each place returns, over flat skin",
+            "dermis bake gain head_scan --profile openpbr_skin_3 -o gain.exr");
 }
 
 }  // namespace dermis::cli

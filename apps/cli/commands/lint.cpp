@@ -4,6 +4,8 @@
 #include "command.h"
 #include "dermis/bake/lint.h"
 #include "dermis/bake/table_io.h"
+#include "dermis/base/text.h"
+#include "dermis/rays/map_file.h"
 
 namespace dermis::cli {
 namespace {
@@ -15,6 +17,13 @@ struct LintOptions {
 
 Result<int> run(const LintOptions& options) {
     const std::string& path = options.path;
+    DERMIS_TRY_ASSIGN(const std::optional<std::string> map, describe_map(path));
+    if (map && options.write_sidecar) return Error{path + ": has the sidecar of a map already"};
+    if (map) {
+        print_path(path);
+        std::printf("  %s\n", printable_line(*map).c_str());
+        return 0;
+    }
     DERMIS_TRY_ASSIGN(const LintReport report, lint_file(path));
     print_path(path);
     for (const std::string& line : report.findings) std::printf("  %s\n", line.c_str());

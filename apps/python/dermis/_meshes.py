@@ -114,7 +114,7 @@ class Map:
 
     @property
     def values(self) -> NDArray[numpy.float32]:
-        """float32, size x size (stretch: x 3), in `unit`. A read-only view, no copy."""
+        """float32, size x size (curvature, stretch, gain: x 3), in `unit`. A read-only view, no copy."""
         return self._map.values
 
     @property
@@ -188,6 +188,19 @@ def bake_kernel_size(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, mater
         raise TypeError("profile: give its name, or a CSV file of it")
     return _bake("kernel-size", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
                  rays=rays, ray_size=ray_size, max_mm=max_mm, cone_rad=cone_rad, profile=profile)
+
+
+def bake_gain(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
+              unit_mm: float | None=None, walks_per_mm2: float=32.0, profile: str | None=None,
+              progress: Callable[[float], object] | None=None) -> Map:
+    """Uniform light that each place returns, over flat skin, of each channel, as `dermis bake gain`.
+
+    walks_per_mm2: random walks that start on each mm^2 of the skin. profile: a name (None: the scene's).
+    """
+    if isinstance(profile, Profile):
+        raise TypeError("profile: give its name, or a CSV file of it")
+    return _bake("gain", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+                 walks_per_mm2=walks_per_mm2, profile=profile)
 
 
 def bake_stretch(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,

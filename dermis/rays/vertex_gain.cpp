@@ -1,0 +1,272 @@
+#include "dermis/rays/vertex_gain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dermis/base/cache.h"
+#include "dermis/base/hash.h"
+#include "dermis/base/parallel.h"
+#include "dermis/base/progress.h"
+#include "dermis/base/text.h"
+#include "dermis/mesh/blur_vertices.h"
+#include "dermis/mesh/curvature.h"
+#include "dermis/rays/curvature_gain.h"
+#include "dermis/rays/flesh_boundary.h"
+#include "dermis/rays/guided_walk.h"
+#include "dermis/rays/rays_version.h"
+#include "dermis/rays/uv_raster.h"
+#include "dermis/scene/scene_hash.h"
+
+namespace dermis::inline rays {
+namespace {
+
+constexpr int kFlatWalks = 3 << 17;
+constexpr size_t kTrianglesPerTask = 64;
+constexpr double kMostWalksPerTriangle = 1 << 20;
+
+// The medium lies behind the plane through p_mm.
+struct PlaneBoundary {
+    Vec3 p_mm, n_out;
+    std::optional<BoundaryHit> operator()(Vec3 from_mm, Vec3 direction, float max_mm) const {
+        const float cosine = dot(direction, n_out);
+        if (cosine <= 0) return std::nullopt;
+        const float distance_mm = std::max(0.0f, dot(p_mm - from_mm, n_out)) / cosine;
+        if (distance_mm > max_mm) return std::nullopt;
+        return BoundaryHit{distance_mm, n_out};
+    }
+};
+
+struct WalkTask {
+    const RayScene* rays;
+    WalkMedium medium;
+    WalkGuide guide;
+    Vec3 per_flat;  // one over what flat skin returns
+};
+
+// Of one object: what its walks need, and what they gave.
+struct ObjectWalks {
+    const Mesh* mesh;
+    std::vector<uint32_t> walks;                  // of each triangle
+    std::vector<Vec3> prior;                      // gain by curvature at the vertices
+    std::vector<SurfaceSamples> all, difference;  // returned light less the prior; of even and odd walks
+};
+
+Vec3 to_vec3(const Rgb& rgb) {
+    return {float(rgb[0]), float(rgb[1]), float(rgb[2])};
+}
+
+std::vector<CurvatureTensor> curvatures_of(const Mesh& mesh) {
+    return mesh.curvatures_per_mm.size() == mesh.positions_mm.size()
+               ? mesh.curvatures_per_mm
+               : compute_curvature_tensors(mesh, kCurvatureSmoothingMm);
+}
+
+std::vector<Vec3> gains_by_curvature(std::span<const CurvatureTensor> tensors, const GainForm& form) {
+    std::vector<Vec3> gains;
+    gains.reserve(tensors.size());
+    // The form is fitted to these curvatures; where the prior is wrong, the blur keeps a part of its error.
+    const double least = gain_curvatures().front(), most = gain_curvatures().back();
+    for (const CurvatureTensor& tensor : tensors) {
+        const double h = std::clamp(double(mean_curvature(tensor)), least, most);
+        gains.push_back(to_vec3({gain(form, 0, h), gain(form, 1, h), gain(form, 2, h)}));
+    }
+    return gains;
+}
+
+std::array<Vec3, 3> corners_mm(const Mesh& mesh, size_t triangle) {
+    const uint32_t* corner = &mesh.indices[3 * triangle];
+    return {mesh.positions_mm[corner[0]], mesh.positions_mm[corner[1]], mesh.positions_mm[corner[2]]};
+}
+
+float area_mm2(const Mesh& mesh, size_t triangle) {
+    const auto [a, b, c] = corners_mm(mesh, triangle);
+    return 0.5f * length(cross(b - a, c - a));
+}
+
+std::vector<bool> walked_triangles(const SceneObject& object, const Flesh& flesh) {
+    std::vector<bool> walked(object.mesh.triangle_count());
+    for (size_t t = 0; t < walked.size(); ++t)
+        walked[t] = flesh.faces[t] == SkinFace::visible &&
+                    is_skin(object, material_of_triangle(object.mesh, uint32_t(t))) &&
+                    area_mm2(object.mesh, t) > 0;
+    return walked;
+}
+
+double walked_area_mm2(const Mesh& mesh, const std::vector<bool>& walked) {
+    double area = 0;
+    for (size_t t = 0; t < walked.size(); ++t)
+        if (walked[t]) area += double(area_mm2(mesh, t));
+    return area;
+}
+
+// One walk at least on each triangle, so that no part of the skin is without samples.
+std::vector<uint32_t> walks_of(const Mesh& mesh, const std::vector<bool>& walked, double per_mm2) {
+    std::vector<uint32_t> walks(walked.size());
+    for (size_t t = 0; t < walked.size(); ++t) {
+        if (!walked[t]) continue;
+        const double wanted = double(area_mm2(mesh, t)) * per_mm2;
+        walks[t] = uint32_t(std::clamp(std::ceil(wanted), 1.0, kMostWalksPerTriangle));
+    }
+    return walks;
+}
+
+// Barycentric weights of a point that is uniform on the triangle.
+std::array<float, 3> uniform_weights(Vec2 place) {
+    const float root = std::sqrt(place.x);
+    return {1 - root, root * (1 - place.y), root * place.y};
+}
+
+void walk_triangle(const WalkTask& task, size_t t, uint32_t seed, ObjectWalks& object) {
+    const auto [a, b, c] = corners_mm(*object.mesh, t);
+    const uint32_t* corner = &object.mesh->indices[3 * t];
+    const Vec3 n = face_normal(*object.mesh, uint32_t(t));
+    const float share_mm2 = area_mm2(*object.mesh, t) / float(object.walks[t]);
+    const uint32_t first = hash_u32(seed, 1);
+    for (uint32_t i = 0; i < object.walks[t]; ++i) {
+        Pcg32 random(seed, i);
+        const auto weights = uniform_weights(random.next_2d());
+        const Vec3 p_mm = a * weights[0] + b * weights[1] + c * weights[2];
+        const Vec3 start = sample_entry_direction(n, task.medium.eta, random);
+        // Flat skin is the control variate: the same random numbers, so that both walks are one until the
+        // first of them leaves.
+        const int hero = int((first + i) % 3);
+        Pcg32 same = random;
+        const PlaneBoundary plane{p_mm, n};
+        const WalkEnd flat = guided_walk(task.medium, task.guide, plane, p_mm, n, start, hero, same);
+        FleshBoundary boundary(*task.rays);
+        const WalkEnd end = guided_walk(task.medium, task.guide, boundary, p_mm, n, start, hero, random);
+        Vec3 value = Vec3{1, 1, 1} + (end.throughput - flat.throughput) * task.per_flat;
+        for (size_t k = 0; k < 3; ++k) value -= object.prior[corner[k]] * weights[k];
+        object.all[t].add(weights, share_mm2, value);
+        object.difference[t].add(weights, share_mm2, (first / 3 + i) % 2 == 0 ? value : -value);
+    }
+}
+
+void walk_object(const WalkTask& task, uint32_t seed, ObjectWalks& object, Progress& progress) {
+    object.all.resize(object.walks.size());
+    object.difference.resize(object.walks.size());
+    parallel_for(object.walks.size(), kTrianglesPerTask, [&](size_t begin, size_t end) {
+        size_t walked = 0;
+        for (size_t t = begin; t < end; ++t) {
+            if (object.walks[t] > 0) walk_triangle(task, t, hash_u32(seed, uint32_t(t)), object);
+            walked += object.walks[t];
+        }
+        progress.advance(walked);
+    });
+}
+
+// Adds to the sums over the skin of area * difference^2 and of area.
+void add_squares(const ObjectWalks& object, std::span<const Vec3> difference, Vec3& squares, double& area) {
+    for (size_t t = 0; t < object.walks.size(); ++t) {
+        if (object.walks[t] == 0) continue;
+        const float a = area_mm2(*object.mesh, t);
+        for (size_t k = 0; k < 3; ++k) {
+            const Vec3 d = difference[object.mesh->indices[3 * t + k]];
+            squares += d * d * (a / 3);
+        }
+        area += double(a);
+    }
+}
+
+Result<std::vector<Vec3>> gains_of(const ObjectWalks& object, float variance_mm2) {
+    DERMIS_TRY_ASSIGN(std::vector<Vec3> gains, fit_over_surface(*object.mesh, object.all, variance_mm2));
+    std::vector<bool> has_skin(gains.size());
+    for (size_t i = 0; i < object.mesh->indices.size(); ++i)
+        if (object.walks[i / 3] > 0) has_skin[object.mesh->indices[i]] = true;
+    for (size_t i = 0; i < gains.size(); ++i) {
+        const Vec3 sum = gains[i] + object.prior[i];
+        gains[i] = has_skin[i] ? Vec3{std::max(sum.x, 0.0f), std::max(sum.y, 0.0f), std::max(sum.z, 0.0f)}
+                               : Vec3{1, 1, 1};
+    }
+    return gains;
+}
+
+using Curvatures = std::vector<std::vector<CurvatureTensor>>;  // one array an object
+
+Result<std::vector<ObjectWalks>> planned(std::span<const SceneObject> objects, const Curvatures& curvatures,
+                                         std::span<const Flesh> flesh, const GainForm& form,
+                                         const VertexGainSettings& settings) {
+    std::vector<std::vector<bool>> walked;
+    double area = 0;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        walked.push_back(walked_triangles(objects[i], flesh[i]));
+        area += walked_area_mm2(objects[i].mesh, walked.back());
+    }
+    if (!(area > 0)) return Error{"there is no skin that returns light to the outside"};
+    const double per_mm2 = std::max(double(settings.walks_per_mm2), settings.least_walks / area);
+    std::vector<ObjectWalks> planned;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        const Mesh& mesh = objects[i].mesh;
+        planned.push_back({.mesh = &mesh,
+                           .walks = walks_of(mesh, walked[i], per_mm2),
+                           .prior = gains_by_curvature(curvatures[i], form),
+                           .all = {},
+                           .difference = {}});
+    }
+    return planned;
+}
+
+Result<VertexGains> walk(std::span<const SceneObject> objects, const Curvatures& curvatures,
+                         const ScatteringMedium& medium, const VertexGainSettings& settings) {
+    DERMIS_TRY_ASSIGN(const std::vector<Flesh> flesh, find_flesh(objects));
+    DERMIS_TRY_ASSIGN(const RayScene rays, RayScene::build(objects, flesh));
+    DERMIS_TRY_ASSIGN(std::vector<ObjectWalks> all,
+                      planned(objects, curvatures, flesh, walked_gain_form(medium), settings));
+    const Vec3 flat = guided_half_space_albedo(medium, kFlatWalks, 1).mean;
+    const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
+    const WalkTask task = {.rays = &rays,
+                           .medium = walk_medium(medium),
+                           .guide = walk_guide(medium),
+                           .per_flat = {inverse(flat.x), inverse(flat.y), inverse(flat.z)}};
+    size_t total = 0;
+    for (const ObjectWalks& object : all)
+        for (const uint32_t walks : object.walks) total += walks;
+    Progress progress("gain by walks", total);
+    VertexGains made;
+    Vec3 squares;
+    double area = 0;
+    for (size_t i = 0; i < all.size(); ++i) {
+        walk_object(task, hash_u32(uint32_t(i), 7), all[i], progress);
+        DERMIS_TRY_ASSIGN(std::vector<Vec3> gains, gains_of(all[i], settings.variance_mm2));
+        made.gains.push_back(std::move(gains));
+        DERMIS_TRY_ASSIGN(const std::vector<Vec3> difference,
+                          fit_over_surface(*all[i].mesh, all[i].difference, settings.variance_mm2));
+        add_squares(all[i], difference, squares, area);
+    }
+    const auto noise = [&](float square) { return float(std::sqrt(double(square) / area)); };
+    made.noise = {noise(squares.x), noise(squares.y), noise(squares.z)};
+    return made;
+}
+
+Result<void> check_settings(const VertexGainSettings& s) {
+    if (!(s.walks_per_mm2 >= 0.1f && s.walks_per_mm2 <= 10000))
+        return Error{"walks per mm^2 are " + to_text(s.walks_per_mm2) + ", not within 0.1..10000"};
+    if (!(s.variance_mm2 >= 0 && s.variance_mm2 <= 100))
+        return Error{"variance_mm2 is " + to_text(s.variance_mm2) + ", not within 0..100"};
+    return {};
+}
+
+}  // namespace
+
+Result<VertexGains> walk_vertex_gains(std::span<const SceneObject> objects, const ScatteringMedium& medium,
+                                      const VertexGainSettings& settings) {
+    DERMIS_TRY(check_settings(settings));
+    Hasher hasher;
+    hasher.add(rays_version()).add(medium.g).add(medium.eta);
+    for (size_t c = 0; c < 3; ++c) hasher.add(medium.sigma_s_per_mm[c]).add(medium.sigma_a_per_mm[c]);
+    hasher.add(settings.walks_per_mm2).add(settings.least_walks).add(settings.variance_mm2);
+    VertexGains blank;
+    Curvatures curvatures;
+    for (const SceneObject& object : objects) {
+        curvatures.push_back(curvatures_of(object.mesh));
+        add_shape(hasher, object);
+        hasher.add(curvatures.back());
+        blank.gains.emplace_back(object.mesh.positions_mm.size());
+    }
+    return cached(
+        "vertex_gain", hasher.hex(), std::move(blank),
+        [&] { return walk(objects, curvatures, medium, settings); },
+        [](VertexGains& gains) { return std::tie(gains.gains, gains.noise); });
+}
+
+}  // namespace dermis::inline rays
