@@ -39,7 +39,10 @@ Result<MapRequest> MapChoice::request() const {
     }
     DERMIS_TRY_ASSIGN(Scene scene, load_scene(mesh, options));
     DERMIS_TRY_ASSIGN(BakeMapSettings chosen, settings_for(scene.skin.profile));
-    return MapRequest{std::move(scene), std::move(chosen)};
+    DERMIS_TRY_ASSIGN(LayoutOfMap layout,
+                      lay_out_map(scene, uvs.empty() && !material.empty() ? "file" : uvs));
+    chosen.uvs = layout.uvs;
+    return MapRequest{std::move(scene), std::move(chosen), std::move(layout)};
 }
 
 }  // namespace dermis::cli

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "dermis/rays/bake_map.h"
+#include "map_layout.h"
 
 namespace dermis::cli {
 
@@ -13,10 +14,12 @@ inline constexpr NumberRange kMapSizeRange = {16, 8192}, kMapGutterRange = {0, 2
 struct MapRequest {
     Scene scene;
     BakeMapSettings settings;
+    LayoutOfMap layout;
 };
 
 struct MapChoice {
     std::string mesh, profile, material;  ///< empty profile: the scene's; empty material: all skin
+    std::string uvs;                      ///< as lay_out_map() takes it
     float unit_mm = 0;                    ///< of a mesh file; 0: as its format has it
     BakeMapSettings settings;
 

@@ -24,6 +24,7 @@ MapKind kind_of(const std::string& name) {
 cli::MapChoice choice_of(const std::string& kind, const py::dict& options) {
     cli::MapChoice choice;
     BakeMapSettings& s = choice.settings = cli::usual_map_settings(kind_of(kind));
+    choice.uvs = "file";
     take(choice.profile, options, "profile");
     take(choice.material, options, "material");
     take(choice.unit_mm, options, "unit_mm");
@@ -46,7 +47,7 @@ MadeMap made_of(std::span<const SceneObject> objects, const BakeMapSettings& set
             leave_if_stopped();
         });
     });
-    return {std::move(map), {mesh, settings}};
+    return {std::move(map), {.mesh = mesh, .settings = settings}};
 }
 
 MadeMap bake_of_scene(const std::string& kind, const std::string& mesh, const py::dict& options,

@@ -70,6 +70,9 @@ struct Mesh {
     [[nodiscard]] size_t triangle_count() const { return indices.size() / 3; }
 };
 
+/// The UVs of the file, or those of the skin's atlas, which are those of the file where there is no other.
+enum class UvSet { file, atlas };
+
 [[nodiscard]] inline const std::vector<Vec2>& atlas_uvs_of(const Mesh& mesh) {
     return mesh.atlas_uvs.empty() ? mesh.uvs : mesh.atlas_uvs;
 }

@@ -16,6 +16,7 @@
 #include "dermis/rays/uv_raster.h"
 #include "dermis/rays/vertex_gain.h"
 #include "dermis/rays/vertex_occlusion.h"
+#include "dermis/scene/skin_atlas.h"
 
 namespace dermis::inline rays {
 namespace {
@@ -74,10 +75,15 @@ Image curvature_values(std::span<const SceneObject> objects, const UvRaster& ras
 }
 
 // The coefficients of the metric are interpolated, not the lengths: they are linear.
-Image stretch_values(std::span<const SceneObject> objects, const UvRaster& raster) {
+Image stretch_values(std::span<const SceneObject> objects, const UvRaster& raster, UvSet uvs) {
     std::vector<std::vector<UvMetric>> metrics;
-    for (const SceneObject& object : objects)
-        metrics.push_back(object.mesh.uvs.empty() ? std::vector<UvMetric>{} : vertex_uv_metrics(object.mesh));
+    for (const SceneObject& object : objects) {
+        const bool on_atlas = uvs == UvSet::atlas && !object.mesh.atlas_uvs.empty();
+        if (!on_atlas && object.mesh.uvs.empty())
+            metrics.emplace_back();
+        else
+            metrics.push_back(vertex_uv_metrics(on_atlas ? over_atlas(object.mesh) : object.mesh));
+    }
     Image image(raster.width, raster.width, 3);
     const std::span<float> values = image.floats();
     for (size_t i = 0; i < raster.texels.size(); ++i) {
@@ -187,7 +193,7 @@ Result<Image> traced_values(std::span<const SceneObject> objects, const UvRaster
     const bool occlusion = settings.kind == MapKind::occlusion;
     const UvRaster own =
         settings.size > settings.ray_size
-            ? rasterise_uv(objects, settings.ray_size, settings.ray_size, filter_of(settings))
+            ? rasterise_uv(objects, settings.ray_size, settings.ray_size, filter_of(settings), settings.uvs)
             : UvRaster{};
     const UvRaster& coarse = own.width > 0 ? own : raster;
     Image image(coarse.width, coarse.width, 1);
@@ -295,7 +301,8 @@ float kernel_size_of_thickness(float spread_mm, float thickness_mm) {
 Result<BakedMap> bake_map(std::span<const SceneObject> objects, const BakeMapSettings& settings,
                           const std::function<void(double)>& progress) {
     DERMIS_TRY(check_settings(settings));
-    const UvRaster raster = rasterise_uv(objects, settings.size, settings.size, filter_of(settings));
+    const UvRaster raster =
+        rasterise_uv(objects, settings.size, settings.size, filter_of(settings), settings.uvs);
     BakedMap map{.kind = settings.kind, .coverage = coverage_mask(raster)};
     DERMIS_TRY(check_raster(objects, raster, settings, map));
     switch (settings.kind) {
@@ -304,7 +311,7 @@ Result<BakedMap> bake_map(std::span<const SceneObject> objects, const BakeMapSet
             map.unit = "1/mm";
             break;
         case MapKind::stretch:
-            map.values = stretch_values(objects, raster);
+            map.values = stretch_values(objects, raster, settings.uvs);
             map.unit = "mm per unit of u, mm per unit of v, cosine";
             break;
         case MapKind::gain: {

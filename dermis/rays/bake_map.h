@@ -49,6 +49,8 @@ struct BakeMapSettings {
     float walks_per_mm2 = 32;             ///< gain: 0.1..10000
     std::optional<Profile> profile;       ///< kernel_size and gain need it
     std::optional<std::string> material;  ///< else all skin
+    /// Curvature is in the frame of the file's tangents with either.
+    UvSet uvs = UvSet::atlas;
 };
 
 struct BakedMap {

@@ -40,6 +40,7 @@ std::string sidecar_text(const DiffusedNormals& normals, const DiffusedNormalsOr
         {"profile", origin.profile_name},
         {"finest_variance_mm2", origin.request.finest_variance_mm2},
         {"mesh", origin.mesh},
+        {"uvs", origin.uv_file.empty() ? "of the mesh" : "TEXCOORD_1 of " + origin.uv_file},
         {"tool", "dermis " DERMIS_VERSION}};
     return json.dump(2) + "\n";
 }

@@ -15,6 +15,7 @@ struct DiffusedNormalsOrigin {
     std::string profile_name;
     GaussianSum profile;
     DiffusedNormalsRequest request;
+    std::string uv_file = {};  ///< has the atlas's UVs; empty: the maps are over the UVs of the mesh
 };
 
 /// "skin.exr" gives skin_red.exr and skin_green.exr.

@@ -43,6 +43,7 @@ std::string sidecar_text(const BakedMap& map, const MapOrigin& origin, bool is_p
                                    {"range", {map.min, map.max}},
                                    {"gutter_texels", s.gutter_texels},
                                    {"mesh", origin.mesh}};
+    json["uvs"] = origin.uv_file.empty() ? "of the mesh" : "TEXCOORD_1 of " + origin.uv_file;
     if (is_png) json["value_1_mm"] = s.max_mm;
     if (s.material) json["material"] = *s.material;
     switch (map.kind) {

@@ -16,6 +16,7 @@ namespace dermis::inline rays {
 struct MapOrigin {
     std::string mesh;  ///< file or scene
     BakeMapSettings settings;
+    std::string uv_file = {};  ///< has the atlas's UVs; empty: the map is over the UVs of the mesh
 };
 
 /// FILE.exr (half), FILE.exr.json (kind, unit, channels, size, v_origin, encoding, range of the covered

@@ -36,9 +36,6 @@ struct UvRaster {
 using MaterialFilter = std::function<bool(const SceneObject& object, uint32_t material)>;
 [[nodiscard]] bool is_skin(const SceneObject& object, uint32_t material);
 
-/// The UVs of the file, or those of the skin's atlas (Mesh::atlas_uvs).
-enum class UvSet { file, atlas };
-
 /// The triangles of the materials that pass. Centres on a shared edge belong to one side only (top-left
 /// rule). Triangles without UVs or without area in UV are not drawn. 2048 x 2048 of 17,684 triangles takes
 /// about 40 ms on one core.

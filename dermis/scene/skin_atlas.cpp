@@ -28,7 +28,43 @@ void apply(Mesh& mesh, const AtlasPart& part, std::span<const AtlasLayout::Corne
             mesh.atlas_uvs[mesh.indices[3 * size_t(part.triangles[t]) + k]] = corners[t].uvs[k];
 }
 
+// Appends the skin of an object; vertices of other materials are left out.
+void append_skin(const SceneObject& object, Mesh& all) {
+    const Mesh& mesh = object.mesh;
+    const std::vector<Vec2>& atlas = atlas_uvs_of(mesh);
+    std::vector<uint32_t> moved(mesh.positions_mm.size(), ~0u);
+    for (const Submesh& submesh : mesh.submeshes) {
+        if (object.classes[submesh.material] != MaterialClass::skin) continue;
+        const Material& material = mesh.materials[submesh.material];
+        all.submeshes.push_back({.name = submesh.name,
+                                 .first_index = uint32_t(all.indices.size()),
+                                 .index_count = submesh.index_count,
+                                 .material = uint32_t(all.materials.size())});
+        Material plain;
+        plain.name = material.name;
+        plain.base_color_linear = material.base_color_linear;
+        all.materials.push_back(std::move(plain));
+        for (uint32_t i = submesh.first_index; i < submesh.first_index + submesh.index_count; ++i) {
+            const uint32_t v = mesh.indices[i];
+            if (moved[v] == ~0u) {
+                moved[v] = uint32_t(all.positions_mm.size());
+                all.positions_mm.push_back(mesh.positions_mm[v]);
+                all.normals.push_back(mesh.normals.empty() ? Vec3{0, 0, 1} : mesh.normals[v]);
+                all.uvs.push_back(mesh.uvs.empty() ? Vec2{} : mesh.uvs[v]);
+                all.atlas_uvs.push_back(atlas.empty() ? Vec2{} : atlas[v]);
+            }
+            all.indices.push_back(moved[v]);
+        }
+    }
+}
+
 }  // namespace
+
+Mesh skin_with_atlas(const Scene& scene) {
+    Mesh all;
+    for (const SceneObject& object : scene.objects) append_skin(object, all);
+    return all;
+}
 
 Mesh over_atlas(const Mesh& mesh) {
     Mesh copy;

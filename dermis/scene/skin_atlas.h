@@ -18,6 +18,10 @@ void lay_out_skin_atlas(Scene& scene);
 /// UV layout.
 [[nodiscard]] Mesh over_atlas(const Mesh& mesh);
 
+/// All skin of the scene as one mesh with both sets of UVs, its materials without maps: for tools that read
+/// maps over the atlas. Without skin it has no triangles.
+[[nodiscard]] Mesh skin_with_atlas(const Scene& scene);
+
 /// The triangles of skin, one part for each object that has skin with UVs. `meshes` are what the parts point
 /// to.
 struct SkinParts {

@@ -55,7 +55,8 @@ Vec3 normal_at(const Image& map, int x, int y) {
 TEST_F(BakeNormals, of_a_sphere_are_as_long_as_the_profiles_mean_cosine) {
     const ProgramResult result = bake("sphere.toml --size 256 -o maps/n.exr");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(result.out, "maps/n_red.exr\nmaps/n_green.exr\n");
+    EXPECT_THAT(result.out,
+                testing::StartsWith("maps/n_red.exr\nmaps/n_green.exr\nlaid out by the UVs of the file"));
     const Rgb expected = preintegrated_mean_cosine(gpu_gems_3_skin(), kRadiusMm);
     for (const auto& [name, channel] : {std::pair{"red", 0}, std::pair{"green", 1}}) {
         const std::string file = std::string("maps/n_") + name + ".exr";

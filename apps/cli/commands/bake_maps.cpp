@@ -23,7 +23,7 @@ struct BakeMapsOptions {
 Result<FileUse> files_of(const BakeMapsOptions& options) {
     const std::filesystem::path path = options.output;
     DERMIS_TRY(check_map_path(path, options.map.settings));
-    return FileUse{.outputs = {path, map_sidecar_path(path), map_preview_path(path)},
+    return FileUse{.outputs = {path, map_sidecar_path(path), map_preview_path(path), atlas_mesh_path(path)},
                    .inputs = {options.map.mesh, options.map.profile}};
 }
 
@@ -42,12 +42,16 @@ Result<int> run(const BakeMapsOptions& options) {
         });
     }();
     if (!map) return map.error();
-    DERMIS_TRY(write_map(options.output, *map, {options.map.mesh, settings}));
+    DERMIS_TRY(write_map(options.output, *map,
+                         {.mesh = options.map.mesh,
+                          .settings = settings,
+                          .uv_file = atlas_mesh_name(request.layout, options.output)}));
     print_warnings(map->warnings);
     std::printf("%s: %s, %dx%d, %s to %s %s\n", printable_line(options.output).c_str(),
                 std::string(map_kind_name(settings.kind)).c_str(), map->values.width, map->values.height,
                 to_text(map->min).c_str(), to_text(map->max).c_str(), map->unit.c_str());
     print_path(map_preview_path(options.output));
+    DERMIS_TRY(deliver_layout(request.scene, request.layout, options.output));
     return 0;
 }
 
@@ -68,6 +72,9 @@ void add_common(Command* command, BakeMapsOptions& options) {
                      "width of the gutter around UV islands in texels")
         ->capture_default_str();
     command->add_option("--material", options.map.material, "bake this material only (default: all skin)");
+    command->add_option("--uvs", options.map.uvs,
+                        "file, or atlas: FILE_atlas.glb has it (default: the file's if no two places of the "
+                        "skin share texels; with --material the file's)");
     command->add_option("--unit-mm", options.map.unit_mm, kUnitRangeMm,
                         "length of one unit of the mesh file in mm");
 }

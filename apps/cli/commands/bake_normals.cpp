@@ -12,6 +12,7 @@
 #include "dermis/rays/diffused_normals_file.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/scene/load_scene.h"
+#include "map_layout.h"
 #include "scene_choice.h"
 
 namespace dermis::cli {
@@ -29,6 +30,7 @@ Result<FileUse> files_of(const BakeNormalsOptions& options) {
         DERMIS_TRY(check_diffused_normals_path(path));
         files.outputs.insert(files.outputs.end(), {path, path.string() + ".json"});
     }
+    files.outputs.push_back(atlas_mesh_path(options.output));
     return files;
 }
 
@@ -38,8 +40,9 @@ Result<int> run(const BakeNormalsOptions& options) {
         return Error{"--unit-mm is for mesh files; " + options.mesh +
                      " states the unit of each of its meshes"};
     if (options.unit_mm > 0) how.mesh_unit_mm = options.unit_mm;
-    DERMIS_TRY_ASSIGN(const Scene scene, load_scene(options.mesh, how));
+    DERMIS_TRY_ASSIGN(Scene scene, load_scene(options.mesh, how));
     DERMIS_TRY(keep_scene_files(scene, files_of(options)));
+    DERMIS_TRY_ASSIGN(const LayoutOfMap layout, lay_out_map(scene, {}));
     const std::string profile_name = options.profile.empty() ? scene.skin.profile : options.profile;
     const Result<Profile> profile = find_profile(profile_name);
     if (!profile) return profile.error();
@@ -47,12 +50,14 @@ Result<int> run(const BakeNormalsOptions& options) {
     const DiffusedNormalsOrigin origin = {.mesh = options.mesh,
                                           .profile_name = profile_name,
                                           .profile = to_gaussian_sum(*profile).sum,
-                                          .request = {.size = options.size}};
+                                          .request = {.size = options.size},
+                                          .uv_file = atlas_mesh_name(layout, options.output)};
     DERMIS_TRY_ASSIGN(const DiffusedNormals normals,
                       bake_diffused_normals(scene, origin.profile, origin.request));
     DERMIS_TRY(write_diffused_normals(options.output, normals, origin));
     print_warnings(warnings);
     for (const auto& path : diffused_normals_paths(options.output)) print_path(path);
+    DERMIS_TRY(deliver_layout(scene, layout, options.output));
     return 0;
 }
 

@@ -199,6 +199,7 @@ void add_geometry(GlbContent& glb, const Mesh& mesh) {
     if (!mesh.normals.empty()) attributes["NORMAL"] = add_attribute(glb, mesh.normals, "VEC3");
     if (!mesh.tangents.empty()) attributes["TANGENT"] = add_attribute(glb, mesh.tangents, "VEC4");
     if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_attribute(glb, mesh.uvs, "VEC2");
+    if (!mesh.atlas_uvs.empty()) attributes["TEXCOORD_1"] = add_attribute(glb, mesh.atlas_uvs, "VEC2");
     Json primitives = Json::array();
     for (const Submesh& submesh : mesh.submeshes) {
         if (submesh.index_count == 0) continue;
