@@ -24,7 +24,7 @@ inline constexpr double kReportedFractions[] = {0.5, 0.9, 0.99, 0.997};
 [[nodiscard]] std::string number_text(double value);
 [[nodiscard]] std::string value_text(const Rgb& value, int count = 3);
 
-/// The generated part of docs/profiles.md: presets, tool conventions, one skin in all tools, fit errors.
+/// The tables of `dermis profile table`: presets, tool conventions, one skin in all tools, fit errors.
 /// Takes about a second.
 [[nodiscard]] std::string profile_tables_markdown();
 

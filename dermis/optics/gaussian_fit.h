@@ -24,9 +24,8 @@ struct GaussianFit {
     Rgb rms_error = {0, 0, 0};
 };
 
-/// 1 to kMaxGaussianFitTerms Gaussians per channel. Sums of Gaussians come back as they are, whatever their
-/// number. Tens of milliseconds a channel. Largest error of Burley with 4, 6, 8 terms: docs/profiles.md has
-/// them.
+/// 1 to kMaxGaussianFitTerms Gaussians per channel; a sum of Gaussians is returned unchanged. Takes tens of
+/// milliseconds per channel. `dermis profile table` prints the errors.
 [[nodiscard]] GaussianFit to_gaussian_sum(const Profile& profile, int terms_per_channel = 6);
 
 }  // namespace dermis::inline optics

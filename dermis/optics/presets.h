@@ -10,7 +10,7 @@
 
 namespace dermis::inline optics {
 
-/// In the order of the tables in docs/profiles.md.
+/// In alphabetical order.
 [[nodiscard]] std::vector<std::string> profile_names();
 
 /// A preset's name, the path of a profile CSV (profile_file.h), a MaterialX document (mtlx.h) or a glTF file

@@ -136,8 +136,7 @@ class Writer {
     }
 
     void write_head() {
-        line("# A scene of " + toml_string(mesh_.filename().string()) +
-             "; docs/scene_file.md has every key.");
+        line("# A scene of " + toml_string(mesh_.filename().string()) + "; `dermis keys` prints every key.");
         line("name = " + toml_string(mesh_.stem().string()));
         line("# Who made the head, under which licence: written with every picture.");
         line("credit = \"\"");

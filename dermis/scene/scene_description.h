@@ -123,7 +123,7 @@ inline constexpr size_t kMaxSceneBytes = size_t{1} << 20;
 /// Whether a mesh or a map of [maps] is an asset that is in none of the directories.
 [[nodiscard]] bool lacks_asset(const SceneDescription& description);
 
-/// The manual page of the scene file, in Markdown, out of the tables that parse it.
+/// Every key of the scene file as tables in Markdown, from the rows that parse it.
 [[nodiscard]] std::string scene_file_manual(std::span<const Subject> subjects);
 
 }  // namespace dermis::inline scene

@@ -1,4 +1,4 @@
-// docs/scene_file.md, printed from the rows that the parser uses.
+// The text of `dermis keys`, printed from the rows that the parser uses.
 
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_keys.h"
@@ -44,46 +44,9 @@ std::string section_text(const std::string& heading, const std::string& intro,
 }
 
 constexpr std::string_view kIntroduction =
-    R"(# The scene file
+    R"(# Keys of the scene file
 
-A scene is a TOML file. Only one `[[mesh]]` is required. Lengths are in mm, colours are linear. An unknown key, a wrong
-type, a value out of range and a missing file are errors that name file, line and key. `dermis keys` prints this page.
-
-```toml
-credit = "Scan by NAME, CC BY 4.0"
-
-[[mesh]]
-file = "head.obj"
-unit_mm = 10
-
-[maps]
-albedo = "head_color.png"
-
-[skin]
-roughness = 0.4
-
-[[light]]
-yaw_deg = -50
-pitch_deg = 35
-
-[camera]
-yaw_deg = 20
-distance_mm = 700
-```
-
-Paths are relative to the scene file. A path that starts with `assets:` is searched in `$DERMIS_ASSETS`, in
-`../shared/assets` beside the source tree, and in `~/.local/share/dermis` (`tools/get_head`). Scenes of `scenes/` are
-also found by name: `dermis render head_scan`.
-
-`render`, `compare`, `reference`, `view` and `figures` change keys on the command line:
-
-    --scene environment.yaw_deg=30 --scene skin.profile=jensen_skin1     strings need no quotes
-    --scene light.2.color=1,.9,.8 --scene light.key.intensity=2          a list's item by number, name, or `key`
-    --scene mesh.tone=5                                                  a single item needs no name
-    --camera "yaw_deg=30 fov_deg=20" --light "yaw_deg=-60"               short for camera.* and light.key.*
-
-Keys that are not named keep their value. Meshes, maps, materials and settings can be
-changed for scene files and mesh files, not for `builtin:NAME`.
+docs/scene_file.md describes the file. Lengths are in mm, colours are linear.
 )";
 
 }  // namespace

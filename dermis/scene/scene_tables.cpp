@@ -1,4 +1,4 @@
-// The keys of the scene file, section by section. docs/scene_file.md is printed from these rows.
+// The keys of the scene file, section by section. `dermis keys` prints these rows.
 
 #include <algorithm>
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "dermis/base/file.h"
+#include "dermis/base/text.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
@@ -410,11 +411,26 @@ TEST(LoadScene, the_heads_are_as_tall_as_heads_and_face_the_camera) {
     }
 }
 
-TEST(SceneManual, is_what_the_tables_print) {
+// A key that the page describes has the row of `dermis keys`.
+TEST(SceneManual, and_the_page_have_the_same_sections_and_the_page_no_other_row) {
     const Result<std::string> page = read_text_file(fs::path(DERMIS_SOURCE_DIR) / "docs" / "scene_file.md");
     ASSERT_TRUE(page) << page.error().message;
-    EXPECT_TRUE(*page == scene_file_manual(built_in_catalog().subjects))
-        << "regenerate it: build/dermis keys > docs/scene_file.md";
+    const std::string manual = scene_file_manual(built_in_catalog().subjects);
+    size_t sections = 0, rows = 0;
+    for (const std::string_view line : split(manual, '\n'))
+        if (line.starts_with("## ")) {
+            EXPECT_NE(page->find("\n" + std::string(line) + "\n"), std::string::npos)
+                << "no section " << line;
+            ++sections;
+        }
+    for (const std::string_view line : split(*page, '\n'))
+        if (line.starts_with("| `")) {
+            EXPECT_NE(manual.find("\n" + std::string(line) + "\n"), std::string::npos)
+                << "not a row of dermis keys: " << line;
+            ++rows;
+        }
+    EXPECT_GT(sections, 8u);
+    EXPECT_GT(rows, 20u);
 }
 
 TEST(LoadScene, a_bare_mesh_takes_the_words_of_a_scene) {

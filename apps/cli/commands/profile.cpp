@@ -240,8 +240,9 @@ void add_profile_command(CommandLine& line) {
     add_fit_walk(line, profile, name_help);
     add_profile_skin(line, profile);
 
-    Command* table_command = line.add("table", "Prints the tables of docs/profiles.md as Markdown",
-                                      "dermis profile table > tables.md", profile);
+    Command* table_command =
+        line.add("table", "Prints presets, tool conventions and fit errors as Markdown tables",
+                 "dermis profile table > tables.md", profile);
     line.when_chosen(table_command, writes_nothing, [] {
         print(profile_tables_markdown());
         return Result<int>(0);
