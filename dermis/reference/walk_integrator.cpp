@@ -4,6 +4,7 @@
 #include "dermis/rays/sampling.h"
 
 namespace dermis::inline reference {
+
 WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, uint32_t seed) const {
     Result result;
     Vec3 sum;

@@ -60,6 +60,33 @@ void main() { gl_Position = vec4(uv * 2 - 1, 0, 1); })";
             }
 }
 
+TEST_F(RasterTest, a_replaced_stream_is_drawn) {
+    const std::string vertex = kHead + R"(
+layout(location = 0) in vec2 uv;
+void main() { gl_Position = vec4(uv * 2 - 1, 0, 1); })";
+    Executor executor = make_executor(basic_shaders({{"renderer/mesh_uv_atlas.vert", vertex}}));
+    const std::vector<float> nowhere(6), everywhere = {0, 0, 0, 2, 2, 0};
+    const VertexStream streams[] = {{"uv", 2, nowhere}};
+    const uint32_t indices[] = {0, 1, 2};
+    Result<Geometry> mesh = Geometry::upload(device(), "atlas", streams, indices);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    Pass pass = white_pass("atlas");
+    pass.kind = PassKind::geometry_uv_atlas;
+    PassList list = out_list({pass});
+    list.images[0].size = {4, 4};
+    const auto drawn = [&] {
+        run(executor, list, {.width = 4, .height = 4, .draws = {draw_of(*mesh, 3)}});
+        return read(executor, "out").at(1, 1, 0);
+    };
+    EXPECT_EQ(drawn(), 0.f);
+    ASSERT_TRUE(mesh->replace(device(), {"uv", 2, everywhere}));
+    EXPECT_EQ(drawn(), 1.f);
+    EXPECT_EQ(mesh->replace(device(), {"uv", 3, everywhere}).error().message,
+              "geometry 'atlas': has no stream 'uv' of this size to replace");
+    EXPECT_FALSE(mesh->replace(device(), {"normal", 2, everywhere}));
+    EXPECT_FALSE(mesh->replace(device(), {"uv", 2, std::span(nowhere).first(4)}));
+}
+
 TEST_F(RasterTest, counter_clockwise_on_screen_is_the_front) {
     Executor executor = make_executor(basic_shaders());
     const Geometry mesh = clip_mesh(device(), square(1, 0));

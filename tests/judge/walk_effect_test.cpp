@@ -171,3 +171,27 @@ TEST_F(WalkEffect, both_references_judge_each_technique) {
               share(1, Integrator::walk));
     EXPECT_FALSE(score_rows("sphere", *one)[1].surface);
 }
+
+// The map's gain contains the light through thin parts, and the technique adds light from behind. Twice the
+// same light would be too much: the share would fall.
+TEST_F(WalkEffect, the_walked_gain_and_transmission_count_no_light_twice) {
+    const auto list = parse_technique_list(built_in_catalog().techniques,
+                                           "lambert,preintegrated[gain=none],preintegrated[gain=map]");
+    ASSERT_TRUE(list);
+    ComparisonSettings settings = comparison_settings(12, 12);
+    settings.grid = kWalkGrid;
+    settings.probes = 64;
+    settings.samples = 64;
+    settings.noise = 0.1;
+    settings.frames = 0;
+    settings.reference.integrator = Integrator::walk;
+    Scene slab = unit_case("slab_behind").scene;
+    slab.skin.profile = "openpbr_skin_3";
+    const auto compared = compare_techniques(device(), built_in_catalog(), slab, *list, settings);
+    ASSERT_TRUE(compared) << compared.error().message;
+    const auto share = [&](size_t row) {
+        return judgement_by(Integrator::walk, *compared, compared->rows[row])->captured.all.share;
+    };
+    EXPECT_NEAR(share(1), 0.43, 0.05);
+    EXPECT_GT(share(2), share(1) + 0.1);
+}
