@@ -2,6 +2,8 @@
 // All techniques, subjects and shaders of this repository, for programs, tests and benchmarks. The libraries
 // of dermis/ get it as an argument.
 
+#include <vector>
+
 #include "dermis/engines/package.h"
 #include "dermis/render/catalog.h"
 #include "dermis/shading/shading.h"
@@ -13,6 +15,9 @@ namespace dermis {
 
 /// The files of engines/ but for engines/web, and LICENSE.
 [[nodiscard]] std::span<const PackageTemplate> built_in_package_templates();
+
+/// The places at which packages look up the shadows of a light for this skin: PackageInput::shadow_places.
+[[nodiscard]] Result<std::vector<ShadowPlace>> package_shadow_places(const Profile& profile);
 
 /// The files of engines/web, LICENSE, and the shaders that the page shares with the renderer.
 [[nodiscard]] std::span<const shading::Source> built_in_web_texts();

@@ -1,5 +1,7 @@
 #include "dermis/engines/package.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -105,9 +107,22 @@ Result<void> add_table_and_picture(const Engine& engine, const Profile& profile,
     return {};
 }
 
-Words common_words(const Profile& profile) {
+// Seven numbers a place: two tangents, off the surface, red, green, blue, penumbra.
+std::string shadow_places_text(std::span<const ShadowPlace> places) {
+    std::string text;
+    for (const ShadowPlace& place : places)
+        text +=
+            fmt::format("{}[{:.5g}, {:.5g}, {:.5g}, {:.5g}, {:.5g}, {:.5g}, {:.5g}]",
+                        text.empty() ? "" : ",\n  ", place.offset_mm.x, place.offset_mm.y, place.offset_mm.z,
+                        place.weight.x, place.weight.y, place.weight.z, place.penumbra);
+    return text;
+}
+
+Words common_words(const PackageInput& input) {
+    const Profile& profile = input.profile;
     const std::string tool = tool_version();
     return {{"profile", printable_line(profile.name)},
+            {"shadow_places", shadow_places_text(input.shadow_places)},
             {"source", printable_line(profile.source)},
             {"version", tool.substr(tool.find(' ') + 1)},
             {"table_width", std::to_string(kTableWidth)},
@@ -127,12 +142,15 @@ std::vector<shading::Source> functions_for(const Engine& engine, const PackageIn
 }
 
 Result<void> add_templates(const Engine& engine, const PackageInput& input, std::vector<PackageFile>& files) {
-    Words words = common_words(input.profile);
+    Words words = common_words(input);
     if (engine.add_words) engine.add_words(words);
     const std::string folder = "engines/" + std::string(engine.name) + "/";
     for (const PackageTemplate& file : input.templates) {
         if (file.path == "LICENSE") files.push_back({std::string(engine.license_path), to_bytes(file.text)});
         if (!file.path.starts_with(folder)) continue;
+        const bool for_head =
+            !engine.head_path.empty() && file.path.starts_with(folder + std::string(engine.head_path));
+        if (for_head && input.head.empty()) continue;
         DERMIS_TRY_ASSIGN(const std::string text, filled(file, words));
         files.push_back({file.path.substr(folder.size()), to_bytes(text)});
     }
@@ -178,6 +196,16 @@ Result<void> check_engine(std::string_view name) {
     return {};
 }
 
+Result<void> check_engine_takes_head(std::string_view name) {
+    DERMIS_TRY_ASSIGN(const Engine* engine, find_engine(name));
+    if (!engine->head_path.empty()) return {};
+    std::vector<std::string> able;
+    for (const Engine& other : all_engines())
+        if (!other.head_path.empty()) able.emplace_back(other.name);
+    return Error{"--engine " + std::string(name) + " takes no scene, only --profile; " + join(able, " and ") +
+                 " take one"};
+}
+
 Result<std::vector<PackageFile>> make_package(std::string_view name, const PackageInput& input) {
     DERMIS_TRY_ASSIGN(const Engine* found, find_engine(name));
     const Engine& engine = *found;
@@ -185,6 +213,8 @@ Result<std::vector<PackageFile>> make_package(std::string_view name, const Packa
     DERMIS_TRY(add_skin_texts(engine, input, files));
     DERMIS_TRY(add_table_and_picture(engine, input.profile, files));
     DERMIS_TRY(add_templates(engine, input, files));
+    for (const PackageFile& file : input.head)
+        files.push_back({std::string(engine.head_path) + file.path, file.bytes});
     if (engine.add_files) DERMIS_TRY(engine.add_files(input, files));
     std::ranges::sort(files, {}, &PackageFile::path);
     return files;

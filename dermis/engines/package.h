@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/base/vec.h"
 #include "dermis/optics/profile.h"
 #include "dermis/shading/shading.h"
 
@@ -30,10 +31,21 @@ struct PackageTemplate {
     std::string path, text;
 };
 
+/// A place around a point at which a package looks up the shadow of a light
+/// (shaders/include/skin/gathered_shadow.glsl).
+struct ShadowPlace {
+    Vec3 offset_mm;      ///< on two tangents, and off the surface
+    Vec3 weight;         ///< of each channel
+    float penumbra = 1;  ///< weight in the penumbra alone
+};
+
 struct PackageInput {
     Profile profile;
     std::span<const shading::Source> functions;  ///< shaders/include/skin
     std::span<const PackageTemplate> templates;
+    std::span<const ShadowPlace> shadow_places = {};
+    /// A head with its maps (engines/head.h). With it the package has the files of its template folder head/.
+    std::span<const PackageFile> head = {};
 };
 
 /// "godot", ...
@@ -41,6 +53,9 @@ struct PackageInput {
 
 /// Success when there is such an engine. Error: an unknown name proposes the closest.
 [[nodiscard]] Result<void> check_engine(std::string_view name);
+
+/// Success when the engine's package takes a head.
+[[nodiscard]] Result<void> check_engine_takes_head(std::string_view name);
 
 /// All files in the order of their paths. Errors: an unknown engine, a profile that cannot be pre-integrated.
 [[nodiscard]] Result<std::vector<PackageFile>> make_package(std::string_view engine,

@@ -31,10 +31,12 @@ struct NamedImage {
                                      std::span<const NamedImage> images = {},
                                      std::span<const std::string> extras = {});
 
-/// The bytes that write_glb() writes.
+/// The bytes that write_glb() writes. `more_uvs`, each with one entry a position, become TEXCOORD_2 and on:
+/// numbers of the vertices that every engine reads.
 [[nodiscard]] Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh,
                                                        std::span<const NamedImage> images = {},
-                                                       std::span<const std::string> extras = {});
+                                                       std::span<const std::string> extras = {},
+                                                       std::span<const std::vector<Vec2>> more_uvs = {});
 
 /// Positions in millimetres, normals, UVs (origin bottom-left, as OBJ has it), `usemtl` by name; an MTL of
 /// the same name beside it, with map paths as in the materials.

@@ -13,9 +13,11 @@
 #include "dermis/base/result.h"
 #include "dermis/base/text.h"
 #include "dermis/optics/curvature_expressions.h"
+#include "dermis/optics/diffused_normals.h"
 #include "dermis/optics/edge_expression.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/gaussian_lobes.h"
+#include "dermis/optics/mean_curvature.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/profile.h"
 #include "dermis/optics/wrap_reach.h"
@@ -135,6 +137,39 @@ std::string transmission_function(const std::vector<ChannelGaussians>& terms) {
            "    return through / (1.0 + through);\n}\n";
 }
 
+std::string mean_normal_function(const char* channel, const std::string& baked, const char* shorter,
+                                 float own_weight) {
+    return fmt::format(
+        "vec3 skin_mean_normal_{}(vec3 red_texel, {}vec3 spread_texel, vec3 n_own) {{\n"
+        "    float shorter = spread_texel.z * spread_texel.z * baked_skin(red_texel);\n"
+        "    return mean_normal({}, {}, n_own, mix(1.0, {}, baked_skin(red_texel)));\n}}\n",
+        channel, std::string_view(channel) == "red" ? "" : "vec3 green_texel, ", baked, shorter,
+        literal(own_weight));
+}
+
+// Texels of baked normals to the mean normal of each channel, and the curvature that red's length stands for.
+std::string baked_normals_functions(const GaussianSum& sum) {
+    const Vec3 own = own_normal_weights(sum, {});
+    const MeanCurvature form = fit_mean_curvature(sum, 0);
+    const std::string green = "baked_green(baked_red(red_texel), green_texel)";
+    const std::string shorter = literal(green_spread(sum, {})) + " * shorter";
+    std::string horner = literal(form.terms.back());
+    for (size_t i = kMeanCurvatureTerms - 1; i-- > 0;)
+        horner = literal(form.terms[i]) + " + u * (" + horner + ")";
+    return "// Mean normals of the channels, shorter than 1 where the normals around the point differ: from "
+           "the\n"
+           "// texels of baked normals and the pixel's own normal. Where the texels hold no skin, the own "
+           "normal.\n" +
+           mean_normal_function("red", "baked_red(red_texel)", "shorter", own.x) + "\n" +
+           mean_normal_function("green", green, shorter.c_str(), own.y) + "\n" +
+           mean_normal_function("blue", green, shorter.c_str(), own.z) +
+           "\n// The curvature that red's mean normal stands for, 0 to 1 per mm, by its length. Within " +
+           percent(form.max_error) +
+           ".\nfloat skin_curvature_of_mean(float mean_length) {\n    float u = min(sqrt(max(1.0 - "
+           "mean_length, 0.0)), " +
+           literal(form.largest_u) + ");\n    return clamp(u * (" + horner + "), 0.0, 1.0);\n}\n";
+}
+
 std::string heading(const Profile& profile, const GaussianFit& fit) {
     const double error = std::ranges::max(fit.max_error);
     std::string text = "// Skin: " + printable_line(profile.name) +
@@ -237,13 +272,14 @@ Result<Source> profile_source(const Profile& profile) {
     DERMIS_TRY(check_preintegrable(fit.sum));
     const std::vector<ChannelGaussians> terms = by_channel(fit.sum);
     std::string text = heading(profile, fit);
-    for (const char* file : {"pi", "closed_form", "spherical_gaussians", "transmission", "wrap", "zonal"})
+    for (const char* file :
+         {"pi", "baked_normals", "closed_form", "spherical_gaussians", "transmission", "wrap", "zonal"})
         text += "#include \"shaders/include/skin/" + std::string(file) + ".glsl\"\n";
     DERMIS_TRY_ASSIGN(const std::string diffuse, diffuse_function(fit.sum));
     DERMIS_TRY_ASSIGN(const std::string shadow, shadow_function(profile));
     text += "\n" + gaussian_constants(terms) + "\n" + diffuse + "\n" + spherical_gaussians_function(fit.sum) +
             "\n" + wrap_function(wrap_reach(fit.sum)) + "\n" + ambient_functions(terms.size()) + "\n" +
-            shadow + "\n" + transmission_function(terms);
+            shadow + "\n" + transmission_function(terms) + "\n" + baked_normals_functions(fit.sum);
     return Source{"profile " + printable_line(profile.name), text};
 }
 

@@ -4,7 +4,7 @@
 // which depend on its curvature.
 
 import { REVISION } from "three/webgpu";
-import { float, getShIrradianceAt, isolate, materialEnvIntensity, normalWorld, vec3 } from "three/tsl";
+import { float, getShIrradianceAt, isolate, materialEnvIntensity, modelWorldMatrix, normalWorld, vec3, vec4 } from "three/tsl";
 
 const away = /*@__PURE__*/ normalWorld.negate();
 
@@ -14,22 +14,40 @@ const change = (towardsN, awayFromN, mean, [band1, band2]) => {
   return odd.mul(band1.sub(1)).add(even.mul(band2.sub(1)));
 };
 
+// With baked normals each channel has a direction of its own. irradiance: of a direction in the mesh's space.
+function changeOfNormals(irradiance, here, mean, { ambientNormals, bands: [band1, band2] }) {
+  const channels = ambientNormals.slice(0, 2).map(normal => {
+    const towards = irradiance(normal).toVar(), opposite = irradiance(normal.negate()).toVar();
+    const odd = towards.sub(opposite).mul(0.5), even = towards.add(opposite).mul(0.5).sub(mean);
+    return mean.add(odd.mul(band1)).add(even.mul(band2)).toVar();
+  });
+  // Blue takes green's direction, which is nearly its own.
+  return vec3(channels[0].x, channels[1].yz).sub(here);
+}
+
+const toWorld = direction => modelWorldMatrix.mul(vec4(direction, 0)).xyz.normalize();
+
 // Of a light of the scene, null for one that skin does not change: light of one direction, AmbientLight, which has one band.
-export function changeOfLight(lightNode, bands) {
+export function changeOfLight(lightNode, surface) {
+  const { bands, ambientNormals } = surface;
   if (lightNode.light?.isLightProbe) {
     const harmonics = lightNode.lightProbe, mean = harmonics.element(0).mul(0.886227);
+    if (ambientNormals)
+      return changeOfNormals(direction => getShIrradianceAt(toWorld(direction), harmonics), getShIrradianceAt(normalWorld, harmonics), mean, surface);
     return change(getShIrradianceAt(normalWorld, harmonics), getShIrradianceAt(away, harmonics), mean, bands);
   }
   if (lightNode.light?.isHemisphereLight) {
     const { colorNode: sky, groundColorNode: ground, lightDirectionNode: up } = lightNode;
-    return sky.sub(ground).mul(normalWorld.dot(up).mul(0.5)).mul(bands[0].sub(1));
+    const half = sky.sub(ground).mul(0.5), here = half.mul(normalWorld.dot(up));
+    if (!ambientNormals) return here.mul(bands[0].sub(1));
+    return half.mul(vec3(...ambientNormals.map(normal => toWorld(normal).dot(up)))).mul(bands[0]).sub(here);
   }
   return null;
 }
 
 // Of EnvironmentNode. Its roughest level is the irradiance over pi; the mean of six directions is that of the sphere for every
 // polynomial up to the third degree.
-export function changeOfEnvironment(environment, bands) {
+export function changeOfEnvironment(environment, surface) {
   const { envNode } = environment;
   const radiance = envNode.isTextureNode || envNode.isMaterialReferenceNode ? environment._pmremNode : envNode;
   if (!radiance) throw new Error(`SkinNodeMaterial does not find the environment in three.js r${REVISION}: use r187.`);
@@ -37,5 +55,7 @@ export function changeOfEnvironment(environment, bands) {
     isolate(radiance.context({ getUV: () => direction, getTextureLevel: () => float(1) }).mul(materialEnvIntensity).mul(Math.PI));
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(axis => vec3(...axis));
   const mean = axes.flatMap(axis => [axis, axis.negate()]).map(irradiance).reduce((sum, one) => sum.add(one)).div(6);
-  return change(irradiance(normalWorld), irradiance(away), mean, bands);
+  if (surface.ambientNormals)
+    return changeOfNormals(direction => irradiance(toWorld(direction)), irradiance(normalWorld), mean, surface);
+  return change(irradiance(normalWorld), irradiance(away), mean, surface.bands);
 }

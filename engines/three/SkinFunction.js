@@ -42,6 +42,32 @@ export const curvatureFromDerivatives = /*@__PURE__*/ skinFunction("skin_curvatu
 // Lambert's 2 pi / 3 and pi / 4. Curvature in 1/mm.
 export const skinAmbientBand1 = /*@__PURE__*/ skinFunction("skin_ambient_band_1", "vec3", "float");
 export const skinAmbientBand2 = /*@__PURE__*/ skinFunction("skin_ambient_band_2", "vec3", "float");
+// Curvature in 1/mm from a tensor, its diagonal (xx, yy, zz) and its mixed elements (yz, xz, xy); with normal and direction to the
+// light for light of one direction.
+export const curvatureAround = /*@__PURE__*/ skinFunction("skin_curvature_around", "float", "vec3", "vec3");
+export const curvatureTowards = /*@__PURE__*/ skinFunction("skin_curvature_towards", "float", "vec3", "vec3", "vec3", "vec3");
+export const sphereDiagonal = /*@__PURE__*/ skinFunction("skin_sphere_diagonal", "vec3", "float", "vec3");
+export const sphereMixed = /*@__PURE__*/ skinFunction("skin_sphere_mixed", "vec3", "float", "vec3");
+// The tensor of a vertex of a head: three numbers in the frame of vertexTangent(normal) and the cross product of the two.
+export const vertexTangent = /*@__PURE__*/ skinFunction("skin_vertex_tangent", "vec3", "vec3");
+export const tangentDiagonal = /*@__PURE__*/ skinFunction("skin_tangent_diagonal", "vec3", "vec3", "vec3", "vec3");
+export const tangentMixed = /*@__PURE__*/ skinFunction("skin_tangent_mixed", "vec3", "vec3", "vec3", "vec3");
+// Baked normals: the level to read, 1 on skin, the mean normals of the channels by the maps' texels, and what follows from them.
+export const bakedLevel = /*@__PURE__*/ skinFunction("skin_baked_level", "float", "vec2", "vec2");
+export const bakedSkin = /*@__PURE__*/ skinFunction("skin_baked_skin", "float", "vec3");
+export const meanNormalRed = /*@__PURE__*/ skinFunction("skin_mean_normal_red", "vec3", "vec3", "vec3", "vec3");
+export const meanNormalGreen = /*@__PURE__*/ skinFunction("skin_mean_normal_green", "vec3", "vec3", "vec3", "vec3", "vec3");
+export const meanNormalBlue = /*@__PURE__*/ skinFunction("skin_mean_normal_blue", "vec3", "vec3", "vec3", "vec3", "vec3");
+export const curvatureOfMean = /*@__PURE__*/ skinFunction("skin_curvature_of_mean", "float", "float");
+export const band2OfMeans = /*@__PURE__*/ skinFunction("skin_band_2_of_means", "vec3", "vec3");
+export const spreadTowards = /*@__PURE__*/ skinFunction("skin_spread_towards", "float", "vec3", "vec2", "vec3");
+// Shadows from places around the point.
+export const gatherLiftMm = /*@__PURE__*/ skinFunction("skin_gather_lift_mm", "float", "float");
+export const gatherTangent = /*@__PURE__*/ skinFunction("skin_gather_tangent", "vec3", "vec3", "vec3", "vec3");
+export const gatherBends = /*@__PURE__*/ skinFunction("skin_gather_bends", "vec3", "vec3", "vec3", "vec3", "vec3");
+export const gatherCosine = /*@__PURE__*/ skinFunction("skin_gather_cosine", "float", "vec2", "vec3", "float", "float");
+export const gatherRiseMm = /*@__PURE__*/ skinFunction("skin_gather_rise_mm", "float", "vec2", "float", "vec3");
+export const gatheredLight = /*@__PURE__*/ skinFunction("skin_gathered_light", "vec3", "float", "vec3", "vec3", "float", "float");
 // Transmission through thin geometry, 0 to 1, by its thickness in mm.
 export const skinTransmittance = /*@__PURE__*/ skinFunction("skin_transmittance", "vec3", "float");
 // Of the diffuse light of a thin part, the share that has entered its far side, 0 to 0.5, by its thickness in mm.
@@ -52,6 +78,8 @@ export const pastFarWallMm = /*@__PURE__*/ skinFunction("skin_past_far_wall_mm",
 export const skinShadowEdge = /*@__PURE__*/ skinFunction("skin_shadow_edge", "vec3", "float");
 // BRDF times N.L, per steradian, without Fresnel: N.H, N.L, N.V, perceptual roughness.
 export const twoLobeGgx = /*@__PURE__*/ skinFunction("skin_two_lobe_ggx", "float", "float", "float", "float", "float");
+// The same of one lobe, by the square of the roughness.
+export const ggx = /*@__PURE__*/ skinFunction("skin_ggx", "float", "float", "float", "float", "float");
 // Reflectance: at normal incidence, cosine of the half vector and the view.
 export const fresnelSchlick = /*@__PURE__*/ skinFunction("skin_fresnel_schlick", "float", "float", "float");
 // Words over the screen, 1 on their letters. A position in pixels, y downwards.

@@ -6,14 +6,15 @@
 
 import { MeshStandardNodeMaterial, PhysicalLightingModel } from "three/webgpu";
 import {
-  attribute, diffuseContribution, float, fwidth, materialReference, materialRoughness, mix, normalView, normalViewGeometry,
-  positionView, positionViewDirection, screenCoordinate, specularColor, specularColorBlended, specularF90, texture, vec3,
+  diffuseContribution, float, materialReference, materialRoughness, mix, normalView, normalViewGeometry, positionViewDirection,
+  screenCoordinate, specularColor, specularColorBlended, specularF90, texture, vec3,
 } from "three/tsl";
 import { changeOfEnvironment, changeOfLight } from "./SkinAmbient.js";
 import {
-  curvatureFromDerivatives, diffuseCoordinate, fresnelSchlick, signOfMissingCurvature, signOfMissingTable, skinAmbientBand1,
-  skinAmbientBand2, skinDiffuse, skinFarShare, twoLobeGgx,
+  diffuseCoordinate, fresnelSchlick, ggx, signOfMissingCurvature, signOfMissingTable, skinDiffuse, skinFarShare, twoLobeGgx,
 } from "./SkinFunction.js";
+import { gatheredColor } from "./SkinShadow.js";
+import { readSurface, toMesh } from "./SkinSurface.js";
 import { faultOfTable, maxCurvaturePerMm } from "./SkinTable.js";
 import { colorBehind, thicknessMm } from "./SkinThickness.js";
 
@@ -28,9 +29,7 @@ class SkinLightingModel extends PhysicalLightingModel {
   }
 
   start(builder) {
-    this.curvature = this.material.setupCurvature(builder).toVar("skinCurvature");
-    this.bands = [skinAmbientBand1(this.curvature).div(2 / 3 * Math.PI), skinAmbientBand2(this.curvature).div(Math.PI / 4)]
-      .map(band => band.toVar());
+    this.surface = readSurface(this.material, builder.geometry);
     this.thickness = thicknessMm(this.material)?.toVar("skinThickness");
     this.farShare = this.thickness && skinFarShare(this.thickness).toVar("skinFarShare");
     super.start(builder);
@@ -38,33 +37,51 @@ class SkinLightingModel extends PhysicalLightingModel {
 
   direct({ lightDirection, lightColor, lightNode, reflectedLight }, builder) {
     const nDotL = normalView.dot(lightDirection).toVar();
-    let entered = lightColor.mul(this.material.setupDiffuse(nDotL, this.curvature));
+    reflectedLight.directDiffuse.addAssign(this.diffuse(nDotL, lightDirection, lightColor, lightNode, builder)
+      .mul(diffuseContribution).div(Math.PI));
+
+    const h = lightDirection.add(positionViewDirection).normalize();
+    const roughness = this.material.roughnessNode ?? materialRoughness;
+    const cosines = [normalView.dot(h).clamp(), nDotL.max(1e-4), normalView.dot(positionViewDirection).max(1e-3)];
+    const perceptual = float(roughness).clamp(0.03, 1);
+    const lobes = this.material.twoLobes ? twoLobeGgx(...cosines, perceptual) : ggx(...cosines, perceptual.mul(perceptual));
+    const fresnel = fresnelSchlick(specularColor.r, positionViewDirection.dot(h).clamp());
+    reflectedLight.directSpecular.addAssign(lightColor.mul(nDotL.greaterThan(0).select(lobes.mul(fresnel), 0)));
+  }
+
+  // Light of one direction that leaves, before the albedo.
+  diffuse(nDotL, lightDirection, lightColor, lightNode, builder) {
+    const { material, surface } = this;
+    if (!material.scattering) return lightColor.mul(nDotL.max(0));
+    const toLight = toMesh(lightDirection).toVar();
+    const arriving = material.scatteredShadow
+      ? gatheredColor(lightNode, lightColor, { ...surface, toLight }, builder) : lightColor;
+    let entered = arriving.mul(material.setupDiffuse(surface, nDotL, toLight));
     if (this.farShare) {
       const farCosine = normalViewGeometry.dot(lightDirection).negate().max(0);
       const behind = colorBehind(lightNode, lightDirection, lightColor, this.thickness, builder).mul(farCosine);
       entered = mix(entered, behind, this.farShare);
     }
-    reflectedLight.directDiffuse.addAssign(entered.mul(diffuseContribution).div(Math.PI));
-
-    const h = lightDirection.add(positionViewDirection).normalize();
-    const roughness = this.material.roughnessNode ?? materialRoughness;
-    const lobes = twoLobeGgx(normalView.dot(h).clamp(), nDotL.max(1e-4), normalView.dot(positionViewDirection).max(1e-3),
-      float(roughness).clamp(0.03, 1));
-    const fresnel = fresnelSchlick(specularColor.r, positionViewDirection.dot(h).clamp());
-    reflectedLight.directSpecular.addAssign(lightColor.mul(nDotL.greaterThan(0).select(lobes.mul(fresnel), 0)));
+    return entered;
   }
 
   // Diffuse light is not lessened by what is reflected: the table has all of it.
   indirect(builder) {
-    const { irradiance, iblIrradiance, radiance, reflectedLight } = builder.context;
-    for (const lightNode of builder.lightsNode.getLightNodes(builder)) {
-      const change = changeOfLight(lightNode, this.bands);
-      if (change) irradiance.addAssign(change);
-    }
+    const { context } = builder, { irradiance, iblIrradiance, radiance, reflectedLight } = context, { material, surface } = this;
+    if (material.scattering)
+      for (const lightNode of builder.lightsNode.getLightNodes(builder)) {
+        const change = changeOfLight(lightNode, surface);
+        if (change) irradiance.addAssign(change);
+      }
     const arriving = irradiance.add(iblIrradiance).max(0);
-    reflectedLight.indirectDiffuse.addAssign(arriving.mul(diffuseContribution).div(Math.PI));
-    reflectedLight.indirectSpecular.addAssign(radiance.mul(this.singleScatteringDielectric));
-    this.ambientOcclusion(builder);
+    const ofMap = float(context.ambientOcclusion).toVar();
+    const plain = (surface.plainOcclusion ?? float(1)).min(ofMap).toVar();
+    const occlusion = material.scattering && surface.occlusion ? surface.occlusion.min(ofMap) : plain;
+    reflectedLight.indirectDiffuse.addAssign(arriving.mul(occlusion).mul(diffuseContribution).div(Math.PI));
+    // As Lagarde and de Rousiers 2014.
+    const nDotV = normalView.dot(positionViewDirection).clamp();
+    const open = nDotV.add(plain).pow(materialRoughness.mul(-16).sub(1).exp2()).sub(1).add(plain).clamp();
+    reflectedLight.indirectSpecular.addAssign(radiance.mul(this.singleScatteringDielectric).mul(open));
   }
 }
 
@@ -76,11 +93,16 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
     this.isSkinNodeMaterial = true;
     this.table = null;               // of loadSkinTable()
     this.closedForm = false;         // true: no table is read, about 90 multiply-adds a light instead
+    this.bakedNormals = null;        // { red, green, spread }: textures of a head, over its second texture coordinates
+    this.scatteredShadow = true;     // 64 reads of a shadow map instead of a hard edge
+    this.scattering = true;          // false: Lambert's skin, for comparison
+    this.specularMap = null;         // factor on f0, alpha
     this.curvatureAttribute = null;  // name of a vertex attribute, a float in 1/mm; null: from derivatives
     this.thicknessMap = null;        // transmission through thin parts: green is their thickness, linear; null: none goes through
     this.thicknessMaxMm = 20;        // thickness in mm of a map value of 1
     this.thicknessNode = null;       // in place of the map: a node of the thickness in mm
     this.mmPerUnit = 1000;           // millimetres in a unit of the scene: 1000 where units are metres
+    this.twoLobes = true;            // false: one lobe, GGX
     this.curvatureGain = 1;          // factor on the curvature, 0 to 4: 1 is the skin as measured
     this.f0 = 0.028;                 // reflectance at normal incidence, 0 to 0.08
     this.roughness = 0.45;           // perceptual, 0.03 to 1
@@ -89,7 +111,8 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
 
   copy(source) {
     const own = ["table", "closedForm", "curvatureAttribute", "thicknessMap", "thicknessMaxMm", "thicknessNode", "mmPerUnit",
-      "curvatureGain", "f0"];
+      "curvatureGain", "f0", "bakedNormals", "scatteredShadow", "scattering", "specularMap",
+      "twoLobes"];
     for (const name of own) this[name] = source[name];
     return super.copy(source);
   }
@@ -97,7 +120,9 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
   // What decides about the shader's text: another table or attribute builds it anew.
   customProgramCacheKey() {
     const table = this.closedForm ? "none" : this.table?.uuid ?? "missing";
-    return `${super.customProgramCacheKey()} ${table} ${faultOfTable(this.table)} ${this.curvatureAttribute} ${this.thicknessMap?.uuid}`;
+    const maps = [this.thicknessMap, this.bakedNormals?.red, this.specularMap].map(map => map?.uuid).join(" ");
+    const choices = [this.curvatureAttribute, this.scatteredShadow, this.scattering, this.twoLobes].join(" ");
+    return `${super.customProgramCacheKey()} ${table} ${faultOfTable(this.table)} ${choices} ${maps}`;
   }
 
   setupEnvironment(builder) {
@@ -107,7 +132,8 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
 
     environment.setup = inner => {
       setup.call(environment, inner);
-      inner.context.iblIrradiance.addAssign(changeOfEnvironment(environment, inner.context.lightingModel.bands));
+      const { material, surface } = inner.context.lightingModel;
+      if (material.scattering) inner.context.iblIrradiance.addAssign(changeOfEnvironment(environment, surface));
     };
     return environment;
   }
@@ -115,21 +141,22 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
   setupLightingModel() { return new SkinLightingModel(this); }
 
   setupSpecular() {
-    const f0 = vec3(materialReference("f0", "float"));
+    const factor = this.specularMap ? texture(this.specularMap).a : float(1);
+    const f0 = vec3(materialReference("f0", "float").mul(factor));
     specularColor.assign(f0);
     specularColorBlended.assign(f0);
     specularF90.assign(1);
   }
 
-  // In 1/mm, of the mesh: a bump of the map is smaller than what scatters.
-  setupCurvature() {
-    const measured = this.curvatureAttribute
-      ? attribute(this.curvatureAttribute, "float").abs()
-      : curvatureFromDerivatives(fwidth(normalViewGeometry), fwidth(positionView.mul(materialReference("mmPerUnit", "float"))));
-    return measured.mul(materialReference("curvatureGain", "float")).min(maxCurvaturePerMm);
+  // In place of max(N.L, 0).
+  setupDiffuse({ normals, towards }, nDotL, toLight) {
+    const curvature = towards(toLight).toVar();
+    if (!normals) return this.setupFalloff(nDotL, curvature);
+    const [red, green, blue] = normals.map(normal => this.setupFalloff(normal.dot(toLight), curvature));
+    return vec3(red.x, green.y, blue.z);
   }
 
-  setupDiffuse(nDotL, curvature) {
+  setupFalloff(nDotL, curvature) {
     if (this.closedForm) return skinDiffuse(nDotL.clamp(-1, 1), curvature);
     return texture(this.table, diffuseCoordinate(nDotL, curvature, maxCurvaturePerMm)).level(0).rgb;
   }

@@ -13,6 +13,7 @@
 #ifndef DERMIS_DIFFUSED_NORMALS_GLSL
 #define DERMIS_DIFFUSED_NORMALS_GLSL
 
+#include "shaders/include/skin/baked_normals.glsl"
 #include "shaders/include/surface.glsl"
 #include "techniques/preintegrated/tables.glsl"
 
@@ -29,32 +30,21 @@ struct DiffusedNormals {
     vec2 uneven;     // the spread around n[0] is [[1 + x, y], [y, 1 - x]] in the frame of n[0]
 };
 
-// Texels without skin hold a direction of length 0. UVs in other tiles have no texel.
-const float kNoSkin = 0.25;
-
-// The mip level of the narrow side of the pixel's footprint. At a silhouette the wide side covers the whole flank, and its
-// level would hold the mean of that flank. The maps are blurred by the profile, so finer levels hardly alias.
-float diffused_normals_level(vec2 uv, float texels) {
-    vec2 x = dFdx(uv) * texels, y = dFdy(uv) * texels;
-    float area = x.x * y.y - x.y * y.x;
-    return 0.5 * log2(area * area / max(max(dot(x, x), dot(y, y)), 1e-12));
-}
+// UVs in other tiles have no texel.
+float diffused_normals_level(vec2 uv, float texels) { return baked_level(dFdx(uv) * texels, dFdy(uv) * texels); }
 
 // own_weight, green_spread: dermis/optics/diffused_normals.h. Outside the atlas the surface is a sphere of around_per_mm.
 DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight, float green_spread, float around_per_mm, float level) {
-    vec3 red = 2.0 * textureLod(sampler2D(diffused_normals_red, trilinear_clamp), s.atlas_uv, level).rgb - 1.0;
+    vec3 red = textureLod(sampler2D(diffused_normals_red, trilinear_clamp), s.atlas_uv, level).rgb;
     vec4 green = textureLod(sampler2D(diffused_normals_green, trilinear_clamp), s.atlas_uv, level);
     vec2 uneven = 2.0 * textureLod(sampler2D(diffused_normals_uneven, trilinear_clamp), s.atlas_uv, level).rg - 1.0;
-    vec3 apart = green.rgb * (255.0 / 127.0) - 128.0 / 127.0;
     float shorter = green.a * green.a;
-    bool in_atlas = all(equal(clamp(s.atlas_uv, 0.0, 1.0), s.atlas_uv)) && dot(red, red) > kNoSkin;
+    bool in_atlas = all(equal(clamp(s.atlas_uv, 0.0, 1.0), s.atlas_uv)) && baked_skin(red) > 0.0;
     if (!in_atlas) own_weight = vec3(1.0);
-    red *= inversesqrt(max(dot(red, red), kNoSkin));
-    vec3 n_green = red + apart * abs(apart);
-    n_green *= inversesqrt(max(dot(n_green, n_green), kNoSkin)) * (1.0 - green_spread * shorter);
-    red *= 1.0 - shorter;
-    vec3 mean[3] = vec3[3](mix(red, s.n_world, own_weight.r), mix(n_green, s.n_world, own_weight.g),
-                           mix(n_green, s.n_world, own_weight.b));
+    vec3 n_red = baked_red(red), n_green = baked_green(n_red, green.rgb);
+    vec3 mean[3] = vec3[3](mean_normal(n_red, shorter, s.n_world, own_weight.r),
+                           mean_normal(n_green, green_spread * shorter, s.n_world, own_weight.g),
+                           mean_normal(n_green, green_spread * shorter, s.n_world, own_weight.b));
     DiffusedNormals d;
     for (int c = 0; c < 3; ++c) {
         d.mean_length[c] = length(mean[c]);
@@ -62,20 +52,10 @@ DiffusedNormals read_diffused_normals(Surface s, vec3 own_weight, float green_sp
     }
     vec2 sphere = sphere_of_mean(d.mean_length.r);
     d.k_per_mm = skin_outside_atlas == 0 || in_atlas ? sphere.x : around_per_mm;
-    // The normals of green and blue differ little: the second band of a lobe of mean cosine 1 - x, to second order in x.
-    vec3 less = 1.0 - d.mean_length;
-    d.band_2 = vec3(sphere.y, 1.0 - 3.0 * less.gb + 3.0 * less.gb * less.gb);
+    // The normals of green and blue differ little.
+    d.band_2 = vec3(sphere.y, band_2_of_means(d.mean_length).gb);
     d.uneven = in_atlas ? uneven : vec2(0.0);
     return d;
-}
-
-// The spread along the light over the spread on the mean's sphere. The frame around n has a seam at n.y = -1 only
-// (Frisvad 2012, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization").
-float spread_towards(vec3 n, vec2 uneven, vec3 to_light_world) {
-    float a = 1.0 / max(1.0 + n.y, 1e-4), b = -n.x * n.z * a;
-    float x = dot(vec3(1.0 - n.x * n.x * a, -n.x, b), to_light_world);
-    float z = dot(vec3(b, -n.z, 1.0 - n.z * n.z * a), to_light_world);
-    return max(1.0 + uneven.x * (x * x - z * z) + 2.0 * uneven.y * x * z, 0.0);
 }
 
 vec3 falloff_of_diffused_normals(DiffusedNormals d, vec3 to_light_world, float max_per_mm) {

@@ -109,7 +109,7 @@ TEST_F(Agreement, finds_a_mistake_in_each_language) {
         differing(evaluate(Language::essl, "return kSkinPi * (2.0 - w)", "return kSkinPi * (2.001 - w)")),
         ElementsAre("skin_wrapped_band_1"));
     EXPECT_THAT(differing(evaluate(Language::gdshader, "m.z * d.y + m.y", "m.z * d.y - m.y")),
-                ElementsAre("skin_tensor_times", "skin_curvature_towards"));
+                ElementsAre("skin_tensor_times", "skin_curvature_towards", "skin_gather_bends"));
     EXPECT_THAT(differing(evaluate(Language::msl, "saturate(length(fwidth_n))", "length(fwidth_n)")),
                 ElementsAre("skin_curvature_from_derivatives"));
     EXPECT_THAT(differing(evaluate(Language::cpp, "max(4.0f * h_dot_v", "max(4.01f * h_dot_v")),

@@ -96,6 +96,29 @@ const std::map<std::string, Domain>& domains() {
         {"exponent_per_mm2", {-100, -0.01}},
         {"kappa", logarithmic(1e-3, 1e8)},
         {"variance_mm2", logarithmic(1e-3, 100)},
+        {"red_texel", {0.7, 1}},
+        {"green_texel", {0.4, 0.6}},
+        {"spread_texel", {0, 1}},
+        {"n_red", kDirection},
+        {"n_own", kDirection},
+        {"n_baked", kDirection},
+        {"across", kDirection},
+        {"skin_gather_bends.x", kDirection},
+        {"skin_gather_bends.y", kDirection},
+        {"shorter", {0, 0.4}},
+        {"own_weight", {0, 1}},
+        {"mean_length", {0.5, 1}},
+        {"uneven", {-1, 1}},
+        {"map_texel_mm", {0, 2}},
+        {"place_mm", {-5, 5}},
+        {"lift_mm", {0, 2}},
+        {"bends_per_mm", {-1, 1}},
+        {"cosine", {-1, 1}},
+        {"sine", {0, 1}},
+        {"lit", {0, 64}},
+        {"all", {0.1, 64}},
+        {"penumbra", {0, 64}},
+        {"count", {64, 64}},
     };
     return kDomains;
 }
@@ -103,8 +126,8 @@ const std::map<std::string, Domain>& domains() {
 // Differences of near numbers and steep powers lose digits; everything else agrees to 1e-5.
 double bound_of(const std::string& function) {
     static const std::map<std::string, double> kBounds = {
-        {"skin_blinn_phong", 5e-4},
-        {"skin_lobe_band_2", 1e-4},
+        {"skin_blinn_phong", 5e-4},       {"skin_lobe_band_2", 1e-4},    {"skin_baked_level", 1e-3},
+        {"skin_curvature_of_mean", 1e-4}, {"skin_spread_towards", 1e-3}, {"skin_vertex_tangent", 1e-3},
     };
     const auto found = kBounds.find(function);
     return found == kBounds.end() ? 1e-5 : found->second;

@@ -11,18 +11,23 @@
 #include "dermis/engines/package.h"
 #include "dermis/optics/presets.h"
 #include "dermis/shading/skin_text.h"
+#include "head_export.h"
 #include "scene_choice.h"
 #include "web_export.h"
 
 namespace dermis::cli {
 namespace {
 
-constexpr const char *kDefaultScene = "bust", *kDefaultProfile = "gpu_gems_3";
+constexpr const char *kDefaultPage = "bust", *kDefaultProfile = "gpu_gems_3";
 
 struct ExportOptions {
     std::string language, engine, profile, output;
-    SceneChoice scene = {.name = kDefaultScene};
+    SceneChoice scene;
     bool web = false;
+
+    [[nodiscard]] bool has_scene() const {
+        return !scene.name.empty() || !scene.words.empty() || !scene.camera.empty() || !scene.light.empty();
+    }
 };
 
 constexpr const char* kAllLanguages = "all";
@@ -69,20 +74,39 @@ Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
     return deliver_files(files, {options.profile});
 }
 
-Result<int> export_package(const ExportOptions& options, const Profile& profile) {
+Result<int> write_package(const ExportOptions& options, const PackageInput& input,
+                          std::vector<std::filesystem::path> inputs) {
     const std::filesystem::path folder = options.output;
-    DERMIS_TRY_ASSIGN(
-        const std::vector<PackageFile> package,
-        make_package(options.engine, {profile, shading::skin_sources(), built_in_package_templates()}));
+    DERMIS_TRY_ASSIGN(const std::vector<PackageFile> package, make_package(options.engine, input));
     std::vector<FileContent> files;
     for (const PackageFile& file : package) files.push_back({folder / file.path, file.bytes});
-    return deliver_files(files, {options.profile});
+    return deliver_files(files, std::move(inputs));
+}
+
+Result<int> export_package(const ExportOptions& options) {
+    ExportedHead head = {.profile = options.profile.empty() ? kDefaultProfile : options.profile};
+    if (options.has_scene()) {
+        DERMIS_TRY_ASSIGN(head, export_head(options.scene, options.profile));
+        print_warnings(head.head.warnings);
+    }
+    DERMIS_TRY_ASSIGN(const Profile profile, find_profile(head.profile));
+    DERMIS_TRY_ASSIGN(const std::vector<ShadowPlace> places, package_shadow_places(profile));
+    head.inputs.emplace_back(options.profile);
+    return write_package(options,
+                         {.profile = profile,
+                          .functions = shading::skin_sources(),
+                          .templates = built_in_package_templates(),
+                          .shadow_places = places,
+                          .head = head.head.files},
+                         head.inputs);
 }
 
 Result<int> export_web(const ExportOptions& options) {
+    SceneChoice scene = options.scene;
+    if (scene.name.empty()) scene.name = kDefaultPage;
     const std::filesystem::path folder = options.output;
     std::vector<std::filesystem::path> inputs;
-    DERMIS_TRY_ASSIGN(const WebPage page, make_web_page(options.scene, options.profile, inputs));
+    DERMIS_TRY_ASSIGN(const WebPage page, make_web_page(scene, options.profile, inputs));
     print_warnings(page.warnings);
     std::vector<FileContent> files;
     for (const WebFile& file : page.files) files.push_back({folder / file.path, file.bytes});
@@ -93,17 +117,19 @@ Result<FileUse> files_of(const ExportOptions& options) {
     if (int(!options.language.empty()) + int(!options.engine.empty()) + int(options.web) != 1)
         return Error{
             "give one of --language for a file of functions, --engine for a folder, --web for a page"};
-    FileUse files = {.outputs = {}, .inputs = {options.profile, options.web ? options.scene.name : ""}};
+    FileUse files = {.outputs = {}, .inputs = {options.profile, options.scene.name}};
     const std::filesystem::path output = options.output;
     if (options.web) {
         files.outputs = {output / "index.html"};
         return files;
     }
-    const SceneChoice& scene = options.scene;
-    if (scene.name != kDefaultScene || !scene.words.empty() || !scene.camera.empty() || !scene.light.empty())
-        return Error{"a scene and --scene, --camera, --light are for --web"};
+    if (!options.language.empty() && options.has_scene())
+        return Error{"a scene and --scene, --camera, --light are for --engine and --web"};
     if (!options.engine.empty()) {
         DERMIS_TRY(check_engine(options.engine));
+        if (options.has_scene() && options.scene.name.empty())
+            return Error{"--scene, --camera and --light need a SCENE"};
+        if (options.has_scene()) DERMIS_TRY(check_engine_takes_head(options.engine));
         files.outputs = {output / "README.md"};
         return files;
     }
@@ -114,9 +140,10 @@ Result<FileUse> files_of(const ExportOptions& options) {
 
 Result<int> run(const ExportOptions& options) {
     if (options.web) return export_web(options);
+    if (!options.engine.empty()) return export_package(options);
     DERMIS_TRY_ASSIGN(const Profile profile,
                       find_profile(options.profile.empty() ? kDefaultProfile : options.profile));
-    return options.engine.empty() ? export_texts(options, profile) : export_package(options, profile);
+    return export_texts(options, profile);
 }
 
 }  // namespace
@@ -125,21 +152,22 @@ void add_export_command(CommandLine& line) {
     auto options = std::make_shared<ExportOptions>();
     Command* command = line.add(
         "export", "A skin for other programs: shading functions as text, a package for an engine, a web page",
-        "dermis export --engine godot --profile openpbr_skin_5 -o package/\n"
+        "dermis export --engine three bust -o package/\n"
+        "  dermis export --engine godot --profile openpbr_skin_5 -o package/\n"
         "  dermis export --web head_scan --scene light.key.intensity=2 -o page/\n"
         "  dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl");
     command->add_option("--language", options->language,
                         join(shading::language_names(), ", ") + ", or all: a file of each in a folder");
     command->add_option(
         "--engine", options->engine,
-        "a folder with shader, table, import settings and an example: " + join(engine_names(), ", "));
-    command->add_flag(
-        "--web", options->web,
-        "a folder for any web server: a page that shows a scene's skin, with all that it needs");
+        "a folder with shader, table, import settings and an example, with a SCENE its head too: " +
+            join(engine_names(), ", "));
+    command->add_flag("--web", options->web,
+                      "a folder for any web server: a page that shows a scene's skin (default: bust)");
     command->add_option("--profile", options->profile,
                         "preset, .csv, .mtlx or .glb file, or burley:R,G,B; default: " +
-                            std::string(kDefaultProfile) + ", or with --web the scene's");
-    options->scene.add_to(*command)->capture_default_str();
+                            std::string(kDefaultProfile) + ", with a scene the scene's");
+    options->scene.add_to(*command);
     command
         ->add_output("-o,--output", options->output,
                      "file to write; with --engine, --web or --language all a folder")

@@ -17,39 +17,6 @@ struct Sides {
     int width = 1, height = 1;
 };
 
-class MapWriter {
-  public:
-    MapWriter(const Material& material, const Mesh& mesh, int side)
-        : material_(material), mesh_(mesh), side_(side) {}
-
-    // The image behind a texture of shaders/include/surface.glsl, no larger than it may be; empty: none.
-    Result<Image> load(std::string_view texture) const {
-        const auto map = std::ranges::find(material_maps(), texture, &MaterialMap::texture);
-        const ImageSource* source = map_source(*map, material_);
-        if (!source) return Image();
-        DERMIS_TRY_ASSIGN(Image image,
-                          load_image_source(*source, map->is_color ? ImageUse::color : ImageUse::data));
-        if (material_.dilate_texels > 0)
-            dilate(image, atlas_mask(mesh_, image.width, image.height), material_.dilate_texels);
-        if (map->is_single) {
-            const int channel =
-                source == &(material_.*map->source) ? map->preferred_channel : map->packed_channel;
-            image = single_channel(image, channel < image.channels ? channel : 0);
-        }
-        const Texels texels = texture == "normal_map" ? Texels::unit_vectors : Texels::values;
-        const int longest = std::max(image.width, image.height);
-        if (longest > side_)
-            image = resize(image, std::max(image.width * side_ / longest, 1),
-                           std::max(image.height * side_ / longest, 1), texels);
-        return image;
-    }
-
-  private:
-    const Material& material_;
-    const Mesh& mesh_;
-    int side_;
-};
-
 constexpr std::string_view wrap_name(TextureWrap wrap) {
     return wrap == TextureWrap::clamp ? "clamp" : wrap == TextureWrap::mirror ? "mirror" : "repeat";
 }
@@ -72,7 +39,28 @@ Result<nlohmann::json> wrap_of(const Material& material, std::span<const std::st
     return wrap;
 }
 
-// Three channels of 8 bits; what is missing is 1.
+}  // namespace
+
+Result<Image> load_map(const Material& material, const Mesh& mesh, std::string_view texture, int side) {
+    const auto map = std::ranges::find(material_maps(), texture, &MaterialMap::texture);
+    const ImageSource* source = map_source(*map, material);
+    if (!source) return Image();
+    DERMIS_TRY_ASSIGN(Image image,
+                      load_image_source(*source, map->is_color ? ImageUse::color : ImageUse::data));
+    if (material.dilate_texels > 0)
+        dilate(image, atlas_mask(mesh, image.width, image.height), material.dilate_texels);
+    if (map->is_single) {
+        const int channel = source == &(material.*map->source) ? map->preferred_channel : map->packed_channel;
+        image = single_channel(image, channel < image.channels ? channel : 0);
+    }
+    const Texels texels = texture == "normal_map" ? Texels::unit_vectors : Texels::values;
+    const int longest = std::max(image.width, image.height);
+    if (longest > side)
+        image = resize(image, std::max(image.width * side / longest, 1),
+                       std::max(image.height * side / longest, 1), texels);
+    return image;
+}
+
 Image three_channels(const Image& image) {
     const Image bytes = image.format == PixelFormat::u8
                             ? image
@@ -85,7 +73,6 @@ Image three_channels(const Image& image) {
     return three;
 }
 
-// Three maps of one channel as one picture of the largest one's size.
 Image packed(const std::array<Image, 3>& singles) {
     Sides sides;
     for (const Image& image : singles)
@@ -100,11 +87,8 @@ Image packed(const std::array<Image, 3>& singles) {
     return all;
 }
 
-}  // namespace
-
 Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& material, const Mesh& mesh,
                                 const std::string& prefix, int map_side) {
-    const MapWriter maps(material, mesh, map_side);
     nlohmann::json made = {{"maps", nlohmann::json::object()}};
     const auto add = [&](const std::string& name, const Image& image,
                          std::span<const std::string_view> textures) -> Result<void> {
@@ -118,7 +102,7 @@ Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& mat
     };
     for (const std::string name : {"albedo", "normal"}) {
         const std::string texture = name + "_map";
-        DERMIS_TRY_ASSIGN(const Image image, maps.load(texture));
+        DERMIS_TRY_ASSIGN(const Image image, load_map(material, mesh, texture, map_side));
         if (image.empty()) continue;
         const std::string_view textures[] = {texture};
         DERMIS_TRY(add(name, three_channels(image), textures));
@@ -126,7 +110,7 @@ Result<nlohmann::json> add_maps(std::vector<WebFile>& files, const Material& mat
     std::array<Image, 3> singles;
     constexpr std::string_view kTextures[] = {"roughness_map", "specular_map", "occlusion_map"};
     for (size_t i = 0; i < singles.size(); ++i) {
-        DERMIS_TRY_ASSIGN(singles[i], maps.load(kTextures[i]));
+        DERMIS_TRY_ASSIGN(singles[i], load_map(material, mesh, kTextures[i], map_side));
     }
     if (std::ranges::any_of(singles, [](const Image& image) { return !image.empty(); }))
         DERMIS_TRY(add("surface", packed(singles), kTextures));

@@ -12,6 +12,7 @@
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
 #include "dermis/engines/web.h"
+#include "dermis/image/image.h"
 #include "dermis/mesh/mesh.h"
 
 namespace dermis::inline engines::web {
@@ -57,6 +58,15 @@ class Binary {
 /// what is stored as whole numbers, as JSON. `mesh` has curvature and occlusion. "parts" is the caller's: one
 /// a submesh, with "first" and "count".
 [[nodiscard]] Result<nlohmann::json> add_mesh(Binary& binary, const Mesh& mesh, size_t triangle_count);
+
+/// The image behind a texture of shaders/include/surface.glsl, at most `side` texels wide and high; empty:
+/// none.
+[[nodiscard]] Result<Image> load_map(const Material& material, const Mesh& mesh, std::string_view texture,
+                                     int side);
+/// Three channels of 8 bits; what is missing is 1.
+[[nodiscard]] Image three_channels(const Image& image);
+/// Three maps of one channel as one picture of the largest one's size.
+[[nodiscard]] Image packed(const std::array<Image, 3>& singles);
 
 /// Adds the maps of `material` to `files` as "maps/N_albedo.jpg", "_normal.jpg" and "_surface.jpg"
 /// (roughness, factor on the reflectance, occlusion). JSON: "maps" has the paths of those that there are,

@@ -193,13 +193,15 @@ size_t add_positions(GlbContent& glb, const Mesh& mesh) {
     return accessor;
 }
 
-void add_geometry(GlbContent& glb, const Mesh& mesh) {
+void add_geometry(GlbContent& glb, const Mesh& mesh, std::span<const std::vector<Vec2>> more_uvs) {
     Json attributes;
     attributes["POSITION"] = add_positions(glb, mesh);
     if (!mesh.normals.empty()) attributes["NORMAL"] = add_attribute(glb, mesh.normals, "VEC3");
     if (!mesh.tangents.empty()) attributes["TANGENT"] = add_attribute(glb, mesh.tangents, "VEC4");
     if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_attribute(glb, mesh.uvs, "VEC2");
     if (!mesh.atlas_uvs.empty()) attributes["TEXCOORD_1"] = add_attribute(glb, mesh.atlas_uvs, "VEC2");
+    for (size_t i = 0; i < more_uvs.size(); ++i)
+        attributes[fmt::format("TEXCOORD_{}", i + 2)] = add_attribute(glb, more_uvs[i], "VEC2");
     Json primitives = Json::array();
     for (const Submesh& submesh : mesh.submeshes) {
         if (submesh.index_count == 0) continue;
@@ -243,7 +245,8 @@ Result<std::vector<std::byte>> assemble(const GlbContent& glb) {
 }  // namespace
 
 Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh, std::span<const NamedImage> images,
-                                         std::span<const std::string> extras) {
+                                         std::span<const std::string> extras,
+                                         std::span<const std::vector<Vec2>> more_uvs) {
     if (mesh.indices.empty()) return Error{"a mesh without triangles is not written"};
     GlbContent glb;
     glb.root = {{"asset", {{"version", "2.0"}, {"generator", "dermis"}}},
@@ -257,7 +260,7 @@ Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh, std::span<const Named
         if (glb.root["materials"][i]["extras"].is_discarded())
             return Error{fmt::format("the extras of material {} are no JSON", i)};
     }
-    add_geometry(glb, mesh);
+    add_geometry(glb, mesh, more_uvs);
     glb.root["buffers"] = Json::array({{{"byteLength", glb.binary.size()}}});
     return assemble(glb);
 }

@@ -55,6 +55,13 @@ vec3 tangent_mixed(vec3 per_mm, vec3 t, vec3 b) {
     return (per_mm.x + per_mm.y) * tt + (per_mm.x - per_mm.y) * bb + per_mm.z * tb;
 }
 
+// A tangent that follows from the normal alone, with cross(n, tangent) as the other one: in this frame
+// packages store the tensor of a vertex. It has a seam at n.z = -1 only (Frisvad 2012).
+vec3 vertex_tangent(vec3 n) {
+    float a = n.x / max(1.0 + n.z, 1e-4);
+    return normalize(vec3(1.0 - n.x * a, -n.y * a, -n.x));
+}
+
 // From derivatives over the pixel, of the normal and of the position in mm: how fast the normal turns over how fast the
 // point moves (Penner 2011). Pass fwidth() of both. It sees the mesh's facets and depends on the camera's distance.
 float curvature_from_derivatives(vec3 fwidth_n, vec3 fwidth_p_mm) {

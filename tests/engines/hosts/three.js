@@ -83,6 +83,7 @@ const add = {
     }
   },
   shadow() {
+    skin.scatteredShadow = false;
     const key = new DirectionalLight(0xffffff, Math.PI);
     key.position.fromArray(data.to_light).multiplyScalar(0.15);
     scene.add(key);

@@ -1,0 +1,278 @@
+#include "dermis/engines/head.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "dermis/engines/engine.h"
+#include "dermis/engines/web/parts.h"
+#include "dermis/image/io.h"
+#include "dermis/mesh/write_mesh.h"
+#include "dermis/optics/fresnel.h"
+#include "dermis/render/complete_scene.h"
+#include "dermis/render/renderer.h"
+#include "dermis/render/seam_textures.h"
+#include "dermis/scene/environment.h"
+
+namespace dermis::inline engines {
+namespace {
+
+using nlohmann::json;
+using web::to_json;
+
+// shaders/include/skin/curvature.glsl has the same.
+Vec3 vertex_tangent(Vec3 n) {
+    const float a = n.x / std::max(1 + n.z, 1e-4f);
+    return normalize(Vec3{1 - n.x * a, -n.y * a, -n.x});
+}
+
+// Numbers of the vertices as pairs: head.h.
+Result<std::vector<std::vector<Vec2>>> vertex_numbers(const Mesh& mesh, const std::array<Vec3, 3>& weights) {
+    DERMIS_TRY_ASSIGN(const std::vector<Vec3> blurred, blurred_occlusions(mesh));
+    const size_t count = mesh.positions_mm.size();
+    std::vector<std::vector<Vec2>> pairs(4, std::vector<Vec2>(count));
+    const Vec3 own_weight = Vec3{1, 1, 1} - weights[0] - weights[1] - weights[2];
+    for (size_t v = 0; v < count; ++v) {
+        const Vec3 n = mesh.normals[v], t = vertex_tangent(n), b = cross(n, t);
+        const CurvatureTensor s =
+            mesh.curvatures_per_mm.empty() ? CurvatureTensor{} : mesh.curvatures_per_mm[v];
+        const float tt = dot(t, s * t), bb = dot(b, s * b);
+        const float occlusion = mesh.occlusions.empty() ? 1.0f : mesh.occlusions[v];
+        const Vec3 scattered = own_weight * occlusion + weights[0] * blurred[v].x +
+                               weights[1] * blurred[v].y + weights[2] * blurred[v].z;
+        pairs[0][v] = {0.5f * (tt + bb), 0.5f * (tt - bb)};
+        pairs[1][v] = {dot(t, s * b), scattered.x};
+        pairs[2][v] = {scattered.y, scattered.z};
+        pairs[3][v] = {occlusion, 0};
+    }
+    return pairs;
+}
+
+Result<ImageSource> embedded(const Image& image, const std::string& name) {
+    if (image.empty()) return ImageSource{};
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".png", image));
+    return ImageSource{.name = name, .encoded = std::move(bytes)};
+}
+
+// glTF reads the factor of the reflectance from alpha.
+Image in_alpha(const Image& single) {
+    if (single.empty()) return {};
+    Image all(single.width, single.height, 4, PixelFormat::u8);
+    for (int y = 0; y < all.height; ++y)
+        for (int x = 0; x < all.width; ++x) {
+            for (int c = 0; c < 3; ++c) all.set(x, y, c, 1);
+            all.set(x, y, 3, single.at(x, y, 0));
+        }
+    return all;
+}
+
+// The maps of a material, each as a picture of its own.
+struct Maps {
+    Image albedo, normal, roughness, specular, occlusion;
+};
+
+Result<Maps> load_maps(const HeadInput& input, const SceneObject& object, size_t number) {
+    Maps maps;
+    for (const auto& [texture, image] : {std::pair{"albedo_map", &maps.albedo},
+                                         {"normal_map", &maps.normal},
+                                         {"roughness_map", &maps.roughness},
+                                         {"specular_map", &maps.specular},
+                                         {"occlusion_map", &maps.occlusion}}) {
+        DERMIS_TRY_ASSIGN(*image,
+                          web::load_map(object.mesh.materials[number], object.mesh, texture, input.map_side));
+    }
+    return maps;
+}
+
+// The material with what glTF can hold of its maps, as glTF holds them.
+Result<Material> gltf_material(const SceneObject& object, size_t number, const Maps& maps) {
+    Material to = object.mesh.materials[number];
+    for (ImageSource Material::*map :
+         {&Material::base_color_map, &Material::alpha_map, &Material::emission_map, &Material::normal_map,
+          &Material::metallic_roughness_map, &Material::specular_map, &Material::occlusion_map})
+        to.*map = {};
+    to.scattering.reset();
+    const std::string prefix = to.name + " ";
+    if (!maps.albedo.empty()) {
+        const Image albedo =
+            to.alpha_mode == AlphaMode::opaque ? web::three_channels(maps.albedo) : maps.albedo;
+        DERMIS_TRY_ASSIGN(to.base_color_map, embedded(albedo, prefix + "albedo"));
+    }
+    if (!maps.normal.empty() && to.normal_space == NormalSpace::tangent) {
+        DERMIS_TRY_ASSIGN(to.normal_map, embedded(web::three_channels(maps.normal), prefix + "normal"));
+    }
+    if (!maps.roughness.empty() || !maps.occlusion.empty()) {
+        DERMIS_TRY_ASSIGN(
+            to.metallic_roughness_map,
+            embedded(web::packed({maps.occlusion, maps.roughness, Image()}), prefix + "surface"));
+        if (!maps.occlusion.empty()) to.occlusion_map = to.metallic_roughness_map;
+    }
+    DERMIS_TRY_ASSIGN(to.specular_map, embedded(in_alpha(maps.specular), prefix + "specular"));
+    return to;
+}
+
+constexpr std::string_view class_name(MaterialClass material_class) {
+    return material_class == MaterialClass::skin    ? "skin"
+           : material_class == MaterialClass::other ? "other"
+                                                    : "translucent";
+}
+
+// What a skin material needs beyond glTF. Adds its object-space normal map.
+Result<json> head_material_json(const SceneObject& object, size_t number, const Maps& maps,
+                                const std::string& prefix, std::vector<PackageFile>& files) {
+    const Material& material = object.mesh.materials[number];
+    json made = {{"name", material.name},
+                 {"class", class_name(object.classes[number])},
+                 {"f0", to_json(float(f0_of_eta(material.ior)) * material.specular)}};
+    if (maps.normal.empty() || material.normal_space != NormalSpace::object) return made;
+    made["object_normal_map"] = prefix + "_normal.png";
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".png", web::three_channels(maps.normal)));
+    files.push_back({prefix + "_normal.png", std::move(bytes)});
+    return made;
+}
+
+Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) {
+    const SceneObject& object = input.scene.objects[index];
+    Mesh mesh = object.mesh;
+    json materials = json::array();
+    for (size_t i = 0; i < mesh.materials.size(); ++i) {
+        DERMIS_TRY_ASSIGN(const Maps maps, load_maps(input, object, i));
+        DERMIS_TRY_ASSIGN(mesh.materials[i], gltf_material(object, i, maps));
+        if (object.classes[i] == MaterialClass::skin)
+            mesh.materials[i].base_color_linear =
+                mesh.materials[i].base_color_linear * input.scene.skin.albedo_tint_linear;
+        if (object.classes[i] == MaterialClass::translucent)
+            head.warnings.push_back("material '" + mesh.materials[i].name +
+                                    "' is translucent; the engine draws it as glTF has it");
+        DERMIS_TRY_ASSIGN(json made,
+                          head_material_json(object, i, maps, fmt::format("{}_{}", index, i), head.files));
+        materials.push_back(std::move(made));
+    }
+    mesh.atlas_uvs = atlas_uvs_of(mesh);
+    DERMIS_TRY_ASSIGN(const auto numbers, vertex_numbers(mesh, input.occlusion_weights));
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, glb_bytes(mesh, {}, {}, numbers));
+    const std::string path = fmt::format("object_{}.glb", index);
+    head.files.push_back({path, std::move(bytes)});
+    return json{{"file", path}, {"name", object.name}, {"materials", materials}};
+}
+
+json head_light_json(const Light& light, bool casts_shadow) {
+    json made = {{"name", light.name},
+                 {"kind", light.kind == LightKind::directional ? "directional"
+                          : light.kind == LightKind::point     ? "point"
+                                                               : "spot"},
+                 {"color_linear", to_json(light.color_linear)},
+                 {"intensity", to_json(light.intensity)},
+                 {"to_light", to_json(light.to_light_world)},
+                 {"casts_shadow", casts_shadow}};
+    if (light.kind == LightKind::directional) return made;
+    made["position_mm"] = to_json(light.position_mm);
+    made["inner_angle_rad"] = to_json(light.inner_angle_rad);
+    made["outer_angle_rad"] = to_json(light.outer_angle_rad);
+    return made;
+}
+
+json head_lights_json(const Scene& scene) {
+    json lights = json::array();
+    const std::vector<int> shadow_maps = scene.shadow_maps();
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+        lights.push_back(head_light_json(scene.lights[i], shadow_maps[i] >= 0));
+    return lights;
+}
+
+Result<void> add_png(Head& head, const std::string& path, const Image& image) {
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".png", image));
+    head.files.push_back({path, std::move(bytes)});
+    return {};
+}
+
+// The renderer's own three textures in 8 bits: head.h.
+Result<json> add_normals(const DiffusedNormals& normals, Head& head) {
+    const std::vector<gpu::TextureData> textures = diffused_normals_textures(normals);
+    Image red(normals.size, normals.size, 3, PixelFormat::u8), green = red, spread = red;
+    for (int y = 0; y < normals.size; ++y)
+        for (int x = 0; x < normals.size; ++x) {
+            const size_t at = size_t(y) * size_t(normals.size) + size_t(x);
+            uint32_t bits = 0;
+            std::memcpy(&bits, &textures[0].bytes[4 * at], 4);
+            for (int c = 0; c < 3; ++c) {
+                red.set(x, y, c, float(bits >> (10 * c) & 1023) / 1023);
+                green.set(x, y, c, float(textures[1].bytes[4 * at + size_t(c)]) / 255);
+            }
+            for (int c = 0; c < 2; ++c)
+                spread.set(x, y, c, float(textures[2].bytes[2 * at + size_t(c)]) / 255);
+            spread.set(x, y, 2, float(textures[1].bytes[4 * at + 3]) / 255);
+        }
+    DERMIS_TRY(add_png(head, "normals_red.png", red));
+    DERMIS_TRY(add_png(head, "normals_green.png", green));
+    DERMIS_TRY(add_png(head, "normals_spread.png", spread));
+    return json{"normals_red.png", "normals_green.png", "normals_spread.png"};
+}
+
+Result<json> add_thickness(const Image& thickness_mm, Head& head) {
+    Image image(thickness_mm.width, thickness_mm.height, 3, PixelFormat::u8);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                image.set(x, y, c, std::clamp(thickness_mm.at(x, y, 0) / kThicknessMaxMm, 0.0f, 1.0f));
+    DERMIS_TRY(add_png(head, "thickness.png", image));
+    return json{{"file", "thickness.png"}, {"max_mm", kThicknessMaxMm}};
+}
+
+Result<json> add_panorama(const Environment& environment, Head& head) {
+    if (environment.kind == EnvironmentKind::none) return json();
+    DERMIS_TRY_ASSIGN(const Image panorama, load_panorama(environment));
+    DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".hdr", panorama));
+    head.files.push_back({"environment.hdr", std::move(bytes)});
+    return json{{"file", "environment.hdr"},
+                {"intensity", to_json(environment.intensity)},
+                {"yaw_rad", to_json(environment.yaw_rad)}};
+}
+
+json head_camera_json(const Camera& camera) {
+    return {{"eye_mm", to_json(camera.eye_mm)},
+            {"target_mm", to_json(camera.target_mm)},
+            {"up", to_json(camera.up_world)},
+            {"vertical_fov_rad", to_json(camera.vertical_fov_rad)}};
+}
+
+}  // namespace
+
+Result<Head> make_head(const HeadInput& input) {
+    const Scene& scene = input.scene;
+    Head head;
+    json objects = json::array();
+    bool any_skin = false;
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        any_skin = any_skin || std::ranges::count(scene.objects[i].classes, MaterialClass::skin) > 0;
+        DERMIS_TRY_ASSIGN(json object, head_object_json(input, i, head));
+        objects.push_back(std::move(object));
+    }
+    if (!any_skin) return Error{scene.name + " has no skin to export"};
+    json made = {
+        {"name", scene.name},
+        {"credit", scene.credit},
+        {"camera", head_camera_json(scene.camera)},
+        {"bounds",
+         {{"center_mm", to_json(scene.bounds_center_mm)}, {"radius_mm", to_json(scene.bounds_radius_mm)}}},
+        {"background_linear", to_json(scene.background_linear)},
+        {"exposure", to_json(std::exp2(scene.exposure_ev))},
+        {"tone_map", tone_map_names()[size_t(scene.tone_map)]},
+        {"penumbra_mm", to_json(DrawSettings{}.penumbra_mm)},
+        {"lights", head_lights_json(scene)},
+        {"objects", objects}};
+    DERMIS_TRY_ASSIGN(made["environment"], add_panorama(scene.environment, head));
+    if (input.normals.size > 0) {
+        DERMIS_TRY_ASSIGN(made["baked_normals"], add_normals(input.normals, head));
+    }
+    if (!input.thickness_mm.empty()) {
+        DERMIS_TRY_ASSIGN(made["thickness"], add_thickness(input.thickness_mm, head));
+    }
+    head.files.push_back({"scene.json", to_bytes(made.dump(1) + "\n")});
+    return head;
+}
+
+}  // namespace dermis::inline engines

@@ -1,0 +1,51 @@
+#pragma once
+// The head of a scene for an engine's package: meshes, maps, light and camera as files.
+//
+//     Result<Head> head = make_head(input);   // input.scene: after complete_scene()
+//     make_package("three", {.profile = ..., .head = head->files});
+//
+// scene.json   camera, lights, environment, materials, and which map is what
+// object_N.glb one for each mesh, in metres, with the material's maps embedded. Vertices carry, as further
+// texture
+//              coordinates: TEXCOORD_1 the skin's atlas; TEXCOORD_2 the mean curvature and half the
+//              difference between those along the two tangents; TEXCOORD_3 the mixed one, all in 1/mm in the
+//              frame of vertex_tangent() (shaders/include/skin/curvature.glsl), and the occlusion of red;
+//              TEXCOORD_4 that of green and blue, scattered by the profile; TEXCOORD_5 the occlusion as it is
+// normals_red.png, normals_green.png, normals_spread.png
+//              baked normals (shaders/include/skin/baked_normals.glsl) over the atlas
+// thickness.png over the atlas: kThicknessMaxMm for a value of 1
+// N_M_normal.png an object-space normal map, which glTF cannot hold
+// environment.hdr latitude-longitude, linear
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "dermis/engines/package.h"
+#include "dermis/image/image.h"
+#include "dermis/rays/diffused_normals.h"
+#include "dermis/scene/scene.h"
+
+namespace dermis::inline engines {
+
+inline constexpr float kThicknessMaxMm = 20;
+
+struct HeadInput {
+    const Scene& scene;
+    /// Of size 0: the head has none, and a material scatters by the curvature of the vertices.
+    DiffusedNormals normals;
+    Image thickness_mm;  ///< over the atlas, one channel; empty: no light comes through
+    /// Weights of the vertices' three blurred occlusions, of each channel.
+    std::array<Vec3, 3> occlusion_weights;
+    int map_side = 4096;  ///< larger maps are made smaller
+};
+
+struct Head {
+    std::vector<PackageFile> files;
+    std::vector<std::string> warnings;
+};
+
+/// The same input gives the same bytes. Errors: no skin, a map that cannot be read.
+[[nodiscard]] Result<Head> make_head(const HeadInput& input);
+
+}  // namespace dermis::inline engines

@@ -1,0 +1,137 @@
+// The head of `dermis export --engine three SCENE`: meshes with their maps bound, lights, camera and environment, as
+// `dermis render` has them. Units are metres.
+//
+//     const head = await loadSkinHead();
+//     scene.add(head.group);  scene.environment = head.environment;
+//     renderer.shadowMap.enabled = true;
+
+import {
+  Color, DirectionalLight, EquirectangularReflectionMapping, Group, NoColorSpace, ObjectSpaceNormalMap, PerspectiveCamera, PointLight,
+  SpotLight, TextureLoader, Vector3,
+} from "three/webgpu";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
+import { loadSkinTable, SkinNodeMaterial } from "./SkinNodeMaterial.js";
+
+const kShadowMapSide = 2048, kMmPerUnit = 1000;
+const metres = ([x, y, z]) => new Vector3(x, y, z).divideScalar(kMmPerUnit);
+
+// Of lengths, directions and factors: not colours.
+async function loadData(url) {
+  const texture = await new TextureLoader().loadAsync(url)
+    .catch(() => { throw new Error(`A map of the head cannot be loaded from ${url}`); });
+  texture.colorSpace = NoColorSpace;
+  texture.flipY = false;
+  return texture;
+}
+
+function skinMaterial(source, settings, shared) {
+  const { name, color, map, normalMap, normalScale, roughness, roughnessMap, aoMap, side } = source;
+  return new SkinNodeMaterial({
+    name, color, map, normalMap, normalScale, roughness, roughnessMap, aoMap, side, ...shared,
+    f0: settings.f0, specularMap: source.specularIntensityMap ?? null, twoLobes: false,
+  });
+}
+
+async function loadObject(folder, object, shared, skins) {
+  const { scene } = await new GLTFLoader().loadAsync(folder + object.file);
+  const settings = new Map(object.materials.map(one => [one.name, one])), made = new Map();
+  const meshes = [];
+  scene.traverse(node => { if (node.isMesh) meshes.push(node); });
+  for (const mesh of meshes) {
+    const source = mesh.material, one = settings.get(source.name);
+    mesh.castShadow = mesh.receiveShadow = one?.class !== "translucent";
+    if (one?.class !== "skin") continue;
+    if (!made.has(source)) {
+      const skin = skinMaterial(source, one, shared);
+      if (one.object_normal_map) {
+        skin.normalMap = await loadData(folder + one.object_normal_map);
+        skin.normalMapType = ObjectSpaceNormalMap;
+      }
+      made.set(source, skin);
+      skins.push(skin);
+    }
+    mesh.material = made.get(source);
+  }
+  return scene;
+}
+
+function castShadow(light, bounds, penumbraMm) {
+  const radius = bounds.radius_mm / kMmPerUnit, { shadow } = light;
+  light.castShadow = true;
+  shadow.mapSize.set(kShadowMapSide, kShadowMapSide);
+  // 1.5 texels along the normal; three.js adds to the depth what lies behind.
+  const texel = 2 * radius / kShadowMapSide;
+  shadow.normalBias = 1.5 * texel;
+  shadow.radius = penumbraMm / 2 / kMmPerUnit / texel;
+  if (!light.isDirectionalLight) return;
+  Object.assign(shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: 0.5 * radius, far: 3.5 * radius });
+}
+
+function lightOf(settings, { bounds, penumbra_mm }) {
+  const { kind, color_linear, intensity, to_light, position_mm, inner_angle_rad, outer_angle_rad } = settings;
+  const color = new Color().setRGB(...color_linear), centre = metres(bounds.center_mm);
+  const toLight = new Vector3(...to_light);
+  let light = null;
+  if (kind === "directional") {
+    light = new DirectionalLight(color, intensity);
+    light.position.copy(centre).addScaledVector(toLight, 2 * bounds.radius_mm / kMmPerUnit);
+    light.target.position.copy(centre);
+  } else if (kind === "point") {
+    light = new PointLight(color, intensity);
+    light.position.copy(metres(position_mm));
+  } else {
+    light = new SpotLight(color, intensity, 0, outer_angle_rad, 1 - inner_angle_rad / outer_angle_rad);
+    light.position.copy(metres(position_mm));
+    light.target.position.copy(light.position).sub(toLight);
+  }
+  light.name = settings.name;
+  if (settings.casts_shadow) castShadow(light, bounds, penumbra_mm);
+  return light;
+}
+
+// A promise of { group, skins, camera, environment, environmentIntensity, environmentYaw, background, settings }. Rejected with a
+// sentence where a file is missing. An aspect is for the camera.
+export async function loadSkinHead(folder = new URL("./head/", import.meta.url).href) {
+  const answer = await fetch(folder + "scene.json");
+  if (!answer.ok) throw new Error(`The head cannot be loaded from ${folder}: export one with \`dermis export --engine three SCENE\``);
+  const settings = await answer.json(), { baked_normals, thickness, environment, camera } = settings;
+  const shared = { table: await loadSkinTable(), mmPerUnit: kMmPerUnit };
+  if (baked_normals) {
+    const [red, green, spread] = await Promise.all(baked_normals.map(file => loadData(folder + file)));
+    shared.bakedNormals = { red, green, spread };
+  }
+  if (thickness) {
+    shared.thicknessMap = await loadData(folder + thickness.file);
+    shared.thicknessMap.channel = 1;
+    shared.thicknessMaxMm = thickness.max_mm;
+  }
+  const group = new Group(), skins = [];
+  for (const object of settings.objects) group.add(await loadObject(folder, object, shared, skins));
+  for (const one of settings.lights) {
+    const light = lightOf(one, settings);
+    group.add(light);
+    if (light.target) group.add(light.target);
+  }
+  const eye = new PerspectiveCamera(camera.vertical_fov_rad * 180 / Math.PI, 1, 0.05, 20);
+  eye.position.copy(metres(camera.eye_mm));
+  eye.up.set(...camera.up);
+  eye.lookAt(metres(camera.target_mm));
+  const head = { group, skins, camera: eye, settings, background: new Color().setRGB(...settings.background_linear), environment: null };
+  if (environment) {
+    head.environment = await new HDRLoader().loadAsync(folder + environment.file);
+    head.environment.mapping = EquirectangularReflectionMapping;
+  }
+  return head;
+}
+
+// Puts all of it into a scene.
+export function addSkinHead(scene, head) {
+  const { environment } = head.settings;
+  scene.add(head.group);
+  scene.background = head.background;
+  if (!environment) return;
+  scene.environment = head.environment;
+  scene.environmentIntensity = environment.intensity;
+  scene.environmentRotation.y = Math.PI / 2 - environment.yaw_rad;  // the middle of the panorama is -Z
+}

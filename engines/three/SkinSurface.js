@@ -1,0 +1,75 @@
+// What scattering needs to know of the surface: curvature, normals of the channels, occlusion. All in the mesh's space.
+
+import { NoColorSpace, Vector2 } from "three/webgpu";
+import {
+  attribute, cross, dFdx, dFdy, float, fwidth, materialReference, mix, modelViewMatrix, normalView, normalViewGeometry, positionView,
+  texture, uniform, uv, vec2, vec3, vec4,
+} from "three/tsl";
+import {
+  bakedLevel, bakedSkin, band2OfMeans, curvatureAround, curvatureFromDerivatives, curvatureOfMean, curvatureTowards, meanNormalBlue,
+  meanNormalGreen, meanNormalRed, skinAmbientBand1, skinAmbientBand2, sphereDiagonal, sphereMixed, spreadTowards, tangentDiagonal,
+  tangentMixed, vertexTangent,
+} from "./SkinFunction.js";
+import { maxCurvaturePerMm } from "./SkinTable.js";
+
+// Attributes of a head of `dermis export`, as three.js names further texture coordinates.
+export const headAttributes = ["uv1", "uv2", "uv3", "texcoord_4", "texcoord_5"];
+
+// A direction of the view in the mesh's space.
+export const toMesh = direction => vec4(direction, 0).mul(modelViewMatrix).xyz.normalize();
+
+function readBaked({ red, green, spread }, normal) {
+  for (const map of [red, green, spread])
+    if (map.colorSpace !== NoColorSpace)
+      console.warn("SkinNodeMaterial.bakedNormals: the colorSpace of the maps has to be NoColorSpace: they hold directions, not colours.");
+  const place = uv(1), size = uniform(new Vector2(red.image.width, red.image.height));
+  const level = bakedLevel(dFdx(place).mul(size), dFdy(place).mul(size)).toVar();
+  const [r, g, s] = [red, green, spread].map(map => texture(map, place).level(level).rgb.toVar());
+  const skin = bakedSkin(r).toVar();
+  const means = [meanNormalRed(r, s, normal), meanNormalGreen(r, g, s, normal), meanNormalBlue(r, g, s, normal)].map(mean => mean.toVar());
+  const lengths = vec3(...means.map(mean => mean.length())).toVar();
+  return {
+    normals: means.map(mean => mean.normalize().toVar()),
+    lengths,
+    skin,
+    uneven: s.xy.mul(2).sub(1).mul(skin).toVar(),
+    curvature: curvatureOfMean(lengths.x),
+  };
+}
+
+// material: a SkinNodeMaterial. geometry: has the attributes of a head or not.
+export function readSurface(material, geometry) {
+  const normal = toMesh(normalViewGeometry).toVar("skinMeshNormal"), own = toMesh(normalView).toVar("skinOwnNormal");
+  const gain = materialReference("curvatureGain", "float");
+  const limited = curvature => curvature.mul(gain).min(maxCurvaturePerMm);
+  const surface = { normal, own };
+  if (headAttributes.every(name => geometry.hasAttribute(name))) {
+    const pair = attribute("uv2", "vec2"), third = attribute("uv3", "vec2");
+    const perMm = vec3(pair, third.x).toVar(), t = vertexTangent(normal).toVar(), b = cross(normal, t).toVar();
+    surface.diagonal = tangentDiagonal(perMm, t, b).toVar();
+    surface.mixed = tangentMixed(perMm, t, b).toVar();
+    surface.occlusion = vec3(third.y, attribute("texcoord_4", "vec2"));
+    surface.plainOcclusion = attribute("texcoord_5", "vec2").x;
+    surface.curvature = limited(curvatureAround(surface.diagonal, surface.mixed)).toVar("skinCurvature");
+    surface.towards = toLight => limited(curvatureTowards(surface.diagonal, surface.mixed, normal, toLight));
+  } else {
+    const measured = material.curvatureAttribute
+      ? attribute(material.curvatureAttribute, "float").abs()
+      : curvatureFromDerivatives(fwidth(normalViewGeometry), fwidth(positionView.mul(materialReference("mmPerUnit", "float"))));
+    surface.curvature = limited(measured).toVar("skinCurvature");
+    surface.diagonal = sphereDiagonal(surface.curvature, normal).toVar();
+    surface.mixed = sphereMixed(surface.curvature, normal).toVar();
+    surface.towards = () => surface.curvature;
+  }
+  surface.bands = [skinAmbientBand1(surface.curvature).div(2 / 3 * Math.PI), skinAmbientBand2(surface.curvature).div(Math.PI / 4)]
+    .map(band => band.toVar());
+  surface.ambientNormals = null;
+  if (!material.bakedNormals) return surface;
+  const baked = readBaked(material.bakedNormals, own);
+  surface.normals = baked.normals;
+  const around = mix(surface.curvature, limited(baked.curvature), baked.skin).toVar();
+  surface.towards = toLight => around.mul(spreadTowards(baked.normals[0], baked.uneven, toLight).sqrt()).min(maxCurvaturePerMm);
+  surface.bands = [baked.lengths, band2OfMeans(baked.lengths).toVar()];
+  surface.ambientNormals = baked.normals;
+  return surface;
+}
