@@ -53,7 +53,10 @@ struct Material {
     NormalSpace normal_space = NormalSpace::tangent;
     float normal_scale = 1;
 
-    ImageSource base_color_map;          ///< sRGB; A multiplies opacity unless the mode is opaque
+    ImageSource base_color_map;  ///< sRGB; A multiplies opacity unless the mode is opaque
+    ImageSource melanin_map, blood_map,
+        residue_map;                     ///< `dermis bake pigments`; a scene paints base_color_map
+    ImageSource pigment_mask;            ///< R: where the scene's scales of melanin and blood act
     ImageSource alpha_map;               ///< A, or else R: replaces the A of base_color_map
     ImageSource emission_map;            ///< sRGB
     ImageSource normal_map;              ///< data

@@ -20,6 +20,7 @@
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_views.h"
+#include "dermis/scene/skin_pigments.h"
 #include "dermis/scene/skin_tone.h"
 
 namespace dermis::inline scene {
@@ -271,6 +272,7 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
         *path = table->string();
     }
     if (description.is_bare_mesh) take_profile_of_mesh(description, scene);
+    DERMIS_TRY(apply_pigment_maps(scene));
     DERMIS_TRY(apply_pigments(scene));
     DERMIS_TRY(apply_tone(scene));
     std::ranges::move(skin_warnings(scene), std::back_inserter(scene.warnings));

@@ -74,6 +74,7 @@ struct Skin {
     int tone = 0;  ///< 1 light to 6 dark, applied on loading (skin_tone.h); 0: the colour of the materials
     /// A skin from its pigments (optics/tissue/skin_model.h), applied on loading like a tone.
     std::optional<float> melanin, blood, oxygen, pheomelanin, epidermis_mm;
+    float melanin_scale = 1, blood_scale = 1;  ///< of maps of pigments, applied on loading
     float ior = 1.4f;
     float roughness = 0.45f;                ///< perceptual
     float specular = 1;                     ///< scales F0

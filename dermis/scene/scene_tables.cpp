@@ -136,6 +136,17 @@ const KeyTable<MapsDescription>& maps_keys() {
     static const KeyTable<D> table =
         KeyTable<D>()
             .map(&Material::base_color_map, {.name = "albedo", .doc = "diffuse colour, sRGB"})
+            .map(
+                &Material::melanin_map,
+                {.name = "melanin",
+                 .doc = "map of `dermis bake pigments`; melanin, blood and residue together give the albedo, "
+                        "and a missing one of melanin and blood is the constant of [skin]"})
+            .map(&Material::blood_map, {.name = "blood", .doc = "the same"})
+            .map(&Material::residue_map,
+                 {.name = "residue", .doc = "the same: what the pigments cannot make"})
+            .map(&Material::pigment_mask,
+                 {.name = "pigment_mask",
+                  .doc = "where skin.melanin_scale and blood_scale act; red channel; default: everywhere"})
             .map(&Material::normal_map, {.name = "normal", .doc = "normals as n * 0.5 + 0.5"})
             .of_material(&Material::normal_space,
                          {.name = "normal_space",
@@ -255,6 +266,12 @@ const KeyTable<Skin>& skin_keys() {
                     {.name = "pheomelanin", .doc = "the same: share of the melanin that is pheomelanin"})
             .number(&Skin::epidermis_mm,
                     {.name = "epidermis_mm", .unit = "mm", .doc = "the same: thickness of the epidermis"})
+            .number(&Skin::melanin_scale, {.name = "melanin_scale",
+                                           .doc = "multiplies maps.melanin within maps.pigment_mask",
+                                           .max = 10})
+            .number(
+                &Skin::blood_scale,
+                {.name = "blood_scale", .doc = "multiplies maps.blood within maps.pigment_mask", .max = 10})
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})

@@ -98,44 +98,6 @@ Skin with_profile_of_tone(Skin skin) {
     return skin;
 }
 
-std::optional<SkinModel> pigments_of(const Skin& skin) {
-    SkinModel model;
-    bool any = false;
-    const auto take = [&](const std::optional<float>& given, double& value) {
-        if (given)
-            value = parse_number(to_text(*given)).value_or(*given), any = true;  // 0.03, not 0.0299999993
-    };
-    take(skin.melanin, model.melanin);
-    take(skin.blood, model.blood);
-    take(skin.oxygen, model.oxygen);
-    take(skin.pheomelanin, model.pheomelanin);
-    take(skin.epidermis_mm, model.epidermis_mm);
-    return any ? std::optional(model) : std::nullopt;
-}
-
-Skin with_profile_of_pigments(Skin skin) {
-    if (const auto model = pigments_of(skin); model && skin.profile == Skin{}.profile)
-        skin.profile = skin_model_text(*model);
-    return skin;
-}
-
-Result<void> apply_pigments(Scene& scene) {
-    const std::optional<SkinModel> model = pigments_of(scene.skin);
-    if (!model) return {};
-    if (scene.skin.tone > 0)
-        return Error{
-            "skin.tone and skin.melanin, blood or oxygen state one colour twice; remove one of them"};
-    const Result<Vec3> mean = mean_skin_albedo(scene);
-    if (!mean) return mean.error().within("skin.melanin");
-    const Rgb albedo = skin_albedo(*model);
-    scene.skin.albedo_tint_linear =
-        scene.skin.albedo_tint_linear *
-        tint_towards({float(albedo[0]), float(albedo[1]), float(albedo[2])}, *mean);
-    scene.skin.melanin = scene.skin.blood = scene.skin.oxygen = {};
-    scene.skin.pheomelanin = scene.skin.epidermis_mm = {};
-    return {};
-}
-
 Vec3 usual_skin_albedo(const Skin& skin) {
     constexpr Vec3 kLight = {0.70f, 0.43f, 0.32f};
     if (skin.tone > 0) return skin_tone_albedo_linear(skin.tone);

@@ -1,12 +1,10 @@
 #pragma once
 // Skin of another tone on the same head.
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "dermis/base/result.h"
-#include "dermis/optics/tissue/skin_model.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::inline scene {
@@ -25,16 +23,6 @@ namespace dermis::inline scene {
 
 /// Skin with a tone and the default profile gets the profile of the tone.
 [[nodiscard]] Skin with_profile_of_tone(Skin skin);
-
-/// The model of the skin's pigments; nothing where none is given. The others keep the model's defaults.
-[[nodiscard]] std::optional<SkinModel> pigments_of(const Skin& skin);
-
-/// Skin with pigments and the default profile gets the profile of the model.
-[[nodiscard]] Skin with_profile_of_pigments(Skin skin);
-
-/// Replaces the pigments by the tint that gives the scene's skin the mean colour of the model. Errors: no
-/// skin, a tone beside pigments.
-[[nodiscard]] Result<void> apply_pigments(Scene& scene);
 
 /// Colour of skin whose mesh states none: of the tone, else of the profile where its albedo is that of skin,
 /// else a light one.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dermis/optics/tissue/skin_model.h"
 #include "dermis/view/actions.h"
 #include "dermis/view/model.h"
 
@@ -37,8 +38,9 @@ struct PanelFacts {
 /// Requests of a panel beyond the model.
 struct PanelRequests {
     std::vector<Action> actions;
-    std::optional<int> tone;  ///< Model::tone wanted
-    std::string open;         ///< a scene
+    std::optional<int> tone;            ///< Model::tone wanted
+    std::optional<SkinModel> pigments;  ///< skin of these wanted
+    std::string open;                   ///< a scene
 };
 
 /// Where widgets are, by what they set ("exposure_ev", a parameter's name): scripts drag them there.

@@ -8,6 +8,7 @@
 
 #include "dermis/base/angle.h"
 #include "dermis/optics/presets.h"
+#include "dermis/optics/tissue/skin_model.h"
 #include "dermis/view/panel_parts.h"
 #include "dermis/view/widgets.h"
 
@@ -66,6 +67,23 @@ void show_light(Scene& scene, WidgetMap& widgets) {
                 scene.environment.visible);
 }
 
+// The pigments of the skin's profile where it has some, else the usual ones.
+void show_pigments(const Skin& skin, PanelRequests& requests, Rows& rows) {
+    const Result<SkinModel> read = parse_skin_model(skin.profile);
+    SkinModel pigments = read ? *read : SkinModel{};
+    const auto slider = [&](const char* name, double SkinModel::*member, double most, const char* doc) {
+        auto value = float(pigments.*member);
+        if (!rows.number({.name = name, .doc = doc, .max = most, .default_value = SkinModel{}.*member},
+                         value))
+            return;
+        pigments.*member = std::round(double(value) * 1e4) / 1e4;
+        requests.pigments = pigments;
+    };
+    slider("melanin", &SkinModel::melanin, 0.5, "volume fraction in the epidermis; 0.01 light, 0.43 dark");
+    slider("blood", &SkinModel::blood, 0.1, "volume fraction in the dermis; 0.015 a face, 0.05 a blush");
+    slider("oxygen", &SkinModel::oxygen, 1, "oxygen saturation of the blood");
+}
+
 void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets) {
     static const std::vector<std::string> kTones = {"as the maps are", "I", "II", "III", "IV", "V", "VI"};
     static const std::vector<std::string> kProfiles = profile_names();
@@ -83,6 +101,7 @@ void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets) {
                      .default_value = double(profile)},
                     kProfiles, profile))
         skin.profile = kProfiles[size_t(profile)];
+    show_pigments(skin, requests, rows);
     rows.color({.name = "tint", .doc = "multiplies the colour of the skin, linear", .max = 4},
                skin.albedo_tint_linear);
 }

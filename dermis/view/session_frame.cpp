@@ -98,6 +98,7 @@ Result<void> Session::frame() {
     if (!requests) return requests.error();
     for (const Action action : requests->actions) perform(p, action);
     if (requests->tone) p.pictures.scene().choose_tone(*requests->tone, p.model);
+    if (requests->pigments) p.pictures.scene().choose_pigments(*requests->pigments, p.model);
     if (!requests->open.empty()) p.opener.open(requests->open);
     if (Result<void> shown = show_pictures(draws); !shown) return shown;
     return step_script();

@@ -31,15 +31,28 @@ void ShownScene::choose_tone(int tone, Model& model) {
     }
     const std::string name = tone_profile(tone);
     const Result<Profile> profile = find_profile(name);
-    if (!mean_albedo_) {
-        const Result<Vec3> mean = mean_skin_albedo(*model.scene);
-        if (!mean) return model.notices.report_error("tone", mean.error().message);
-        mean_albedo_ = *mean;
-    }
     if (!profile) return model.notices.report_error("tone", profile.error().message);
-    skin.albedo_tint_linear = tint_towards(skin_tone_albedo_linear(tone), *mean_albedo_);
+    if (!tint_to(skin_tone_albedo_linear(tone), model)) return;
     skin.profile = name;
     model.tone = tone;
+}
+
+bool ShownScene::tint_to(Vec3 albedo_linear, Model& model) {
+    if (!mean_albedo_) {
+        const Result<Vec3> mean = mean_skin_albedo(*model.scene);
+        if (!mean) return model.notices.report_error("tone", mean.error().message), false;
+        mean_albedo_ = *mean;
+    }
+    model.scene->skin.albedo_tint_linear = tint_towards(albedo_linear, *mean_albedo_);
+    return true;
+}
+
+void ShownScene::choose_pigments(const SkinModel& pigments, Model& model) {
+    if (!model.scene) return;
+    const Rgb albedo = skin_albedo(pigments);
+    if (!tint_to({float(albedo[0]), float(albedo[1]), float(albedo[2])}, model)) return;
+    model.scene->skin.profile = skin_model_text(pigments);
+    model.tone = 0;
 }
 
 void ShownScene::follow_skin() {

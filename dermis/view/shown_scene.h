@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "dermis/optics/tissue/skin_model.h"
 #include "dermis/view/probe.h"
 #include "dermis/view/stage.h"
 
@@ -24,6 +25,8 @@ class ShownScene {
     /// 0: as the maps are, with the profile that the scene came with; 1 to 6: OpenPBR's skins. Says what is
     /// wrong as a notice.
     void choose_tone(int tone, Model& model);
+    /// The profile and, by a tint, the mean colour of a skin of these pigments. Model::tone becomes 0.
+    void choose_pigments(const SkinModel& pigments, Model& model);
     /// The materials on the device follow the tint; the profile is asked for at every drawing.
     void follow_skin();
     /// A panorama takes the environment's place. After an error nothing has changed.
@@ -35,6 +38,9 @@ class ShownScene {
     [[nodiscard]] const std::string& probe(Vec2 place, PictureSize size);
 
   private:
+    /// A tint that gives the skin this mean colour; false, with a notice, where there is no skin.
+    bool tint_to(Vec3 albedo_linear, Model& model);
+
     std::optional<Stage> stage_;
     std::optional<Probe> probe_;
     Scene file_look_;

@@ -33,6 +33,17 @@ TEST(PigmentTable, finds_the_pigments_of_its_own_colours) {
         }
 }
 
+TEST(PigmentTable, makes_the_tones_of_the_bust_but_for_a_small_residue) {
+    for (int tone = 1; tone <= 6; ++tone) {
+        const Vec3 wanted = skin_tone_albedo_linear(tone);
+        const Rgb made = usual_table().albedo(usual_table().nearest({wanted.x, wanted.y, wanted.z}));
+        const double factors[] = {double(wanted.x) / made[0], double(wanted.y) / made[1],
+                                  double(wanted.z) / made[2]};
+        for (const double factor : factors)
+            EXPECT_LT(std::abs(std::log(factor)), tone < 6 ? 0.25 : 0.4) << tone;
+    }
+}
+
 // Skin, its shade, paint of any colour, black and white.
 Image map_of_everything() {
     Image map(64, 48, 3, PixelFormat::u8, Encoding::srgb);

@@ -88,6 +88,21 @@ TEST(SkinModel, melanin_alone_covers_the_groups_of_the_typology_angle_in_order) 
     for (size_t group = 0; group < 6; ++group) EXPECT_GT(members[group], 0) << group;
 }
 
+TEST(SkinModel, six_tones_lie_in_the_six_groups_and_are_profiles) {
+    const double borders_deg[] = {90, 55, 41, 28, 10, -30, -90};
+    for (int tone = 1; tone <= 6; ++tone) {
+        const Result<SkinModel> model = parse_skin_model("skin:tone=" + std::to_string(tone));
+        ASSERT_TRUE(model);
+        EXPECT_EQ(*model, skin_model_of_tone(tone));
+        const double angle_deg = typology_angle_deg(skin_albedo(*model));
+        EXPECT_LT(angle_deg, borders_deg[tone - 1]) << tone;
+        EXPECT_GT(angle_deg, borders_deg[tone]) << tone;
+    }
+    EXPECT_EQ(parse_skin_model("skin:tone=3,blood=0.05")->melanin, skin_model_of_tone(3).melanin);
+    EXPECT_FALSE(parse_skin_model("skin:tone=7"));
+    EXPECT_FALSE(parse_skin_model("skin:blood=0.05,tone=3"));
+}
+
 TEST(SkinModel, oxygenated_blood_draws_a_w_between_540_and_580_nm_and_deoxygenated_has_none) {
     const auto at = [](const SkinSpectrum& spectrum, double nm) { return spectrum[size_t(index_of(nm))]; };
     const SkinSpectrum with = skin_spectrum({.blood = 0.03, .oxygen = 1});

@@ -19,6 +19,7 @@ struct BakePigmentsOptions {
     std::string albedo, output, mask;
     SkinModel model;
     SkinEdit edit;
+    double exposure = 1;
 };
 
 struct PigmentPaths {
@@ -54,7 +55,7 @@ Result<int> bake_pigments(const BakePigmentsOptions& options) {
     Progress line("pigments", 2 * albedo.image.pixel_count());
     const auto advance = [&](size_t texels) { line.advance(texels); };
     const PigmentTable table(options.model);
-    const PigmentMaps maps = pigment_maps_of(albedo.image, table, advance);
+    const PigmentMaps maps = pigment_maps_of(albedo.image, table, options.exposure, advance);
     const PigmentPainting painting{
         .maps = &maps, .missing = {}, .edit = options.edit, .mask = mask.empty() ? nullptr : &mask};
     DERMIS_TRY_ASSIGN(const Image made, albedo_of(painting, table, advance));
@@ -82,6 +83,10 @@ void add_bake_pigments_command(CommandLine& line) {
                      "NAME.png: writes NAME_melanin, NAME_blood, NAME_residue (16 bit) and NAME_albedo, the "
                      "colour after the edits")
         ->required();
+    command
+        ->add_option("--exposure", options->exposure, {0.1, 10},
+                     "the map's light over that of the skin: 1.3 of a map that is 30 % too bright")
+        ->capture_default_str();
     SkinEdit& edit = options->edit;
     const auto scale = [&](const char* flag, double& value, const char* help) {
         command->add_option(flag, value, {0, 10}, help)->capture_default_str();

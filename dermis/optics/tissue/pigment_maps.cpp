@@ -93,14 +93,16 @@ void over_rows(int height, int width, const PigmentProgress& progress,
 
 }  // namespace
 
-PigmentMaps pigment_maps_of(const Image& albedo, const PigmentTable& table, const PigmentProgress& progress) {
+PigmentMaps pigment_maps_of(const Image& albedo, const PigmentTable& table, double exposure,
+                            const PigmentProgress& progress) {
     PigmentMaps maps{Image(albedo.width, albedo.height, 1, PixelFormat::u16),
                      Image(albedo.width, albedo.height, 1, PixelFormat::u16),
                      Image(albedo.width, albedo.height, 3, PixelFormat::u16)};
     over_rows(albedo.height, albedo.width, progress, [&](int y) {
         for (int x = 0; x < albedo.width; ++x) {
             const Rgb wanted = linear_texel(albedo, x, y);
-            const Pigments found = table.nearest(wanted);
+            const Pigments found =
+                table.nearest({wanted[0] / exposure, wanted[1] / exposure, wanted[2] / exposure});
             maps.melanin.set(x, y, 0, float(value_of_fraction(found.melanin, kMostMelanin)));
             maps.blood.set(x, y, 0, float(value_of_fraction(found.blood, kMostBlood)));
             // Of the pigments as they are stored.

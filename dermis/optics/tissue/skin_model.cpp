@@ -49,6 +49,14 @@ Result<void> check(const SkinModel& model) {
     return {};
 }
 
+// Typology angles of 60, 48, 34, 19, -10 and -45 degrees; blood rises with lightness lost to it.
+SkinModel skin_model_of_tone(int tone) {
+    constexpr double kMelanin[] = {0.0056, 0.0162, 0.0291, 0.0479, 0.1067, 0.2983};
+    constexpr double kBlood[] = {0.004, 0.006, 0.009, 0.011, 0.014, 0.018};
+    const auto i = size_t(std::clamp(tone, 1, 6) - 1);
+    return {.melanin = kMelanin[i], .blood = kBlood[i]};
+}
+
 bool is_skin_model(std::string_view name) {
     return name.starts_with(kSkinPrefix);
 }
@@ -64,7 +72,8 @@ Result<SkinModel> parse_skin_model(std::string_view text) {
         const std::string_view name = trim(part.substr(0, equal));
         const auto key = std::find_if(std::begin(kSkinKeys), std::end(kSkinKeys),
                                       [&](const SkinModelKey& k) { return k.name == name; });
-        if (key == std::end(kSkinKeys)) {
+        const bool is_tone = name == "tone" && part.data() == text.data() + kSkinPrefix.size();
+        if (key == std::end(kSkinKeys) && !is_tone) {
             std::vector<std::string> names;
             for (const SkinModelKey& k : kSkinKeys) names.emplace_back(k.name);
             return Error{place + ": " + unknown_name("key", name, names)};
@@ -74,7 +83,12 @@ Result<SkinModel> parse_skin_model(std::string_view text) {
         if (!number)
             return Error{place + ": " + std::string(name) +
                          " needs a number, as in 'skin:melanin=0.03,blood=0.04'"};
-        model.*key->member = *number;
+        if (is_tone && (!(*number >= 1 && *number <= 6) || *number != int(*number)))
+            return out_of_range("skin model: tone", *number, "1 to 6, without a fraction");
+        if (is_tone)
+            model = skin_model_of_tone(int(*number));
+        else
+            model.*key->member = *number;
     }
     DERMIS_TRY(check(model));
     return model;

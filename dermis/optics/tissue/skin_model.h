@@ -50,9 +50,14 @@ struct SkinModelKey {
 /// Errors name the key, its value and its range.
 [[nodiscard]] Result<void> check(const SkinModel& model);
 
+/// Points of the model in the middle of the six groups of the typology angle; tone 1 (very light) to 6
+/// (dark).
+[[nodiscard]] SkinModel skin_model_of_tone(int tone);
+
 /// Whether a profile's name is the text of a skin model.
 [[nodiscard]] bool is_skin_model(std::string_view name);
-/// "skin:melanin=0.03,blood=0.04": what is not named keeps its default. find_profile() takes the same text.
+/// "skin:melanin=0.03,blood=0.04": what is not named keeps its default. A first "tone=3" replaces
+/// the defaults by skin_model_of_tone(). find_profile() takes the same text.
 /// Errors: an unknown key, not a number, out of range.
 [[nodiscard]] Result<SkinModel> parse_skin_model(std::string_view text);
 /// The text of a model: the keys that differ from the default.
