@@ -16,6 +16,7 @@
 #include "dermis/mesh/curvature.h"
 #include "dermis/mesh/material.h"
 #include "dermis/mesh/mesh.h"
+#include "dermis/mesh/pose.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/medium.h"

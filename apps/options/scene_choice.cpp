@@ -25,6 +25,7 @@ void SceneChoice::add_options_to(Command& command) {
     command.add_option("--unit-mm", unit_mm, kUnitRangeMm,
                        "length of one unit of the mesh file in mm: 10 for centimetres (default: glTF 1000, "
                        "OBJ 1, or what makes a mesh file as tall as a head)");
+    pose.add_to(command);
     command.add_option("--camera", camera,
                        "short for camera keys: \"yaw_deg=30 pitch_deg=5 distance_mm=600 fov_deg=30\"");
     command.add_option("--light", light,
@@ -39,6 +40,8 @@ Result<std::vector<SceneWord>> SceneChoice::all_words() const {
         all.push_back(std::move(*word));
     }
     if (unit_mm > 0) all.push_back({.key = "mesh.unit_mm", .value = to_text(unit_mm)});
+    DERMIS_TRY_ASSIGN(const std::vector<SceneWord> posed, pose.words());
+    all.insert(all.end(), posed.begin(), posed.end());
     for (const auto& [section, text] : {std::pair("camera", &camera), std::pair("light.key", &light)}) {
         DERMIS_TRY_ASSIGN(std::vector<SceneWord> some, parse_section_words(section, *text));
         all.insert(all.end(), some.begin(), some.end());

@@ -7,12 +7,14 @@
 
 #include "command.h"
 #include "dermis/scene/scene_words.h"
+#include "pose_choice.h"
 
 namespace dermis::cli {
 
 struct SceneChoice {
     std::string name, camera, light;
     std::vector<std::string> words;
+    PoseChoice pose;
     double unit_mm = 0;  ///< of the mesh file; 0: as the file or the scene has it
 
     /// The scene as the first argument, and the options.

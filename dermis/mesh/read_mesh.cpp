@@ -181,12 +181,16 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
                                      " mm tall; --unit-mm states another");
             return again;
         }
-    drop_unused_vertices(mesh);
+    if (!options.keep_vertices) drop_unused_vertices(mesh);
     if (mesh.uvs.empty()) warnings.push_back(name.string() + ": no UVs; maps cannot be used");
     warn_of_height(mesh, name, options, is_obj, warnings);
     warn_of_tiles(mesh, name, warnings);
+    if (options.keep_vertices) mesh.normals.resize(mesh.positions_mm.size());
     finish_normals(mesh, name, warnings);
-    complete_tangents(mesh);
+    if (options.keep_vertices)
+        mesh.tangents.clear();
+    else
+        complete_tangents(mesh);
     tidy_warnings(warnings);
     return loaded;
 }

@@ -12,6 +12,7 @@
 
 #include "dermis/base/result.h"
 #include "dermis/mesh/mesh.h"
+#include "dermis/mesh/pose.h"
 
 namespace dermis::inline mesh {
 
@@ -30,12 +31,18 @@ struct MeshOptions {
     size_t max_vertices = 50'000'000;
     /// Most nodes of a glTF file.
     size_t max_nodes = 65'536;
+    /// glTF: where the mesh is in its motion. A clip and targets that the file lacks change nothing;
+    /// check_pose() finds them.
+    Pose pose = {};
+    /// Every vertex of the file in its order: unused ones stay, none is split, so that some lack a tangent.
+    bool keep_vertices = false;
 };
 
 struct LoadedMesh {
     Mesh mesh;
     std::vector<std::string> warnings;  ///< one line each, for the user
     double unit_mm = 1;                 ///< of the file, as stated, by its format, or guessed
+    Motion motion = {};                 ///< clips and morph targets of a glTF file
     /// The mesh file and the files beside it that it names, existing or not; maps are in the materials.
     std::vector<std::filesystem::path> files;
 };
@@ -51,7 +58,8 @@ using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::stri
 /// Every value of the result is finite and every index in range. Normals are unit, computed where the file
 /// has none (normals.h), and so are tangents (tangents.h).
 ///
-/// glTF: skins in the pose of the file's nodes, morph targets by their weights, the UV set and
+/// glTF: skins and morph targets in the pose of the options, else of the file's nodes and weights; where
+/// targets move vertices and have no normals, normals turn as the surface does. The UV set and
 /// KHR_texture_transform of each material's first texture (maps with others are left out together with the
 /// factors that they multiply, with a warning that names both).
 ///

@@ -40,14 +40,16 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
                          .scale_after = mesh.scale,
                          .guess_unit = description.is_bare_mesh,
                          .subdivision_level = mesh.subdivision,
-                         .ignore_missing_materials = description.maps.files.contains("albedo")});
+                         .ignore_missing_materials = description.maps.files.contains("albedo"),
+                         .pose = description.motion.pose()});
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());
     SubjectScene made;
     made.objects.push_back({.name = mesh.name.empty() ? path.stem().string() : mesh.name,
                             .mesh = std::move(loaded->mesh),
-                            .unit_mm = loaded->unit_mm});
+                            .unit_mm = loaded->unit_mm,
+                            .motion = std::move(loaded->motion)});
     return made;
 }
 
@@ -209,6 +211,16 @@ Result<void> check_material_names(const SceneDescription& description, const Sce
     return {};
 }
 
+// A clip or a target that no mesh has is a mistake.
+Result<void> check_motion(const SceneDescription& description, const Scene& scene) {
+    if (description.motion.pose().empty()) return {};
+    std::vector<Motion> motions;
+    for (const SceneObject& object : scene.objects) motions.push_back(object.motion);
+    const Result<void> checked = check_pose(description.motion.pose(), motions);
+    if (checked) return {};
+    return description.file.empty() ? checked : checked.error().within(description.file.string());
+}
+
 // The profile of a mesh whose skin states one, unless a word chose another; what the file has and a profile
 // has not is named.
 void take_profile_of_mesh(const SceneDescription& description, Scene& scene) {
@@ -253,6 +265,7 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
         if (added.states_anything()) stated = std::move(added);
         progress.advance();
     }
+    DERMIS_TRY(check_motion(description, scene));
     DERMIS_TRY(check_material_names(description, scene));
 
     if (!description.is_bare_mesh)

@@ -12,6 +12,7 @@
 #include "dermis/base/vec.h"
 #include "dermis/image/tone_map.h"
 #include "dermis/mesh/mesh.h"
+#include "dermis/mesh/pose.h"
 
 namespace dermis::inline scene {
 
@@ -104,6 +105,7 @@ struct SceneObject {
     std::vector<MaterialClass> classes;  ///< one a material of the mesh
     std::vector<FoundPart> parts = {};   ///< one a material of a mesh file; empty for subjects
     double unit_mm = 1;                  ///< of the mesh file
+    Motion motion = {};                  ///< its clips and morph targets
 };
 
 struct Scene {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dermis/mesh/pose.h"
 #include "dermis/scene/subject.h"
 
 namespace dermis::inline scene {
@@ -83,6 +84,22 @@ struct EnvironmentDescription {
     bool visible = false;
 };
 
+/// Where mesh files are in their motion; `morph` has weights by target.
+struct MotionDescription {
+    int line = 0;
+    std::string clip;
+    double time_s = 0;
+    float speed = 1;
+    bool loop = false;
+    std::map<std::string, float> morph;
+
+    [[nodiscard]] Pose pose() const {
+        return {.clip = clip, .time_s = time_s * double(speed), .loop = loop, .morph = morph};
+    }
+};
+/// Largest weight of a morph target, either way.
+inline constexpr double kMostMorph = 100;
+
 /// Keys outside any section.
 struct HeadDescription {
     std::string name, credit, technique;
@@ -101,6 +118,7 @@ struct SceneDescription {
     MapsDescription maps;
     std::map<std::string, MaterialDescription> materials;  ///< by the mesh's material names
     Skin skin;
+    MotionDescription motion;
     std::vector<LightDescription> lights;
     std::optional<EnvironmentDescription> environment;
     CameraDescription camera;

@@ -102,11 +102,28 @@ Result<void> read_settings(const TomlNode& root, SceneDescription& scene, const 
     return {};
 }
 
+Result<void> read_morph(const TomlNode& root, SceneDescription& scene, const TomlPlace& place) {
+    const TomlNode* table = root.find("morph");
+    if (!table) return {};
+    if (table->kind != TomlKind::table) return no_table(*table, "morph", "[morph]", place);
+    for (const TomlEntry& entry : table->entries) {
+        KeyValue value;
+        const KeyInfo info = morph_key(entry.key);
+        if (!read_toml_value(entry.value, info, value))
+            return place.at(entry.line)
+                .error("morph." + entry.key + " = " + toml_text(entry.value) + ": " + entry.key + " " +
+                       wanted_text(info));
+        scene.motion.morph[entry.key] = float(value.numbers[0]);
+        if (scene.motion.line == 0) scene.motion.line = table->line;
+    }
+    return {};
+}
+
 Result<void> read_root(const TomlNode& root, SceneDescription& scene, std::span<const Subject> subjects,
                        const TomlPlace& place) {
-    Result<void> read =
-        read_section(root, "", head_keys(), scene.head, place,
-                     {"mesh", "maps", "material", "skin", "light", "environment", "camera", "settings"});
+    Result<void> read = read_section(root, "", head_keys(), scene.head, place,
+                                     {"mesh", "maps", "material", "skin", "animation", "morph", "light",
+                                      "environment", "camera", "settings"});
     if (read)
         read =
             read_tables(root, "mesh", scene.meshes, place, [&](const TomlNode& table, MeshDescription& mesh) {
@@ -115,6 +132,8 @@ Result<void> read_root(const TomlNode& root, SceneDescription& scene, std::span<
     if (read) read = read_table(root, "maps", maps_keys(), scene.maps, place);
     if (read) read = read_materials(root, scene, place);
     if (read) read = read_table(root, "skin", skin_keys(), scene.skin, place);
+    if (read) read = read_table(root, "animation", animation_keys(), scene.motion, place);
+    if (read) read = read_morph(root, scene, place);
     if (read)
         read = read_tables(root, "light", scene.lights, place,
                            [&](const TomlNode& table, LightDescription& light) {

@@ -180,7 +180,10 @@ class KeyTable {
 [[nodiscard]] const KeyTable<MapsDescription>& maps_keys();
 [[nodiscard]] const KeyTable<MaterialDescription>& material_keys();
 [[nodiscard]] const KeyTable<Skin>& skin_keys();
+[[nodiscard]] const KeyTable<MotionDescription>& animation_keys();
 [[nodiscard]] const KeyTable<LightDescription>& light_keys();
+/// A row of [morph], whose keys are the names of targets.
+[[nodiscard]] KeyInfo morph_key(const std::string& target);
 [[nodiscard]] const KeyTable<EnvironmentDescription>& environment_keys();
 [[nodiscard]] const KeyTable<CameraDescription>& camera_keys();
 

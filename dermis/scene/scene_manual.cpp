@@ -73,6 +73,17 @@ std::string scene_file_manual(std::span<const Subject> subjects) {
                          "map_d) and has others, as with cards of hair and lashes, its class is `other`.",
                          material_keys());
     text += section_text("`[skin]`", "Values for all skin materials.", skin_keys());
+    text +=
+        section_text("`[animation]`",
+                     "Where mesh files (glTF) are in their motion. Without a clip, the pose is that of the "
+                     "file's nodes. docs/moving.md has the commands.",
+                     animation_keys());
+    text += R"(
+## `[morph]`
+
+Weights of morph targets by name, -100 .. 100: `jawOpen = 0.6`. `dermis info` lists the targets. They replace the weights
+of the clip and of the mesh file.
+)";
     text += section_text(
         "`[[light]]`",
         "Any number; without any, one warm key light from the upper left. A light has a direction by yaw and "

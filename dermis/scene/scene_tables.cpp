@@ -300,6 +300,28 @@ const KeyTable<Skin>& skin_keys() {
     return table;
 }
 
+const KeyTable<MotionDescription>& animation_keys() {
+    using D = MotionDescription;
+    static const KeyTable<D> table =
+        KeyTable<D>()
+            .text(&D::clip, {.name = "clip",
+                             .doc = "name of an animation of the mesh file, or `#2` for the second; "
+                                    "`dermis info` lists them"})
+            .number(&D::time_s,
+                    {.name = "time_s",
+                     .unit = "s",
+                     .doc = "time since the start of the clip; after its end the last pose is held",
+                     .max = 1e6})
+            .number(&D::speed,
+                    {.name = "speed", .doc = "seconds of the clip in one second", .min = 0.01, .max = 100})
+            .toggle(&D::loop, {.name = "loop", .doc = "repeats the clip instead of holding its last pose"});
+    return table;
+}
+
+KeyInfo morph_key(const std::string& target) {
+    return {.name = target, .kind = KeyKind::number, .min = -kMostMorph, .max = kMostMorph};
+}
+
 const KeyTable<LightDescription>& light_keys() {
     using D = LightDescription;
     static const KeyTable<D> table =
@@ -422,6 +444,7 @@ std::string sections_with_key(std::string_view name) {
     add("[maps]", maps_keys());
     add("[material.NAME]", material_keys());
     add("[skin]", skin_keys());
+    add("[animation]", animation_keys());
     add("[[light]]", light_keys());
     add("[environment]", environment_keys());
     add("[camera]", camera_keys());

@@ -15,8 +15,8 @@
 namespace dermis::inline scene {
 namespace {
 
-constexpr std::string_view kSections[] = {"mesh",  "maps",        "material", "skin",
-                                          "light", "environment", "camera",   "settings"};
+constexpr std::string_view kSections[] = {"mesh",  "maps",  "material",    "skin",   "animation",
+                                          "morph", "light", "environment", "camera", "settings"};
 
 // "light.key.intensity": the section, the name of one of its tables, and the key. Names of lights and
 // materials may contain dots.
@@ -97,6 +97,17 @@ Result<void> set_material(SceneDescription& scene, const Address& address, const
     MaterialDescription& material = scene.materials[name];
     return is_map ? set(maps_keys(), material.maps, path, address.key, value)
                   : set(material_keys(), material, path, address.key, value);
+}
+
+Result<void> set_morph(MotionDescription& motion, const std::string& target, const std::string& text) {
+    KeyValue value;
+    const KeyInfo info = morph_key(target);
+    if (target.empty()) return Error{"morph: write morph.TARGET=WEIGHT, such as morph.jawOpen=0.6"};
+    if (!read_toml_value(word_node(text, info), info, value))
+        return Error{"morph." + target + " = " + text.substr(0, 40) + ": " + target + " " +
+                     wanted_text(info)};
+    motion.morph[target] = float(value.numbers[0]);
+    return {};
 }
 
 Result<void> set_environment(SceneDescription& scene, const Address& address, const std::string& value) {
@@ -182,12 +193,16 @@ Result<void> set_word(SceneDescription& scene, const SceneWord& word, std::span<
     if (address.section == "mesh") return set_mesh(scene, address, word.value, subjects);
     if (address.section == "light") return set_light(scene, address, word.value);
     if (address.section == "material") return set_material(scene, address, word.value);
+    // Names of targets may contain dots.
+    if (address.section == "morph") return set_morph(scene.motion, word.key.substr(6), word.value);
     if (!address.which.empty() && std::ranges::count(kSections, address.section))
         return Error{word.key + ": [" + address.section + "] has no tables; write " + address.section + "." +
                      address.key};
     if (address.section.empty()) return set(head_keys(), scene.head, "", address.key, word.value);
     if (address.section == "maps") return set(maps_keys(), scene.maps, "maps", address.key, word.value);
     if (address.section == "skin") return set(skin_keys(), scene.skin, "skin", address.key, word.value);
+    if (address.section == "animation")
+        return set(animation_keys(), scene.motion, "animation", address.key, word.value);
     if (address.section == "environment") return set_environment(scene, address, word.value);
     if (address.section == "camera") return set_camera(scene.camera, address, word.value);
     if (address.section == "settings") {

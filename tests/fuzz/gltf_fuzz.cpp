@@ -14,5 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto loaded = dermis::parse_mesh(bytes, dermis::MeshFormat::gltf, "dir/fuzz.gltf", read_buffer,
                                            {.max_vertices = 20000});
     if (loaded) dermis::fuzz::use_mesh(*loaded);
+    const dermis::Pose pose = {.clip = "#1", .time_s = 0.6, .loop = size % 2 == 0, .morph = {{"#1", 0.5f}}};
+    const auto posed = dermis::parse_mesh(bytes, dermis::MeshFormat::gltf, "dir/fuzz.gltf", read_buffer,
+                                          {.max_vertices = 20000, .pose = pose});
+    if (posed) dermis::fuzz::use_mesh(*posed);
     return 0;
 }

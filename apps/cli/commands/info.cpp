@@ -116,6 +116,14 @@ Json material_json(const SceneObject& object, uint32_t i) {
     return row;
 }
 
+Json motion_json(const Motion& motion) {
+    Json clips = Json::array();
+    for (const ClipInfo& clip : motion.clips)
+        clips.push_back({{"name", clip.name}, {"length_s", clip.length_s}, {"channels", clip.channels}});
+    return {
+        {"clips", clips}, {"targets", motion.targets}, {"skins", motion.skins}, {"joints", motion.joints}};
+}
+
 Json to_json(const NamedMesh& named) {
     const Mesh& mesh = named.object.mesh;
     const Flesh& flesh = named.flesh;
@@ -133,6 +141,7 @@ Json to_json(const NamedMesh& named) {
                  {"warnings", named.warnings}};
     for (uint32_t i = 0; i < mesh.materials.size(); ++i)
         json["materials"].push_back(material_json(named.object, i));
+    if (!named.object.motion.empty()) json["motion"] = motion_json(named.object.motion);
     return json;
 }
 
@@ -154,6 +163,18 @@ void print_uv(const UvReport& uv) {
     if (uv.area_outside > 0) fmt::print("    in no tile    {:.1f} % of the surface\n", 100 * uv.area_outside);
     if (uv.degenerate_triangles > 0)
         fmt::print("    degenerate    {} triangles without UV area\n", uv.degenerate_triangles);
+}
+
+void print_motion(const Motion& motion) {
+    for (const ClipInfo& clip : motion.clips)
+        fmt::print("  clip {}: {} s, {} channel{}\n", printable_line(clip.name),
+                   to_text(float(clip.length_s)), clip.channels, clip.channels == 1 ? "" : "s");
+    if (!motion.targets.empty())
+        fmt::print("  {} morph targets: {}\n", motion.targets.size(),
+                   printable_line(join(motion.targets, " ")));
+    if (motion.joints > 0)
+        fmt::print("  {} joint{} in {} skin{}\n", motion.joints, motion.joints == 1 ? "" : "s", motion.skins,
+                   motion.skins == 1 ? "" : "s");
 }
 
 // The openings that the reference closes and the faces that it leaves out.
@@ -196,6 +217,7 @@ void print_text(const std::string& path, const NamedMesh& named) {
         "\n  box {:.1f} x {:.1f} x {:.1f} mm, from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n",
         size.x, size.y, size.z, low.x, low.y, low.z, high.x, high.y, high.z);
     print_flesh(named.flesh);
+    print_motion(named.object.motion);
     for (uint32_t i = 0; i < mesh.materials.size(); ++i) print_material(named.object, i);
     for (const std::string& warning : named.warnings) fmt::print("  warning: {}\n", printable_line(warning));
 }

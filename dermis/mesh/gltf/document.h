@@ -37,6 +37,7 @@ class JsonView {
 
     [[nodiscard]] bool exists() const { return value_ != nullptr; }
     [[nodiscard]] const std::string& place() const { return place_; }
+    [[nodiscard]] const nlohmann::json* json() const { return value_; }  ///< null where it does not exist
     [[nodiscard]] JsonView operator[](const char* key) const;
     [[nodiscard]] JsonView operator[](size_t index) const;  ///< an index past the end is an error
     [[nodiscard]] size_t size() const;                      ///< elements of an array, 0 when missing

@@ -9,7 +9,9 @@
 #include <map>
 #include <utility>
 
+#include "dermis/mesh/gltf/animation.h"
 #include "dermis/mesh/gltf/document.h"
+#include "dermis/mesh/gltf/follow_normals.h"
 #include "dermis/mesh/gltf/material.h"
 #include "dermis/mesh/gltf/node_tree.h"
 #include "dermis/mesh/gltf/primitive.h"
@@ -33,7 +35,8 @@ std::vector<float> weights_of(const JsonView& list) {
 
 class SceneReader {
   public:
-    SceneReader(Document& document, double mm_per_unit) : document_(document), mm_per_unit_(mm_per_unit) {
+    SceneReader(Document& document, double mm_per_unit, const Pose& pose)
+        : document_(document), mm_per_unit_(mm_per_unit), pose_(pose) {
         to_mm_.linear *= mm_per_unit;
     }
 
@@ -42,7 +45,8 @@ class SceneReader {
         material_scales_.assign(materials.size(), 0);
         for (size_t i = 0; i < materials.size() && !failed(); ++i)
             uv_mappings_.push_back(uv_mapping_of_material(document_, materials[i]));
-        tree_ = read_nodes(document_, to_mm_);
+        node_poses_ = sample_clip(document_, pose_);
+        tree_ = read_nodes(document_, to_mm_, node_poses_);
         check_size();
         for (const uint64_t node : tree_.drawn) add_node(node);
         if (!failed() && document_.view()["nodes"].size() == 0)  // a bare mesh library
@@ -90,6 +94,8 @@ class SceneReader {
                             .world = tree_.world[size_t(index)],
                             .joints = {},
                             .morph = weights_of(node["weights"])};
+        if (const auto posed = node_poses_.find(index); posed != node_poses_.end())
+            if (!posed->second.weights.empty()) placement.morph = posed->second.weights;
         if (node["skin"].exists()) {
             const uint64_t skin = node["skin"].integer(0);
             const auto [at, is_new] = joints_of_skin_.try_emplace(skin);
@@ -103,8 +109,8 @@ class SceneReader {
         const JsonView mesh = document_.view()["meshes"][size_t(index)];
         const JsonView primitives = mesh["primitives"];
         const std::string name = mesh["name"].text(placement.node_name);
-        const std::vector<float> morph =
-            placement.morph.empty() ? weights_of(mesh["weights"]) : placement.morph;
+        std::vector<float> morph = placement.morph.empty() ? weights_of(mesh["weights"]) : placement.morph;
+        take_chosen_weights(mesh, morph);
         for (size_t i = 0; i < primitives.size() && !failed(); ++i) {
             const uint32_t material = material_of(primitives[i]);
             if (failed()) return;
@@ -116,6 +122,17 @@ class SceneReader {
             if (read_primitive(document_, primitives[i], options, primitive))
                 append(primitives[i], name, material, primitive, placement);
         }
+    }
+
+    // The pose's weights by name or number.
+    void take_chosen_weights(const JsonView& mesh, std::vector<float>& morph) {
+        if (pose_.morph.empty()) return;
+        const std::vector<std::string> names = target_names(mesh);
+        morph.resize(names.size());
+        for (size_t i = 0; i < names.size(); ++i)
+            for (const std::string& key : {numbered_name(i), names[i]})
+                if (const auto chosen = pose_.morph.find(key); chosen != pose_.morph.end())
+                    morph[i] = chosen->second;
     }
 
     uint32_t material_of(const JsonView& source) {
@@ -132,6 +149,9 @@ class SceneReader {
             return Vec3{v[at], v[at + 1], v[at + 2]};
         };
         mesh_.positions_mm.push_back(world.point(vec3(primitive.positions, 3 * i)));
+        unmorphed_mm_.push_back(primitive.unmorphed.empty() ? mesh_.positions_mm.back()
+                                                            : world.point(vec3(primitive.unmorphed, 3 * i)));
+        any_unmorphed_ |= !primitive.unmorphed.empty();
         const Vec3 n = primitive.normals.empty()
                            ? Vec3{}
                            : world.for_normals().direction(vec3(primitive.normals, 3 * i));
@@ -185,6 +205,7 @@ class SceneReader {
     void finish() {
         if (failed()) return;
         if (mesh_.indices.empty()) return document_.messages.fail("", "no triangles in the default scene");
+        if (any_normals_ && any_unmorphed_) turn_normals(unmorphed_mm_, mesh_);
         if (!any_normals_) mesh_.normals.clear();
         if (!any_uvs_) mesh_.uvs.clear();
         if (!any_tangents_) mesh_.tangents.clear();
@@ -204,20 +225,22 @@ class SceneReader {
     static constexpr uint32_t kDefaultMaterial = ~0u;
     Document& document_;
     double mm_per_unit_;
+    const Pose& pose_;
+    NodePoses node_poses_;
     Affine to_mm_;
     Mesh mesh_;
     NodeTree tree_;
     std::vector<UvMapping> uv_mappings_;  // of every material
     std::map<uint64_t, std::vector<Affine>> joints_of_skin_;
     std::vector<double> material_scales_;  // of the first node that uses each; 0 while unused
+    std::vector<Vec3> unmorphed_mm_;       // positions without the targets that have no normals
+    bool any_unmorphed_ = false;
     bool any_normals_ = false, any_uvs_ = false, any_tangents_ = false, any_colors_ = false;
     size_t without_uvs_ = 0;
 };
 
 void name_what_is_left_out(Document& document) {
-    const JsonView animations = document.view()["animations"], cameras = document.view()["cameras"];
-    if (const size_t count = animations.size(); count > 0)
-        animations.warn(std::to_string(count) + " are not played; the pose is that of the nodes");
+    const JsonView cameras = document.view()["cameras"];
     if (const size_t count = cameras.size(); count > 0)
         cameras.warn(std::to_string(count) + " not used; the camera is the scene's");
 }
@@ -229,7 +252,9 @@ Result<LoadedMesh> parse_gltf(std::span<const std::byte> bytes, const std::files
     Document document;
     open_document(bytes, name, read_sibling, options, document);
     LoadedMesh loaded;
-    if (!document.messages.error) loaded.mesh = SceneReader(document, options.unit_mm.value_or(1000)).run();
+    if (!document.messages.error)
+        loaded.mesh = SceneReader(document, options.unit_mm.value_or(1000), options.pose).run();
+    if (!document.messages.error) loaded.motion = read_motion(document);
     if (!document.messages.error) name_what_is_left_out(document);
     if (document.messages.error) return *document.messages.error;
     loaded.warnings = std::move(document.messages.warnings);

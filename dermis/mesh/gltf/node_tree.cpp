@@ -12,7 +12,8 @@ namespace {
 
 class TreeReader {
   public:
-    TreeReader(Document& document, const Affine& to_mm) : document_(document), to_mm_(to_mm) {}
+    TreeReader(Document& document, const Affine& to_mm, const NodePoses& poses)
+        : document_(document), to_mm_(to_mm), poses_(poses) {}
 
     NodeTree run() {
         const JsonView nodes = document_.view()["nodes"];
@@ -49,12 +50,17 @@ class TreeReader {
         return found;
     }
 
-    static Affine local_transform(const JsonView& node) {
+    [[nodiscard]] Affine local_transform(const JsonView& node, uint64_t index) const {
         if (node["matrix"].exists())
             return affine_of_matrix(
                 node["matrix"].numbers<16>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
-        const auto t = node["translation"].numbers<3>({0, 0, 0}), s = node["scale"].numbers<3>({1, 1, 1});
-        const auto q = node["rotation"].numbers<4>({0, 0, 0, 1});  // a zero quaternion gives no rotation
+        auto t = node["translation"].numbers<3>({0, 0, 0}), s = node["scale"].numbers<3>({1, 1, 1});
+        auto q = node["rotation"].numbers<4>({0, 0, 0, 1});  // a zero quaternion gives no rotation
+        if (const auto pose = poses_.find(index); pose != poses_.end()) {
+            t = pose->second.translation.value_or(t);
+            q = pose->second.rotation.value_or(q);
+            s = pose->second.scale.value_or(s);
+        }
         const Eigen::Matrix3d rotation =
             Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized().toRotationMatrix();
         return {rotation * Eigen::Vector3d(s.data()).asDiagonal(), Eigen::Vector3d(t.data())};
@@ -70,7 +76,7 @@ class TreeReader {
             // A node has one parent at most; otherwise a few nodes could unfold into billions.
             if (visited_[size_t(index)]) return node.fail("is reached twice; nodes must form a tree");
             visited_[size_t(index)] = true;
-            const Affine world = compose(parent, local_transform(node));
+            const Affine world = compose(parent, local_transform(node, index));
             tree_.world[size_t(index)] = world;
             if (drawn && node["mesh"].exists()) tree_.drawn.push_back(index);
             const JsonView children = node["children"];
@@ -80,14 +86,15 @@ class TreeReader {
 
     Document& document_;
     Affine to_mm_;
+    const NodePoses& poses_;
     NodeTree tree_;
     std::vector<bool> visited_;
 };
 
 }  // namespace
 
-NodeTree read_nodes(Document& document, const Affine& to_mm) {
-    return TreeReader(document, to_mm).run();
+NodeTree read_nodes(Document& document, const Affine& to_mm, const NodePoses& poses) {
+    return TreeReader(document, to_mm, poses).run();
 }
 
 Affine Affine::for_normals() const {

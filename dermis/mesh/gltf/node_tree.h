@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dermis/base/vec.h"
+#include "dermis/mesh/gltf/animation.h"
 #include "dermis/mesh/gltf/document.h"
 
 namespace dermis::inline mesh::gltf {
@@ -39,7 +40,8 @@ struct NodeTree {
     std::vector<uint64_t> drawn;  ///< nodes of the default scene with a mesh, in its order
 };
 
-/// `to_mm` comes after every root. Errors (a node reached twice, too many of them) are left in messages.
-[[nodiscard]] NodeTree read_nodes(Document& document, const Affine& to_mm);
+/// `to_mm` comes after every root, `poses` replace what the file states of nodes. Errors (a node reached
+/// twice, too many of them) are left in messages.
+[[nodiscard]] NodeTree read_nodes(Document& document, const Affine& to_mm, const NodePoses& poses = {});
 
 }  // namespace dermis::inline mesh::gltf

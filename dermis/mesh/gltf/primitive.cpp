@@ -234,7 +234,11 @@ class PrimitiveReader {
         for (size_t i = 0; i < std::min(targets.size(), options_.morph.size()); ++i) {
             const float weight = options_.morph[i];
             if (weight == 0 || source_.failed()) continue;
+            if (!targets[i]["NORMAL"].exists() && primitive_.unmorphed.empty())
+                primitive_.unmorphed = primitive_.positions;
             add_scaled(read(targets[i]["POSITION"], 3), weight, primitive_.positions, 3);
+            if (targets[i]["NORMAL"].exists() && !primitive_.unmorphed.empty())
+                add_scaled(read(targets[i]["POSITION"], 3), weight, primitive_.unmorphed, 3);
             add_scaled(read(targets[i]["NORMAL"], 3), weight, primitive_.normals, 3);
             add_scaled(read(targets[i]["TANGENT"], 3), weight, primitive_.tangents, 4);
         }

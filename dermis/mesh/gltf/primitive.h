@@ -35,6 +35,7 @@ struct Influences {
 /// file has none.
 struct Primitive {
     std::vector<float> positions, normals, tangents, uvs, colors;
+    std::vector<float> unmorphed;  ///< positions before targets that have no normals moved them; else empty
     Influences influences;
     std::vector<uint32_t> indices;  ///< a triangle list
 };
