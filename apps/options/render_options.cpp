@@ -22,7 +22,7 @@ void RenderOptions::add_to(Command& command) {
         .add_option("--view", view,
                     "what is shown: final, diffuse, specular, normal, albedo, curvature, shadow, ...")
         ->capture_default_str();
-    command.add_option("--samples", samples, {1, 4}, "samples a pixel: 1 or 4")->capture_default_str();
+    command.add_option("--samples", samples, {1, 4}, "samples per pixel: 1 or 4")->capture_default_str();
     command.add_option("--device", device, "use the Vulkan device with this text in its name");
     command.add_flag("--validate", validation, "run under the Vulkan validation layers; fail on any message");
 }

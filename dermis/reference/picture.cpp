@@ -153,7 +153,7 @@ Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSet
 Result<void> check_range(const ReferenceSettings& settings, SampleRange range) {
     const auto text = [](SampleRange r) { return std::to_string(r.begin) + ":" + std::to_string(r.end); };
     if (settings.noise)
-        return Error{"a range of samples has all of its samples: leave out --noise, and state --samples"};
+        return Error{"a range needs a fixed number of samples: leave out --noise, set --samples"};
     if (settings.samples % kSampleBlock != 0 || settings.samples < 2 * kSampleBlock)
         return Error{
             "a picture made of parts has whole blocks of four samples a pixel, two at least; "

@@ -33,8 +33,8 @@ Result<void> refuse_words(const std::string& name, const SceneOptions& options) 
     if (word == options.words.end()) return {};
     SceneDescription any{.meshes = {{.file = {.text = name}}}};
     if (Result<void> set = set_word(any, *word, options.subjects); !set) return set;
-    return Error{word->key + ": read while a scene file is loaded, and " + name +
-                 " is none; write a scene file with [[mesh]] file = \"" + name + "\""};
+    return Error{word->key + ": cannot be changed for " + name +
+                 "; write a scene file with [[mesh]] file = \"" + name + "\""};
 }
 
 Result<Scene> load_scene_file(const fs::path& path, const SceneOptions& options) {

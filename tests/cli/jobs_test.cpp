@@ -151,7 +151,7 @@ TEST_F(Jobs, frames_and_comparisons_are_lines_too) {
 TEST_F(Jobs, what_is_no_job_is_refused_with_its_line) {
     expect_error("", "wrong.txt: no line has a command");
     expect_error("reference spheres --noise 0.1 -o a.exr\n",
-                 "wrong.txt:1: a range of samples has all of its samples");
+                 "wrong.txt:1: a range needs a fixed number of samples");
     expect_error("\nreference spheres --samples 16 --sample-range 0:4 -o a.exr\n",
                  "wrong.txt:2: --sample-range: dermis jobs chooses");
     expect_error("render spheres --frames 4 --frame-range 0:1 -o %d.png\n",

@@ -95,7 +95,7 @@ void add_figures_command(CommandLine& line) {
     command->add_option("--size", options->size, {16, 2048}, "height of a cell in pixels")
         ->capture_default_str();
     command->add_option("--only", options->only, "draw only the figure with this id");
-    command->add_option("--samples", options->samples, {1, 4}, "samples a pixel: 1 or 4")
+    command->add_option("--samples", options->samples, {1, 4}, "samples per pixel: 1 or 4")
         ->capture_default_str();
     command->add_option("--device", options->device, "use the Vulkan device with this text in its name");
     line.when_chosen(

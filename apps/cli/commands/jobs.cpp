@@ -150,8 +150,8 @@ void add_jobs_command(CommandLine& line) {
                  "    reference head_scan --size 3840x2160 --samples 1024 -o out/head.exr\n"
                  "    render head_scan --frames 240 --turn 360 -o out/turn/%04d.png\n"
                  "    compare head_scan -o out/compare\n"
-                 "  Samples and frames are split, a comparison is one job. What is done is not done again.");
-    command->add_option("COMMANDS", options->commands, "file with a command a line")->required();
+                 "  Samples and frames are split, a comparison is one job. Finished jobs are skipped.");
+    command->add_option("COMMANDS", options->commands, "file with one command per line")->required();
     command->add_output("--folder", options->folder, "folder for lists, parts and logs")
         ->capture_default_str();
     command->add_option("--parts", options->parts, {1, 16384}, "maximum parts of a picture or a turn")

@@ -45,7 +45,7 @@ void add_lint_command(CommandLine& line) {
         ->add_option("FILE", options->path, "PNG, EXR, DDS, KTX2, or CSV with n_dot_l,curvature_per_mm,r,g,b")
         ->required();
     command->add_flag("--write-sidecar", options->write_sidecar,
-                      "write what was found as FILE.json, so that diffuse_table takes the file");
+                      "write the convention to FILE.json, so that diffuse_table accepts the table");
     line.when_chosen(
         command,
         [options] {

@@ -39,7 +39,7 @@ void add_passes_command(CommandLine& line) {
         ->required();
     command->add_option("--set", options->settings, "a parameter, name=value; may be repeated")
         ->allow_extra_args(false);
-    command->add_option("--samples", options->samples, {1, 4}, "samples a pixel: 1 or 4")
+    command->add_option("--samples", options->samples, {1, 4}, "samples per pixel: 1 or 4")
         ->capture_default_str();
     command->add_option("--view", options->view, "debug view")->capture_default_str();
     line.when_chosen(command, writes_nothing, [options] { return print_passes(*options); });

@@ -224,9 +224,8 @@ void add_profile_command(CommandLine& line) {
     convert_command->add_option("NAME", options->conversion.name, name_help);
     convert_command->add_option("--from", options->conversion.from,
                                 "read the settings of this tool instead of a profile");
-    convert_command->add_option(
-        "--set", options->conversion.assignments,
-        "KEY=NUMBER or KEY=R,G,B of --from; what is not set keeps the tool's default");
+    convert_command->add_option("--set", options->conversion.assignments,
+                                "KEY=NUMBER or KEY=R,G,B of --from; other keys keep the tool's default");
     convert_command->add_option("--to", options->conversion.to, tool_list() + "or all");
     convert_command->add_output("-o,--output", options->output,
                                 "file to write instead: .mtlx, an OpenPBR surface of MaterialX");

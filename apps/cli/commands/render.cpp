@@ -38,9 +38,9 @@ Result<IndexRange> frames_of(const Options& options) {
     const Result<IndexRange> range = parse_index_range("--frame-range", options.frame_range);
     if (!range) return range;
     if (!numbered || range->begin >= range->end || range->end > options.frames)
-        return Error{"--frame-range " + options.frame_range + ": some of the " +
+        return Error{"--frame-range " + options.frame_range + ": not a range of the " +
                      std::to_string(options.frames) +
-                     " numbered frames (--frames, -o out/%04d.png), such as 0:1"};
+                     " numbered frames (--frames, -o out/%04d.png); write BEGIN:END, such as 0:1"};
     return range;
 }
 
@@ -217,7 +217,7 @@ void add_render_command(CommandLine& line) {
                      "angle in degrees that the camera turns over all frames")
         ->capture_default_str();
     command->add_flag("--timings", options->timings,
-                      "print the time of each pass (median, first frame left out)");
+                      "print the time of each pass (median without the first frame)");
     command->add_flag("--json", options->json, "print one JSON object instead");
     line.when_chosen(
         command, [options] { return files_of(*options); }, [options] { return render(*options); },
