@@ -1,5 +1,5 @@
 #pragma once
-// Values as bytes, one after the other, vectors and text with their length: what an entry of the cache holds.
+// Values as consecutive bytes, vectors and text with their length: the content of a cache entry.
 
 #include <algorithm>
 #include <cstddef>
@@ -53,7 +53,7 @@ template <class T>
     return true;
 }
 
-/// A vector that is not empty keeps its length: another one is refused.
+/// Refuses bytes of another length than a vector that is not empty.
 template <class T>
 [[nodiscard]] bool take(std::span<const std::byte>& bytes, std::vector<T>& values) {
     uint64_t count = 0;
@@ -77,8 +77,7 @@ template <class... T>
     return bytes;
 }
 
-/// The values that pack() made bytes of. False, with some of the values changed, where `bytes` are not
-/// exactly such values.
+/// The inverse of pack(). Returns false if `bytes` do not hold exactly these values; some may have changed.
 template <class... T>
 [[nodiscard]] bool unpack(std::span<const std::byte> bytes, T&... values) {
     return (take(bytes, values) && ...) && bytes.empty();

@@ -1,7 +1,7 @@
 #pragma once
 // The disk cache of everything expensive, by content hash: $DERMIS_CACHE, else $XDG_CACHE_HOME/dermis, else
-// ~/.cache/dermis (Windows: %LOCALAPPDATA%/dermis/cache). Deleting it is always safe. If a
-// file cannot be written, the caller goes on and computes the result again next time.
+// ~/.cache/dermis (Windows: %LOCALAPPDATA%/dermis/cache). Deleting it is always safe. If a file cannot be
+// written, the caller continues without it.
 
 #include <filesystem>
 #include <optional>
@@ -17,15 +17,15 @@ namespace dermis::inline base {
 
 [[nodiscard]] std::filesystem::path cache_directory();
 
-/// The bytes stored as `kind`/`hash`, or nothing. The stored file carries a checksum of its name and content:
-/// damage, and another entry's content, read as absence.
+/// The bytes stored as `kind`/`hash`, or nothing. A checksum of name and content makes a damaged or renamed
+/// file count as missing.
 [[nodiscard]] std::optional<std::vector<std::byte>> cache_load(std::string_view kind, std::string_view hash);
 
 /// Best effort; false when nothing could be stored (a full disk, a read-only home).
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);
 
-/// Loads values into a std::tie() of them. A vector that is not empty has to have the length of the stored
-/// one. Returns false when there is no such entry; the values are then undefined.
+/// Loads into a std::tie() of values. A vector that is not empty must have the length of the stored one.
+/// Returns false if there is no such entry; the values are then undefined.
 template <class... T>
 [[nodiscard]] bool cache_load(std::string_view kind, std::string_view hash, std::tuple<T&...> values) {
     const auto bytes = cache_load(kind, hash);
@@ -36,8 +36,7 @@ bool cache_store(std::string_view kind, std::string_view hash, std::tuple<T&...>
     return cache_store(kind, hash, std::apply([](const T&... value) { return pack(value...); }, values));
 }
 
-/// Loads into `blank`, or makes and stores. `parts` gives the members of a T that are stored, as a
-/// std::tie().
+/// Loads a T from the cache, or makes and stores it. `parts` returns the stored members as a std::tie().
 template <class T, class Make, class Parts>
 [[nodiscard]] Result<T> cached(std::string_view kind, std::string_view hash, T blank, const Make& make,
                                const Parts& parts) {
@@ -47,7 +46,7 @@ template <class T, class Make, class Parts>
     return made;
 }
 
-/// Of a vector, which is stored itself.
+/// The same for a vector.
 template <class T, class Make>
 [[nodiscard]] Result<std::vector<T>> cached(std::string_view kind, std::string_view hash,
                                             std::vector<T> blank, const Make& make) {

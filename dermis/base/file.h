@@ -14,12 +14,11 @@
 
 namespace dermis::inline base {
 
-/// The path of a name in UTF-8, which names inside of files and in arguments are. std::filesystem::path takes
-/// plain text for the system's encoding, which on Windows is another one. Where bytes are not UTF-8,
-/// Windows gets U+FFFD.
+/// The path of a UTF-8 name, such as names in files and arguments. (std::filesystem::path reads plain text in
+/// the system's encoding, which differs on Windows.) On Windows, bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::filesystem::path utf8_path(std::string_view name);
 
-/// Largest file any loader reads, so that a wrong path (a device, a disk image) cannot exhaust memory.
+/// Largest file that a loader reads: a wrong path (a disk image) must not exhaust memory.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 
 /// The whole file. Errors: missing, a directory, a pipe or device, unreadable, larger than kMaxFileBytes; the
@@ -32,8 +31,8 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{2} << 30;
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// Files that are one result: all are written beside their targets before the first is renamed over its own,
-/// so a full disk leaves none of them new.
+/// Files of one result: all are written beside their targets before the first is renamed, so a full disk
+/// changes none of them.
 struct FileContent {
     std::filesystem::path path;
     std::span<const std::byte> bytes;
@@ -46,16 +45,16 @@ struct FileContent {
     const std::filesystem::path& path,
     const std::function<Result<void>(const std::filesystem::path&)>& write);
 
-/// Whether write_file() could write there, before hours of work: makes a file beside the target and removes
-/// it again with every directory that it needed. Errors as those of write_file().
+/// Checks before long work that write_file() can write there: makes a file beside the target and removes it
+/// with every directory that it made. Errors as write_file().
 [[nodiscard]] Result<void> try_output(const std::filesystem::path& path);
 
-/// Removes the temporary files of the functions above that exist now. For the end of a program: it may be
-/// called by a signal handler, and where memory is exhausted.
+/// Removes the temporary files of the functions above. Safe in a signal handler and when memory is
+/// exhausted.
 void remove_temporary_files() noexcept;
 
-/// From here on an interrupt, a hangup or a request to end removes the temporary files of the functions above
-/// before the program ends. For programs, not for libraries: it replaces the handlers of these signals.
+/// Makes SIGINT, SIGHUP and SIGTERM remove the temporary files of the functions above before the program
+/// ends. For programs, not for libraries: replaces the handlers of these signals.
 void remove_temporary_files_on_signals();
 
 [[nodiscard]] inline std::span<const std::byte> as_bytes(std::string_view text) {

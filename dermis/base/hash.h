@@ -1,5 +1,5 @@
 #pragma once
-// Content hashes: the name under which anything expensive is cached.
+// Content hashes: the names of cache entries.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace dermis::inline base {
 
-/// 128-bit XXH3 over everything added, in order. Lengths are hashed too, so ("ab","c") differs from
+/// 128-bit XXH3 of everything added, in order. Lengths are hashed too, so ("ab","c") differs from
 /// ("a","bc"). Not for security. About 10 GB/s on one core.
 class Hasher {
   public:
@@ -32,7 +32,7 @@ class Hasher {
         return add(std::as_bytes(std::span(values)));
     }
 
-    /// 32 hexadecimal digits of all that was added so far.
+    /// The hash of everything added so far, as 32 hexadecimal digits.
     [[nodiscard]] std::string hex() const;
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// The one wording for what was left out when the libraries were built (cmake/Parts.cmake).
+// The error for a part that was switched off in the build (cmake/Parts.cmake).
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether the files that a command is to write can be written and destroy nothing.
+// Checks that a command can write its files and overwrites none of its inputs.
 
 #include <filesystem>
 #include <vector>
@@ -10,13 +10,13 @@ namespace dermis::inline base {
 
 struct FileUse {
     std::vector<std::filesystem::path> outputs;
-    /// Files that must stay as they are. What does not exist is left out: it may be the name of a built-in.
+    /// Files that must not be overwritten. Missing ones are ignored: they may be names of built-in scenes.
     std::vector<std::filesystem::path> inputs;
 };
 
 /// Errors: a path that is written twice, an output that is one of the inputs, an output that is a directory
-/// or cannot be written. Paths are the same if they lead to the same file: by a link, by "./", by another
-/// name of it. Writes and removes one trial file in every folder; leaves nothing.
+/// or cannot be written. Paths are equal if they lead to the same file (links, "./"). Writes and removes one
+/// trial file in every folder.
 [[nodiscard]] Result<void> check_outputs(const FileUse& files);
 
 }  // namespace dermis::inline base

@@ -49,7 +49,7 @@ struct ParameterTable {
     [[nodiscard]] std::vector<std::string> names() const;
 };
 
-/// A Params in memory, reachable by name through its table (which must outlive it).
+/// A Params whose members are accessible by name through its table, which must outlive it.
 class ParameterValues {
   public:
     explicit ParameterValues(const ParameterTable& table)
@@ -57,13 +57,13 @@ class ParameterValues {
 
     [[nodiscard]] const ParameterTable& table() const { return *table_; }
 
-    /// From text as --set and scene files have it: a number, on/off, a choice's name, or three numbers
+    /// From text as in --set and scene files: a number, on/off, a choice's name, or three numbers
     /// separated by commas or spaces. "preset" sets every parameter to those of the preset. Errors name the
     /// parameter, the value, and its range or choices.
     [[nodiscard]] Result<void> set(std::string_view name, std::string_view text);
     /// "name=value" each, in this order.
     [[nodiscard]] Result<void> set_all(std::span<const std::string> settings);
-    /// Settings without an order, as a file has them: the preset first.
+    /// Unordered settings, as in a file: applies the preset first.
     [[nodiscard]] Result<void> set_all(const std::map<std::string, std::string>& settings);
     /// The first preset that has these values; null: none.
     [[nodiscard]] const ParameterPreset* preset() const;
@@ -71,13 +71,13 @@ class ParameterValues {
     [[nodiscard]] std::string text(const Parameter& parameter) const;
     [[nodiscard]] std::array<double, 3> get(const Parameter& parameter) const;
     void put(const Parameter& parameter, std::array<double, 3> value);
-    /// All of them, unchecked; `Params` is what the table was built for.
+    /// Sets all members without checks; `Params` is the type of the table.
     template <class Params>
     void put_all(const Params& params) {
         std::memcpy(bytes_.data(), &params, sizeof params);
     }
 
-    /// Error: a value out of its range or not a number, as set() has it.
+    /// Error: a value that set() refuses.
     [[nodiscard]] Result<void> check() const;
 
     template <class Params>
@@ -160,7 +160,7 @@ class ParameterTableBuilder {
             {std::move(name), "linear", std::move(doc), ParameterKind::color, min, max, {c.x, c.y, c.z}});
     }
 
-    /// The rows of a part of Params that several techniques share; `rows` is the part's own table.
+    /// Adds the rows of a part of Params that several techniques share; `rows` is the part's table.
     template <class Part>
     ParameterTableBuilder& part(Part Params::*member, const ParameterTable& rows) {
         ParameterValues values(rows);

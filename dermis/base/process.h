@@ -1,5 +1,5 @@
 #pragma once
-// Other programs, run and waited for.
+// Runs other programs.
 
 #include <filesystem>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace dermis::inline base {
 
-/// Runs arguments[0] (looked for in PATH) with both its outputs in the file `log`, and waits. Its exit
-/// status; 127 or -1 when it cannot be started or was killed. No shell: arguments are taken as they are.
+/// Runs arguments[0] (searched in PATH) without a shell, both outputs in the file `log`, and waits. Returns
+/// its exit status; 127 or -1 if it cannot be started or was killed.
 [[nodiscard]] int run_program(const std::vector<std::string>& arguments, const std::filesystem::path& log);
 
 }  // namespace dermis::inline base

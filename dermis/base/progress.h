@@ -20,8 +20,8 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
 
     void advance(size_t items = 1);
-    /// For work whose amount is an estimate: what share of it is done, 0 to 1; it may fall. `what` replaces
-    /// the line's text unless it is empty. From one thread.
+    /// For estimated work: the share that is done, 0 to 1; it may fall. `what` replaces the line's text
+    /// unless it is empty. Call from one thread.
     void set(double fraction, std::string_view what = {});
 
   private:

@@ -1,7 +1,7 @@
 #pragma once
-// Result<T>: a value, or one line that says what was wrong with the input, where, and what would be right.
+// Result<T>: a value, or one line for the user: what is wrong with the input, where, and what is right.
 //
-// For bad input, files and devices only; a broken assumption of ours is an assert. Nothing here throws.
+// For bad input, files and devices; broken assumptions are asserts. Nothing here throws.
 //
 //     Result<void> copy(const std::string& from, const std::string& to) {
 //         DERMIS_TRY_ASSIGN(const Image image, read_image(from));  // returns the error, or has the value
@@ -15,7 +15,7 @@
 #include <utility>
 #include <variant>
 
-/// Returns the error of a Result from this function; otherwise goes on.
+/// Returns the error of a Result from this function; otherwise continues.
 #define DERMIS_TRY(...) \
     if (const auto dermis_tried = (__VA_ARGS__); !dermis_tried) return dermis_tried.error()
 /// Two statements, for a block: returns the error, or gives the value to a new or declared variable.

@@ -86,7 +86,7 @@ inline float length(Vec3 a) {
     return std::sqrt(dot(a, a));
 }
 
-/// A zero (or denormal) vector stays zero: degenerate triangles must not make NaN.
+/// A zero or denormal vector stays zero, so degenerate triangles give no NaN.
 inline Vec3 normalize(Vec3 a) {
     const float l = length(a);
     return l > 1e-30f ? a * (1.0f / l) : Vec3{};

@@ -7,8 +7,8 @@
 
 namespace dermis::inline base {
 
-/// Each warning once, at the place of the first, with " (3 times)" where it came more often; one line for a
-/// terminal each; at most 50, then how many more there are.
+/// Each warning once, in order of first appearance, with " (3 times)" if repeated, as one line for a
+/// terminal; at most 50, then the number of the others.
 void tidy_warnings(std::vector<std::string>& warnings);
 
 }  // namespace dermis::inline base

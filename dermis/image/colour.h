@@ -71,18 +71,17 @@ inline constexpr Mat3 kLinearFromAcesCg = {{{1.7050510f, -0.6217921f, -0.0832589
     return lab_from_xyz(kXyzFromLinear * c_linear);
 }
 
-/// Mean albedo of the bare skin of tone 1 to 6 (clamped), linear sRGB; between two, straight in CIELAB.
-/// Tones IV to VI have the lightness of OpenPBR's skin examples; I to III are darkened in even steps, because
-/// those examples are lighter than faces. Hue and chroma follow measurements of faces: redness hardly
-/// differs, yellowness rises from fair to brown skin and falls in dark skin (Xiao et al. 2017). docs/bust.md
-/// has both tables.
+/// Mean albedo of bare skin of tone 1 to 6 (clamped), linear sRGB; interpolated linearly in CIELAB.
+/// Tones IV to VI have the lightness of OpenPBR's skin examples; I to III are darker, in even steps, because
+/// those examples are lighter than faces. Hue and chroma follow measurements of faces (Xiao et al. 2017).
+/// docs/bust.md has the table.
 [[nodiscard]] Vec3 skin_tone_albedo_linear(double tone);
 
-/// The albedo with more (or less, if negative) melanin and blood than it has: each multiplies it by
+/// Adds melanin and blood (removes, if negative) to an albedo: each multiplies it by
 /// exp(-amount * absorption), a linear step in the logarithm (Tsumura et al. 2003, Image-based skin color and
 /// texture analysis/synthesis). Absorption is relative to green's: melanin's falls as wavelength^-3.33
 /// (Jacques 1998), blood's is that of haemoglobin, three quarters of it with oxygen; at 610, 545 and 465 nm.
-/// An amount of 0.1 takes 10 % of green.
+/// An amount of 0.1 removes 10 % of green.
 [[nodiscard]] Vec3 with_pigments(Vec3 albedo_linear, float melanin, float blood);
 
 }  // namespace dermis::inline image

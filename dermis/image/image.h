@@ -13,17 +13,16 @@ namespace dermis::inline image {
 
 enum class PixelFormat { u8, u16, f16, f32 };
 
-/// Meaning of the numbers: light or data as they are, or sRGB-encoded colour that is decoded before any
-/// arithmetic.
+/// Meaning of the numbers: linear light or data, or sRGB-encoded colour that is decoded before arithmetic.
 enum class Encoding { linear, srgb };
 
 [[nodiscard]] size_t bytes_per_channel(PixelFormat format);
 
-/// Largest side of any image dermis reads or makes.
+/// Largest side of an image that Dermis reads or makes.
 inline constexpr int kMaxImageSide = 16384;
 
-/// Most bytes one image may take as 32-bit floats, the form in which it is worked on: 2 GiB, or the number of
-/// MiB in the environment's DERMIS_MAX_IMAGE_MIB. Error: not a positive number.
+/// Most bytes of an image as 32-bit floats: 2 GiB, or the number of MiB in the environment variable
+/// DERMIS_MAX_IMAGE_MIB. Error: not a positive number.
 [[nodiscard]] Result<uint64_t> max_image_bytes();
 
 /// Value type; copies are deep. Integer formats hold 0..1 as 0..255 or 0..65535. Channels: 1 to 4 (red,
@@ -66,9 +65,8 @@ struct Image {
     }
 };
 
-/// Whether an image of this size may be made: an error says which limit it breaks (no texels, a side over
-/// kMaxImageSide, more than max_image_bytes()). For sizes that come from outside; Image() itself only
-/// asserts.
+/// Checks the size of an image from outside. Errors: no texels, a side over kMaxImageSide, more than
+/// max_image_bytes(). Image() itself only asserts.
 [[nodiscard]] Result<void> check_image_size(uint64_t width, uint64_t height, int channels);
 
 /// Which channel is alpha, or -1: the fourth of four, the second of two sRGB-encoded ones.
@@ -77,7 +75,7 @@ struct Image {
 /// One channel as stored.
 [[nodiscard]] Image single_channel(const Image& image, int channel);
 
-/// Whether red, green and blue differ by at most `tolerance` everywhere; true of one channel.
+/// Whether red, green and blue differ by at most `tolerance` everywhere; true for one channel.
 [[nodiscard]] bool is_grey(const Image& image, float tolerance = 0);
 
 /// f32, linear: integers to 0..1, sRGB decoded (alpha excepted). 2048x2048 RGB u8: 45 ms of one core.

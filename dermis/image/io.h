@@ -11,11 +11,11 @@
 
 namespace dermis::inline image {
 
-/// How a file's integers are to be taken. Colour maps are sRGB unless the file says otherwise; normal maps,
+/// How to read a file's integers. Colour maps are sRGB unless the file says otherwise; normal maps,
 /// roughness, curvature and tables are data. Float files are always linear.
 enum class ImageUse { color, data };
 
-/// Text that travels inside a file (PNG iTXt, EXR header attributes): sidecar JSON, credit lines.
+/// Text inside a file (PNG iTXt, EXR header attributes): sidecar JSON, credit lines.
 using ImageText = std::map<std::string, std::string>;
 
 struct LoadedImage {
@@ -33,10 +33,10 @@ struct LoadedImage {
                                                ImageUse use);
 
 /// By extension: .png (u8 or u16 as the image is; f16 and f32 become u8 sRGB), .exr (f16 or f32 as the image
-/// is; u8 becomes f16, u16 f32), .hdr (RGB), .dds and .ktx2 (RGBA16F, no mips). Written beside and renamed.
-/// Everything but PNG is linear. Where a format has more channels than the image, one channel is grey, two
+/// is; u8 becomes f16, u16 f32), .hdr (RGB), .dds and .ktx2 (RGBA16F, no mips). Written as by write_file().
+/// All but PNG are linear. Where a format has more channels than the image, one channel is grey, two
 /// are red and green, alpha is 1; .hdr drops alpha. PNG (iTXt), EXR (string attributes) and KTX2 (key/value
-/// data) carry the text; .hdr and .dds have no place for it and leave it out. Text keys: plain ASCII, at most
+/// data) hold the text; .hdr and .dds leave it out. Text keys: plain ASCII, at most
 /// 79 characters.
 [[nodiscard]] Result<void> write_image(const std::filesystem::path& path, const Image& image,
                                        const ImageText& text = {});
@@ -44,8 +44,8 @@ struct LoadedImage {
 [[nodiscard]] Result<std::vector<std::byte>> encode_image(std::string_view extension, const Image& image,
                                                           const ImageText& text = {});
 
-/// A JPEG of one or three channels of 8 bits, as they are stored; `quality` 1 to 100. Colours (sRGB) have
-/// half the resolution in chroma, data have all of it. Errors: another kind of image.
+/// A JPEG of one or three channels of 8 bits; `quality` 1 to 100. Colours (sRGB) have chroma of half the
+/// resolution, data of full resolution. Errors: another kind of image.
 [[nodiscard]] Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality);
 
 /// One named part of a layered EXR; channels appear as "name.R", or plain "R" when the name is empty. One

@@ -12,8 +12,7 @@
 
 namespace dermis::inline image {
 
-/// $DERMIS_FONT (any file FreeType reads), or DejaVuSans.ttf where the systems put it. The error names the
-/// package.
+/// $DERMIS_FONT (any file that FreeType reads), or the system's DejaVuSans.ttf. The error names the package.
 [[nodiscard]] Result<std::filesystem::path> find_font();
 
 struct TextStyle {
@@ -21,8 +20,8 @@ struct TextStyle {
     Vec3 color = {0.9f, 0.9f, 0.9f};  ///< as the image stores it: sRGB-encoded in a display picture
 };
 
-/// A font and its glyphs at any size. Text is UTF-8; a byte that is none, or a character the font lacks,
-/// shows as a box. Move-only; one thread at a time.
+/// A font and its glyphs at any size. Text is UTF-8; invalid bytes and missing characters are drawn as
+/// boxes. Move-only; one thread at a time.
 class Font {
   public:
     /// Errors: no font found, not a font.
@@ -33,10 +32,10 @@ class Font {
     ~Font();
 
     [[nodiscard]] int width_px(std::string_view text, float size_px) const;
-    /// From one baseline to the next.
+    /// Distance between baselines.
     [[nodiscard]] int line_px(float size_px) const;
     /// Blends the text over the colour channels (the first three at most); x is its left end, y the top of
-    /// its line. What lies outside the image is clipped.
+    /// its line. Clipped to the image.
     void draw(Image& image, int x, int y, std::string_view text, const TextStyle& style) const;
     /// Lines no wider than `width_px`, broken at spaces; a single word may be wider.
     [[nodiscard]] std::vector<std::string> wrap(std::string_view text, float size_px, int width_px) const;

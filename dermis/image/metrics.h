@@ -1,7 +1,7 @@
 #pragma once
 // Differences between two pictures.
 //
-// Both images have one size and one number of channels, in any format; they are decoded to linear light.
+// Both images have the same size and number of channels, in any format; they are decoded to linear light.
 // Alpha is ignored. max_abs_error, rmse and rel_mse compare linear numbers and suit HDR and data. The others
 // compare linear sRGB clamped to 0..1: tone-map HDR pictures first. One channel counts as grey.
 //
@@ -56,8 +56,8 @@ inline constexpr double kFlipPixelsPerDegree = 67.02;
 [[nodiscard]] Result<double> mean_flip(const Image& image, const Image& reference, const Image& mask = {},
                                        double pixels_per_degree = kFlipPixelsPerDegree);
 
-/// The same a texel, as f32 images of one channel, for pictures of where the error is. abs_difference_map is
-/// the largest over the channels, of linear values; ssim_map repeats the border.
+/// The same per texel, as f32 images of one channel. abs_difference_map is the largest over the channels, of
+/// linear values; ssim_map repeats the border.
 [[nodiscard]] Result<Image> abs_difference_map(const Image& image, const Image& reference);
 [[nodiscard]] Result<Image> ssim_map(const Image& image, const Image& reference);
 [[nodiscard]] Result<Image> ciede2000_map(const Image& image, const Image& reference);

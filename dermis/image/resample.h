@@ -13,10 +13,9 @@ namespace dermis::inline image {
 /// Vectors are n * 0.5 + 0.5 in integer formats and n itself in f16 and f32; a fourth channel is a number.
 enum class Texels { values, unit_vectors };
 
-/// To any size, each axis by itself: the average over a texel's area where it shrinks (box filter, exact for
-/// ratios that are not integers), linear interpolation between texel centres where it grows. Format and
-/// encoding stay. Channels are independent: colour is not weighted by alpha. 2048x2048 RGB u8 to half takes
-/// about 120 ms.
+/// To any size, each axis by itself: a box filter where the image shrinks (exact for ratios that are not
+/// integers), linear interpolation between texel centres where it grows. Format and encoding stay. Channels
+/// are independent: colour is not weighted by alpha. 2048x2048 RGB u8 to half takes about 120 ms.
 [[nodiscard]] Image resize(const Image& image, int width, int height, Texels texels = Texels::values);
 
 /// The image and its halves, quarters ... down to 1x1; sides halve rounding down, as Vulkan's levels do. Each
@@ -24,9 +23,9 @@ enum class Texels { values, unit_vectors };
 [[nodiscard]] std::vector<Image> mip_chain(const Image& image, Texels texels = Texels::values);
 
 /// Linear interpolation between the four nearest texel centres of an f32 linear image. (0,0) is the upper
-/// left corner of the upper left texel, v points down. One channel comes back as grey, missing green and blue
-/// are 0, missing alpha is 1. uv may be any finite number; outside
-/// 0..1 the border's texels are repeated.
+/// left corner of the upper left texel, v points down. One channel is returned as grey; missing green and
+/// blue are 0, missing alpha is 1. uv may be any finite number; outside 0..1 the border's texels are
+/// repeated.
 [[nodiscard]] Vec4 sample_bilinear(const Image& image, Vec2 uv);
 
 }  // namespace dermis::inline image

@@ -1,5 +1,5 @@
 #pragma once
-// Tone mapping: scene light to what a display shows. Linear sRGB in, linear sRGB in 0..1 out; the sRGB
+// Tone mapping: scene light to display. Linear sRGB in, linear sRGB in 0..1 out; the sRGB
 // encoding comes after. All curves map 0 to 0 and are monotone in grey.
 //
 //     none     clamps
@@ -7,8 +7,8 @@
 //              channel at a time (bright colours lose saturation)
 //     aces     the ACES reference and sRGB output transforms as S. Hill fitted them (BakingLab, 2016): light
 //              of 1 becomes 0.62 (0.81 encoded)
-//     pbr_neutral  Khronos PBR Neutral (E. Malan, 2024): colours up to 0.8 stay as they are less the Fresnel
-//              reflection of 0.04, only highlights are compressed; the one to judge skin albedo by
+//     pbr_neutral  Khronos PBR Neutral (E. Malan, 2024): colours up to 0.8 lose only the Fresnel
+//              reflection of 0.04, highlights are compressed; the one to judge skin albedo by
 
 #include <span>
 #include <string>
@@ -28,8 +28,8 @@ enum class ToneMap { none, hable, aces, pbr_neutral };
 /// Negative components count as 0.
 [[nodiscard]] Vec3 tone_map(ToneMap curve, Vec3 c_linear);
 
-/// A whole picture of three or four channels, any format: `exposure` multiplies the light first (2^EV), alpha
-/// passes. The result is f32 and linear.
+/// A picture of three or four channels, any format: `exposure` (2^EV) multiplies the light first, alpha is
+/// kept. The result is f32 and linear.
 [[nodiscard]] Image tone_mapped(const Image& image, ToneMap curve, float exposure = 1.0f);
 
 }  // namespace dermis::inline image

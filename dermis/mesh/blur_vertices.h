@@ -11,9 +11,9 @@
 
 namespace dermis::inline mesh {
 
-/// `values`, one a vertex, blurred by about a Gaussian of `variance_mm2` an axis along the surface, 0 or
-/// more. Vertices at one place are one, so that UV seams do not show. Linear, keeps constants and, weighted
-/// by area, the sum.
+/// Blurs `values`, one per vertex, by about a Gaussian of `variance_mm2` (0 or more) per axis along the
+/// surface. Vertices at one position count as one, so UV seams do not show. Linear; keeps constants and the
+/// sum weighted by area.
 ///
 /// Heat on the surface (Desbrun et al. 1999, "Implicit Fairing of Irregular Meshes"): two implicit steps of
 /// (A + t L) u' = A u with the areas A, the cotangent Laplacian L (negative weights counted as 0), and

@@ -1,5 +1,5 @@
 #pragma once
-// How a mesh bends: the curvature tensor, and the signed mean curvature.
+// Curvature of a mesh: the tensor and the signed mean curvature.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace dermis::inline mesh {
 
-/// Standard deviation of the smoothing of curvature for shading: captures more of the effect of scattering
-/// than 3 mm (`preintegrated` on bust and head scan).
+/// Standard deviation of the smoothing of curvature for shading, chosen for the captured share of
+/// `preintegrated` on bust and head scan.
 inline constexpr double kCurvatureSmoothingMm = 1.8;
 
 /// Mean curvature (k1 + k2) / 2 at every vertex in 1/mm: positive where convex, 1/R on a sphere of radius R,
@@ -21,7 +21,7 @@ inline constexpr double kCurvatureSmoothingMm = 1.8;
 ///
 /// `smoothing_mm` 0 fits the two rings around a vertex. Above 0 the fit takes vertices within twice that
 /// distance along the surface (1500 at most), weighted by a Gaussian of that standard deviation. With fewer
-/// than twelve it takes the two rings; where the vertices determine no surface the curvature is 0.
+/// than twelve it takes the two rings; if the vertices determine no surface, the curvature is 0.
 ///
 /// Worst errors: sphere 0.05 % (any tessellation), cylinder of 96 segments 0.24 %, torus of ratio 3 and 192 x
 /// 192 segments 0.8 % of its largest curvature; they fall with the square of the edge length.

@@ -11,14 +11,14 @@
 
 namespace dermis::inline mesh {
 
-/// One closed border: positions in the order in which its triangles turn, so that a cap that turns the other
-/// way continues the surface.
+/// One closed border: positions in the winding order of its triangles; a cap of the opposite order continues
+/// the surface.
 using BorderLoop = std::vector<Vec3>;
 
-/// Edges that only one of the chosen triangles has, joined to loops. Positions that are exactly equal are one
-/// vertex, so UV seams are not borders. `triangles` are numbers into `indices`. Where several borders meet at
-/// one vertex each loop takes the first edge that is left, so every border edge is in exactly one loop or in
-/// a chain that does not close, which is left out.
+/// Joins the edges of only one of the chosen triangles to loops. Equal positions are one vertex, so UV seams
+/// are not borders. `triangles` are numbers into `indices`. Where borders meet at a vertex, each loop takes
+/// the first free edge: every border edge is in exactly one loop, or in a chain that does not close, which is
+/// left out.
 [[nodiscard]] std::vector<BorderLoop> border_loops(std::span<const Vec3> positions_mm,
                                                    std::span<const uint32_t> indices,
                                                    std::span<const uint32_t> triangles);
@@ -28,9 +28,9 @@ struct LoopOrder {
     bool operator()(const BorderLoop& a, const BorderLoop& b) const;
 };
 
-/// Moves the loops that are among `known` behind the others; both parts keep their order. Returns how many
-/// loops are before them. n loops are compared n log n times: a head of hair cards has a border for each
-/// card.
+/// Moves the loops that are among `known` behind the others; both parts keep their order. Returns the number
+/// of loops before them. Takes n log n comparisons: a head can have thousands of hair cards with a border
+/// each.
 template <class Order = LoopOrder>
 [[nodiscard]] size_t put_last(std::vector<BorderLoop>& loops, std::vector<BorderLoop> known,
                               const Order& order = {}) {
@@ -42,15 +42,15 @@ template <class Order = LoopOrder>
     return size_t(from - loops.begin());
 }
 
-/// The triangulation of the loop of smallest area, facing as its surface does: size() - 2 triangles.
-/// Barequet, Sharir 1995, Filling Gaps in the Boundary of a Polyhedron. Cubic time, so above `largest_exact`
-/// vertices every second one is cut off first, until the rest is small enough.
+/// The loop's triangulation of smallest area, facing as its surface does: size() - 2 triangles. Barequet,
+/// Sharir 1995, Filling Gaps in the Boundary of a Polyhedron. Cubic time: while there are more than
+/// `largest_exact` vertices, every second one is cut off.
 inline constexpr size_t kLargestExactLoop = 400;
 [[nodiscard]] std::vector<std::array<Vec3, 3>> cap_of(const BorderLoop& loop,
                                                       size_t largest_exact = kLargestExactLoop);
 
-/// The largest_exact with which the caps of all loops together take a few seconds: kLargestExactLoop but for
-/// a mesh of thousands of long borders.
+/// The largest_exact with which all caps together take a few seconds: kLargestExactLoop, or less for a mesh
+/// of thousands of long borders.
 [[nodiscard]] size_t affordable_exact(std::span<const BorderLoop> loops);
 
 }  // namespace dermis::inline mesh

@@ -95,12 +95,12 @@ struct Material {
     std::optional<Scattering> scattering;
 };
 
-/// Cards of hair and lashes: the value of the alpha map, times the vertices' alpha, below which there is no
-/// surface; 0 where nothing is cut out. Shadows of what is blended are cut out at 0.5 of its map; what is
-/// less than half opaque casts none.
+/// For cards of hair and lashes: there is no surface where the alpha map times the vertices' alpha is below
+/// this value; 0: nothing is cut out. Shadows of blended materials are cut out at 0.5 of the map; materials
+/// less than half opaque cast none.
 [[nodiscard]] float cutoff_of_map(const Material& material);
 
-/// Lies over what is behind it by its opacity, times that of the alpha map and the vertices.
+/// Whether it is blended over the background, by its opacity times that of the alpha map and the vertices.
 [[nodiscard]] bool is_blended(const Material& material);
 
 }  // namespace dermis::inline mesh

@@ -1,6 +1,5 @@
 #pragma once
-// A triangle mesh as the renderer, the bakers and the reference take it: millimetres, indexed, welded by
-// attribute.
+// The triangle mesh of renderer, bakers and reference: millimetres, indexed, welded by attribute.
 
 #include <cstdint>
 #include <string>
@@ -18,10 +17,9 @@ struct Submesh {
     uint32_t material = 0;  ///< into Mesh::materials
 };
 
-/// How a surface bends at a point, as a symmetric matrix in space (1/mm): S d is how fast the unit normal
-/// turns on the way along the unit tangent d, d.S d the curvature of the surface in that direction, positive
-/// where convex, and S n = 0. On a sphere of radius R it is (1 - n n^T) / R, on a cylinder 1/R across its
-/// axis and 0 along it.
+/// Curvature tensor at a point, a symmetric 3x3 matrix in 1/mm: S d is the change of the unit normal per mm
+/// along the unit tangent d, d.S d the curvature in that direction, positive where convex, and S n = 0. On a
+/// sphere of radius R it is (1 - n n^T) / R, on a cylinder 1/R across its axis and 0 along it.
 struct CurvatureTensor {
     Vec3 diagonal;  ///< xx, yy, zz
     Vec3 mixed;     ///< yz, xz, xy
@@ -43,15 +41,15 @@ constexpr CurvatureTensor tangent_curvature(Vec3 t, Vec3 b, float tt_per_mm, flo
     return {of_t * t + of_b * b,
             {of_t.y * t.z + of_b.y * b.z, of_t.x * t.z + of_b.x * b.z, of_t.x * t.y + of_b.x * b.y}};
 }
-/// The tensor of a surface that bends equally in all directions.
+/// The tensor of a surface with the same curvature in all directions.
 constexpr CurvatureTensor isotropic_curvature(float curvature_per_mm, Vec3 n) {
     return {curvature_per_mm * (Vec3{1, 1, 1} - n * n),
             -curvature_per_mm * Vec3{n.y * n.z, n.x * n.z, n.x * n.y}};
 }
 
-/// Structure of arrays; every attribute is empty or has one entry a position. Right-handed, Y up,
-/// counter-clockwise fronts, UV origin top-left (v down, as glTF and Vulkan have it; OBJ's bottom-left is
-/// flipped on load).
+/// Structure of arrays; every attribute is empty or has one entry per position. Right-handed, Y up,
+/// counter-clockwise fronts, UV origin top-left (v down, as in glTF and Vulkan; OBJ is flipped on
+/// load).
 struct Mesh {
     std::vector<Vec3> positions_mm;
     std::vector<Vec3> normals;   ///< unit

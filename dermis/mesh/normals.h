@@ -6,8 +6,7 @@
 namespace dermis::inline mesh {
 
 struct NormalOptions {
-    /// Edges whose faces differ by more stay sharp, and their vertices are split. 180: smooth everywhere, as
-    /// skin is.
+    /// Edges between faces that differ by more stay sharp; their vertices are split. 180: smooth everywhere.
     float crease_angle_deg = 180;
 };
 
@@ -18,10 +17,10 @@ struct NormalOptions {
 /// Drops tangents and curvatures, which depend on the normals. Linear time, about 4 ms per 10,000 vertices.
 void compute_normals(Mesh& mesh, const NormalOptions& options = {});
 
-/// Only where a normal is zero or not finite; the others are kept, and made unit.
+/// Computes only normals that are zero or not finite; normalises the others.
 void complete_normals(Mesh& mesh);
 
-/// The share of triangles whose vertex normals point to their back: over a half, and the file's winding is
+/// The share of triangles whose vertex normals point to their back. Above a half, the file's winding is
 /// reversed.
 [[nodiscard]] double fraction_facing_backwards(const Mesh& mesh);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Wavefront OBJ and MTL, from memory. Internal to dermis/mesh; read_mesh is the way in.
+// Wavefront OBJ and MTL, from memory. Internal to dermis/mesh; others call read_mesh().
 
 #include <filesystem>
 #include <string>
@@ -18,13 +18,12 @@ struct ObjFile {
 };
 
 /// Faces of any size, negative indices, faces without UVs or normals, line continuations; smoothing groups,
-/// lines, points and free-form surfaces are skipped. The first thing wrong is the error, with its line.
+/// lines, points and free-form surfaces are skipped. Returns the first error, with its line.
 [[nodiscard]] Result<ObjFile> parse_obj(std::string_view text, const std::filesystem::path& name,
                                         const ReadSibling& read_sibling, const MeshOptions& options);
 
 /// The materials of an MTL file. Map paths are made relative to the working directory through `directory`.
-/// Unreadable and unused statements become warnings, once each: a head can be drawn without its
-/// gloss map.
+/// Unreadable and unused statements become warnings, once each.
 [[nodiscard]] std::vector<Material> parse_mtl(std::string_view text, const std::string& name,
                                               const std::filesystem::path& directory,
                                               std::vector<std::string>& warnings);

@@ -1,6 +1,5 @@
 #pragma once
-// A polygon mesh whose attributes are indexed per corner: what an OBJ file says, and the cage that
-// subdivision needs. Triangulating it gives the Mesh of everything else.
+// A polygon mesh with attributes indexed per corner: the content of an OBJ file, the cage for subdivision.
 
 #include <cstdint>
 #include <span>
@@ -31,20 +30,19 @@ struct PolygonMesh {
 };
 
 /// Quads are cut along the diagonal that stays inside (the shorter one when both do), larger faces by ear
-/// clipping; corners equal in all attributes become one vertex. One submesh a material, in order of first
+/// clipping; corners equal in all attributes become one vertex. One submesh per material, in order of first
 /// use. A corner without a normal gets the zero vector (compute_normals fills it), one without a UV gets (0,
 /// 0).
 [[nodiscard]] Mesh triangulate(const PolygonMesh& polygons);
 
-/// Polygons of more corners are cut as a fan: ear clipping takes the cube of their number.
+/// Polygons of more corners are cut as a fan, because ear clipping takes cubic time.
 inline constexpr uint32_t kMaxEarClipping = 512;
 
-/// Cuts one polygon into triangles of local corner numbers, three a triangle, size - 2 triangles always (some
-/// without area), appended to `triangles`. A hole is given as files do: the outline runs to it and back along
-/// the same edge.
+/// Cuts one polygon into size - 2 triangles (some may have no area) and appends their local corner numbers to
+/// `triangles`. The outline runs to a hole and back along the same edge.
 void triangulate_polygon(std::span<const Vec3> corners, std::vector<uint32_t>& triangles);
 
-/// The way back, for meshes that were read as triangles: every triangle a face, positions and UVs welded by
+/// The inverse, for meshes that were read as triangles: one face per triangle, positions and UVs welded by
 /// value.
 [[nodiscard]] PolygonMesh polygons_of(const Mesh& mesh);
 

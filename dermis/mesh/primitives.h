@@ -1,6 +1,5 @@
 #pragma once
-// Shapes whose normals, tangents, UVs and curvature are known exactly: for scenes without files, and as what
-// everything that is computed from triangles is tested against.
+// Shapes with exact normals, tangents, UVs and curvature, for scenes without files and for tests.
 
 #include "dermis/mesh/mesh.h"
 

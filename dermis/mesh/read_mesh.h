@@ -17,17 +17,17 @@
 namespace dermis::inline mesh {
 
 struct MeshOptions {
-    /// Millimetres a file unit; none: 1000 for glTF (metres), 1 for OBJ.
+    /// Millimetres per unit of the file; none: 1000 for glTF (metres), 1 for OBJ.
     std::optional<double> unit_mm;
     /// Factor by which the caller scales the mesh later; used by the warning about its height.
     double scale_after = 1;
-    /// Take another unit, with a warning, if a mesh without unit_mm is as tall as no head and no person.
+    /// Choose another unit, with a warning, if a mesh without unit_mm has the height of no head or person.
     bool guess_unit = false;
     /// Catmull-Clark refinements (subdivide.h); OBJ keeps its quads for them.
     int subdivision_level = 0;
     /// Do not warn about a missing MTL: the caller has its own materials.
     bool ignore_missing_materials = false;
-    /// More, also through instancing, is an error before any of them is read.
+    /// More, also by instancing, is an error before any is read.
     size_t max_vertices = 50'000'000;
     /// Most nodes of a glTF file.
     size_t max_nodes = 65'536;
@@ -54,21 +54,20 @@ using ReadSibling = std::function<Result<std::vector<std::byte>>(const std::stri
 /// By its extension: .obj, .gltf or .glb.
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);
 
-/// Node transforms are applied, mirrored ones keep their fronts outside.
-/// Every value of the result is finite and every index in range. Normals are unit, computed where the file
-/// has none (normals.h), and so are tangents (tangents.h).
+/// Applies node transforms; mirrored parts keep their fronts outside. Every value of the result is finite and
+/// every index in range. Normals and tangents are unit, computed where the file has none (normals.h,
+/// tangents.h).
 ///
 /// glTF: skins and morph targets in the pose of the options, else of the file's nodes and weights; where
 /// targets move vertices and have no normals, normals turn as the surface does. The UV set and
-/// KHR_texture_transform of each material's first texture (maps with others are left out together with the
-/// factors that they multiply, with a warning that names both).
+/// KHR_texture_transform of each material's first texture (a warning names maps with others, which are left
+/// out with their factors).
 ///
 /// Errors (one line, naming file and place): unreadable or truncated files, no triangles, positions that are
-/// not finite, indices out of range, missing buffers, URIs that leave the directory, required extensions
-/// unknown here, more vertices or nodes than the options allow.
+/// not finite, indices out of range, missing buffers, URIs that leave the directory, unknown required
+/// extensions, more vertices or nodes than the options allow.
 ///
-/// Warnings: missing MTL, UDIM tiles, UVs absent, a height that no head has, anything in the file that was
-/// skipped.
+/// Warnings: missing MTL, UDIM tiles, missing UVs, a height that no head has, skipped content.
 ///
 /// Cost: see bench/mesh_bench.cpp; a 17,684-triangle OBJ of 3 MB takes about 30 ms on one core.
 [[nodiscard]] Result<LoadedMesh> read_mesh(const std::filesystem::path& path,

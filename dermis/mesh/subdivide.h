@@ -1,5 +1,5 @@
 #pragma once
-// Catmull-Clark subdivision of a polygon cage, and displacement of what comes out.
+// Catmull-Clark subdivision of a polygon cage, and displacement of the result.
 
 #include <functional>
 

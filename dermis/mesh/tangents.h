@@ -18,8 +18,8 @@ namespace dermis::inline mesh {
 /// triangles, and on a scanned head except at 22 corners that touch triangles without UV area.
 void compute_tangents(Mesh& mesh);
 
-/// Makes given tangents unit and perpendicular to their normals; those that are missing (zero) or unusable
-/// are computed as by compute_tangents, the others kept. Without any: compute_tangents.
+/// Makes given tangents unit and perpendicular to their normals; computes missing (zero) and unusable ones
+/// as compute_tangents() does.
 void complete_tangents(Mesh& mesh);
 
 }  // namespace dermis::inline mesh

@@ -21,7 +21,7 @@ class TextCursor {
         return take(size);
     }
 
-    /// The next number, or nothing when the next word is none.
+    /// The next number, or nothing if the next word is not a number.
     std::optional<float> number() {
         skip_blanks();
         if (rest_.starts_with('+')) rest_.remove_prefix(1);
@@ -77,8 +77,7 @@ class TextCursor {
     std::string_view rest_;
 };
 
-/// Lines of a text, one at a time; a backslash at a line's end joins it with the next (the join lives in
-/// `joined`).
+/// Lines of a text, one at a time; a backslash at a line's end joins it with the next (stored in `joined`).
 class LineReader {
   public:
     explicit LineReader(std::string_view text) : rest_(text) {

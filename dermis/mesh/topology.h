@@ -1,5 +1,5 @@
 #pragma once
-// Corners around a position, and which of them hang together.
+// Corners around a position, and their connections by edges.
 
 #include <cstdint>
 #include <span>
@@ -22,8 +22,7 @@ struct Weld {
 /// Records of `width` words each, equal when all words are. Ids follow first appearance. Linear time.
 [[nodiscard]] Weld weld_records(std::span<const uint32_t> words, size_t width);
 
-/// Exactly equal positions (-0 equals +0). Nothing is merged by distance: what a file keeps apart stays
-/// apart.
+/// Merges exactly equal positions (-0 equals +0), none by distance.
 [[nodiscard]] Weld weld_positions(std::span<const Vec3> positions);
 
 /// The bits of a number as a weld key: -0 and +0 give the same.
@@ -79,11 +78,11 @@ void collect_spokes(std::span<const uint32_t> corners, std::span<const uint32_t>
 /// caller's.
 void gather_vertices(Mesh& mesh, std::span<const uint32_t> from);
 
-/// Gives vertices whose corners disagree their own copies. `group_of_corner` has any number for each corner;
-/// corners of a vertex with equal numbers stay one vertex. All attributes present are copied.
+/// Splits vertices whose corners have different groups. `group_of_corner` has any number for each corner;
+/// corners of a vertex with equal numbers stay one vertex. Copies all attributes.
 void split_vertices(Mesh& mesh, std::span<const uint32_t> group_of_corner);
 
-/// Drops vertices no triangle uses.
+/// Drops unused vertices.
 void drop_unused_vertices(Mesh& mesh);
 
 /// Interior angle of a corner in radians; 0 for degenerate triangles.

@@ -16,7 +16,7 @@ struct UvMetric {
 
     [[nodiscard]] float mm_per_u() const;
     [[nodiscard]] float mm_per_v() const;
-    /// Square root of the area on the surface for a unit of UV area: the length to divide by a map's size.
+    /// Square root of the surface's area per unit of UV area; divide it by a map's size for mm per texel.
     [[nodiscard]] float mm_per_uv() const;
     /// Longest over shortest stretch of any direction, at least 1 (Sander et al. 2001, "Texture Mapping
     /// Progressive Meshes", the singular values Gamma and gamma). 0 for degenerate triangles.
@@ -26,12 +26,12 @@ struct UvMetric {
 /// One per triangle. Needs UVs.
 [[nodiscard]] std::vector<UvMetric> triangle_uv_metrics(const Mesh& mesh);
 
-/// One per vertex: the mean over its triangles, weighted by area on the surface. At a UV seam each side
-/// keeps its own. Interpolate it over the UV layout for a stretch map.
+/// One per vertex: the mean over its triangles, weighted by area on the surface; each side of a UV seam has
+/// its own. Interpolate it over the UV layout for a stretch map.
 [[nodiscard]] std::vector<UvMetric> vertex_uv_metrics(const Mesh& mesh);
 
-/// How the surface runs along u and v at a vertex: dP/du and dP/dv in mm for a step of 1 in UV, the mean over
-/// its triangles by area; across a UV seam each side keeps its own. Zero where the UVs have no area.
+/// dP/du and dP/dv at a vertex in mm per unit of UV, the mean over its triangles by area; each side of a UV
+/// seam has its own. Zero where the UVs have no area.
 struct UvDerivatives {
     std::vector<Vec3> du_mm, dv_mm;
 };

@@ -1,6 +1,5 @@
 #pragma once
-// Beyond the border of a UV chart the surface continues in another chart, and filters over the atlas
-// must follow it there.
+// The surface beyond the border of a UV chart, which continues in another chart: for filters over the atlas.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +9,7 @@
 
 namespace dermis::inline mesh {
 
-/// Some triangles of a mesh that share an atlas with those of others.
+/// Triangles of a mesh in an atlas that several meshes share.
 struct AtlasPart {
     const Mesh* mesh = nullptr;
     std::vector<uint32_t> triangles;
@@ -27,8 +26,8 @@ struct SeamMap {
 };
 
 /// Gutters reach `width_texels`; between charts each texel goes to the nearer border. Triangles with UVs
-/// outside 0..1 are left out. Exact for flat neighbours; on a curved surface right to first order. Cost: 60
-/// ms for 130,000 triangles at 1024.
+/// outside 0..1 are left out. Exact for flat neighbours, first order on a curved surface. 60 ms for 130,000
+/// triangles at 1024.
 [[nodiscard]] SeamMap make_seam_map(std::span<const AtlasPart> parts, int size, int width_texels);
 
 }  // namespace dermis::inline mesh

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes to files: GLB for engines, OBJ for everything else.
+// Meshes to files: GLB and OBJ.
 
 #include <filesystem>
 #include <span>
@@ -17,16 +17,15 @@ struct NamedImage {
     std::vector<std::byte> encoded;  ///< the file's bytes
 };
 
-/// glTF 2.0 in metres with all its attributes, one node, one primitive a submesh; atlas_uvs are the second
-/// set of UVs. Materials carry metallic-roughness, and where they have them KHR_materials_volume,
-/// _diffuse_transmission, _volume_scatter, _scatter, _specular, _ior: always optional, never required. Maps
-/// are embedded from `images` by name, or from the material's own bytes. `extras` is the JSON of the
-/// materials' `extras`, in their order; those without, and empty ones, have none. Errors: a map without bytes
-/// or neither PNG nor JPEG, extras that are no JSON, more than 4 GiB, an unwritable file. read_mesh reads it
-/// back, but for extras.
+/// glTF 2.0 in metres with all its attributes, one node, one primitive per submesh; atlas_uvs are the second
+/// set of UVs. Materials have metallic-roughness and, where set, KHR_materials_volume, _diffuse_transmission,
+/// _volume_scatter, _scatter, _specular, _ior, none of them required. Maps are embedded from `images` by
+/// name, or from the material's own bytes. `extras` is the JSON of the materials' `extras`, in their order;
+/// empty: none. Errors: a map without bytes or neither PNG nor JPEG, extras that are not JSON, more than 4
+/// GiB, an unwritable file. read_mesh() reads everything but extras.
 ///
-/// Leaves out what glTF cannot hold: curvature and occlusion, object-space normal maps, maps of
-/// roughness alone, displacement, opacity, kernel size and curvature.
+/// glTF does not hold curvature and occlusion, object-space normal maps, maps of roughness alone,
+/// displacement, opacity, kernel size and curvature.
 [[nodiscard]] Result<void> write_glb(const std::filesystem::path& path, const Mesh& mesh,
                                      std::span<const NamedImage> images = {},
                                      std::span<const std::string> extras = {});
