@@ -9,12 +9,9 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
-#include "dermis/image/io.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
-#include "dermis/scene/skin_pigments.h"
-#include "dermis/scene/skin_tone.h"
 #include "support/built_in.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
@@ -456,57 +453,6 @@ TEST(LoadScene, a_bare_mesh_takes_the_words_of_a_scene) {
     };
     EXPECT_LT(red(*dark), 0.5f * red(*light));
     EXPECT_LT(red(*follows), 0.5f * red(*light));
-}
-
-TEST(LoadScene, skin_from_pigments_has_the_colour_and_the_profile_of_the_model) {
-    const SceneDirectory dir;
-    const std::string face = kMesh + "[material.face]\nalbedo = [0.7, 0.5, 0.4]\n[skin]\n";
-    const auto scene = dir.load(face + "melanin = 0.1\nblood = 0.03\n");
-    ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->skin.profile, "skin:melanin=0.1,blood=0.03");
-    const Rgb albedo = skin_albedo({.melanin = 0.1, .blood = 0.03});
-    const Result<Vec3> mean = mean_skin_albedo(*scene);
-    ASSERT_TRUE(mean);
-    EXPECT_NEAR(mean->y * scene->skin.albedo_tint_linear.y, albedo[1], 1e-4);
-    EXPECT_EQ(all_warnings(*scene).find("skin.profile"), std::string::npos) << all_warnings(*scene);
-    const auto own = dir.load(face + "melanin = 0.1\nprofile = \"jensen_skin1\"\n");
-    ASSERT_TRUE(own);
-    EXPECT_EQ(own->skin.profile, "jensen_skin1");
-    const auto twice = dir.load(face + "melanin = 0.1\ntone = 3\n");
-    ASSERT_FALSE(twice);
-    EXPECT_NE(twice.error().message.find("state one colour twice"), std::string::npos);
-    const auto beyond = dir.load(face + "oxygen = 1.5\n");
-    ASSERT_FALSE(beyond);
-    EXPECT_NE(beyond.error().message.find("skin.oxygen"), std::string::npos) << beyond.error().message;
-}
-
-TEST(LoadScene, maps_of_pigments_paint_the_skin_and_choose_its_profile) {
-    const SceneDirectory dir;
-    Image melanin(4, 4, 1, PixelFormat::u8), blood(4, 4, 1, PixelFormat::u8), mask(4, 4, 1, PixelFormat::u8);
-    for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) {
-            melanin.set(x, y, 0, 0.2f), blood.set(x, y, 0, 0.4f);
-            mask.set(x, y, 0, x < 2 ? 0.0f : 1.0f);
-        }
-    ASSERT_TRUE(write_image(dir.file("melanin.png"), melanin) && write_image(dir.file("blood.png"), blood) &&
-                write_image(dir.file("mask.png"), mask));
-    const std::string maps = kMesh + "[maps]\nmelanin = \"melanin.png\"\nblood = \"blood.png\"\n";
-    const auto red_over_green = [](const Scene& scene, size_t texel) {
-        const auto& pixels = scene.objects[0].mesh.materials[0].base_color_map.pixels;
-        return float(pixels.at(3 * texel)) / float(pixels.at(3 * texel + 1));
-    };
-    const auto scene = dir.load(maps);
-    ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->skin.profile, "skin:blood=0.032") << "0.2 * 0.4^2, and 0.5 * 0.2^2 is the default";
-    const auto flushed = dir.load(maps + "pigment_mask = \"mask.png\"\n[skin]\nblood_scale = 3\n");
-    ASSERT_TRUE(flushed) << flushed.error().message;
-    EXPECT_GT(red_over_green(*flushed, 3), red_over_green(*scene, 3) + 0.1f);
-    EXPECT_EQ(red_over_green(*flushed, 0), red_over_green(*scene, 0));
-    const auto missing = dir.load(kMesh + "[maps]\nblood = \"none.png\"\n");
-    ASSERT_FALSE(missing);
-    EXPECT_NE(missing.error().message.find("none.png"), std::string::npos);
-    EXPECT_NE(all_warnings(*dir.load(kMesh + "[skin]\nblood_scale = 2\n")).find("have no effect without"),
-              std::string::npos);
 }
 
 TEST(LoadScene, a_profile_that_is_too_bright_or_of_another_tone_warns) {
