@@ -193,9 +193,10 @@ BufferPlace BindingResolver::place(const GeometryData& data) {
     return {.offset = found->second};
 }
 
-const BindingResolver::KnownBlock* BindingResolver::known(const Binding& binding, const Draw* draw) const {
+const BindingResolver::KnownBlock* BindingResolver::known(const std::string& name, const Binding& binding,
+                                                          const Draw* draw) const {
     const auto found = std::ranges::find_if(known_, [&](const KnownBlock& one) {
-        return one.draw == draw && one.name == binding.name && *one.layout == binding.block;
+        return one.draw == draw && one.name == name && *one.layout == binding.block;
     });
     return found == known_.end() ? nullptr : &*found;
 }
@@ -203,25 +204,27 @@ const BindingResolver::KnownBlock* BindingResolver::known(const Binding& binding
 Result<Descriptor> BindingResolver::uniform_block(const Pass& pass, const Binding& binding,
                                                   const Draw* draw) {
     const Draw* owner = draw && binding.name == "Material" ? draw : nullptr;
+    const std::string own = profile_name(binding.name, pass.profile);
+    const std::string& name = find_in(context_.inputs.blocks, own) ? own : binding.name;
     Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
-    if (const KnownBlock* same = known(binding, owner)) {
+    if (const KnownBlock* same = known(name, binding, owner)) {
         descriptor.offset = same->offset, descriptor.size = same->size;
         return descriptor;
     }
-    const Values* values = owner ? &owner->values : find_in(context_.inputs.blocks, binding.name);
+    const Values* values = owner ? &owner->values : find_in(context_.inputs.blocks, name);
     if (!values) return missing(pass, binding, "uniform block", draw);
     // Rounded up: drivers may read whole 16-byte rows.
     descriptor.size = (binding.block.size + 15) / 16 * 16;
     descriptor.offset = reserve(descriptor.size);
     DERMIS_TRY(write_block(binding.block, lookup_in(*values), binding_label(pass, "uniform block", binding),
                            std::span(plan_.uploads).subspan(descriptor.offset, descriptor.size)));
-    known_.push_back({binding.name, owner, &binding.block, descriptor.offset, descriptor.size});
+    known_.push_back({name, owner, &binding.block, descriptor.offset, descriptor.size});
     return descriptor;
 }
 
 Result<Descriptor> BindingResolver::storage_buffer(const Pass& pass, const Binding& binding) {
     Descriptor descriptor{.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-    if (const KnownBlock* same = known(binding, nullptr)) {
+    if (const KnownBlock* same = known(binding.name, binding, nullptr)) {
         descriptor.offset = same->offset, descriptor.size = same->size;
         return descriptor;
     }

@@ -34,6 +34,7 @@ struct Draw {
     std::map<std::string, const Texture*, std::less<>> textures;
     Values values;
     std::optional<PixelRect> scissor = {};  ///< absent: the whole target
+    int profile = 0;                        ///< number of the skin's profile, see Pass::only_profile
 };
 
 class Executor;

@@ -93,6 +93,7 @@ class Planner {
         const Pass& pass = *planned.pass;
         for (const Draw& draw : context_.inputs.draws) {
             if (!takes(pass.geometry, draw.draw_class)) continue;
+            if (pass.only_profile && draw.profile != pass.profile) continue;
             const Geometry::State& geometry = draw.geometry->state();
             if (draw.index_count == 0) continue;
             if (uint64_t(draw.first_index) + draw.index_count > geometry.index_count)

@@ -109,7 +109,8 @@ class BindingResolver {
     [[nodiscard]] Result<Descriptor> storage_buffer(const Pass& pass, const Binding& binding);
     [[nodiscard]] Result<Descriptor> resolve_one(PlannedPass& planned, const Binding& binding,
                                                  const Draw* draw);
-    [[nodiscard]] const KnownBlock* known(const Binding& binding, const Draw* draw) const;
+    [[nodiscard]] const KnownBlock* known(const std::string& name, const Binding& binding,
+                                          const Draw* draw) const;
     size_t reserve(size_t bytes);
     [[nodiscard]] Error missing(const Pass& pass, const Binding& binding, std::string_view what,
                                 const Draw* draw) const;

@@ -47,6 +47,8 @@ struct Material {
     float metallic = 0;
     float specular = 1;  ///< scales the dielectric F0
     float ior = 1.5f;
+    std::string profile;  ///< of skin; empty: the scene's (scene::Skin)
+    float scatter = 1;    ///< of skin: share of its diffuse light that scatters; the rest is Lambert's
     Vec3 emission_linear = {0, 0, 0};
     bool double_sided = false;  ///< kept for export: every surface is drawn from both sides
 
@@ -70,6 +72,7 @@ struct Material {
     ImageSource roughness_map;           ///< perceptual, R; when present it replaces metallic_roughness_map's
     ImageSource metallic_map;            ///< R; when present it replaces metallic_roughness_map's
     ImageSource kernel_size_map;         ///< R: 0 on thick skin, up to 1 where blurs widen because it is thin
+    ImageSource scatter_map;             ///< R
     ImageSource curvature_map;  ///< (value - curvature_mid) * curvature_scale_per_mm; as bake_map has
                                 ///< it, or one channel: mean curvature
 

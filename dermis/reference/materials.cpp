@@ -75,7 +75,8 @@ Result<MaterialSet> MaterialSet::load(const Scene& scene) {
         {&Material::metallic_roughness_map, &Maps::metallic_roughness, ImageUse::data},
         {&Material::occlusion_map, &Maps::occlusion, ImageUse::data},
         {&Material::opacity_map, &Maps::opacity, ImageUse::color},
-        {&Material::emission_map, &Maps::emission, ImageUse::color}};
+        {&Material::emission_map, &Maps::emission, ImageUse::color},
+        {&Material::scatter_map, &Maps::scatter, ImageUse::data}};
     MaterialSet set;
     set.scene_ = &scene;
     for (const SceneObject& object : scene.objects) {
@@ -159,7 +160,11 @@ ShadingPoint MaterialSet::shade(const SurfaceAttributes& surface, const RayHit& 
                        .metallic = is_skin ? 0 : material.metallic,
                        .opacity = e.material_class == MaterialClass::translucent ? material.opacity : 1,
                        .occlusion = occlusion_at(surface, hit),
-                       .material_class = e.material_class};
+                       .material_class = e.material_class,
+                       .scatter = material.scatter,
+                       .object = hit.object,
+                       .material = surface.material};
+    if (e.maps.scatter) point.scatter *= e.maps.scatter->sample(surface.uv, surface.footprint).x;
     if (is_skin) point.albedo_linear = point.albedo_linear * scene_->skin.albedo_tint_linear;
     if (e.maps.base_color)
         point.albedo_linear =

@@ -29,6 +29,8 @@ struct ShadingPoint {
     float occlusion =
         1;  ///< the vertices' or the map's, whichever is darker; for the renderer's ambient term
     MaterialClass material_class = MaterialClass::skin;
+    float scatter = 1;  ///< share of skin's diffuse light that scatters
+    uint32_t object = 0, material = 0;
 };
 
 /// Parameters of a surface's specular reflection.
@@ -63,6 +65,7 @@ class MaterialSet {
         const Texture* occlusion = nullptr;
         const Texture* opacity = nullptr;
         const Texture* emission = nullptr;
+        const Texture* scatter = nullptr;
     };
     struct Entry {
         const Material* material = nullptr;

@@ -11,6 +11,7 @@
 #include "dermis/rays/flesh.h"
 #include "dermis/rays/guided_walk.h"
 #include "dermis/rays/random.h"
+#include "dermis/scene/skin_profiles.h"
 
 namespace dermis::inline reference {
 namespace {
@@ -50,6 +51,26 @@ Vec3 albedo_of(const ScatteringMedium& medium) {
     return albedo;
 }
 
+// The media of the profiles, or the one that is set; `width_scale` stretches their lengths.
+Result<std::vector<ScatteringMedium>> media_of(const ReferenceSettings& settings,
+                                               std::span<const std::string> profiles) {
+    std::vector<ScatteringMedium> media;
+    if (settings.medium) media.push_back(*settings.medium);
+    for (const std::string& name : profiles) {
+        if (settings.medium) break;
+        DERMIS_TRY_ASSIGN(const Profile profile, find_profile(name));
+        media.push_back(walk_medium_of(profile));
+    }
+    for (ScatteringMedium& medium : media) {
+        DERMIS_TRY(check(medium));
+        for (size_t c = 0; c < 3 && settings.width_scale > 0; ++c) {
+            medium.sigma_s_per_mm[c] /= settings.width_scale;
+            medium.sigma_a_per_mm[c] /= settings.width_scale;
+        }
+    }
+    return media;
+}
+
 }  // namespace
 
 PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings, RayScene rays,
@@ -69,7 +90,7 @@ PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings
 }
 
 void PixelSampler::use_profile(const Profile& profile) {
-    surface_.emplace(
+    surface_.emplace_back(
         rays_, lighting_, ProfileSampler(profile, settings_.width_scale),
         SurfaceIntegratorSettings{.probes = settings_.probes, .normalisation = settings_.normalisation});
 }
@@ -81,7 +102,7 @@ void PixelSampler::use_medium(const ScatteringMedium& medium) {
         for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z})
             walk.normalisation.*c = std::max(walk.normalisation.*c, 1e-6f);
     }
-    walk_.emplace(rays_, lighting_, medium, walk);
+    walk_.emplace_back(rays_, lighting_, medium, walk);
 }
 
 Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
@@ -102,27 +123,24 @@ Result<std::unique_ptr<PixelSampler>> PixelSampler::create(const Scene& scene,
         DERMIS_TRY_ASSIGN(BrdfTable loaded, BrdfTable::load());
         brdf = std::move(loaded);
     }
-    const bool walks = settings.integrator == Integrator::walk;
-    ScatteringMedium medium;
-    if (walks) {
-        DERMIS_TRY_ASSIGN(ScatteringMedium found,
-                          settings.medium ? *settings.medium : medium_of_scene(scene));
-        DERMIS_TRY(check(found));
-        medium = found;
-        lighting.entry_eta = settings.entry == LightEntry::fresnel ? medium.eta : 1;
-        for (size_t c = 0; c < 3 && settings.width_scale > 0; ++c) {
-            medium.sigma_s_per_mm[c] /= settings.width_scale;
-            medium.sigma_a_per_mm[c] /= settings.width_scale;
-        }
+    const bool walks = settings.integrator == Integrator::walk && settings.width_scale > 0;
+    const std::vector<std::string> profiles = skin_profiles(scene);
+    std::vector<ScatteringMedium> media;
+    if (settings.integrator == Integrator::walk) {
+        DERMIS_TRY_ASSIGN(media, media_of(settings, profiles));
+        lighting.entry_eta = settings.entry == LightEntry::fresnel ? media.front().eta : 1;
     }
     std::unique_ptr<PixelSampler> sampler(new PixelSampler(scene, settings, std::move(rays),
                                                            std::move(materials), std::move(*environment),
                                                            std::move(reflection), std::move(brdf), lighting));
-    if (walks && settings.width_scale > 0) sampler->use_medium(medium);
-    if (settings.integrator == Integrator::surface && settings.width_scale > 0) {
-        DERMIS_TRY_ASSIGN(Profile profile, find_profile(scene.skin.profile));
-        sampler->use_profile(profile);
-    }
+    if (media.size() != 1) sampler->profiles_ = profiles;
+    for (const ScatteringMedium& medium : media)
+        if (walks) sampler->use_medium(medium);
+    if (settings.integrator == Integrator::surface && settings.width_scale > 0)
+        for (const std::string& name : profiles) {
+            DERMIS_TRY_ASSIGN(const Profile profile, find_profile(name));
+            sampler->use_profile(profile);
+        }
     return sampler;
 }
 
@@ -146,20 +164,8 @@ UvFootprint PixelSampler::footprint(const Seen& seen, Vec3 p_mm) const {
     return {step(side, 0), step(0, side)};
 }
 
-Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footprint,
-                            const LightingRandom& random, uint32_t seed, PixelSample& sample) const {
-    const DiffusePoint diffuse{point.p_mm, point.n_geometry, point.n_face, footprint};
-    const bool skin = point.material_class == MaterialClass::skin;
-    if (skin && surface_) return surface_->exitance(diffuse, seed);
-    if (skin && walk_) {
-        const WalkIntegrator::Result walked = walk_->exitance(diffuse, seed);
-        sample.walks += settings_.probes;
-        sample.lost_walks += walked.lost;
-        return walked.exitance;
-    }
-    const Receiver receiver = receiver_of(point);
-    if (!skin) return lighting_.irradiance(receiver, random);
-    // For a width of 0: with a single ray per sample the penumbra would be most of the noise.
+Vec3 PixelSampler::unscattered_exitance(const Receiver& receiver, uint32_t seed) const {
+    // With a single ray per sample the penumbra would be most of the noise.
     constexpr int kProbesARay = 4;
     const bool exact =
         lighting_.settings().penumbra_mm == 0 && lighting_.settings().ambient == AmbientModel::renderer;
@@ -171,6 +177,23 @@ Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footpr
         sum += lighting_.irradiance(receiver, {penumbra, environment, uniform.next_1d()});
     }
     return sum * (1 / float(count));
+}
+
+// Skin that scatters in part: the rest of its light leaves where it entered.
+Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footprint,
+                            const LightingRandom& random, uint32_t seed, PixelSample& sample) const {
+    if (point.material_class != MaterialClass::skin) return lighting_.irradiance(receiver_of(point), random);
+    const float scatter = surface_.empty() && walk_.empty() ? 0 : point.scatter;
+    Vec3 sum;
+    if (scatter < 1) sum = unscattered_exitance(receiver_of(point), seed) * (1 - scatter);
+    if (scatter == 0) return sum;
+    const DiffusePoint diffuse{point.p_mm, point.n_geometry, point.n_face, footprint};
+    const size_t profile = profile_index(scene_, profiles_, scene_.objects[point.object], point.material);
+    if (!surface_.empty()) return sum + surface_[profile].exitance(diffuse, seed) * scatter;
+    const WalkIntegrator::Result walked = walk_[profile].exitance(diffuse, seed);
+    sample.walks += settings_.probes;
+    sample.lost_walks += walked.lost;
+    return sum + walked.exitance * scatter;
 }
 
 MaterialClass PixelSampler::add_surface(const Seen& seen, Vec3 weight, uint32_t seed,

@@ -45,6 +45,8 @@ class PixelSampler {
     [[nodiscard]] float opacity_at(const RayHit& hit) const;
     [[nodiscard]] float add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample) const;
     MaterialClass add_surface(const Seen& seen, Vec3 weight, uint32_t seed, PixelSample& sample) const;
+    /// By one set of samples without scattering.
+    [[nodiscard]] Vec3 unscattered_exitance(const Receiver& receiver, uint32_t seed) const;
     [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const UvFootprint& footprint,
                                 const LightingRandom& random, uint32_t seed, PixelSample& sample) const;
 
@@ -57,8 +59,9 @@ class PixelSampler {
     std::optional<BrdfTable> brdf_;
     Lighting lighting_;
     Mat4 inverse_view_projection_;
-    std::optional<SurfaceIntegrator> surface_;
-    std::optional<WalkIntegrator> walk_;
+    std::vector<std::string> profiles_;       ///< skin_profiles(); empty where `settings` has a medium
+    std::vector<SurfaceIntegrator> surface_;  ///< one a profile; empty: no surface integral
+    std::vector<WalkIntegrator> walk_;        ///< one a profile; empty: no walks
 };
 
 }  // namespace dermis::inline reference

@@ -110,6 +110,7 @@ const std::vector<MaterialMap>& material_maps() {
          .source = &Material::kernel_size_map,
          .is_single = true,
          .neutral = {}},
+        {.texture = "scatter_map", .source = &Material::scatter_map, .is_single = true},
         {.texture = "curvature_map", .source = &Material::curvature_map, .neutral = {}},
         {.texture = "opacity_map", .source = &Material::opacity_map, .is_color = true},
         {.texture = "emission_map", .source = &Material::emission_map, .is_color = true},

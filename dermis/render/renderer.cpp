@@ -14,7 +14,9 @@
 #include "dermis/render/frame_values.h"
 #include "dermis/render/legend.h"
 #include "dermis/render/material_maps.h"
+#include "dermis/render/profile_passes.h"
 #include "dermis/render/seam_textures.h"
+#include "dermis/scene/skin_profiles.h"
 #include "dermis/technique/gain.h"
 #include "shaders/include/constants.h"
 
@@ -62,9 +64,33 @@ std::string light_key(const Technique& technique, const ParameterValues& values,
     for (const gpu::Values& light : light_values(scene))
         for (const auto& [name, value] : light)
             std::visit([&](const auto& v) { hasher.add(std::as_bytes(std::span(&v, 1))); }, value);
-    hasher.add(scene.environment.intensity).add(scene.environment.yaw_rad).add(scene.skin.profile);
+    hasher.add(scene.environment.intensity).add(scene.environment.yaw_rad);
+    for (const std::string& profile : skin_profiles(scene)) hasher.add(profile);
     hasher.add(scene.skin.specular_reduces_diffuse);
     return hasher.hex();
+}
+
+// The draws are in the order of the objects' submeshes (SceneOnDevice).
+void number_profiles(const Scene& scene, std::vector<gpu::Draw>& draws) {
+    const std::vector<std::string> profiles = skin_profiles(scene);
+    auto draw = draws.begin();
+    for (const SceneObject& object : scene.objects)
+        for (const Submesh& submesh : object.mesh.submeshes)
+            (draw++)->profile = int(profile_index(scene, profiles, object, submesh.material));
+}
+
+// Copies the gains of the vertices of one profile.
+void take_gains(const Scene& scene, std::span<const gpu::Draw> draws, int profile,
+                std::span<const std::vector<Vec3>> from, std::vector<std::vector<Vec3>>& gains) {
+    auto draw = draws.begin();
+    for (size_t o = 0; o < scene.objects.size(); ++o) {
+        const Mesh& mesh = scene.objects[o].mesh;
+        for (const Submesh& submesh : mesh.submeshes) {
+            if ((draw++)->profile != profile) continue;
+            for (uint32_t i = submesh.first_index; i < submesh.first_index + submesh.index_count; ++i)
+                gains[o][mesh.indices[i]] = from[o][mesh.indices[i]];
+        }
+    }
 }
 
 // The light of each shadow map after the first.
@@ -104,34 +130,59 @@ Result<void> Renderer::environment_changed() {
     return uploaded_->replace_environment(*device_, *scene_);
 }
 
-Result<void> Renderer::prepare_tables(const Technique& technique, const ParameterValues& values) {
+// The fit behind a context takes tens of milliseconds, so the contexts are kept.
+Result<void> Renderer::prepare_profiles() {
+    std::vector<ProfileState> states;
+    for (const std::string& name : skin_profiles(*scene_)) {
+        const auto known = std::ranges::find_if(
+            profiles_, [&](const ProfileState& state) { return state.skin.profile.name == name; });
+        ProfileState state;
+        if (known != profiles_.end()) {
+            state = std::move(*known);
+            known->skin.profile.name.clear();
+        } else {
+            DERMIS_TRY_ASSIGN(Profile profile, find_profile(name));
+            GaussianSum sum = to_gaussian_sum(profile).sum;
+            state.skin = SkinContext{.profile = std::move(profile), .gaussians = std::move(sum)};
+            state.skin.profile.name = name;
+        }
+        state.skin.diffuse_table = scene_->skin.diffuse_table;
+        state.skin.zonal_table = scene_->skin.zonal_table;
+        state.skin.beckmann_table = scene_->skin.beckmann_table;
+        states.push_back(std::move(state));
+    }
+    profiles_ = std::move(states);
+    return {};
+}
+
+Result<void> Renderer::prepare_tables(const Technique& technique, const ParameterValues& values,
+                                      ProfileState& state) {
     if (!technique.tables && !technique.skin_values) {
-        tables_.clear();
-        tables_key_.clear();
+        state.tables.clear();
+        state.tables_key.clear();
         return {};
     }
-    DERMIS_TRY_ASSIGN(const SkinContext* skin, skin_context());
-    const std::string key = settings_key(technique, values, *skin);
-    if (key == tables_key_) return {};
+    const std::string key = settings_key(technique, values, state.skin);
+    if (key == state.tables_key) return {};
     std::vector<TableImage> tables;
     if (technique.tables) {
-        DERMIS_TRY_ASSIGN(tables, technique.tables(values, *skin));
+        DERMIS_TRY_ASSIGN(tables, technique.tables(values, state.skin));
     }
-    skin_values_.clear();
+    state.skin_values.clear();
     if (technique.skin_values) {
-        DERMIS_TRY_ASSIGN(const std::vector<NamedValue> made, technique.skin_values(values, *skin));
-        skin_values_ = gpu::Values(made.begin(), made.end());
+        DERMIS_TRY_ASSIGN(const std::vector<NamedValue> made, technique.skin_values(values, state.skin));
+        state.skin_values = gpu::Values(made.begin(), made.end());
     }
-    tables_.clear();
+    state.tables.clear();
     for (const TableImage& table : tables) {
         DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(*device_, {.name = table.name,
                                                                                 .format = table.format,
                                                                                 .width = table.width,
                                                                                 .height = table.height,
                                                                                 .bytes = table.bytes}));
-        tables_.emplace(table.name, std::move(texture));
+        state.tables.emplace(table.name, std::move(texture));
     }
-    tables_key_ = key;
+    state.tables_key = key;
     return {};
 }
 
@@ -150,21 +201,6 @@ Result<void> Renderer::prepare_legend(const std::string& view) {
     return {};
 }
 
-// The fit behind it takes tens of milliseconds, so it is kept.
-Result<const SkinContext*> Renderer::skin_context() {
-    if (!skin_ || skin_->profile.name != scene_->skin.profile) {
-        Result<Profile> profile = find_profile(scene_->skin.profile);
-        if (!profile) return profile.error();
-        GaussianSum sum = to_gaussian_sum(*profile).sum;
-        skin_ = SkinContext{.profile = std::move(*profile), .gaussians = std::move(sum)};
-        skin_->profile.name = scene_->skin.profile;
-    }
-    skin_->diffuse_table = scene_->skin.diffuse_table;
-    skin_->zonal_table = scene_->skin.zonal_table;
-    skin_->beckmann_table = scene_->skin.beckmann_table;
-    return &*skin_;
-}
-
 // Where the technique asks for baked normals, a second list for the skin's atlas as it is.
 Result<PassList> Renderer::passes_of(const Technique& technique, const ParameterValues& values,
                                      FrameContext frame) {
@@ -181,6 +217,20 @@ Result<PassList> Renderer::passes_of(const Technique& technique, const Parameter
     if (!list.refusal.empty()) return Error{technique.id + ": " + list.refusal};
     for (const std::string& notice : list.notices) warn(technique.id + ": " + notice);
     return list;
+}
+
+Result<PassList> Renderer::passes_of_profiles(const Technique& technique, const ParameterValues& values,
+                                              FrameContext frame) {
+    std::vector<PassList> lists;
+    std::vector<std::string> tables;
+    for (const auto& [name, texture] : profiles_.front().tables) tables.push_back(name);
+    for (ProfileState& state : profiles_) {
+        frame.skin_gaussians = state.skin.gaussians;
+        DERMIS_TRY_ASSIGN(PassList list, passes_of(technique, values, frame));
+        state.diffused_normals_request = list.diffused_normals;
+        lists.push_back(std::move(list));
+    }
+    return join_profiles(lists, tables);
 }
 
 void Renderer::warn(std::string warning) {
@@ -211,43 +261,58 @@ Result<void> Renderer::prepare_seams() {
     return {};
 }
 
-Result<void> Renderer::prepare_diffused_normals(const GaussianSum& profile) {
-    if (!list_.diffused_normals) return {};
-    std::string key = scene_->skin.profile + std::to_string(list_.diffused_normals->size);
-    if (key == diffused_normals_key_) return {};
+Result<void> Renderer::prepare_diffused_normals(ProfileState& state) {
+    if (!state.diffused_normals_request) return {};
+    std::string key = state.skin.profile.name + std::to_string(state.diffused_normals_request->size);
+    if (key == state.diffused_normals_key) return {};
     DERMIS_TRY_ASSIGN(const DiffusedNormals baked,
-                      bake_diffused_normals(*scene_, profile, *list_.diffused_normals));
+                      bake_diffused_normals(*scene_, state.skin.gaussians, *state.diffused_normals_request));
     for (const gpu::TextureData& data : diffused_normals_textures(baked)) {
         DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(*device_, data));
-        diffused_normals_.insert_or_assign(data.name, std::move(texture));
+        state.diffused_normals.insert_or_assign(data.name, std::move(texture));
     }
-    diffused_normals_key_ = std::move(key);
+    state.diffused_normals_key = std::move(key);
     return {};
 }
 
 // Walks, which are cached, for the first frame with a gain.
-Result<void> Renderer::prepare_gain(const Profile& profile) {
+Result<void> Renderer::prepare_gains() {
     const auto asks_for = [&](int32_t gain) {
         return std::ranges::any_of(list_.passes, [&](const Pass& pass) {
             return std::ranges::find(pass.constants, std::pair(std::string(kGainConstant), gain)) !=
                    pass.constants.end();
         });
     };
-    if (asks_for(kGainMap)) DERMIS_TRY(prepare_walked_gains(profile));
-    if (!asks_for(kGainCurvature) || gain_profile_ == profile.name) return {};
-    gain_form_ = walked_gain_form(walk_medium_of(profile));
-    gain_profile_ = profile.name;
+    if (asks_for(kGainMap)) DERMIS_TRY(prepare_walked_gains());
+    if (!asks_for(kGainCurvature)) return {};
+    for (ProfileState& state : profiles_) {
+        if (state.has_gain_form) continue;
+        state.gain_form = walked_gain_form(walk_medium_of(state.skin.profile));
+        state.has_gain_form = true;
+    }
     return {};
 }
 
-Result<void> Renderer::prepare_walked_gains(const Profile& profile) {
+// Each vertex has the gain of its material's profile.
+Result<void> Renderer::prepare_walked_gains() {
     Hasher hasher;
-    hasher.add(profile.name);
+    std::vector<gpu::Draw> draws = uploaded_->draws();
+    number_profiles(*scene_, draws);
+    for (const ProfileState& state : profiles_) hasher.add(state.skin.profile.name);
+    for (const gpu::Draw& draw : draws) hasher.add(draw.profile);
     for (const SceneObject& object : scene_->objects) hasher.add(object.classes);
     std::string key = hasher.hex();
     if (key == uploaded_->gains_key) return {};
-    DERMIS_TRY_ASSIGN(const VertexGains walked, walk_vertex_gains(scene_->objects, walk_medium_of(profile)));
-    DERMIS_TRY(uploaded_->replace_gains(*device_, walked.gains));
+    std::vector<std::vector<Vec3>> gains;
+    for (size_t p = 0; p < profiles_.size(); ++p) {
+        DERMIS_TRY_ASSIGN(VertexGains walked,
+                          walk_vertex_gains(scene_->objects, walk_medium_of(profiles_[p].skin.profile)));
+        if (p == 0)
+            gains = std::move(walked.gains);
+        else
+            take_gains(*scene_, draws, int(p), walked.gains, gains);
+    }
+    DERMIS_TRY(uploaded_->replace_gains(*device_, gains));
     uploaded_->gains_key = std::move(key);
     return {};
 }
@@ -257,26 +322,31 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
     inputs.textures["environment_cube"] = &uploaded_->environment_cube();
     inputs.textures["environment_brdf"] = &uploaded_->environment_brdf();
     inputs.textures["no_image"] = &uploaded_->no_image();
-    for (const auto& [name, texture] : tables_) inputs.textures[name] = &texture;
     inputs.textures["view_legend"] = legend_.get();
     if (list_.seams && seams_) {
         inputs.textures["seam_map"] = &seams_->seam_map;
         inputs.textures["chart_map"] = &seams_->chart_map;
     }
-    if (list_.diffused_normals)
-        for (const auto& [name, texture] : diffused_normals_) inputs.textures[name] = &texture;
-    inputs.blocks["Frame"] =
-        frame_values(*scene_, {.width = settings.width,
-                               .height = settings.height,
-                               .shadow_map_size = settings.shadow_map_size,
-                               .penumbra_mm = settings.penumbra_mm,
-                               .environment_mip_count = uploaded_->environment_mip_count(),
-                               .environment_sh = uploaded_->environment_sh(),
-                               .gain = gain_form_});
+    for (size_t i = 0; i < profiles_.size(); ++i) {
+        const ProfileState& state = profiles_[i];
+        const auto own = [&](const std::string& name) { return profile_name(name, int(i)); };
+        for (const auto& [name, texture] : state.tables) inputs.textures[own(name)] = &texture;
+        if (state.diffused_normals_request)
+            for (const auto& [name, texture] : state.diffused_normals) inputs.textures[own(name)] = &texture;
+        inputs.blocks[own("Skin")] = state.skin_values;
+        inputs.blocks[own("Frame")] =
+            frame_values(*scene_, {.width = settings.width,
+                                   .height = settings.height,
+                                   .shadow_map_size = settings.shadow_map_size,
+                                   .penumbra_mm = settings.penumbra_mm,
+                                   .environment_mip_count = uploaded_->environment_mip_count(),
+                                   .environment_sh = uploaded_->environment_sh(),
+                                   .gain = state.gain_form});
+    }
     inputs.blocks["Params"] = parameter_block(values);
-    inputs.blocks["Skin"] = skin_values_;
     inputs.arrays["Lights"] = light_values(*scene_);
     inputs.draws = uploaded_->draws();
+    number_profiles(*scene_, inputs.draws);
     return inputs;
 }
 
@@ -287,11 +357,10 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     if (std::ranges::find(views, settings.view) == views.end())
         return Error{unknown_name("view", settings.view, views)};
     DERMIS_TRY(check_settings(technique, values));
-    DERMIS_TRY(prepare_tables(technique, values));
+    DERMIS_TRY(prepare_profiles());
+    for (ProfileState& state : profiles_) DERMIS_TRY(prepare_tables(technique, values, state));
     DERMIS_TRY(prepare_legend(settings.view));
 
-    const Result<const SkinContext*> skin = skin_context();
-    if (!skin) return skin.error();
     const std::string key = light_key(technique, values, settings, *scene_);
     const std::vector<int> shadow_lights = lights_by_shadow_map(*scene_);
     const FrameContext frame = {
@@ -308,7 +377,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
         .typical_uv_per_mm = uploaded_->uv_density().typical_uv_per_mm,
         .has_zonal_table = !scene_->skin.zonal_table.empty(),
         .has_beckmann_table = !scene_->skin.beckmann_table.empty(),
-        .skin_gaussians = (*skin)->gaussians};
+        .skin_gaussians = {}};
     const SharedPassSettings shared = {.samples = settings.samples,
                                        .shadow_map_size = settings.shadow_map_size,
                                        .shadow_lights = shadow_lights,
@@ -320,9 +389,10 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
                                        .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
                                        .has_cut_outs = uploaded_->has_cut_outs(),
                                        .gbuffer = settings.gbuffer};
-    DERMIS_TRY_ASSIGN(const PassList own, passes_of(technique, values, frame));
+    DERMIS_TRY_ASSIGN(const PassList own, passes_of_profiles(technique, values, frame));
     list_ = frame_passes(own, shared);
     list_.constants = uploaded_->map_constants();
+    list_.constants.emplace_back("has_scatter", has_scatter_weights(*scene_));
     list_.constants.emplace_back("one_light", scene_->lights.size() == 1);
     list_.constants.emplace_back("one_sample", settings.samples == 1);
     list_.constants.emplace_back("all_directional",
@@ -333,8 +403,8 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     DERMIS_TRY(check_atlas());
     check_maps();
     DERMIS_TRY(prepare_seams());
-    DERMIS_TRY(prepare_diffused_normals((*skin)->gaussians));
-    DERMIS_TRY(prepare_gain((*skin)->profile));
+    for (ProfileState& state : profiles_) DERMIS_TRY(prepare_diffused_normals(state));
+    DERMIS_TRY(prepare_gains());
     history_key_ = key;
     history_distance_mm_ = frame.camera_distance_mm;
     return {};

@@ -24,6 +24,19 @@ struct DrawSettings {
     float penumbra_mm = 2;
 };
 
+/// What a renderer keeps for one diffusion profile.
+struct ProfileState {
+    SkinContext skin;
+    std::string tables_key;
+    std::map<std::string, gpu::Texture> tables;
+    gpu::Values skin_values;
+    std::optional<DiffusedNormalsRequest> diffused_normals_request;  ///< of the last frame
+    std::map<std::string, gpu::Texture> diffused_normals;
+    std::string diffused_normals_key;
+    GainForm gain_form;
+    bool has_gain_form = false;
+};
+
 class Renderer {
   public:
     /// `device` and `scene` must outlive it. Camera, lights, exposure and the like may change between draws;
@@ -70,7 +83,11 @@ class Renderer {
     Renderer(gpu::Device& device, gpu::Executor executor, const Scene& scene);
     [[nodiscard]] Result<void> prepare(const Technique& technique, const ParameterValues& values,
                                        const DrawSettings& settings);
-    Result<void> prepare_tables(const Technique& technique, const ParameterValues& values);
+    Result<void> prepare_profiles();
+    Result<void> prepare_tables(const Technique& technique, const ParameterValues& values,
+                                ProfileState& state);
+    [[nodiscard]] Result<PassList> passes_of_profiles(const Technique& technique,
+                                                      const ParameterValues& values, FrameContext frame);
     Result<void> prepare_legend(const std::string& view);
     [[nodiscard]] Result<PassList> passes_of(const Technique& technique, const ParameterValues& values,
                                              FrameContext frame);
@@ -78,10 +95,9 @@ class Renderer {
     Result<void> check_atlas();
     void check_maps();
     Result<void> prepare_seams();
-    Result<void> prepare_diffused_normals(const GaussianSum& profile);
-    Result<void> prepare_gain(const Profile& profile);
-    Result<void> prepare_walked_gains(const Profile& profile);
-    [[nodiscard]] Result<const SkinContext*> skin_context();
+    Result<void> prepare_diffused_normals(ProfileState& state);
+    Result<void> prepare_gains();
+    Result<void> prepare_walked_gains();
 
     gpu::Device* device_;
     gpu::Executor executor_;
@@ -90,23 +106,16 @@ class Renderer {
     const Scene* scene_;
     PassList list_;
     std::string radiance_name_;
-    std::string tables_key_;
     std::string history_key_;  ///< of the light in the persistent images; empty: none
     float history_distance_mm_ = 0;
-    std::map<std::string, gpu::Texture> tables_;
-    gpu::Values skin_values_;
-    std::string legend_view_;  ///< that legend_ is of
+    std::vector<ProfileState> profiles_;  ///< in the order of skin_profiles()
+    std::string legend_view_;             ///< that legend_ is of
     std::unique_ptr<gpu::Texture> legend_;
     std::vector<std::string> warnings_;
     bool atlas_checked_ = false;
     std::optional<std::string> atlas_fault_;  ///< FrameContext::atlas_fault; absent: not asked yet
     bool skin_outside_atlas_ = true;
     std::optional<SeamTextures> seams_;
-    std::map<std::string, gpu::Texture> diffused_normals_;
-    std::string diffused_normals_key_;
-    GainForm gain_form_;
-    std::string gain_profile_;         ///< that gain_form_ is of; empty: none
-    std::optional<SkinContext> skin_;  ///< of the profile that the scene named last
 };
 
 }  // namespace dermis::inline render

@@ -100,6 +100,7 @@ gpu::Values material_values(const Material& material, MaterialClass material_cla
             {"normal_space", normal_space},
             {"normal_scale", material.normal_scale},
             {"opacity_from_map", int32_t(material.opacity_map.present())},
+            {"scatter", material.scatter},
             {"curvature_scale_per_mm", material.curvature_scale_per_mm},
             {"curvature_mid", material.curvature_mid}};
 }

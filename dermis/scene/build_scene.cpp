@@ -21,6 +21,7 @@
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_views.h"
 #include "dermis/scene/skin_pigments.h"
+#include "dermis/scene/skin_profiles.h"
 #include "dermis/scene/skin_tone.h"
 
 namespace dermis::inline scene {
@@ -267,6 +268,7 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     }
     DERMIS_TRY(check_motion(description, scene));
     DERMIS_TRY(check_material_names(description, scene));
+    DERMIS_TRY(resolve_profiles(scene, description.file));
 
     if (!description.is_bare_mesh)
         std::ranges::move(keys_without_effect(description, scene), std::back_inserter(scene.warnings));

@@ -205,6 +205,10 @@ class Writer {
             line("class = " + toml_string(part_name(found.part)) + "  # " + printable_line(found.reason));
             if (found.left_out) line("visible = false  # the file has no alpha for it");
             const bool is_skin = object_.classes[i] == MaterialClass::skin;
+            if (is_skin)
+                line(
+                    "# profile = \"openpbr_skin_3\"  # of its own; scatter = 0 for nails and make-up, 1 for "
+                    "skin");
             const bool mapped = material.base_color_map.present() || (is_skin && maps_.contains("albedo"));
             if (!found.left_out && !mapped && object_.mesh.colors_linear.empty()) {
                 line("albedo = " + triple(material.base_color_linear));

@@ -39,6 +39,9 @@ std::vector<fs::path> files_of(const Scene& scene) {
          {scene.skin.diffuse_table, scene.skin.zonal_table, scene.skin.beckmann_table})
         if (!table.empty()) files.emplace_back(table);
     if (is_profile_file(scene.skin.profile)) files.emplace_back(scene.skin.profile);
+    for (const SceneObject& object : scene.objects)
+        for (const Material& material : object.mesh.materials)
+            if (is_profile_file(material.profile)) files.emplace_back(material.profile);
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
     return files;

@@ -4,6 +4,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/optics/presets.h"
+#include "dermis/scene/skin_profiles.h"
 
 namespace dermis::inline scene {
 namespace {
@@ -21,6 +22,10 @@ Result<void> add(Hasher& hasher, const Material& m) {
          {&m.base_color_map, &m.emission_map, &m.normal_map, &m.metallic_roughness_map, &m.specular_map,
           &m.occlusion_map, &m.opacity_map, &m.roughness_map, &m.metallic_map})
         DERMIS_TRY(add_image(hasher, *source));
+    // Only where they are used, so that references of other scenes stay valid.
+    if (!m.profile.empty()) hasher.add(m.profile);
+    if (m.scatter != 1) hasher.add(m.scatter);
+    if (m.scatter_map.present()) DERMIS_TRY(add_image(hasher, m.scatter_map));
     hasher.add(cutoff_of_map(m));
     return add_image(hasher, cutoff_of_map(m) > 0 ? m.alpha_map : ImageSource{});
 }
@@ -95,7 +100,8 @@ Result<std::string> hash_of(const Scene& scene) {
     add_views(hasher, scene);
     std::vector<std::filesystem::path> files;
     if (scene.environment.kind == EnvironmentKind::file) files.push_back(scene.environment.file);
-    if (is_profile_file(scene.skin.profile)) files.emplace_back(scene.skin.profile);
+    for (const std::string& profile : skin_profiles(scene))
+        if (is_profile_file(profile)) files.emplace_back(profile);
     for (const std::filesystem::path& path : files) {
         DERMIS_TRY_ASSIGN(const std::vector<std::byte> file, read_file(path));
         hasher.add(std::span(file));

@@ -115,13 +115,16 @@ class KeyTable {
     /// A member of each material that the section is about: such a row is all that the key needs here.
     template <class Member>
     KeyTable& of_material(Member Material::*member, KeyInfo info) {
-        info.kind = std::is_same_v<Member, Vec3> ? KeyKind::color
-                    : std::is_enum_v<Member>     ? KeyKind::choice
-                    : std::is_integral_v<Member> ? KeyKind::integer
-                                                 : KeyKind::number;
+        info.kind = std::is_same_v<Member, Vec3>          ? KeyKind::color
+                    : std::is_same_v<Member, std::string> ? KeyKind::text
+                    : std::is_enum_v<Member>              ? KeyKind::choice
+                    : std::is_integral_v<Member>          ? KeyKind::integer
+                                                          : KeyKind::number;
         const auto set = [member, name = info.name](Target& t, const KeyValue& v) {
             t.changes[name] = [member, v](Material& material) {
-                if constexpr (std::is_same_v<Member, Vec3>)
+                if constexpr (std::is_same_v<Member, std::string>)
+                    material.*member = v.text;
+                else if constexpr (std::is_same_v<Member, Vec3>)
                     material.*member = {float(v.numbers[0]), float(v.numbers[1]), float(v.numbers[2])};
                 else
                     material.*member =

@@ -173,6 +173,9 @@ const KeyTable<MapsDescription>& maps_keys() {
                  {.name = "kernel_size",
                   .doc =
                       "0 on thick skin, up to 1 where it is thin and texture-space blurs grow; red channel"})
+            .map(&Material::scatter_map,
+                 {.name = "scatter",
+                  .doc = "share of the diffuse light that scatters: 0 on nails, make-up, scars; red channel"})
             .map(&Material::curvature_map,
                  {.name = "curvature",
                   .doc = "map of `dermis bake curvature`, positive where convex; grey: mean curvature alone"})
@@ -228,6 +231,13 @@ const KeyTable<MaterialDescription>& material_keys() {
             .of_material(&Material::specular,
                          {.name = "specular", .doc = "scales the reflectance at normal incidence", .max = 10})
             .of_material(&Material::ior, {.name = "ior", .doc = "index of refraction", .min = 1, .max = 3})
+            .of_material(
+                &Material::profile,
+                {.name = "profile",
+                 .doc = "diffusion profile of this skin, as `profile` under [skin]; at most 15 a scene"})
+            .of_material(&Material::scatter,
+                         {.name = "scatter",
+                          .doc = "share of the skin's diffuse light that scatters; multiplies the map"})
             .of_material(&Material::metallic, {.name = "metallic", .doc = "0 dielectric, 1 metal"})
             .of_material(&Material::opacity,
                          {.name = "opacity", .doc = "coverage; below 1 the surfaces behind are visible"})

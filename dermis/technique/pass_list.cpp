@@ -131,6 +131,10 @@ class Checker {
 
 }  // namespace
 
+std::string profile_name(const std::string& name, int profile) {
+    return profile == 0 ? name : name + "@" + std::to_string(profile);
+}
+
 std::string_view format_name(ImageFormat format) {
     static constexpr std::string_view kNames[] = {"r8",    "rg8",     "rgba8", "rgb10a2", "rgba16",  "r16f",
                                                   "rg16f", "rgba16f", "r32f",  "rgba32f", "depth32f"};

@@ -120,7 +120,14 @@ struct Pass {
     float depth_bias_constant = 0, depth_bias_slope = 0;
     std::vector<std::pair<std::string, int32_t>> constants;  ///< specialisation constants by name
     std::vector<NamedValue> values;                          ///< members of the shader's push-constant block
+    /// Number of the skin's profile that the pass works for, 0 for all where there is one: uniform blocks
+    /// named "Skin@1" take precedence over "Skin". With `only_profile` it takes skin of this profile only.
+    int profile = 0;
+    bool only_profile = false;
 };
+
+/// "Skin@1" for profile 1; the name itself for profile 0.
+[[nodiscard]] std::string profile_name(const std::string& name, int profile);
 
 /// Asks for the textures "seam_map" and "chart_map" of the skin's atlas (mesh/uv_seams.h), `size` texels a
 /// side: where the surface of each gutter texel lies, as x / 8 and rest, y / 8 and rest, negative for

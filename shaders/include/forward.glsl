@@ -123,7 +123,7 @@ void main() {
 #ifdef DERMIS_OWN_VIEW
     own_radiance = own_view(s);
 #endif
-    vec3 exitance = ambient_response(s);
+    vec3 exitance = ambient_response(s), unscattered = vec3(0.0);
     vec3 specular_radiance =
         reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     [[unroll]] for (int i = 0; i < light_count; ++i) {
@@ -140,10 +140,22 @@ void main() {
         direct = max(direct, light.irradiance_linear * s.occlusion * arriving.transmitted);
 #endif
         exitance += direct;
+#ifdef DERMIS_TRANSMISSION
+        if (has_scatter != 0) {
+            float n_dot_l = max(dot(s.n_world, light.to_light_world), 0.0);
+            unscattered += light.irradiance_linear * (diffuse_entry(s, n_dot_l) * n_dot_l * arriving.visibility);
+        }
+#endif
         specular_radiance += light.irradiance_linear * arriving.visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
     exitance *= gain_at(gain_curvature_per_mm(s));
+#ifdef DERMIS_TRANSMISSION
+    if (has_scatter != 0) {
+        unscattered += environment_irradiance(s.n_world) * s.occlusion;
+        exitance = mix(unscattered, exitance, scatter_weight(s));
+    }
+#endif
     load_albedo(s);
     vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, own_radiance), 1.0);

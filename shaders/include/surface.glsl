@@ -31,6 +31,7 @@ layout(scalar) uniform Material {
     float curvature_mid;           // its value on flat skin
     float alpha_cutoff;            // 0: nothing is cut out
     int emission_from_map;
+    float scatter;                 // share of the skin's diffuse light that scatters
 };
 
 // Whether any material of the scene has the map; without one, the value 1 is a constant.
@@ -40,11 +41,15 @@ layout(constant_id = 52) const int has_specular_map = 1;
 layout(constant_id = 53) const int has_roughness_map = 1;
 layout(constant_id = 54) const int has_occlusion_map = 1;
 
+layout(constant_id = 57) const int has_scatter = 0;  // some skin of the scene scatters less than all
+layout(constant_id = 58) const int has_scatter_map = 0;
+
 uniform sampler2D albedo_map;
 uniform sampler2D normal_map;
 uniform sampler2D specular_map;
 uniform sampler2D roughness_map;
 uniform sampler2D occlusion_map;
+uniform sampler2D scatter_map;
 
 struct Surface {
     vec3 p_world_mm;
@@ -126,6 +131,11 @@ void load_albedo(inout Surface s) {
 void load_occlusion(inout Surface s) {
     // The material's map and the mesh's own estimate are of the same shape: the darker one counts, not both.
     s.occlusion = min(occlusion_in, has_occlusion_map != 0 ? texture(occlusion_map, uv_in).r : 1.0);
+}
+
+// Share of the diffuse light that scatters; the rest leaves where it entered.
+float scatter_weight(Surface s) {
+    return has_scatter == 0 ? 1.0 : scatter * (has_scatter_map != 0 ? texture(scatter_map, s.uv).r : 1.0);
 }
 
 // Loads all but normal, occlusion and albedo.

@@ -114,6 +114,10 @@ void main() {
     }
     specular_radiance += reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     exitance *= gain_at(mean_curvature_per_mm(s));
+    if (has_scatter != 0) {
+        float of_key;
+        exitance = mix(unblurred_exitance(s, of_key), exitance, scatter_weight(s));
+    }
     load_albedo(s);
     vec3 diffuse_radiance = diffuse_exit(s) * s.albedo_linear * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);

@@ -15,6 +15,10 @@ void main() {
     // The base colour where light enters is taken to be that where it leaves.
     exitance += pow(s.albedo_linear, vec3(pre_scatter)) * light.transmitted;
     exitance *= gain_at(mean_curvature_per_mm(s));
+    if (has_scatter != 0) {
+        vec3 unscattered = unblurred_exitance(s, light.direct).of_normal * pow(s.albedo_linear, vec3(pre_scatter));
+        exitance = mix(unscattered, exitance, scatter_weight(s));
+    }
     vec3 diffuse_radiance = diffuse_exit(s) * pow(s.albedo_linear, vec3(1.0 - pre_scatter)) * exitance / kPi;
     radiance_out = vec4(shown_radiance(diffuse_radiance, specular_radiance, exitance / kPi), 1.0);
 }

@@ -45,17 +45,13 @@ struct MapRow {
 };
 
 std::vector<MapRow> maps_of(const Material& m) {
-    std::vector<MapRow> rows = {{"base color", &m.base_color_map},
-                                {"emission", &m.emission_map},
-                                {"normal", &m.normal_map},
-                                {"metallic roughness", &m.metallic_roughness_map},
-                                {"roughness", &m.roughness_map},
-                                {"specular", &m.specular_map},
-                                {"occlusion", &m.occlusion_map},
-                                {"displacement", &m.displacement_map},
-                                {"thickness", &m.thickness_map},
-                                {"opacity", &m.opacity_map},
-                                {"transmission", &m.transmission_map}};
+    std::vector<MapRow> rows = {
+        {"base color", &m.base_color_map}, {"emission", &m.emission_map},
+        {"normal", &m.normal_map},         {"metallic roughness", &m.metallic_roughness_map},
+        {"roughness", &m.roughness_map},   {"specular", &m.specular_map},
+        {"occlusion", &m.occlusion_map},   {"displacement", &m.displacement_map},
+        {"thickness", &m.thickness_map},   {"scatter", &m.scatter_map},
+        {"opacity", &m.opacity_map},       {"transmission", &m.transmission_map}};
     std::erase_if(rows, [](const MapRow& row) { return !row.image->present(); });
     return rows;
 }
@@ -109,6 +105,8 @@ Json material_json(const SceneObject& object, uint32_t i) {
         row["reason"] = found->reason;
         row["left_out"] = found->left_out;
     }
+    if (!mesh.materials[i].profile.empty()) row["profile"] = mesh.materials[i].profile;
+    if (mesh.materials[i].scatter != 1) row["scatter"] = mesh.materials[i].scatter;
     row["maps"] = Json::array();
     for (const MapRow& map : maps_of(mesh.materials[i]))
         row["maps"].push_back({{"kind", map.kind}, {"name", map.image->name}, {"state", map.state()}});
@@ -201,6 +199,9 @@ void print_material(const SceneObject& object, uint32_t i) {
         fmt::print("  {}: left out: the file has no alpha for it\n", name);
     if (found)
         fmt::print("    class         {}: {}\n", part_name(found->part), printable_line(found->reason));
+    if (!material.profile.empty()) fmt::print("    profile       {}\n", printable_line(material.profile));
+    if (material.scatter != 1)
+        fmt::print("    scatter       {} of its diffuse light\n", to_text(material.scatter));
     if (!object.mesh.uvs.empty() && triangles > 0) print_uv(analyze_uvs(object.mesh, i));
     for (const MapRow& map : maps_of(material))
         fmt::print("    {:<13} {} ({})\n", map.kind, printable_line(map.image->name), map.state());
