@@ -37,6 +37,7 @@ Result<MapRequest> MapChoice::request() const {
             return Error{"--unit-mm is for mesh files; " + mesh + " states the unit of each of its meshes"};
         options.mesh_unit_mm = unit_mm;
     }
+    DERMIS_TRY_ASSIGN(options.words, pose.words());
     DERMIS_TRY_ASSIGN(Scene scene, load_scene(mesh, options));
     DERMIS_TRY_ASSIGN(BakeMapSettings chosen, settings_for(scene.skin.profile));
     DERMIS_TRY_ASSIGN(LayoutOfMap layout,

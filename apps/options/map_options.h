@@ -6,6 +6,7 @@
 #include "command.h"
 #include "dermis/rays/bake_map.h"
 #include "map_layout.h"
+#include "pose_choice.h"
 
 namespace dermis::cli {
 
@@ -21,6 +22,7 @@ struct MapChoice {
     std::string mesh, profile, material;  ///< empty profile: the scene's; empty material: all skin
     std::string uvs;                      ///< as lay_out_map() takes it
     float unit_mm = 0;                    ///< of a mesh file; 0: as its format has it
+    PoseChoice pose;
     BakeMapSettings settings;
 
     /// The scene that `mesh` names, and the settings with their profile.

@@ -77,6 +77,7 @@ void add_common(Command* command, BakeMapsOptions& options) {
                         "skin share texels; with --material the file's)");
     command->add_option("--unit-mm", options.map.unit_mm, kUnitRangeMm,
                         "length of one unit of the mesh file in mm");
+    options.map.pose.add_to(*command);
 }
 
 void add_rays(Command* command, BakeMapSettings& s) {

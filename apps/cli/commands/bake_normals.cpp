@@ -13,6 +13,7 @@
 #include "dermis/render/atlas_check.h"
 #include "dermis/scene/load_scene.h"
 #include "map_layout.h"
+#include "pose_choice.h"
 #include "scene_choice.h"
 
 namespace dermis::cli {
@@ -21,6 +22,7 @@ namespace {
 struct BakeNormalsOptions {
     std::string mesh, output, profile;
     float unit_mm = 0;
+    PoseChoice pose;
     int size = DiffusedNormalsRequest{}.size;
 };
 
@@ -40,6 +42,7 @@ Result<int> run(const BakeNormalsOptions& options) {
         return Error{"--unit-mm is for mesh files; " + options.mesh +
                      " states the unit of each of its meshes"};
     if (options.unit_mm > 0) how.mesh_unit_mm = options.unit_mm;
+    DERMIS_TRY_ASSIGN(how.words, options.pose.words());
     DERMIS_TRY_ASSIGN(Scene scene, load_scene(options.mesh, how));
     DERMIS_TRY(keep_scene_files(scene, files_of(options)));
     DERMIS_TRY_ASSIGN(const LayoutOfMap layout, lay_out_map(scene, {}));
@@ -79,6 +82,7 @@ void add_bake_normals_command(CommandLine& line) {
         ->capture_default_str();
     command->add_option("--unit-mm", options->unit_mm, kUnitRangeMm,
                         "length of one unit of the mesh file in mm");
+    options->pose.add_to(*command);
     line.when_chosen(
         command, [options] { return files_of(*options); }, [options] { return run(*options); });
 }

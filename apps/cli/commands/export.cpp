@@ -26,7 +26,8 @@ struct ExportOptions {
     bool web = false;
 
     [[nodiscard]] bool has_scene() const {
-        return !scene.name.empty() || !scene.words.empty() || !scene.camera.empty() || !scene.light.empty();
+        return !scene.name.empty() || !scene.words.empty() || !scene.camera.empty() || !scene.light.empty() ||
+               scene.pose.given();
     }
 };
 

@@ -1,4 +1,4 @@
-// dermis render: one scene, one technique, one picture (or a turn of the camera).
+// dermis render: one scene, one technique, one picture (or a turn of the camera, or a clip).
 
 #include <algorithm>
 #include <chrono>
@@ -8,6 +8,7 @@
 
 #include "catalog/catalog.h"
 #include "command.h"
+#include "dermis/base/progress.h"
 #include "dermis/render/output.h"
 #include "dermis/scene/scene_words.h"
 #include "job_hash.h"
@@ -22,7 +23,7 @@ struct Options {
     std::string output = "out/dermis.png", frame_range;
     OutputSettings file;
     int frames = 1;
-    double turn_deg = 0;
+    double turn_deg = 0, fps = 0;  ///< fps 0: the pose stays
     bool timings = false, json = false;
 };
 
@@ -34,6 +35,9 @@ Result<IndexRange> frames_of(const Options& options) {
                      " again and again; number them: -o out/%04d.png"};
     if (options.turn_deg != 0 && options.frames == 1)
         return Error{"--turn has no effect on one picture; add --frames and number them: -o out/%04d.png"};
+    if (options.fps > 0 && (options.render.scene.pose.clip.empty() || !numbered))
+        return Error{
+            "--fps is for the numbered frames of a clip: --clip NAME --frames 96 --fps 24 -o out/%04d.png"};
     if (options.frame_range.empty()) return IndexRange{0, options.frames};
     const Result<IndexRange> range = parse_index_range("--frame-range", options.frame_range);
     if (!range) return range;
@@ -106,6 +110,10 @@ void print_timings(const gpu::FrameResult& timings, const gpu::Device& device) {
     std::printf("  %-24s %9.3f ms  on %s\n", "frame", timings.frame_ms, device.info().name.c_str());
 }
 
+double turn_rad(const Options& options, int frame, int frames) {
+    return options.turn_deg * 3.14159265358979 / 180 * frame / frames;
+}
+
 Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& prepared,
                                                   const Options& options, IndexRange range) {
     const bool numbered = frame_path(options.output, 0) != options.output;
@@ -114,8 +122,7 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     if (options.timings && options.frames == 1) range.end = 4;
     const int frames = std::max(options.frames, range.end);
     const auto draw = [&](int frame) {
-        const double turn_rad = options.turn_deg * 3.14159265358979 / 180 * frame / frames;
-        turn_camera(prepared.scene, start, turn_rad);
+        turn_camera(prepared.scene, start, turn_rad(options, frame, frames));
         return renderer.draw(*prepared.technique, *prepared.values, prepared.draw);
     };
     std::vector<gpu::FrameResult> results;
@@ -133,6 +140,47 @@ Result<std::vector<gpu::FrameResult>> draw_frames(Renderer& renderer, Prepared& 
     return results;
 }
 
+// Every frame of a clip is a scene of its own, loaded in its pose. Camera and lights stay as the first frame
+// has them, so that the view does not follow the face.
+Result<std::vector<gpu::FrameResult>> draw_clip(gpu::Device& device, const Prepared& first,
+                                                const Options& options, IndexRange range,
+                                                std::vector<std::string>& warnings) {
+    std::vector<gpu::FrameResult> results;
+    Progress progress("frames", size_t(range.end - range.begin));
+    for (int frame = range.begin; frame < range.end; ++frame) {
+        RenderOptions moment = options.render;
+        moment.scene.pose.time_s = std::max(0.0, moment.scene.pose.time_s) + frame / options.fps;
+        DERMIS_TRY_ASSIGN(Prepared posed, prepare(moment));
+        posed.draw.deep = first.draw.deep;
+        posed.scene.lights = first.scene.lights;
+        turn_camera(posed.scene, first.scene.camera, turn_rad(options, frame, options.frames));
+        DERMIS_TRY_ASSIGN(
+            Renderer renderer,
+            Renderer::create(device, gpu::embedded_shaders(built_in_catalog().shaders), posed.scene));
+        DERMIS_TRY_ASSIGN(gpu::FrameResult drawn, renderer.draw(*posed.technique, *posed.values, posed.draw));
+        results.push_back(std::move(drawn));
+        DERMIS_TRY(write_output(renderer, *posed.technique, *posed.values, posed.draw,
+                                frame_path(options.output, frame), options.file));
+        for (const std::string& warning : renderer.warnings())
+            if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+        progress.advance();
+    }
+    return results;
+}
+
+// The frames of one pose, or of a clip.
+Result<std::vector<gpu::FrameResult>> draw_all(gpu::Device& device, Prepared& prepared,
+                                               const Options& options, IndexRange range,
+                                               std::vector<std::string>& warnings) {
+    if (options.fps > 0) return draw_clip(device, prepared, options, range, warnings);
+    DERMIS_TRY_ASSIGN(
+        Renderer renderer,
+        Renderer::create(device, gpu::embedded_shaders(built_in_catalog().shaders), prepared.scene));
+    Result<std::vector<gpu::FrameResult>> frames = draw_frames(renderer, prepared, options, range);
+    warnings = renderer.warnings();
+    return frames;
+}
+
 Result<int> render(Options options) {
     DERMIS_TRY_ASSIGN(const IndexRange range, frames_of(options));
     Result<Prepared> prepared = prepare(options.render);
@@ -143,17 +191,14 @@ Result<int> render(Options options) {
                                                       .on_message = print_message,
                                                       .name_contains = options.render.device});
     if (!device) return device.error();
-    DERMIS_TRY_ASSIGN(
-        Renderer renderer,
-        Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), prepared->scene));
-
     prepared->draw.deep = options.file.png_bits == 16;
     options.file.credit = prepared->scene.credit;
     options.file.description = prepared->scene.name + ", " + prepared->technique->id;
+    std::vector<std::string> warnings;
     DERMIS_TRY_ASSIGN(const std::vector<gpu::FrameResult> frames,
-                      draw_frames(renderer, *prepared, options, range));
+                      draw_all(*device, *prepared, options, range, warnings));
 
-    print_warnings(renderer.warnings());
+    print_warnings(warnings);
     const gpu::FrameResult timings = median_timings(frames);
     if (options.json) {
         std::printf("%s\n", to_json(*prepared, options, *device, timings).dump(2).c_str());
@@ -216,6 +261,8 @@ void add_render_command(CommandLine& line) {
         ->add_option("--turn", options->turn_deg, {-1e6, 1e6},
                      "angle in degrees that the camera turns over all frames")
         ->capture_default_str();
+    command->add_option("--fps", options->fps, {0, 1000},
+                        "frames in a second of the --clip, from --time on; 0: all frames have one pose");
     command->add_flag("--timings", options->timings,
                       "print the time of each pass (median without the first frame)");
     command->add_flag("--json", options->json, "print one JSON object instead");
