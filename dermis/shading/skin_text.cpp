@@ -147,7 +147,7 @@ std::string mean_normal_function(const char* channel, const std::string& baked, 
         literal(own_weight));
 }
 
-// Texels of baked normals to the mean normal of each channel, and the curvature that red's length stands for.
+// Texels of baked normals to the mean normal of each channel, and the curvature of red's length.
 std::string baked_normals_functions(const GaussianSum& sum) {
     const Vec3 own = own_normal_weights(sum, {});
     const MeanCurvature form = fit_mean_curvature(sum, 0);
@@ -163,7 +163,7 @@ std::string baked_normals_functions(const GaussianSum& sum) {
            mean_normal_function("red", "baked_red(red_texel)", "shorter", own.x) + "\n" +
            mean_normal_function("green", green, shorter.c_str(), own.y) + "\n" +
            mean_normal_function("blue", green, shorter.c_str(), own.z) +
-           "\n// The curvature that red's mean normal stands for, 0 to 1 per mm, by its length. Within " +
+           "\n// The curvature of red's mean normal, 0 to 1 per mm, from its length. Within " +
            percent(form.max_error) +
            ".\nfloat skin_curvature_of_mean(float mean_length) {\n    float u = min(sqrt(max(1.0 - "
            "mean_length, 0.0)), " +

@@ -36,8 +36,8 @@ class Moving : public testing::Test {
 TEST_F(Moving, frames_of_a_clip_do_not_depend_on_how_they_are_split) {
     const std::string common = "render " + path("skin_and_morph.glb") +
                                " -t lambert --clip move --frames 3 --fps 2 --turn 30 --size 32x32 ";
-    for (const std::string words : {"-o " + path("all%d.png"), "-o " + path("part%d.png --frame-range 0:1"),
-                                    "-o " + path("part%d.png --frame-range 1:3")}) {
+    for (const std::string& words : {"-o " + path("all%d.png"), "-o " + path("part%d.png --frame-range 0:1"),
+                                     "-o " + path("part%d.png --frame-range 1:3")}) {
         const ProgramResult drawn = run(common + words);
         ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     }

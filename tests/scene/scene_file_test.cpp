@@ -174,7 +174,7 @@ TEST(SceneFile, an_unknown_key_proposes_the_one_that_was_meant) {
     EXPECT_EQ(error_of(kSpheresMesh + "[skin]\nrougness = 0.4\n").substr(0, 85),
               "s.toml:4: unknown key in [skin]: 'rougness'; did you mean 'roughness'? known: profile");
     EXPECT_EQ(error_of("exposure = 1\n" + kSpheresMesh).substr(0, 72),
-              "s.toml:1: unknown key 'exposure'; did you mean 'exposure_ev'? known: cam");
+              "s.toml:1: unknown key 'exposure'; did you mean 'exposure_ev'? known: ani");
     EXPECT_EQ(error_of(kSpheresMesh + "[material.lips.maps]\nnormals = \"a.png\"\n").substr(0, 88),
               "s.toml:4: unknown key in [material.lips.maps]: 'normals'; did you mean 'normal'? known: ");
 }
