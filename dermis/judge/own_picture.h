@@ -10,8 +10,8 @@
 
 namespace dermis::inline judge {
 
-/// Linear, f32, of one size. Light, albedo and exposure are the scene's: a white diffuse surface that faces
-/// a light of intensity 1 has radiance 1 (docs/reference.md).
+/// Linear, f32, of one size, without exposure. Light and albedo are the scene's: a white diffuse surface that
+/// faces a light of intensity 1 has radiance 1 (docs/reference.md).
 struct OwnPicture {
     std::string name;
     Image with, without;  ///< scattering; 3 or 4 channels
