@@ -236,6 +236,8 @@ TEST_F(BadInput, a_camera_that_looks_nowhere_is_refused) {
 
 TEST_F(BadInput, viewers_that_would_wait_for_ever_or_show_something_else_are_refused) {
     expect_error("view spheres --reference " + path("missing.exr"), "--reference: ");
+    expect_error("view spheres -o " + path("a.mp4"), "-o has no effect without --turntable");
+    expect_error("view spheres --shaders " + path("none"), "has no folder shaders/");
     expect_error("view spheres --frames 0", "--frames: 0 is not in its range, 1 to 1000000000");
 }
 

@@ -40,6 +40,12 @@ Result<std::vector<view::ScriptCommand>> read_script(const std::string& name) {
 
 // A script may save the scene that it shows, as Ctrl+S does.
 Result<FileUse> files_of_window(const ViewOptions& options) {
+    if (options.turntable.output != Turntable{}.output)
+        return Error{"-o has no effect without --turntable, which writes pictures"};
+    std::error_code ec;
+    const std::filesystem::path shaders = options.shader_root;
+    if (!shaders.empty() && !std::filesystem::is_directory(shaders / "shaders", ec))
+        return Error{"--shaders " + options.shader_root + ": has no folder shaders/"};
     DERMIS_TRY_ASSIGN(const std::vector<view::ScriptCommand> script, read_script(options.script));
     FileUse files = view::script_files(script);
     std::erase(files.outputs, std::filesystem::path(options.render.scene.name));
