@@ -28,9 +28,6 @@ struct ProfileSkinOptions {
     bool json = false;
 };
 
-Vec3 vec3_of(const Rgb& c) {
-    return {float(c[0]), float(c[1]), float(c[2])};
-}
 Rgb rgb_of(Vec3 c) {
     return {double(c.x), double(c.y), double(c.z)};
 }
@@ -47,8 +44,8 @@ SkinNumbers numbers_of(const SkinModel& model) {
     const Rgb albedo = skin_albedo(model);
     return {.profile = profile,
             .albedo = albedo,
-            .acescg = rgb_of(inverse(kLinearFromAcesCg) * vec3_of(albedo)),
-            .lab = rgb_of(lab_from_linear(vec3_of(albedo))),
+            .acescg = rgb_of(inverse(kLinearFromAcesCg) * to_vec3(albedo)),
+            .lab = rgb_of(lab_from_linear(to_vec3(albedo))),
             .radius_mm = {mean_radius_mm(profile, 0), mean_radius_mm(profile, 1), mean_radius_mm(profile, 2)},
             .volume = walk_medium_of(profile),
             .typology_deg = typology_angle_deg(albedo)};
@@ -103,7 +100,7 @@ void print_skin(const SkinNumbers& n) {
 Image patch_of(const Rgb& albedo) {
     constexpr int kSide = 96;
     Image image(kSide, kSide, 3, PixelFormat::u8, Encoding::srgb);
-    const Vec3 encoded = srgb_encode(vec3_of(albedo));
+    const Vec3 encoded = srgb_encode(to_vec3(albedo));
     const float channels[3] = {encoded.x, encoded.y, encoded.z};
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x)
@@ -123,7 +120,7 @@ Result<void> write_chart(const ProfileSkinOptions& options) {
             SkinModel model = options.model;
             model.melanin = melanin, model.blood = blood;
             const Rgb albedo = skin_albedo(model);
-            const Vec3 lab = lab_from_linear(vec3_of(albedo));
+            const Vec3 lab = lab_from_linear(to_vec3(albedo));
             char beneath[64];
             std::snprintf(beneath, sizeof beneath, "%.0f; %.0f %.0f %.0f", typology_angle_deg(albedo),
                           double(lab.x), double(lab.y), double(lab.z));

@@ -19,6 +19,10 @@ struct Vec3 {
 /// Linear red, green, blue where a float is too coarse.
 using Rgb = std::array<double, 3>;
 
+constexpr Vec3 to_vec3(const Rgb& rgb) {
+    return {float(rgb[0]), float(rgb[1]), float(rgb[2])};
+}
+
 struct Vec4 {
     float x = 0, y = 0, z = 0, w = 0;
     friend bool operator==(const Vec4&, const Vec4&) = default;

@@ -12,6 +12,7 @@
 #include "dermis/rays/ray_scene.h"
 #include "dermis/rays/rays_version.h"
 #include "dermis/rays/sampling.h"
+#include "dermis/rays/uv_raster.h"
 #include "dermis/scene/scene_hash.h"
 
 namespace dermis::inline rays {
@@ -150,11 +151,6 @@ bool is_buried(const RayScene& scene, uint32_t triangle) {
         backs += hit && dot(hit->n_face, ray.direction) > 0;
     }
     return 2 * backs > kBuriedRays;
-}
-
-std::array<Vec3, 3> corners_mm(const Mesh& mesh, uint32_t triangle) {
-    const uint32_t* i = &mesh.indices[3 * size_t(triangle)];
-    return {mesh.positions_mm[i[0]], mesh.positions_mm[i[1]], mesh.positions_mm[i[2]]};
 }
 
 Triangles measure(const SceneObject& object) {

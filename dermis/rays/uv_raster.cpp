@@ -60,10 +60,14 @@ Image coverage_mask(const UvRaster& raster) {
     return mask;
 }
 
-Vec3 face_normal(const Mesh& mesh, uint32_t triangle) {
+std::array<Vec3, 3> corners_mm(const Mesh& mesh, uint32_t triangle) {
     const uint32_t* corner = &mesh.indices[3 * size_t(triangle)];
-    const Vec3 a = mesh.positions_mm[corner[0]];
-    return normalize(cross(mesh.positions_mm[corner[1]] - a, mesh.positions_mm[corner[2]] - a));
+    return {mesh.positions_mm[corner[0]], mesh.positions_mm[corner[1]], mesh.positions_mm[corner[2]]};
+}
+
+Vec3 face_normal(const Mesh& mesh, uint32_t triangle) {
+    const auto [a, b, c] = corners_mm(mesh, triangle);
+    return normalize(cross(b - a, c - a));
 }
 
 }  // namespace dermis::inline rays

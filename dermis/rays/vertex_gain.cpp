@@ -51,10 +51,6 @@ struct ObjectWalks {
     std::vector<SurfaceSamples> all, difference;  // returned light less the prior; of even and odd walks
 };
 
-Vec3 to_vec3(const Rgb& rgb) {
-    return {float(rgb[0]), float(rgb[1]), float(rgb[2])};
-}
-
 std::vector<CurvatureTensor> curvatures_of(const Mesh& mesh) {
     return mesh.curvatures_per_mm.size() == mesh.positions_mm.size()
                ? mesh.curvatures_per_mm
@@ -73,13 +69,8 @@ std::vector<Vec3> gains_by_curvature(std::span<const CurvatureTensor> tensors, c
     return gains;
 }
 
-std::array<Vec3, 3> triangle_mm(const Mesh& mesh, size_t triangle) {
-    const uint32_t* corner = &mesh.indices[3 * triangle];
-    return {mesh.positions_mm[corner[0]], mesh.positions_mm[corner[1]], mesh.positions_mm[corner[2]]};
-}
-
 float area_mm2(const Mesh& mesh, size_t triangle) {
-    const auto [a, b, c] = triangle_mm(mesh, triangle);
+    const auto [a, b, c] = corners_mm(mesh, uint32_t(triangle));
     return 0.5f * length(cross(b - a, c - a));
 }
 
@@ -117,7 +108,7 @@ std::array<float, 3> uniform_weights(Vec2 place) {
 }
 
 void walk_triangle(const WalkTask& task, size_t t, uint32_t seed, ObjectWalks& object) {
-    const auto [a, b, c] = triangle_mm(*object.mesh, t);
+    const auto [a, b, c] = corners_mm(*object.mesh, uint32_t(t));
     const uint32_t* corner = &object.mesh->indices[3 * t];
     const Vec3 n = face_normal(*object.mesh, uint32_t(t));
     const float share_mm2 = area_mm2(*object.mesh, t) / float(object.walks[t]);

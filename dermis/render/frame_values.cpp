@@ -9,10 +9,6 @@
 namespace dermis::inline render {
 namespace {
 
-Vec3 to_vec3(const Rgb& rgb) {
-    return {float(rgb[0]), float(rgb[1]), float(rgb[2])};
-}
-
 // Any direction that is not along `d`.
 Vec3 up_for(Vec3 d) {
     return std::abs(d.y) < 0.99f ? Vec3{0, 1, 0} : Vec3{0, 0, 1};

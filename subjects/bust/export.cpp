@@ -53,11 +53,10 @@ Rgb mean_albedo(const Bust& bust) {
 Material::Scattering body_of(const Profile& profile, const Bust& bust) {
     constexpr float kHeadWidth_mm = 155;
     const GltfVolume volume = gltf_volume(profile, mean_albedo(bust));
-    const auto color = [](const Rgb& c) { return Vec3{float(c[0]), float(c[1]), float(c[2])}; };
     return {.thickness_mm = kHeadWidth_mm,
-            .attenuation_color = color(volume.attenuation_color),
+            .attenuation_color = to_vec3(volume.attenuation_color),
             .attenuation_distance_mm = float(volume.attenuation_distance_m * 1000),
-            .multiscatter_color = color(volume.multiscatter_color),
+            .multiscatter_color = to_vec3(volume.multiscatter_color),
             .diffuse_transmission = 1};
 }
 

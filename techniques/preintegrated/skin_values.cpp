@@ -17,15 +17,11 @@ static_assert(size_t(kPolynomialTerms) == kExpressionTerms && size_t(kEdgeWeight
 
 constexpr int kRampSteps = 129;
 
-Vec3 to_vec3(const Rgb& rgb, double scale = 1) {
-    return {float(scale * rgb[0]), float(scale * rgb[1]), float(scale * rgb[2])};
-}
-
 template <size_t N>
 void add_array(std::vector<NamedValue>& values, const std::string& name, const std::array<Rgb, N>& array,
                double scale = 1) {
     for (size_t i = 0; i < N; ++i)
-        values.emplace_back(name + "[" + std::to_string(i) + "]", to_vec3(array[i], scale));
+        values.emplace_back(name + "[" + std::to_string(i) + "]", to_vec3(array[i]) * float(scale));
 }
 
 std::array<Rgb, 2> squares(std::array<Rgb, 2> values) {

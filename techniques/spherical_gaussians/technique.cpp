@@ -55,7 +55,6 @@ Result<std::vector<NamedValue>> skin_values(const ParameterValues& values, const
     const auto params = values.as<Params>();
     std::vector<ChannelGaussians> lobes = lobes_of(skin.gaussians, params.lobes, params.width);
     lobes.resize(size_t(kMaxLobes));
-    const auto to_vec3 = [](const Rgb& rgb) { return Vec3{float(rgb[0]), float(rgb[1]), float(rgb[2])}; };
     std::vector<NamedValue> block;
     for (size_t i = 0; i < lobes.size(); ++i) {
         const std::string index = "[" + std::to_string(i) + "]";

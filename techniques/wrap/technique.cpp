@@ -43,10 +43,6 @@ ParameterTable parameters() {
         .build();
 }
 
-Vec3 to_vec3(const Rgb& rgb) {
-    return {float(rgb[0]), float(rgb[1]), float(rgb[2])};
-}
-
 PassList build(const ParameterValues& values, const FrameContext& frame) {
     const auto params = values.as<Params>();
     const WrapReach reach = wrap_reach(frame.skin_gaussians);
