@@ -27,6 +27,7 @@ constexpr const char* kParts =
     "$DERMIS reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 0:4 -o a.exr && "
     "$DERMIS reference scene.toml --size 8x8 --samples 8 --probes 2 --sample-range 4:8 -o b.exr";
 constexpr const char* kPicture = "$DERMIS render scene.toml --size 16x16 -o a.exr";
+constexpr const char* kAlbedo = "$DERMIS bake lut --size 16x16 --storage 8 -o a.png";
 constexpr const char* kTable = "$DERMIS bake lut --size 16x16 --storage 8 -o table.png";
 
 constexpr Case kCases[] = {
@@ -44,6 +45,7 @@ constexpr Case kCases[] = {
     {"bake_occlusion", "bake occlusion scene.toml --size 16 --rays 4 -o out/a.exr"},
     {"bake_gain", "bake gain scene.toml --size 16 --walks-per-mm2 0.1 -o out/a.exr"},
     {"bake_normals", "bake normals scene.toml --size 16 -o out/a.exr"},
+    {"bake_pigments", "bake pigments a.png -o out/a.png", Made::together, Case::slow, kAlbedo},
     {"profile", "profile show gpu_gems_3"},
     {"profile_list", "profile list"},
     {"profile_convert", "profile convert gpu_gems_3 --to all"},

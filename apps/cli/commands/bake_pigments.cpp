@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "bake_options.h"
 #include "dermis/base/file.h"
@@ -43,6 +45,18 @@ Result<FileUse> pigment_files(const BakePigmentsOptions& options) {
                    .inputs = {options.albedo, options.mask}};
 }
 
+// All of them or none.
+Result<void> write_pictures(const std::vector<std::pair<std::filesystem::path, const Image*>>& pictures) {
+    std::vector<std::vector<std::byte>> encoded;
+    std::vector<FileContent> files;
+    for (const auto& [path, image] : pictures) {
+        DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".png", *image));
+        encoded.push_back(std::move(bytes));
+        files.push_back({path, encoded.back()});
+    }
+    return write_files(files);
+}
+
 Result<int> bake_pigments(const BakePigmentsOptions& options) {
     DERMIS_TRY_ASSIGN(const PigmentPaths paths, paths_of(options));
     DERMIS_TRY(check(options.model));
@@ -59,10 +73,10 @@ Result<int> bake_pigments(const BakePigmentsOptions& options) {
     const PigmentPainting painting{
         .maps = &maps, .missing = {}, .edit = options.edit, .mask = mask.empty() ? nullptr : &mask};
     DERMIS_TRY_ASSIGN(const Image made, albedo_of(painting, table, advance));
-    DERMIS_TRY(write_image(paths.melanin, maps.melanin));
-    DERMIS_TRY(write_image(paths.blood, maps.blood));
-    DERMIS_TRY(write_image(paths.residue, maps.residue));
-    DERMIS_TRY(write_image(paths.albedo, made));
+    DERMIS_TRY(write_pictures({{paths.melanin, &maps.melanin},
+                               {paths.blood, &maps.blood},
+                               {paths.residue, &maps.residue},
+                               {paths.albedo, &made}}));
     const Pigments mean = mean_pigments(painting);
     std::printf("mean melanin %.4f, blood %.4f\n", mean.melanin, mean.blood);
     for (const auto* path : {&paths.melanin, &paths.blood, &paths.residue, &paths.albedo}) print_path(*path);
@@ -85,7 +99,7 @@ void add_bake_pigments_command(CommandLine& line) {
         ->required();
     command
         ->add_option("--exposure", options->exposure, {0.1, 10},
-                     "the map's light over that of the skin: 1.3 of a map that is 30 % too bright")
+                     "divides the map before its pigments are read: 1.3 for a map that is 30 % too bright")
         ->capture_default_str();
     SkinEdit& edit = options->edit;
     const auto scale = [&](const char* flag, double& value, const char* help) {
