@@ -252,6 +252,7 @@ Result<Head> make_head(const HeadInput& input) {
         objects.push_back(std::move(object));
     }
     if (!any_skin) return Error{scene.name + " has no skin to export"};
+    web::warn_of_materials(scene, "package", head.warnings);
     json made = {
         {"name", scene.name},
         {"credit", scene.credit},

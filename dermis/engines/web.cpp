@@ -11,7 +11,6 @@
 #include "dermis/engines/web/parts.h"
 #include "dermis/optics/fresnel.h"
 #include "dermis/render/renderer.h"
-#include "dermis/scene/skin_profiles.h"
 #include "shaders/include/constants.h"
 
 namespace dermis::inline engines {
@@ -191,15 +190,6 @@ bool has_skin(const Scene& scene) {
     });
 }
 
-// A page has one profile a tone, for all skin.
-void warn_of_materials(const Scene& scene, std::vector<std::string>& warnings) {
-    if (skin_profiles(scene) != std::vector{scene.skin.profile})
-        warnings.push_back("profiles of materials are dropped: all skin of the page has " +
-                           scene.skin.profile);
-    if (has_scatter_weights(scene))
-        warnings.push_back("scatter of materials is dropped: all skin of the page scatters");
-}
-
 }  // namespace
 
 Result<WebPage> make_web_page(const WebInput& input) {
@@ -214,7 +204,7 @@ Result<WebPage> make_web_page(const WebInput& input) {
     DERMIS_TRY(add_texts(input, page.files));
     web::Binary binary;
     DERMIS_TRY_ASSIGN(const json scene, scene_json(input, binary, page));
-    warn_of_materials(input.scene, page.warnings);
+    web::warn_of_materials(input.scene, "page", page.warnings);
     page.files.push_back({"scene.json", to_bytes(scene.dump(1) + "\n")});
     page.files.push_back({"scene.bin", binary.finish()});
     std::ranges::sort(page.files, {}, &WebFile::path);

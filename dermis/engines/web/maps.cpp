@@ -7,6 +7,7 @@
 #include "dermis/image/resample.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/scene/image_source.h"
+#include "dermis/scene/skin_profiles.h"
 
 namespace dermis::inline engines::web {
 namespace {
@@ -59,6 +60,14 @@ Result<Image> load_map(const Material& material, const Mesh& mesh, std::string_v
         image = resize(image, std::max(image.width * side / longest, 1),
                        std::max(image.height * side / longest, 1), texels);
     return image;
+}
+
+void warn_of_materials(const Scene& scene, std::string_view product, std::vector<std::string>& warnings) {
+    const std::string all = "all skin of the " + std::string(product);
+    if (skin_profiles(scene) != std::vector{scene.skin.profile})
+        warnings.push_back("profiles of materials are dropped: " + all + " has " + scene.skin.profile);
+    if (has_scatter_weights(scene))
+        warnings.push_back("scatter of materials is dropped: " + all + " scatters");
 }
 
 Image three_channels(const Image& image) {

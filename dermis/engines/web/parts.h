@@ -7,6 +7,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "dermis/base/result.h"
@@ -63,6 +65,8 @@ class Binary {
 /// none.
 [[nodiscard]] Result<Image> load_map(const Material& material, const Mesh& mesh, std::string_view texture,
                                      int side);
+/// Names what materials of skin have that a "page" or a "package" drops: it has one profile for all skin.
+void warn_of_materials(const Scene& scene, std::string_view product, std::vector<std::string>& warnings);
 /// Three channels of 8 bits; what is missing is 1.
 [[nodiscard]] Image three_channels(const Image& image);
 /// Three maps of one channel as one picture of the largest one's size.
