@@ -16,10 +16,10 @@ void PoseChoice::add_to(Command& command) {
 Result<std::vector<SceneWord>> PoseChoice::words() const {
     std::vector<SceneWord> all;
     if (!clip.empty()) all.push_back({.key = "animation.clip", .value = clip});
-    if (time_s >= 0) all.push_back({.key = "animation.time_s", .value = to_text(time_s)});
+    if (time_s) all.push_back({.key = "animation.time_s", .value = to_text(*time_s)});
     for (const std::string& text : morphs) {
         Result<SceneWord> word = parse_scene_word(text);
-        if (!word) return Error{"--morph: '" + text + "' is no TARGET=WEIGHT, such as jawOpen=0.6"};
+        if (!word) return Error{"--morph '" + text + "': write TARGET=WEIGHT, such as jawOpen=0.6"};
         all.push_back({.key = "morph." + word->key, .value = word->value});
     }
     return all;

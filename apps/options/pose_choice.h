@@ -1,6 +1,7 @@
 #pragma once
 // Where a mesh is in its motion: --clip talk --time 1.2 --morph jawOpen=0.6.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,11 @@ namespace dermis::cli {
 
 struct PoseChoice {
     std::string clip;                 ///< empty: the scene's
-    double time_s = -1;               ///< in the clip; below 0: the scene's
+    std::optional<double> time_s;     ///< in the clip; none: the scene's
     std::vector<std::string> morphs;  ///< "TARGET=WEIGHT"
 
     void add_to(Command& command);
-    [[nodiscard]] bool given() const { return !clip.empty() || time_s >= 0 || !morphs.empty(); }
+    [[nodiscard]] bool given() const { return !clip.empty() || time_s || !morphs.empty(); }
     /// As words of the scene file's [animation] and [morph].
     [[nodiscard]] Result<std::vector<SceneWord>> words() const;
 };

@@ -149,7 +149,7 @@ Result<std::vector<gpu::FrameResult>> draw_clip(gpu::Device& device, const Prepa
     Progress progress("frames", size_t(range.end - range.begin));
     for (int frame = range.begin; frame < range.end; ++frame) {
         RenderOptions moment = options.render;
-        moment.scene.pose.time_s = std::max(0.0, moment.scene.pose.time_s) + frame / options.fps;
+        moment.scene.pose.time_s = moment.scene.pose.time_s.value_or(0) + frame / options.fps;
         DERMIS_TRY_ASSIGN(Prepared posed, prepare(moment));
         posed.draw.deep = first.draw.deep;
         posed.scene.lights = first.scene.lights;
