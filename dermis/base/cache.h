@@ -25,7 +25,7 @@ namespace dermis::inline base {
 bool cache_store(std::string_view kind, std::string_view hash, const std::vector<std::byte>& bytes);
 
 /// Loads into a std::tie() of values. A vector that is not empty must have the length of the stored one.
-/// Returns false if there is no such entry; the values are then undefined.
+/// Returns false if there is no such entry; some of the values may have changed then.
 template <class... T>
 [[nodiscard]] bool cache_load(std::string_view kind, std::string_view hash, std::tuple<T&...> values) {
     const auto bytes = cache_load(kind, hash);

@@ -85,7 +85,7 @@ struct Comparison {
     RegionMasks regions;
     double reference_rmse = 0;  ///< standard error of the reference over the skin: no rmse is known better
     std::vector<Compared> rows;
-    /// Of the renderer: what a technique left out or could not read; of pictures: another light or camera.
+    /// What a technique left out or could not read, and pictures whose light or camera is not the scene's.
     std::vector<std::string> warnings;
     std::string device;
 };

@@ -98,9 +98,9 @@ struct Material {
     std::optional<Scattering> scattering;
 };
 
-/// For cards of hair and lashes: there is no surface where the alpha map times the vertices' alpha is below
-/// this value; 0: nothing is cut out. Shadows of blended materials are cut out at 0.5 of the map; materials
-/// less than half opaque cast none.
+/// Hair and lashes are often flat cards with an alpha map: the surface is cut out where map times the
+/// vertices' alpha is below this value; 0: nothing is cut out. Shadows of blended materials are cut out at
+/// 0.5 of the map; materials less than half opaque cast none.
 [[nodiscard]] float cutoff_of_map(const Material& material);
 
 /// Whether it is blended over the background, by its opacity times that of the alpha map and the vertices.

@@ -68,7 +68,7 @@ struct Mesh {
     [[nodiscard]] size_t triangle_count() const { return indices.size() / 3; }
 };
 
-/// The UVs of the file, or those of the skin's atlas, which are those of the file where there is no other.
+/// The UVs of the file, or Mesh::atlas_uvs. A mesh without atlas_uvs has its file's for both.
 enum class UvSet { file, atlas };
 
 [[nodiscard]] inline const std::vector<Vec2>& atlas_uvs_of(const Mesh& mesh) {

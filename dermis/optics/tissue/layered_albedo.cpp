@@ -92,7 +92,8 @@ Slab doubled(const Slab& slab) {
             .transmission = slab.transmission * inside};
 }
 
-constexpr double kThinnest = 0.5;  // of the smallest cosine
+// Largest optical depth of a slab before it is doubled, over the smallest cosine of the quadrature.
+constexpr double kThinnest = 0.5;
 
 Slab slab_of(const Directions& d, const Medium& medium, double depth) {
     const int doublings = std::max(0, int(std::ceil(std::log2(depth / (kThinnest * d.cosine[0])))));

@@ -105,7 +105,7 @@ PigmentMaps pigment_maps_of(const Image& albedo, const PigmentTable& table, doub
                 table.nearest({wanted[0] / exposure, wanted[1] / exposure, wanted[2] / exposure});
             maps.melanin.set(x, y, 0, float(value_of_fraction(found.melanin, kMostMelanin)));
             maps.blood.set(x, y, 0, float(value_of_fraction(found.blood, kMostBlood)));
-            // Of the pigments as they are stored.
+            // The residue belongs to the pigments after rounding to 16 bits.
             const Rgb made = table.albedo(pigments_at({.maps = &maps}, x, y));
             constexpr double kLeast = 1.0 / 8192;
             for (size_t c = 0; c < 3; ++c)

@@ -31,8 +31,8 @@ inline constexpr double kBlushBlood = 0.03, kTanMelanin = 0.03;
 
 using PigmentProgress = std::function<void(size_t texels)>;
 
-/// Of a colour map of one to four channels; alpha is not looked at. exposure > 0: the map's light over that
-/// of the skin, 1.3 of a map that is 30 % too bright; the residue holds it.
+/// `albedo`: one to four channels; alpha is ignored. `exposure` > 0 divides the colours before the pigments
+/// are looked up: 1.3 for a map that is 30 % too bright. The residue keeps the factor, so the map comes back.
 [[nodiscard]] PigmentMaps pigment_maps_of(const Image& albedo, const PigmentTable& table, double exposure = 1,
                                           const PigmentProgress& progress = {});
 
