@@ -47,6 +47,12 @@ class SwapchainTest : public ::testing::Test {
         };
     }
 
+    static PassList shown_list() {
+        return {.images = {{.name = "display", .format = ImageFormat::rgba8}},
+                .passes = {clear_pass("display", {1, 0.5f, 0, 1})}};
+    }
+
+    static constexpr SwapchainOptions kWindow = {.width = 64, .height = 48};
     GLFWwindow* window_ = nullptr;
     std::unique_ptr<Device> device_;
 };
@@ -54,9 +60,7 @@ class SwapchainTest : public ::testing::Test {
 TEST_F(SwapchainTest, pictures_of_a_list_are_shown_through_a_change_of_size) {
     Result<Executor> executor = Executor::create(*device_, basic_shaders());
     ASSERT_TRUE(executor);
-    const PassList list{.images = {{.name = "display", .format = ImageFormat::rgba8}},
-                        .passes = {clear_pass("display", {1, 0.5f, 0, 1})}};
-    Result<Swapchain> swapchain = Swapchain::create(*device_, surface_maker(), {.width = 64, .height = 48});
+    Result<Swapchain> swapchain = Swapchain::create(*device_, surface_maker(), kWindow);
     ASSERT_TRUE(swapchain) << swapchain.error().message;
     int shown = 0;
     for (int frame = 0; frame < 12; ++frame) {
@@ -64,7 +68,7 @@ TEST_F(SwapchainTest, pictures_of_a_list_are_shown_through_a_change_of_size) {
         glfwPollEvents();
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_, &width, &height);
-        ASSERT_TRUE(executor->run(list, {.width = width, .height = height}));
+        ASSERT_TRUE(executor->run(shown_list(), {.width = width, .height = height}));
         const Result<Presented> presented = swapchain->present(*executor, "display");
         ASSERT_TRUE(presented) << presented.error().message;
         shown += *presented == Presented::shown;
@@ -81,11 +85,9 @@ TEST_F(SwapchainTest, pictures_of_a_list_are_shown_through_a_change_of_size) {
 TEST_F(SwapchainTest, a_window_that_frees_no_picture_ends_no_program) {
     Result<Executor> executor = Executor::create(*device_, basic_shaders());
     ASSERT_TRUE(executor);
-    const PassList list{.images = {{.name = "display", .format = ImageFormat::rgba8}},
-                        .passes = {clear_pass("display", {1, 0.5f, 0, 1})}};
-    Result<Swapchain> swapchain = Swapchain::create(*device_, surface_maker(), {.width = 64, .height = 48});
+    Result<Swapchain> swapchain = Swapchain::create(*device_, surface_maker(), kWindow);
     ASSERT_TRUE(swapchain) << swapchain.error().message;
-    ASSERT_TRUE(executor->run(list, {.width = 64, .height = 48}));
+    ASSERT_TRUE(executor->run(shown_list(), {.width = 64, .height = 48}));
     auto& acquire = device_->state().context.vk.vkAcquireNextImageKHR;
     const auto of_the_driver = acquire;
     static uint64_t asked_ns = 0;

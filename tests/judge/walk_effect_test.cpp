@@ -24,6 +24,17 @@ class WalkEffect : public RenderTest {
         return settings;
     }
 
+    static ComparisonSettings comparison_by_walk(int side, int probes, int samples) {
+        ComparisonSettings settings = comparison_settings(side, side);
+        settings.grid = kWalkGrid;
+        settings.probes = probes;
+        settings.samples = samples;
+        settings.noise = 0.1;
+        settings.frames = 0;
+        settings.reference.integrator = Integrator::walk;
+        return settings;
+    }
+
     static EffectReference reference_of(const Scene& scene, const EffectReferenceSettings& settings) {
         auto reference = make_effect_reference(scene, settings);
         EXPECT_TRUE(reference) << reference.error().message;
@@ -138,13 +149,7 @@ TEST_F(WalkEffect, both_references_judge_each_technique) {
     const auto list = parse_technique_list(built_in_catalog().techniques,
                                            "lambert,preintegrated,preintegrated[gain=curvature]");
     ASSERT_TRUE(list);
-    ComparisonSettings settings = comparison_settings(24, 24);
-    settings.grid = kWalkGrid;
-    settings.probes = 16;
-    settings.samples = 256;
-    settings.noise = 0.1;
-    settings.frames = 0;
-    settings.reference.integrator = Integrator::walk;
+    ComparisonSettings settings = comparison_by_walk(24, 16, 256);
     settings.second = Integrator::surface;
     const auto both = compare_techniques(device(), built_in_catalog(), sphere(), *list, settings);
     ASSERT_TRUE(both) << both.error().message;
@@ -178,13 +183,7 @@ TEST_F(WalkEffect, the_walked_gain_and_transmission_count_no_light_twice) {
     const auto list = parse_technique_list(built_in_catalog().techniques,
                                            "lambert,preintegrated[gain=none],preintegrated[gain=map]");
     ASSERT_TRUE(list);
-    ComparisonSettings settings = comparison_settings(12, 12);
-    settings.grid = kWalkGrid;
-    settings.probes = 64;
-    settings.samples = 64;
-    settings.noise = 0.1;
-    settings.frames = 0;
-    settings.reference.integrator = Integrator::walk;
+    const ComparisonSettings settings = comparison_by_walk(12, 64, 64);
     Scene slab = unit_case("slab_behind").scene;
     slab.skin.profile = "openpbr_skin_3";
     const auto compared = compare_techniques(device(), built_in_catalog(), slab, *list, settings);
