@@ -85,12 +85,10 @@ const std::vector<Engine>& all_engines() {
          .table_path = "skin_table.exr",
          .v_origin = VOrigin::bottom},
         // Babylon.js: its reader of EXR fetches a library from another host, so the table is DDS, whose first
-        // row is at v = 0 there. curve_2015.glsl takes saturate() of vectors, and Babylon's WGSL has its own
-        // saturate() of one float.
+        // row is at v = 0 there.
         {.name = "babylon",
          .texts = {{"skin.js", shading::Language::essl, "glslText"},
                    {"skin.js", shading::Language::wgsl, "wgslText"}},
-         .left_out = "/curve_2015.glsl",
          .head_path = "head/",
          .table_path = "skin_table.dds",
          .v_origin = VOrigin::top}};

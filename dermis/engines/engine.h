@@ -23,9 +23,6 @@ struct Engine {
     };
     std::vector<SkinText> texts;
 
-    /// The end of the path of functions that are not printed; empty: all are.
-    std::string_view left_out = {};
-
     std::string_view license_path = "LICENSE";
     std::string_view picture_path = "picture.png";
     std::string_view head_path = {};      ///< the folder of a head, with '/' behind it; empty: takes none

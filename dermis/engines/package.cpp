@@ -131,10 +131,8 @@ Words common_words(const PackageInput& input) {
 }
 
 // engines/common: functions for the packages alone, which are printed with the skin's.
-std::vector<shading::Source> functions_for(const Engine& engine, const PackageInput& input) {
-    std::vector<shading::Source> sources;
-    for (const shading::Source& source : input.functions)
-        if (engine.left_out.empty() || !source.path.ends_with(engine.left_out)) sources.push_back(source);
+std::vector<shading::Source> printed_functions(const PackageInput& input) {
+    std::vector<shading::Source> sources(input.functions.begin(), input.functions.end());
     for (const PackageTemplate& file : input.templates)
         if (file.path.starts_with("engines/common/") && file.path.ends_with(".glsl"))
             sources.push_back({file.path, file.text});
@@ -169,7 +167,7 @@ std::string javascript_constant(std::string_view name, std::string_view text) {
 
 Result<void> add_skin_texts(const Engine& engine, const PackageInput& input,
                             std::vector<PackageFile>& files) {
-    const std::vector<shading::Source> functions = functions_for(engine, input);
+    const std::vector<shading::Source> functions = printed_functions(input);
     for (const Engine::SkinText& skin : engine.texts) {
         DERMIS_TRY_ASSIGN(const std::string text, skin_text(input.profile, functions, skin.language));
         const std::vector<std::byte> bytes =

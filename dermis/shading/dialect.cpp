@@ -49,8 +49,7 @@ constexpr Dialect kWgsl = {.name = "wgsl",
                            .types = kWgslTypes,
                            .renamed = &Function::wgsl,
                            .names_before_types = true,
-                           .splats_arguments = true,
-                           .has_saturate = true};
+                           .splats_arguments = true};
 constexpr Dialect kGdshader = {.name = "gdshader",
                                .extension = ".gdshaderinc",
                                .types = kGlslTypes,

@@ -21,7 +21,7 @@ struct Dialect {
     bool splats_by_cast = false;      ///< (float3)x, as float3(x) does not exist
     bool converts_scalars = false;    ///< min(v, 0.5) and lerp(0.25, v, w), as a scalar counts for all
     bool spells_swizzles = false;     ///< float2(v.x, v.y), as v.xy does not exist
-    bool has_saturate = false;
+    bool has_saturate = false;        ///< of vectors too; Babylon.js hides WGSL's with one of a float
     std::string_view opening = {}, closing = {};  ///< around the functions
 };
 

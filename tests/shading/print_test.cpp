@@ -68,7 +68,7 @@ TEST(Print, wgsl_has_types_behind_names_and_select) {
               "\n// Half, 0 to 1.\nconst kHalf: f32 = 0.5;\n\n"
               "// Two lines of text.\n"
               "fn f(a: vec3f, t: f32) -> vec3f {\n"
-              "    let b = saturate(mix(a, vec3f(t), kHalf));\n\n"
+              "    let b = clamp(mix(a, vec3f(t), kHalf), vec3f(0.0), vec3f(1.0));\n\n"
               "    // Why.\n"
               "    var c = b;\n"
               "    let d = max(b, vec3f(t));  // behind\n"
