@@ -1,4 +1,5 @@
-// The head of a package as linear floats for tools/checks/host_floats.mjs: ?side=96&points=4 (4 x 4 points a pixel), &webgl, &lambert.
+// The head of a package as linear floats for tools/checks/host_floats.mjs, in place of head/head.js: ?side=96&points=4 (4 x 4 points in
+// a pixel), &webgl, &lambert.
 // Seeded mistakes: &mistake=normals (not bound), curvature (in 1/m), srgb (on a map of directions).
 
 import { FloatType, NoToneMapping, PCFShadowMap, RenderTarget, Scene, SRGBColorSpace, WebGPURenderer } from "three/webgpu";
@@ -12,7 +13,8 @@ function means(floats, wide, fromBottom) {
   for (let y = 0; y < wide; ++y)
     for (let x = 0; x < wide; ++x)
       for (let c = 0; c < 3; ++c)
-        picture[3 * (Math.floor(y / points) * side + Math.floor(x / points)) + c] += share * floats[4 * ((fromBottom ? wide - 1 - y : y) * wide + x) + c];
+        picture[3 * (Math.floor(y / points) * side + Math.floor(x / points)) + c] +=
+          share * floats[4 * ((fromBottom ? wide - 1 - y : y) * wide + x) + c];
   return picture;
 }
 
