@@ -60,7 +60,10 @@ struct Mesh {
                                   ///< that Dermis bakes (scene/skin_atlas.h); empty: uvs
     std::vector<Vec4> colors_linear;  ///< multiply base colour and opacity
     std::vector<CurvatureTensor> curvatures_per_mm;
-    std::vector<float> occlusions;    ///< ambient visibility, 0 closed in, 1 open
+    std::vector<float> occlusions;  ///< ambient visibility, 0 closed in, 1 open
+    /// Vertex of the mesh file, counted before any was dropped or split. Only of files that have clips or
+    /// morph targets; empty where subdivision or displacement has made other vertices.
+    std::vector<uint32_t> file_vertices;
     std::vector<uint32_t> indices;    ///< three a triangle
     std::vector<Submesh> submeshes;   ///< cover all indices, in order
     std::vector<Material> materials;  ///< at least one

@@ -19,6 +19,7 @@ struct Pose {
     std::map<std::string, float> morph;
 
     [[nodiscard]] bool empty() const { return clip.empty() && morph.empty(); }
+    friend bool operator==(const Pose&, const Pose&) = default;
 };
 
 struct ClipInfo {

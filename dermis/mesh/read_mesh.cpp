@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "dermis/base/file.h"
@@ -132,6 +133,11 @@ void warn_of_tiles(const Mesh& mesh, const fs::path& name, std::vector<std::stri
     warnings.push_back(name.string() + ": UVs lie in several UDIM tiles: " + join(parts, ", "));
 }
 
+void number_vertices(Mesh& mesh) {
+    mesh.file_vertices.resize(mesh.positions_mm.size());
+    std::iota(mesh.file_vertices.begin(), mesh.file_vertices.end(), 0u);
+}
+
 void finish_normals(Mesh& mesh, const fs::path& name, std::vector<std::string>& warnings) {
     if (mesh.normals.empty()) return compute_normals(mesh);
     complete_normals(mesh);
@@ -181,7 +187,10 @@ Result<LoadedMesh> parse_mesh(std::span<const std::byte> bytes, MeshFormat forma
                                      " mm tall; --unit-mm states another");
             return again;
         }
-    if (!options.keep_vertices) drop_unused_vertices(mesh);
+    if (!options.keep_vertices) {
+        if (!loaded->motion.empty() && options.subdivision_level == 0) number_vertices(mesh);
+        drop_unused_vertices(mesh);
+    }
     if (mesh.uvs.empty()) warnings.push_back(name.string() + ": no UVs; maps cannot be used");
     warn_of_height(mesh, name, options, is_obj, warnings);
     warn_of_tiles(mesh, name, warnings);

@@ -130,6 +130,23 @@ Result<void> Renderer::environment_changed() {
     return uploaded_->replace_environment(*device_, *scene_);
 }
 
+Result<void> Renderer::vertices_moved() {
+    drop_history();
+    return uploaded_->replace_vertices(*device_, *scene_);
+}
+
+Result<void> Renderer::objects_replaced() {
+    forget_shape();
+    return uploaded_->replace_objects(*device_, *scene_);
+}
+
+void Renderer::forget_shape() {
+    drop_history();
+    for (ProfileState& state : profiles_) state.diffused_normals_key.clear();
+    seams_.reset();
+    atlas_fault_.reset();
+}
+
 // The fit behind a context takes tens of milliseconds, so the contexts are kept.
 Result<void> Renderer::prepare_profiles() {
     std::vector<ProfileState> states;

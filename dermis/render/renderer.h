@@ -55,6 +55,16 @@ class Renderer {
     [[nodiscard]] Result<void> environment_changed();
     void materials_changed() { uploaded_->update_materials(*scene_); }
 
+    /// Vertices of the scene's objects have moved (scene/pose_scene.h): uploads positions, normals, tangents
+    /// and curvature. What is baked from the shape (occlusion, diffused normals, gains of walks) stays. The
+    /// history of this renderer starts again; call drop_history() of siblings.
+    [[nodiscard]] Result<void> vertices_moved();
+    /// The scene has other objects with the same materials, maps and submeshes: uploads them, and bakes again
+    /// what is made of the shape. Call forget_shape() of siblings.
+    [[nodiscard]] Result<void> objects_replaced();
+    void drop_history() { history_key_.clear(); }
+    void forget_shape();
+
     /// One frame. Errors name the pass, or what the technique lacks.
     [[nodiscard]] Result<gpu::FrameResult> draw(const Technique& technique, const ParameterValues& values,
                                                 const DrawSettings& settings);

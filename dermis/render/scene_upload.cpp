@@ -38,39 +38,53 @@ std::vector<T> filled(const std::vector<T>& attribute, size_t count, T neutral) 
     return attribute.size() == count ? attribute : std::vector<T>(count, neutral);
 }
 
+// Attributes that move with the vertices, complete, and as streams.
+struct MovingStreams {
+    std::vector<Vec3> normals, diagonals, mixed, du_mm, dv_mm;
+    std::vector<Vec4> tangents;
+    std::vector<gpu::VertexStream> streams;
+
+    explicit MovingStreams(const Mesh& mesh) {
+        const size_t count = mesh.positions_mm.size();
+        normals = filled(mesh.normals, count, Vec3{0, 0, 1});
+        tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
+        for (const CurvatureTensor& tensor : filled(mesh.curvatures_per_mm, count, CurvatureTensor{})) {
+            diagonals.push_back(tensor.diagonal);
+            mixed.push_back(tensor.mixed);
+        }
+        const UvDerivatives derivatives =
+            atlas_uvs_of(mesh).size() == count ? vertex_uv_derivatives(over_atlas(mesh)) : UvDerivatives{};
+        du_mm = filled(derivatives.du_mm, count, Vec3{});
+        dv_mm = filled(derivatives.dv_mm, count, Vec3{});
+        streams = {{"position_mm", 3, floats_of(mesh.positions_mm)},
+                   {"normal", 3, floats_of(normals)},
+                   {"tangent", 4, floats_of(tangents)},
+                   {"curvature_diagonal_per_mm", 3, floats_of(diagonals)},
+                   {"curvature_mixed_per_mm", 3, floats_of(mixed)},
+                   {"du_mm", 3, floats_of(du_mm)},
+                   {"dv_mm", 3, floats_of(dv_mm)}};
+    }
+    MovingStreams(const MovingStreams&) = delete;
+    MovingStreams& operator=(const MovingStreams&) = delete;
+};
+
 Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, const Mesh& mesh) {
     const size_t count = mesh.positions_mm.size();
-    const auto normals = filled(mesh.normals, count, Vec3{0, 0, 1});
-    const auto tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
+    const MovingStreams moving(mesh);
     const auto uvs = filled(mesh.uvs, count, Vec2{});
     const auto atlas_uvs = filled(atlas_uvs_of(mesh), count, Vec2{});
     const auto colors = filled(mesh.colors_linear, count, Vec4{1, 1, 1, 1});
-    std::vector<Vec3> diagonals, mixed;
-    for (const CurvatureTensor& tensor : filled(mesh.curvatures_per_mm, count, CurvatureTensor{})) {
-        diagonals.push_back(tensor.diagonal);
-        mixed.push_back(tensor.mixed);
-    }
     const auto occlusions = filled(mesh.occlusions, count, 1.0f);
     const Result<std::vector<Vec3>> occlusions_blurred = blurred_occlusions(mesh);
     if (!occlusions_blurred) return Error{std::string(name) + ": " + occlusions_blurred.error().message};
-    const UvDerivatives derivatives =
-        atlas_uvs_of(mesh).size() == count ? vertex_uv_derivatives(over_atlas(mesh)) : UvDerivatives{};
-    const auto du_mm = filled(derivatives.du_mm, count, Vec3{}),
-               dv_mm = filled(derivatives.dv_mm, count, Vec3{});
     const std::vector<Vec3> no_gain(count, Vec3{1, 1, 1});
-    const gpu::VertexStream streams[] = {{"position_mm", 3, floats_of(mesh.positions_mm)},
-                                         {"normal", 3, floats_of(normals)},
-                                         {"tangent", 4, floats_of(tangents)},
-                                         {"uv", 2, floats_of(uvs)},
-                                         {"atlas_uv", 2, floats_of(atlas_uvs)},
-                                         {"curvature_diagonal_per_mm", 3, floats_of(diagonals)},
-                                         {"curvature_mixed_per_mm", 3, floats_of(mixed)},
-                                         {"occlusion", 1, occlusions},
-                                         {"occlusion_blurred", 3, floats_of(*occlusions_blurred)},
-                                         {"walked_gain", 3, floats_of(no_gain)},
-                                         {"du_mm", 3, floats_of(du_mm)},
-                                         {"dv_mm", 3, floats_of(dv_mm)},
-                                         {"color_linear", 4, floats_of(colors)}};
+    std::vector<gpu::VertexStream> streams = moving.streams;
+    streams.insert(streams.end(), {{"uv", 2, floats_of(uvs)},
+                                   {"atlas_uv", 2, floats_of(atlas_uvs)},
+                                   {"occlusion", 1, occlusions},
+                                   {"occlusion_blurred", 3, floats_of(*occlusions_blurred)},
+                                   {"walked_gain", 3, floats_of(no_gain)},
+                                   {"color_linear", 4, floats_of(colors)}});
     return gpu::Geometry::upload(device, name, streams, mesh.indices);
 }
 
@@ -184,6 +198,33 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
             draws_.push_back(std::move(draw));
         }
     }
+    return {};
+}
+
+Result<void> SceneOnDevice::replace_vertices(gpu::Device& device, const Scene& scene) {
+    for (size_t i = 0; i < geometries_.size(); ++i) {
+        if (scene.objects[i].motion.empty()) continue;
+        const MovingStreams moving(scene.objects[i].mesh);
+        for (const gpu::VertexStream& stream : moving.streams)
+            DERMIS_TRY(geometries_[i]->replace(device, stream));
+    }
+    return {};
+}
+
+// The geometries stay where the draws point to them.
+Result<void> SceneOnDevice::replace_objects(gpu::Device& device, const Scene& scene) {
+    auto draw = draws_.begin();
+    for (size_t i = 0; i < geometries_.size(); ++i) {
+        const SceneObject& object = scene.objects[i];
+        DERMIS_TRY_ASSIGN(gpu::Geometry geometry, upload_mesh(device, object.name, object.mesh));
+        *geometries_[i] = std::move(geometry);
+        for (const Submesh& submesh : object.mesh.submeshes) {
+            draw->first_index = submesh.first_index;
+            (draw++)->index_count = submesh.index_count;
+        }
+    }
+    uv_density_ = dermis::uv_density(scene);
+    gains_key.clear();
     return {};
 }
 

@@ -21,6 +21,12 @@ class SceneOnDevice {
     /// After a change of its skin (tint, roughness, ...) or of the values of its materials; maps stay.
     void update_materials(const Scene& scene);
 
+    /// After the vertices of its objects have moved: what upload() made of them, but for the occlusion.
+    [[nodiscard]] Result<void> replace_vertices(gpu::Device& device, const Scene& scene);
+    /// After other objects with the same submeshes and materials took the place of its objects; textures
+    /// stay. Gains are 1 again. After an error, upload the scene anew.
+    [[nodiscard]] Result<void> replace_objects(gpu::Device& device, const Scene& scene);
+
     /// Gains of the vertices (dermis/rays/vertex_gain.h), one array an object; 1 before.
     [[nodiscard]] Result<void> replace_gains(gpu::Device& device, std::span<const std::vector<Vec3>> gains);
 

@@ -50,7 +50,8 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
     made.objects.push_back({.name = mesh.name.empty() ? path.stem().string() : mesh.name,
                             .mesh = std::move(loaded->mesh),
                             .unit_mm = loaded->unit_mm,
-                            .motion = std::move(loaded->motion)});
+                            .motion = std::move(loaded->motion),
+                            .file = path});
     return made;
 }
 
@@ -185,9 +186,10 @@ Result<SubjectScene> add_objects(const SceneDescription& description, const Mesh
     Result<SubjectScene> made = load_objects(description, mesh, subjects, scene);
     if (!made) return made.error();
     for (SceneObject& object : made->objects) {
-        place_mesh(object.mesh, {.scale = mesh.scale,
-                                 .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
-                                 .translation_mm = mesh.translate_mm});
+        object.placement = {.scale = mesh.scale,
+                            .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
+                            .translation_mm = mesh.translate_mm};
+        place_mesh(object.mesh, object.placement);
         DERMIS_TRY(set_up_materials(description, mesh, object, scene));
         DERMIS_TRY(apply_displacement(object.mesh));
         if (!subject_name(mesh.file.text))
@@ -292,6 +294,7 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     DERMIS_TRY(apply_tone(scene));
     std::ranges::move(skin_warnings(scene), std::back_inserter(scene.warnings));
     tidy_warnings(scene.warnings);  // of one file that many [[mesh]] name, for one
+    scene.motion = description.motion;
     scene.credit = head.credit;
     scene.technique = head.technique;
     scene.settings = description.settings;

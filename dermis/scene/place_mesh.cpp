@@ -85,6 +85,7 @@ Result<void> apply_displacement(Mesh& mesh) {
     const Image heights = to_linear_float(loaded.image);
     displace(mesh, [&](Vec2 uv) { return sample_bilinear(heights, inside_image(source, uv)).x; },
              {.mid = material.displacement_mid, .amplitude_mm = material.displacement_amplitude_mm});
+    mesh.file_vertices.clear();
     return {};
 }
 

@@ -1,17 +1,10 @@
 #pragma once
-// A similarity transform, baked into the vertices.
+// A placement, baked into the vertices.
 
 #include "dermis/base/result.h"
-#include "dermis/mesh/mesh.h"
+#include "dermis/scene/scene.h"
 
 namespace dermis::inline scene {
-
-/// p' = translation + Rz Ry Rx (scale * p): turned about X first, each rotation counter-clockwise seen from
-/// its axis's tip.
-struct Placement {
-    float scale = 1;  ///< positive
-    Vec3 rotation_rad, translation_mm;
-};
 
 /// Positions, normals and tangents move; curvatures shrink as the mesh grows.
 void place_mesh(Mesh& mesh, const Placement& placement);

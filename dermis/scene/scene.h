@@ -86,6 +86,27 @@ struct Skin {
     std::string beckmann_table;  ///< the same of `dermis bake beckmann`
 };
 
+/// Where mesh files are in their motion, as [animation] and [morph] state it; `morph` has weights by target.
+struct MotionDescription {
+    std::string clip;   ///< empty: none
+    double time_s = 0;  ///< since the clip began
+    float speed = 1;    ///< seconds of the clip in one second
+    bool loop = false;  ///< repeat the clip instead of holding its last pose
+    std::map<std::string, float> morph;
+
+    [[nodiscard]] Pose pose() const {
+        return {.clip = clip, .time_s = time_s * double(speed), .loop = loop, .morph = morph};
+    }
+    friend bool operator==(const MotionDescription&, const MotionDescription&) = default;
+};
+
+/// A similarity transform: p' = translation + Rz Ry Rx (scale * p): turned about X first, each rotation
+/// counter-clockwise seen from its axis's tip.
+struct Placement {
+    float scale = 1;  ///< positive
+    Vec3 rotation_rad, translation_mm;
+};
+
 /// One mesh with its transform applied. A material is skin, other, or translucent (shadow-casting glass).
 enum class MaterialClass { skin, other, translucent };
 
@@ -106,6 +127,8 @@ struct SceneObject {
     std::vector<FoundPart> parts = {};   ///< one a material of a mesh file; empty for subjects
     double unit_mm = 1;                  ///< of the mesh file
     Motion motion = {};                  ///< its clips and morph targets
+    std::filesystem::path file = {};     ///< the mesh file; empty for subjects
+    Placement placement = {};            ///< of the mesh file in the scene
 };
 
 struct Scene {
@@ -116,6 +139,7 @@ struct Scene {
     Camera camera;
     Environment environment;
     Skin skin;
+    MotionDescription motion;  ///< the pose of the objects
     Vec3 background_linear = {0.02f, 0.02f, 0.022f};
     ToneMap tone_map = ToneMap::hable;
     float exposure_ev = 0;

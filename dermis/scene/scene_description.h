@@ -84,19 +84,6 @@ struct EnvironmentDescription {
     bool visible = false;
 };
 
-/// Where mesh files are in their motion; `morph` has weights by target.
-struct MotionDescription {
-    int line = 0;
-    std::string clip;
-    double time_s = 0;
-    float speed = 1;
-    bool loop = false;
-    std::map<std::string, float> morph;
-
-    [[nodiscard]] Pose pose() const {
-        return {.clip = clip, .time_s = time_s * double(speed), .loop = loop, .morph = morph};
-    }
-};
 /// Largest weight of a morph target, either way.
 inline constexpr double kMostMorph = 100;
 

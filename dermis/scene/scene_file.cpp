@@ -114,7 +114,6 @@ Result<void> read_morph(const TomlNode& root, SceneDescription& scene, const Tom
                 .error("morph." + entry.key + " = " + toml_text(entry.value) + ": " + entry.key + " " +
                        wanted_text(info));
         scene.motion.morph[entry.key] = float(value.numbers[0]);
-        if (scene.motion.line == 0) scene.motion.line = table->line;
     }
     return {};
 }

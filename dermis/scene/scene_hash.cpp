@@ -66,6 +66,13 @@ void add_views(Hasher& hasher, const Scene& scene) {
     hasher.add(scene.skin.specular_reduces_diffuse);
 }
 
+// Nothing for scenes without a pose.
+void add(Hasher& hasher, const Pose& pose) {
+    if (pose.empty()) return;
+    hasher.add(pose.clip).add(pose.time_s).add(pose.loop);
+    for (const auto& [target, weight] : pose.morph) hasher.add(target).add(weight);
+}
+
 }  // namespace
 
 void add_shape(Hasher& hasher, const SceneObject& object) {
@@ -90,6 +97,7 @@ Result<void> add_image(Hasher& hasher, const ImageSource& source) {
 std::string hash_of_views(const Scene& scene) {
     Hasher hasher;
     add_views(hasher, scene);
+    add(hasher, scene.motion.pose());
     hasher.add(scene.environment.file.string());
     return hasher.hex();
 }

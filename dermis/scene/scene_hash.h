@@ -11,8 +11,8 @@ namespace dermis::inline scene {
 /// background, profile and tint. Errors: a file that cannot be read.
 [[nodiscard]] Result<std::string> hash_of(const Scene& scene);
 
-/// The same without the objects and with the panorama's path instead of its bytes: some microseconds, for a
-/// scene whose files have not changed since.
+/// The same with the pose instead of the objects and with the panorama's path instead of its bytes: some
+/// microseconds, for a scene whose files have not changed since.
 [[nodiscard]] std::string hash_of_views(const Scene& scene);
 
 /// Vertices, normals, triangles and the classes of their materials: what curvature, occlusion and flesh are

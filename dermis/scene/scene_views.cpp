@@ -155,6 +155,7 @@ Scene without_objects(const Scene& scene) {
             .camera = scene.camera,
             .environment = scene.environment,
             .skin = scene.skin,
+            .motion = scene.motion,
             .background_linear = scene.background_linear,
             .tone_map = scene.tone_map,
             .exposure_ev = scene.exposure_ev,

@@ -1,0 +1,84 @@
+// A loaded scene in another pose against the same scene loaded in it.
+
+#include <gtest/gtest.h>
+
+#include "dermis/base/file.h"
+#include "dermis/mesh/curvature.h"
+#include "dermis/scene/load_scene.h"
+#include "dermis/scene/pose_scene.h"
+#include "support/moving_sheet.h"
+#include "support/temporary_directory.h"
+
+namespace dermis {
+namespace {
+
+class PoseScene : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_TRUE(write_text_file(file(), test::moving_sheet()));
+        ASSERT_TRUE(write_text_file(scene(),
+                                    "[[mesh]]\nfile = \"sheet.gltf\"\nscale = 0.5\n"
+                                    "rotate_deg = [20, -30, 10]\ntranslate_mm = [5, 6, 7]\n"));
+    }
+    std::string file() const { return (directory_.path / "sheet.gltf").string(); }
+    std::string scene() const { return (directory_.path / "sheet.toml").string(); }
+
+    static Scene loaded(const std::string& path, const std::vector<SceneWord>& words = {}) {
+        Result<Scene> scene = load_scene(path, {.words = words});
+        EXPECT_TRUE(scene) << scene.error().message;
+        if (!scene) return {};
+        for (SceneObject& object : scene->objects)
+            object.mesh.curvatures_per_mm = compute_curvature_tensors(object.mesh);
+        return std::move(*scene);
+    }
+
+    TemporaryDirectory directory_;
+};
+
+const std::vector<SceneWord> kMoment = {{"animation.clip", "nod"}, {"animation.time_s", "1.5"}};
+
+}  // namespace
+
+TEST_F(PoseScene, positions_and_normals_are_those_of_a_scene_loaded_in_the_pose) {
+    Scene scene = loaded(this->scene());
+    const Mesh posed = loaded(this->scene(), kMoment).objects[0].mesh;
+    const Mesh& mesh = scene.objects[0].mesh;
+    ASSERT_EQ(mesh.positions_mm.size(), posed.positions_mm.size());
+    ASSERT_GT(length(mesh.positions_mm[0] - posed.positions_mm[0]), 10);
+    const Result<ScenePoser> poser = ScenePoser::create(scene);
+    ASSERT_TRUE(poser) << poser.error().message;
+    ASSERT_TRUE(poser->pose({.clip = "nod", .time_s = 1.5}, scene));
+    EXPECT_EQ(mesh.positions_mm, posed.positions_mm);
+    EXPECT_EQ(mesh.normals, posed.normals);
+    ASSERT_TRUE(poser->pose({}, scene));
+    EXPECT_EQ(mesh.positions_mm, loaded(this->scene()).objects[0].mesh.positions_mm) << "and back";
+}
+
+TEST_F(PoseScene, tangents_and_curvature_turn_with_the_surface) {
+    Scene scene = loaded(this->scene());
+    const Scene turned =
+        loaded(this->scene(), {{"animation.clip", "nod"}, {"animation.time_s", "2"}, {"morph.lift", "0"}});
+    const Result<ScenePoser> poser = ScenePoser::create(scene);
+    ASSERT_TRUE(poser);
+    const std::vector<Vec4> before = scene.objects[0].mesh.tangents;
+    ASSERT_TRUE(poser->pose({.clip = "nod", .time_s = 2, .morph = {{"lift", 0.0f}}}, scene));
+    const Mesh &mesh = scene.objects[0].mesh, &expected = turned.objects[0].mesh;
+    for (size_t i = 0; i < mesh.tangents.size(); ++i) {
+        const Vec4 t = mesh.tangents[i], e = expected.tangents[i], b = before[i];
+        EXPECT_LT(length(Vec3{t.x - e.x, t.y - e.y, t.z - e.z}), 1e-4f) << i;
+        EXPECT_GT(length(Vec3{t.x - b.x, t.y - b.y, t.z - b.z}), 1) << i;
+        EXPECT_EQ(t.w, e.w);
+        const CurvatureTensor &s = mesh.curvatures_per_mm[i], &r = expected.curvatures_per_mm[i];
+        EXPECT_LT(length(s.diagonal - r.diagonal) + length(s.mixed - r.mixed), 1e-5f) << i;
+    }
+}
+
+TEST_F(PoseScene, a_mesh_that_is_subdivided_or_does_not_move_is_not_posed) {
+    EXPECT_TRUE(ScenePoser::can_pose(loaded(file()).objects[0]));
+    ASSERT_TRUE(write_text_file(directory_.path / "still.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n"));
+    EXPECT_FALSE(ScenePoser::can_pose(loaded((directory_.path / "still.obj").string()).objects[0]));
+    const Result<Scene> fine = load_scene(file(), {.words = {{"mesh.subdivision", "1"}}});
+    if (fine) EXPECT_FALSE(ScenePoser::can_pose(fine->objects[0]));
+}
+
+}  // namespace dermis
