@@ -23,6 +23,7 @@ constexpr Shortcut kShortcuts[] = {
     {{{'C'}, {}}, Action::compare, "compare two techniques: off, wipe, side by side"},
     {{{'X'}, {}}, Action::swap_sides, "exchange left and right side"},
     {{{'G'}, {}}, Action::reference, "compare with the reference of this view; again: stop"},
+    {{kKeySpace, {}}, Action::play, "play or pause the clip of a mesh that moves"},
     {{{'C'}, kCtrl}, Action::copy_view, "copy this view as a command line"},
     {{{'V'}, kCtrl}, Action::paste_view, "paste a view"},
     {{{'S'}, kCtrl}, Action::save_scene, "save the scene with what was changed"},

@@ -25,6 +25,7 @@ enum class Action {
     compare,
     swap_sides,
     reference,
+    play,
     copy_view,
     paste_view,
     save_scene,

@@ -28,7 +28,7 @@ bool is_scene_file(const fs::path& file) {
 bool Loader::load(const std::string& path, const std::vector<SceneWord>& words) {
     if (loading_.valid()) return false;
     path_ = path;
-    reload_ = false;
+    reload_ = pose_ = false;
     loading_ = std::async(std::launch::async, load_start, path, subjects_, words);
     return true;
 }

@@ -30,6 +30,9 @@ class Loader {
     /// scene file itself has, not only its meshes and maps.
     void expect_same_scene(bool file_changed);
     [[nodiscard]] bool is_reload() const { return reload_; }
+    /// The scene that is read is the one that is shown, in another pose.
+    void expect_pose() { pose_ = true; }
+    [[nodiscard]] bool is_pose() const { return pose_; }
     [[nodiscard]] bool file_changed() const { return file_changed_; }
 
     /// The scene is complete: its files are watched from here on.
@@ -46,7 +49,7 @@ class Loader {
     std::future<Result<Start>> loading_;
     std::string path_;
     std::span<const Subject> subjects_;
-    bool reload_ = false, file_changed_ = false;
+    bool reload_ = false, file_changed_ = false, pose_ = false;
     FileWatch files_;
 };
 

@@ -57,7 +57,9 @@ struct Model {
     Catalog catalog;         ///< what may be chosen
     std::array<TechniqueChoice, 2> choices;
     std::string view = "final";
-    int tone = 0;  ///< 0: as the maps are; 1 to 6: OpenPBR's skins
+    int tone = 0;               ///< 0: as the maps are; 1 to 6: OpenPBR's skins
+    bool playing = false;       ///< the time of scene->motion goes on
+    std::string target_filter;  ///< part of the names of the morph targets that the panel lists
     Compare compare = Compare::off;
     float split = 0.5f;          ///< of the picture's width
     std::string reference_path;  ///< a picture that is shown on the right side instead of a technique

@@ -6,6 +6,7 @@
 #include "dermis/image/io.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/skin_tone.h"
+#include "dermis/view/motion.h"
 #include "dermis/view/scene_look.h"
 
 namespace dermis::view {
@@ -52,9 +53,16 @@ void Opener::open_panorama(const std::string& path) {
 
 void Opener::load(const std::string& path) {
     Model& model = to_.model;
-    const bool same = path == model.scene_path;
-    if (!loader_.load(path, same ? model.loading_words : std::vector<SceneWord>()))
+    const bool same = path == model.scene_path && model.scene;
+    const Scene& file = to_.pictures.scene().file_look();
+    if (!loader_.load(path, same ? words_to_load(model, file) : std::vector<SceneWord>()))
         model.notices.inform("open", "still loading " + loader_.path(), to_.clock.now_s());
+}
+
+void Opener::load_pose() {
+    Model& model = to_.model;
+    if (loader_.load(model.scene_path, words_to_load(model, to_.pictures.scene().file_look())))
+        loader_.expect_pose();
 }
 
 Result<bool> Opener::take() {
@@ -72,6 +80,8 @@ Result<bool> Opener::take() {
 Result<void> Opener::show(Start start, bool first) {
     Model& model = to_.model;
     ShownScene& shown = to_.pictures.scene();
+    if (loader_.is_pose()) return shown.put_pose(std::move(start.scene));
+    const Pose pose = start.handed ? start.handed->loaded_pose : start.scene.motion.pose();
     auto scene = std::make_unique<Scene>(std::move(start.scene));
     Scene file = start.file_look.value_or(without_objects(*scene));
     if (loader_.is_reload()) {
@@ -85,7 +95,7 @@ Result<void> Opener::show(Start start, bool first) {
                       Stage::create(to_.device, to_.pictures.shaders(), std::move(scene), options_.samples));
     if (first) take_start(start);
     if (!first) take_technique(file);
-    shown.put(std::move(stage), std::move(file), model);
+    shown.put(std::move(stage), std::move(file), pose, model);
     model.scene_path = loader_.path();
     model.loading_words = std::move(start.loading_words);
     const bool same_tone = model.scene->skin.profile == tone_profile(model.tone);

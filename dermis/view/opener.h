@@ -30,6 +30,9 @@ class Opener {
     void open(const std::string& path);
     /// A scene: a file, a name, builtin:NAME.
     void load(const std::string& path);
+    /// The shown scene again, in the pose that its motion has now; only its objects change. Not while another
+    /// one is loading.
+    void load_pose();
     [[nodiscard]] bool is_loading() const { return loader_.is_loading(); }
     void wait() const { loader_.wait(); }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dermis/view/motion.h"
 #include "dermis/view/panel_parts.h"
 #include "dermis/view/widgets.h"
 
@@ -37,6 +38,8 @@ void show_column(Model& model, const PanelFacts& facts, PanelRequests& requests,
         if (!model.scene->credit.empty()) ImGui::TextDisabled("%s", model.scene->credit.c_str());
         ImGui::PopTextWrapPos();
     }
+    if (model.scene && has_motion(*model.scene) && section("Motion", true))
+        show_motion(model, requests, widgets);
     if (section("Technique", true)) show_technique(model, 0, requests, widgets);
     if (section("Picture", true)) show_view(model, widgets);
     if (model.scene && section("Skin", false)) show_skin(model, requests, widgets);

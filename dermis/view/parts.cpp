@@ -59,7 +59,8 @@ PictureSize Parts::picture_size() const {
 }
 
 bool Parts::is_settled() const {
-    return has_final_pictures() && !opener.is_loading() && !reference.is_making();
+    return has_final_pictures() && !opener.is_loading() && !reference.is_making() && !model.playing &&
+           !resting_pose.is_due(pictures.scene());
 }
 
 }  // namespace dermis::view

@@ -8,6 +8,7 @@
 #include "dermis/view/clock.h"
 #include "dermis/view/input.h"
 #include "dermis/view/interface.h"
+#include "dermis/view/motion.h"
 #include "dermis/view/opener.h"
 #include "dermis/view/pictures.h"
 #include "dermis/view/presenter.h"
@@ -36,6 +37,7 @@ struct Parts {
     Pictures pictures;
     Reference reference;  ///< the reference job
     Opener opener;
+    RestingPose resting_pose;
     Input input;
     ScriptPlayer player;
     WidgetMap widgets;

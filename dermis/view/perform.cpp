@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dermis/base/file.h"
+#include "dermis/view/motion.h"
 #include "dermis/view/orbit.h"
 #include "dermis/view/scene_edit.h"
 #include "dermis/view/view_line.h"
@@ -94,6 +95,21 @@ void take_screenshot(Parts& p) {
     notify_written(p, path, p.pictures.scene().stage().write(p.model, 0, p.picture_size(), path));
 }
 
+void toggle_play(Parts& p) {
+    if (p.model.playing) {
+        p.model.playing = false;
+        return;
+    }
+    if (const Result<void> played = play(p.model); !played)
+        p.model.notices.inform("motion", played.error().message, p.clock.now_s());
+}
+
+// The reference is of a moment.
+void ask_reference(Parts& p) {
+    p.model.playing = false;
+    p.reference.ask(p.model, p.picture_size());
+}
+
 void toggle_vsync(Parts& p) {
     p.model.vsync = !p.model.vsync;
     p.model.notices.inform("vsync", p.model.vsync ? "waits for the display" : "does not wait for the display",
@@ -124,7 +140,8 @@ constexpr Performer kPerformers[] = {
     {Action::darker, [](Parts& p) { add_exposure(p, -1.0f / 3); }},
     {Action::compare, [](Parts& p) { p.model.compare = Compare((int(p.model.compare) + 1) % 3); }},
     {Action::swap_sides, swap_sides},
-    {Action::reference, [](Parts& p) { p.reference.ask(p.model, p.picture_size()); }},
+    {Action::reference, ask_reference},
+    {Action::play, toggle_play},
     {Action::copy_view, copy_view},
     {Action::paste_view, paste_view},
     {Action::save_scene, save_shown_scene},

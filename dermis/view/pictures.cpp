@@ -39,6 +39,8 @@ void Pictures::refresh(Model& model, const gpu::Texture* reference, PictureSize 
     drew_ = false;
     if (!scene_.is_there()) return;
     scene_.follow_skin();
+    if (const Result<void> moved = scene_.follow_motion(); !moved)
+        model.notices.report_error("motion", moved.error().message);
     for (size_t side = 0; side < drawn_sides(model, reference); ++side) {
         const Result<bool> drew = scene_.stage().refresh(model, side, size, now_s);
         const std::string topic = "picture " + std::to_string(side);

@@ -29,6 +29,7 @@ void keep_look(const Scene& file_before, const Scene& seen, Scene& fresh) {
     if (same("light.")) fresh.lights = seen.lights;
     if (same("environment.")) fresh.environment = seen.environment;
     if (same("skin.")) put_skin(seen.skin, fresh.skin);
+    if (file_before.motion == fresh.motion) fresh.motion = seen.motion;
     if (same("tone_map")) fresh.tone_map = seen.tone_map;
     if (same("exposure_ev")) fresh.exposure_ev = seen.exposure_ev;
     if (same("shadow_maps")) fresh.shadow_map_budget = seen.shadow_map_budget;
@@ -40,6 +41,7 @@ void put_look(const Scene& seen, Scene& fresh) {
     fresh.lights = seen.lights;
     fresh.environment = seen.environment;
     put_skin(seen.skin, fresh.skin);
+    fresh.motion = seen.motion;
     fresh.tone_map = seen.tone_map;
     fresh.exposure_ev = seen.exposure_ev;
     fresh.shadow_map_budget = seen.shadow_map_budget;

@@ -1,6 +1,7 @@
 // The user's changes as edits of the scene file.
 
 #include <algorithm>
+#include <cctype>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
@@ -32,6 +33,32 @@ void add_scene(std::vector<TomlEdit>& edits, const Scene& scene, bool lights_in_
     if (key == scene.lights.end() || key->kind == LightKind::directional) return;
     for (const char* name : {"position_mm", "target_mm"})
         edits.push_back({"light", name, "", int(key - scene.lights.begin())});
+}
+
+// A key of [morph]: quoted where TOML needs it.
+std::string target_key(const std::string& target) {
+    const bool is_bare = !target.empty() && std::ranges::all_of(target, [](unsigned char c) {
+        return (c < 128 && std::isalnum(c) != 0) || c == '_' || c == '-';
+    });
+    return is_bare ? target : toml_string(target);
+}
+
+// [animation] and [morph]; what is as it would be without a line has none. `file`: what the scene file
+// states.
+void add_motion(std::vector<TomlEdit>& edits, const MotionDescription& motion,
+                const MotionDescription& file) {
+    const MotionDescription none;
+    const auto add = [&](const char* key, bool is_default, const std::string& value) {
+        edits.push_back({"animation", key, is_default ? "" : value});
+    };
+    add("clip", motion.clip.empty(), toml_string(motion.clip));
+    add("time_s", motion.time_s == none.time_s, to_text(motion.time_s));
+    add("speed", motion.speed == none.speed, to_text(motion.speed));
+    add("loop", !motion.loop, "true");
+    for (const auto& [target, weight] : file.morph)
+        if (!motion.morph.contains(target)) edits.push_back({"morph", target_key(target), ""});
+    for (const auto& [target, weight] : motion.morph)
+        edits.push_back({"morph", target_key(target), to_text(weight)});
 }
 
 // As in [settings]: a choice is a string, a toggle true or false, a colour an array.
@@ -107,6 +134,7 @@ Result<std::string> scene_text(Model& model, const fs::path& directory) {
     const fs::path file = scene_file_of(model.scene_path);
     std::string text;
     bool lights_in_file = false;
+    MotionDescription motion_in_file;
     if (file.empty()) {
         text = new_scene(model);
     } else {
@@ -117,11 +145,13 @@ Result<std::string> scene_text(Model& model, const fs::path& directory) {
         const bool same_place = fs::equivalent(fs::absolute(file).parent_path(), directory, ec);
         text = same_place ? old : with_absolute_paths(old, *scene);
         lights_in_file = !scene->lights.empty();
+        motion_in_file = scene->motion;
         if (!lights_in_file) text += empty_lights(*model.scene);  // the studio's
     }
     std::vector<TomlEdit> edits;
     add_technique(edits, model);
     add_scene(edits, *model.scene, lights_in_file);
+    add_motion(edits, model.scene->motion, motion_in_file);
     const std::string edited = edit_toml(text, edits);
     if (const Result<SceneDescription> read = parse_scene(edited, file, model.catalog.subjects); !read)
         return Error{"this scene file is written in a way that cannot be changed in place: " +

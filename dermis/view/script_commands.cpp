@@ -7,6 +7,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/scene/scene_words.h"
+#include "dermis/view/motion.h"
 #include "dermis/view/perform.h"
 
 namespace dermis::view {
@@ -39,6 +40,7 @@ std::string state_text(Parts& p) {
     const auto key = std::ranges::find(model.scene->lights, true, &Light::is_key);
     if (key != model.scene->lights.end()) text += "light " + light_text(*key) + "\n";
     text += "environment " + environment_text(model.scene->environment) + "\n";
+    if (has_motion(*model.scene)) text += motion_text(model);
     text += "exposure_ev " + to_text(model.scene->exposure_ev) + "\n";
     const WindowSize size = p.presenter->size();
     text += "window " + std::to_string(size.width) + "x" + std::to_string(size.height) + "\n";
@@ -90,6 +92,25 @@ Result<void> use_tone(Parts& p, Command command) {
     return {};
 }
 
+Result<void> use_clip(Parts& p, Command command) {
+    MotionDescription motion = p.model.scene->motion;
+    motion.clip = command.words[0];
+    motion.time_s = 0;
+    return set_motion(*p.model.scene, std::move(motion));
+}
+
+Result<void> use_time(Parts& p, Command command) {
+    if (command.numbers[0] < 0) return Error{"time: 0 seconds or more"};
+    p.model.scene->motion.time_s = command.numbers[0];
+    return {};
+}
+
+Result<void> use_morph(Parts& p, Command command) {
+    MotionDescription motion = p.model.scene->motion;
+    motion.morph[command.words[0]] = float(command.numbers[0]);
+    return set_motion(*p.model.scene, std::move(motion));
+}
+
 Result<void> slide_widget(Parts& p, Command command) {
     const auto widget = p.widgets.find(command.words[0]);
     std::vector<std::string> names;
@@ -113,6 +134,8 @@ Result<void> resize_window(Parts& p, Command command) {
 }
 
 Result<void> wait_until_settled(Parts& p, Command) {
+    if (p.model.playing)
+        return Error{"settle: the clip plays, so no picture is the last; write pause before"};
     p.player.settle();
     p.pictures.await_refresh();
     return {};
@@ -142,6 +165,11 @@ constexpr Runner kRunners[] = {
     {CommandKind::set, set_parameter},
     {CommandKind::view, use_view},
     {CommandKind::tone, use_tone},
+    {CommandKind::clip, use_clip},
+    {CommandKind::time, use_time},
+    {CommandKind::play, [](Parts& p, Command) { return play(p.model); }},
+    {CommandKind::pause, always<[](Parts& p, Command) { p.model.playing = false; }>},
+    {CommandKind::morph, use_morph},
     {CommandKind::slide, slide_widget},
     {CommandKind::copy, copy_file},
     {CommandKind::save, [](Parts& p, Command c) { return save_scene(p, c.words[0]); }},

@@ -33,12 +33,13 @@ Result<ViewerReport> Session::run() {
 
 void Session::hand_over(ViewerOptions& options) const {
     const Parts& p = *parts_;
-    Start start = {
-        .scene = *p.model.scene,
-        .loading_words = p.model.loading_words,
-        .file_look = p.pictures.scene().file_look(),
-        .handed = Handed{
-            .model = p.model, .reference = p.reference.picture(), .reference_view = p.reference.view()}};
+    Start start = {.scene = *p.model.scene,
+                   .loading_words = p.model.loading_words,
+                   .file_look = p.pictures.scene().file_look(),
+                   .handed = Handed{.model = p.model,
+                                    .reference = p.reference.picture(),
+                                    .reference_view = p.reference.view(),
+                                    .loaded_pose = p.pictures.scene().loaded_pose()}};
     start.handed->model.scene = nullptr;
     options.load = [start = std::move(start)]() -> Result<Start> { return start; };
     options.scene_path = p.model.scene_path;

@@ -22,6 +22,7 @@ class Session {
     // session_frame.cpp
     [[nodiscard]] Result<void> frame();
     [[nodiscard]] Result<void> take_scene();
+    void step_motion();
     [[nodiscard]] Result<PanelRequests> show_interface(const std::vector<Event>& events,
                                                        InterfaceDraws& draws);
     [[nodiscard]] Result<void> show_pictures(const InterfaceDraws& draws);
@@ -30,7 +31,7 @@ class Session {
     std::unique_ptr<Parts> parts_;
     WindowState state_;
     ViewerReport report_;
-    double last_frame_s_ = 0;
+    double last_frame_s_ = 0, last_step_s_ = 0;
 };
 
 }  // namespace dermis::view

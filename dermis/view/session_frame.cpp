@@ -81,6 +81,7 @@ Result<void> Session::frame() {
     Parts& p = *parts_;
     const std::vector<Event> events = gather_events(p);
     if (Result<void> taken = take_scene(); !taken) return taken;
+    step_motion();
     if (p.opener.follow_files()) p.input.wake();
     if (p.reference.take(p.model, p.clock.now_s())) p.input.wake();
     p.pictures.take_times(p.model.notices);
@@ -112,6 +113,15 @@ Result<void> Session::take_scene() {
     p.model.recent = state_.recent;
     p.window.set_title(p.model.scene->name + " - Dermis");
     return {};
+}
+
+void Session::step_motion() {
+    Parts& p = *parts_;
+    const double now_s = p.clock.now_s();
+    advance_motion(p.model, now_s - std::exchange(last_step_s_, now_s));
+    if (p.model.playing) p.input.wake();
+    if (p.resting_pose.is_to_be_loaded(p.model, p.pictures.scene(), now_s) && !p.opener.is_loading())
+        p.opener.load_pose(), p.resting_pose.asked(p.pictures.scene());
 }
 
 Result<PanelRequests> Session::show_interface(const std::vector<Event>& events, InterfaceDraws& draws) {

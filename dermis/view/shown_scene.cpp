@@ -1,5 +1,7 @@
 #include "dermis/view/shown_scene.h"
 
+#include <algorithm>
+
 #include "dermis/base/text.h"
 #include "dermis/image/colour.h"
 #include "dermis/optics/presets.h"
@@ -9,7 +11,7 @@
 
 namespace dermis::view {
 
-void ShownScene::put(Stage stage, Scene file_look, Model& model) {
+void ShownScene::put(Stage stage, Scene file_look, const Pose& pose, Model& model) {
     model.scene = nullptr;
     probe_.reset();
     probe_key_.clear();
@@ -18,6 +20,43 @@ void ShownScene::put(Stage stage, Scene file_look, Model& model) {
     drawn_tint_ = model.scene->skin.albedo_tint_linear;
     mean_albedo_.reset();
     file_look_ = std::move(file_look);
+    set_pose(pose);
+}
+
+// Forgets what is known of the surface in another pose.
+void ShownScene::set_pose(const Pose& loaded) {
+    loaded_pose_ = drawn_pose_ = loaded;
+    poser_.reset();
+    probe_.reset();
+    probe_key_.clear();
+}
+
+Result<void> ShownScene::put_pose(Scene posed) {
+    const std::vector<SceneObject>& shown = stage_->scene().objects;
+    const bool fits = std::ranges::equal(shown, posed.objects, [](const auto& a, const auto& b) {
+        return a.mesh.submeshes.size() == b.mesh.submeshes.size();
+    });
+    if (!fits) return {};  // its files have changed and are read again
+    set_pose(posed.motion.pose());
+    return stage_->replace_objects(std::move(posed));
+}
+
+Result<void> ShownScene::follow_motion() {
+    Scene& scene = stage_->scene();
+    const Pose pose = scene.motion.pose();
+    const auto is_stiff = [](const SceneObject& object) {
+        return !object.motion.empty() && !ScenePoser::can_pose(object);
+    };
+    if (pose == drawn_pose_ || std::ranges::any_of(scene.objects, is_stiff)) return {};
+    drawn_pose_ = pose;
+    probe_.reset();
+    probe_key_.clear();
+    if (!poser_) {
+        DERMIS_TRY_ASSIGN(ScenePoser poser, ScenePoser::create(scene));
+        poser_.emplace(std::move(poser));
+    }
+    DERMIS_TRY(poser_->pose(pose, scene));
+    return stage_->vertices_moved();
 }
 
 void ShownScene::choose_tone(int tone, Model& model) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dermis/optics/tissue/skin_model.h"
+#include "dermis/scene/pose_scene.h"
 #include "dermis/view/probe.h"
 #include "dermis/view/stage.h"
 
@@ -19,8 +20,21 @@ class ShownScene {
     /// As the scene's files have it; without objects.
     [[nodiscard]] const Scene& file_look() const { return file_look_; }
 
-    /// Takes the place of what was shown; model.scene is the new one.
-    void put(Stage stage, Scene file_look, Model& model);
+    /// Takes the place of what was shown; model.scene is the new one. `pose`: that its objects were loaded
+    /// in.
+    void put(Stage stage, Scene file_look, const Pose& pose, Model& model);
+
+    /// The vertices follow the scene's motion; curvature turns with them, and what is made of the shape
+    /// (occlusion, baked maps, gains) stays as it was loaded. Nothing happens for meshes that only loading
+    /// can pose (ScenePoser::can_pose).
+    [[nodiscard]] Result<void> follow_motion();
+    /// The same scene, loaded in another pose.
+    [[nodiscard]] Result<void> put_pose(Scene posed);
+    [[nodiscard]] const Pose& loaded_pose() const { return loaded_pose_; }
+    /// Whether the scene was loaded in the pose that its motion has now.
+    [[nodiscard]] bool is_loaded_in_its_pose() const {
+        return !is_there() || loaded_pose_ == stage_->scene().motion.pose();
+    }
 
     /// 0: as the maps are, with the profile that the scene came with; 1 to 6: OpenPBR's skins. Says what is
     /// wrong as a notice.
@@ -38,6 +52,7 @@ class ShownScene {
     [[nodiscard]] const std::string& probe(Vec2 place, PictureSize size);
 
   private:
+    void set_pose(const Pose& loaded);
     /// A tint that gives the skin this mean colour; false, with a notice, where there is no skin.
     bool tint_to(Vec3 albedo_linear, Model& model);
 
@@ -47,6 +62,8 @@ class ShownScene {
     std::optional<Vec3> mean_albedo_;
     Vec3 drawn_tint_;  ///< what the materials on the device were made with
     std::string probe_text_, probe_key_;
+    Pose loaded_pose_, drawn_pose_;
+    std::optional<ScenePoser> poser_;  ///< of the objects in loaded_pose_; made when they move
 };
 
 }  // namespace dermis::view

@@ -131,6 +131,21 @@ Result<void> Stage::environment_changed() {
     return sides_[0].renderer->environment_changed();
 }
 
+Result<void> Stage::vertices_moved() {
+    invalidate();
+    if (sides_[1].renderer) sides_[1].renderer->drop_history();
+    return sides_[0].renderer->vertices_moved();
+}
+
+Result<void> Stage::replace_objects(Scene posed) {
+    invalidate();
+    scene_->objects = std::move(posed.objects);
+    scene_->bounds_center_mm = posed.bounds_center_mm;
+    scene_->bounds_radius_mm = posed.bounds_radius_mm;
+    if (sides_[1].renderer) sides_[1].renderer->forget_shape();
+    return sides_[0].renderer->objects_replaced();
+}
+
 void Stage::invalidate() {
     for (Side& side : sides_) side.key.clear();
 }

@@ -32,6 +32,7 @@ class Stage {
                                               std::unique_ptr<Scene> scene, int samples);
 
     [[nodiscard]] Scene& scene() { return *scene_; }
+    [[nodiscard]] const Scene& scene() const { return *scene_; }
     /// Samples per pixel of the finished picture.
     [[nodiscard]] int samples() const { return limits_.samples; }
 
@@ -54,6 +55,11 @@ class Stage {
     /// The scene's skin or its environment were changed. An error leaves the environment as it was drawn.
     void skin_changed();
     [[nodiscard]] Result<void> environment_changed();
+
+    /// The vertices of the scene's objects have moved (Renderer::vertices_moved).
+    [[nodiscard]] Result<void> vertices_moved();
+    /// Takes the objects and bounds of the same scene in another pose.
+    [[nodiscard]] Result<void> replace_objects(Scene posed);
 
     /// Marks the picture stale; the next refresh redraws.
     void invalidate();

@@ -4,8 +4,10 @@
 
 #include "dermis/base/text.h"
 #include "dermis/render/shared_passes.h"
+#include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_words.h"
 #include "dermis/technique/technique_list.h"
+#include "dermis/view/motion.h"
 #include "dermis/view/words.h"
 
 namespace dermis::view {
@@ -50,6 +52,22 @@ std::string scene_options(const Scene& scene, const Scene& file) {
            (light.empty() ? "" : " --light " + shell_word(light));
 }
 
+// Poses in their short forms.
+std::string loading_option(const SceneWord& word) {
+    if (word.key == "animation.clip") return " --clip " + shell_word(word.value);
+    if (word.key == "animation.time_s") return " --time " + word.value;
+    if (word.key.starts_with("morph."))
+        return " --morph " + shell_word(word.key.substr(6) + "=" + word.value);
+    return " --scene " + shell_word(text_of(word));
+}
+
+// The word of a pose's option.
+Result<SceneWord> pose_word(std::string_view option, const std::string& value) {
+    if (option == "--clip") return SceneWord{"animation.clip", value};
+    if (option == "--time") return SceneWord{"animation.time_s", value};
+    return parse_scene_word("morph." + value);
+}
+
 // The content of a line, checked but not yet applied to the model.
 struct Wanted {
     std::span<const Technique> techniques;
@@ -74,6 +92,9 @@ struct Wanted {
             DERMIS_TRY_ASSIGN(std::vector<SceneWord> some,
                               parse_section_words(option == "--camera" ? "camera" : "light.key", value));
             words.insert(words.end(), some.begin(), some.end());
+        } else if (option == "--clip" || option == "--time" || option == "--morph") {
+            DERMIS_TRY_ASSIGN(SceneWord word, pose_word(option, value));
+            words.push_back(std::move(word));
         } else {
             view = value;
         }
@@ -97,16 +118,19 @@ std::string view_line(Model& model, const Scene& file, const DrawSettings& draw)
     for (const Parameter& parameter : choice.technique().parameters.parameters)
         if (!preset && values.get(parameter) != defaults.get(parameter))
             line += " --set " + shell_word(parameter.name + "=" + values.text(parameter));
-    for (const SceneWord& word : model.loading_words) line += " --scene " + shell_word(text_of(word));
-    line += scene_options(scene, file);
+    for (const SceneWord& word : words_to_load(model, file)) line += loading_option(word);
+    // A pose that the files do not have would be framed anew.
+    Scene same_pose = without_objects(file);
+    if (scene.motion != file.motion) same_pose.camera = {};
+    line += scene_options(scene, same_pose);
     if (model.view != "final") line += " --view " + model.view;
     if (draw.samples != 1) line += " --samples " + std::to_string(draw.samples);
     return line + " --size " + std::to_string(draw.width) + "x" + std::to_string(draw.height);
 }
 
 Result<void> apply_view_line(Model& model, std::string_view line) {
-    static constexpr std::string_view kOptions[] = {"-t",       "--technique", "--set", "--scene",
-                                                    "--camera", "--light",     "--view"};
+    static constexpr std::string_view kOptions[] = {"-t",      "--technique", "--set",  "--scene", "--camera",
+                                                    "--light", "--view",      "--clip", "--time",  "--morph"};
     if (line.size() > kMaxLineBytes) return Error{"the clipboard holds no view: it is too long"};
     Wanted wanted{
         .techniques = model.catalog.techniques, .choice = model.choices[0], .words = {}, .view = model.view};
@@ -132,7 +156,14 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
     std::erase_if(wanted.words, [&](const SceneWord& word) {  // those that the scene was loaded with
         return std::ranges::find(model.loading_words, word) != model.loading_words.end();
     });
+    SceneDescription posed;
+    posed.motion = model.scene->motion;
+    for (const SceneWord& word : wanted.words)
+        if (is_motion_word(word)) DERMIS_TRY(set_word(posed, word, {}));
+    std::erase_if(wanted.words, is_motion_word);
+    DERMIS_TRY(check_motion(*model.scene, posed.motion));
     if (Result<void> set = set_words(*model.scene, wanted.words); !set) return set;
+    model.scene->motion = std::move(posed.motion);
     model.choices[0] = std::move(wanted.choice);
     model.view = wanted.view;
     return {};

@@ -16,9 +16,9 @@ namespace dermis::view {
 /// the size and the samples.
 [[nodiscard]] std::string view_line(Model& model, const Scene& file, const DrawSettings& draw);
 
-/// Takes -t, --set, --scene, --camera, --light and --view out of such a line (other words are passed over);
-/// "yaw_deg=30 pitch_deg=5" alone is a camera. Nothing changes when any of it is wrong, or when there
-/// is nothing to take.
+/// Takes -t, --set, --scene, --camera, --light, --view, --clip, --time and --morph out of such a line (other
+/// words are passed over); "yaw_deg=30 pitch_deg=5" alone is a camera. Nothing changes when any of it is
+/// wrong, or when there is nothing to take.
 [[nodiscard]] Result<void> apply_view_line(Model& model, std::string_view line);
 
 }  // namespace dermis::view

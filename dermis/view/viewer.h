@@ -20,6 +20,7 @@ struct Handed {
     Model model;  ///< without its scene
     Image reference;
     std::string reference_view;
+    Pose loaded_pose;  ///< in which the scene was loaded
 };
 
 /// Options of the window.
