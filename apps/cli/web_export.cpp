@@ -6,8 +6,10 @@
 #include "dermis/bake/shadow_ramp.h"
 #include "dermis/base/text.h"
 #include "dermis/image/colour.h"
+#include "dermis/optics/conversions.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
+#include "dermis/rays/curvature_gain.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/skin_tone.h"
@@ -53,7 +55,8 @@ class ToneMaker {
                         .albedo_tint_linear = tint_linear,
                         .mean_albedo_linear = mean_linear * tint_linear,
                         .diffuse_table = diffuse,
-                        .rows_table = *rows};
+                        .rows_table = *rows,
+                        .gain = walked_gain_form(walk_medium_of(*profile))};
         const PassList list = technique_.build(values_, {.skin_gaussians = skin.gaussians});
         for (const auto& [value_name, value] : list.passes.front().values)
             for (size_t i = 0; i < tone.occlusion_weights.size(); ++i)

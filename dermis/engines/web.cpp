@@ -106,7 +106,10 @@ json tones_json(std::span<const WebTone> tones) {
                        {"description", tone.description},
                        {"albedo_tint_linear", to_json(tone.albedo_tint_linear)},
                        {"mean_albedo_linear", to_json(tone.mean_albedo_linear)},
-                       {"occlusion_weights", weights}});
+                       {"occlusion_weights", weights},
+                       {"gain_form_mm",
+                        {to_json(to_vec3(tone.gain.slope_mm)), to_json(to_vec3(tone.gain.length_mm)),
+                         to_json(to_vec3(tone.gain.bend_mm))}}});
     }
     return all;
 }

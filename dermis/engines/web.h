@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/optics/gain_form.h"
 #include "dermis/scene/scene.h"
 #include "dermis/shading/shading.h"
 #include "dermis/technique/technique.h"
@@ -33,6 +34,7 @@ struct WebTone {
     /// WebInput::table_max_curvature_per_mm, and the rows that the page's shader reads by number.
     TableImage diffuse_table, rows_table;
     std::array<Vec3, 3> occlusion_weights;  ///< of the occlusion's three blurs
+    GainForm gain;
 };
 
 struct WebInput {

@@ -11,9 +11,8 @@ namespace {
 
 // Beyond the defaults of every technique.
 constexpr std::string_view kSettings =
-    "preintegrated[gain=curvature],"
-    "texture_space_gaussians[gain=curvature],"
-    "screen_space_separable[gain=curvature],"
+    "preintegrated[gain=none],"
+    "texture_space_gaussians[gain=none],"
     "preintegrated[shadow=scattered],"
     "preintegrated[shadow=plain],"
     "preintegrated[normals=blended],"

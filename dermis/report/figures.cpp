@@ -20,6 +20,7 @@
 #include "dermis/scene/placement.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_words.h"
+#include "dermis/technique/gain.h"
 
 namespace dermis::inline report {
 namespace {
@@ -227,7 +228,8 @@ Result<CellPicture> CellRenderer::draw(const Figure& figure, const FigureCell& c
     };
     const Result<const Technique*> technique = find_technique(catalog_.techniques, id);
     if (!technique) return within(technique.error().message);
-    ParameterValues values((*technique)->parameters);
+    // The sources have no gain.
+    ParameterValues values = without_gain(ParameterValues((*technique)->parameters));
     for (const auto& [name, text] : cell.settings)
         if (Result<void> set = values.set(name, text); !set) return within(set.error().message);
 

@@ -23,7 +23,7 @@ struct AtlasParams {
     AtlasCull cull = AtlasCull::both;
     float kernel_growth = 0.5f;
     Transmission transmission = Transmission::shadow_map;
-    Gain gain = Gain::none;
+    Gain gain = Gain::curvature;
 };
 [[nodiscard]] const ParameterTable& atlas_parameters();
 

@@ -18,7 +18,7 @@ void add_screen_light(PassList& list, SpecularModel specular, const FrameContext
 
 struct BeyondBlur {
     Transmission transmission = Transmission::shadow_map;
-    Gain gain = Gain::none;
+    Gain gain = Gain::curvature;
 };
 
 /// Draws the skin with the diffuse light of `blurred`, an image as "skin_light" is, but without meaning in

@@ -173,6 +173,7 @@ class Renderer {
     gl.uniform1f(at.skin_tone, tone);
     gl.uniform1f(at.max_curvature_per_mm, scene.tables.diffuse.max_curvature_per_mm);
     gl.uniformMatrix3fv(at.occlusion_weights, false, scene.tones[tone].occlusion_weights.flat());
+    gl.uniformMatrix3fv(at.gain_form_mm, false, scene.tones[tone].gain_form_mm.flat());
     this.bind(at.diffuse_table, 3, gl.TEXTURE_2D_ARRAY, resources.diffuse);
     this.bind(at.rows_table, 4, gl.TEXTURE_2D_ARRAY, resources.rows);
   }

@@ -34,6 +34,7 @@ uniform sampler2DArray diffuse_table;        // N.L by curvature
 uniform sampler2DArray rows_table;           // kRowZonal, kRowShadow, kRowNormals
 uniform float max_curvature_per_mm;          // of diffuse_table
 uniform mat3 occlusion_weights;              // of the three blurs, a column each
+uniform mat3 gain_form_mm;                   // slope, length and bend, a column each
 
 vec4 read_row(int row, float x) {
     float size = float(textureSize(rows_table, 0).x);
@@ -152,6 +153,10 @@ void main() {
         vec3 response = scatters ? direct_skin(s, l, visibility, part) : vec3(max(dot(n_sharp, l), 0.0) * visibility);
         exitance += irradiance_linear[i] * response;
         reflected += irradiance_linear[i] * visibility * specular(n_sharp, v, l, roughness, reflectance);
+    }
+    if (scatters) {
+        float mean_curvature_per_mm = 0.5 * dot(curvature_diagonal_per_mm, vec3(1.0));
+        exitance *= gain_of_curvature(mean_curvature_per_mm, gain_form_mm[0], gain_form_mm[1], gain_form_mm[2]);
     }
     vec3 radiance = albedo * exitance / kPi + reflected;
     color = vec4(srgb_encode(tone_mapped(max(radiance, vec3(0.0)) * exposure, tone_map)), 1.0);

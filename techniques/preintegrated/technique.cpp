@@ -59,7 +59,7 @@ struct Params {
     Shadow shadow = Shadow::automatic;
     float shadow_width_mm = 2.5f;  // a wider filter lights the skin around a nose
     Transmission transmission = Transmission::shadow_map;
-    Gain gain = Gain::none;
+    Gain gain = Gain::curvature;
     Ambient ambient = Ambient::profile;
     SpecularModel specular = SpecularModel::ggx;
 };
@@ -100,12 +100,14 @@ ParameterTable parameters() {
                  .normals = Normals::lerp,
                  .shadow = Shadow::plain,
                  .transmission = Transmission::none,
+                 .gain = Gain::none,
                  .specular = SpecularModel::ksk})
         .preset("curve_2015", "Yeung 2015: curves instead of tables, for few texture units",
                 {.diffuse = Diffuse::curve_2015,
                  .normals = Normals::sharp,
                  .shadow = Shadow::plain,
                  .transmission = Transmission::none,
+                 .gain = Gain::none,
                  .ambient = Ambient::curve_2015})
         .build();
 }

@@ -34,7 +34,7 @@ class ScreenSpaceBurley : public RenderTest {
   protected:
     static Image draw(Renderer& renderer, const std::string& samples) {
         const Technique& technique = built_in_technique("screen_space_burley");
-        ParameterValues values(technique.parameters);
+        ParameterValues values = without_gain(ParameterValues(technique.parameters));
         EXPECT_TRUE(values.set("samples", samples));
         return radiance(
             renderer, technique, values,

@@ -20,7 +20,7 @@ struct Params {
     float width = 1;
     bool rotate = true;
     Transmission transmission = Transmission::shadow_map;
-    Gain gain = Gain::none;
+    Gain gain = Gain::curvature;
     SpecularModel specular = SpecularModel::ggx;
 };
 

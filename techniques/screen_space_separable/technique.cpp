@@ -31,7 +31,7 @@ struct Params {
     Taps taps = Taps::taps_17;
     Follow follow = Follow::surface;
     Transmission transmission = Transmission::shadow_map;
-    Gain gain = Gain::none;
+    Gain gain = Gain::curvature;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -53,7 +53,7 @@ ParameterTable parameters() {
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .preset("cheap", "fewer taps", {.taps = Taps::taps_11})
         .preset("source_artists", "the source's own code: a kernel by strength and falloff",
-                {.kernel = Kernel::artistic, .transmission = Transmission::none})
+                {.kernel = Kernel::artistic, .transmission = Transmission::none, .gain = Gain::none})
         .build();
 }
 

@@ -18,7 +18,7 @@ struct Params {
     int32_t lobes = 2;
     LobeWidth width = LobeWidth::deviation;
     Transmission transmission = Transmission::shadow_map;
-    Gain gain = Gain::none;
+    Gain gain = Gain::curvature;
     SpecularModel specular = SpecularModel::ggx;
 };
 

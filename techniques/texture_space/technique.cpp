@@ -81,7 +81,7 @@ ParameterTable parameters() {
                 "source, or shadowed as the diffuse light is")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .preset("source", "the whole method of 2004",
-                {.atlas = {.kernel_growth = 1.5f, .transmission = Transmission::none},
+                {.atlas = {.kernel_growth = 1.5f, .transmission = Transmission::none, .gain = Gain::none},
                  .shadows = Shadows::source,
                  .blur = Blur::poisson,
                  .dilate = Dilate::source,

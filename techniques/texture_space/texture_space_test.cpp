@@ -15,7 +15,8 @@ const DrawSettings kTextureSpaceSmall = {
 class TextureSpace : public RenderTest {
   protected:
     static ParameterValues with(std::initializer_list<std::pair<const char*, const char*>> settings) {
-        ParameterValues values(built_in_technique("texture_space").parameters);
+        ParameterValues values =
+            without_gain(ParameterValues(built_in_technique("texture_space").parameters));
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
         return values;
     }

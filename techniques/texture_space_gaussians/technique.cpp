@@ -49,7 +49,7 @@ ParameterTable parameters() {
                 "exponent of the base colour before the blur; the rest is applied after it")
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .preset("source", "every Gaussian of the profile, half of the base colour before the blur",
-                {.atlas = {.transmission = Transmission::none},
+                {.atlas = {.transmission = Transmission::none, .gain = Gain::none},
                  .detail = Detail::map,
                  .gaussians = Gaussians::profile,
                  .carry_seams = false,

@@ -20,7 +20,7 @@ TEST_F(TextureSpaceGaussians, the_edge_of_a_shadow_is_the_profiles_own) {
     Scene scene = half_shadowed(plane(one_chart));
     Renderer renderer = make_renderer(scene);
     const Technique& technique = built_in_technique("texture_space_gaussians");
-    ParameterValues values(technique.parameters);
+    ParameterValues values = without_gain(ParameterValues(technique.parameters));
     ASSERT_TRUE(values.set("light_map_size", "512"));
     const auto drawn = renderer.draw(
         technique, values, {.width = 32, .height = 32, .shadow_map_size = 2048, .penumbra_mm = 0.05f});

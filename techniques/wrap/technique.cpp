@@ -19,7 +19,7 @@ struct Params {
     float scatter_width = 0.15f;
     Vec3 scatter_color_linear = {0.07f, 0.012f, 0.006f};
     Transmission transmission = Transmission::shadow_map;
-    Gain gain = Gain::none;
+    Gain gain = Gain::curvature;
     SpecularModel specular = SpecularModel::ggx;
 };
 
@@ -39,7 +39,7 @@ ParameterTable parameters() {
         .choice(&Params::gain, "gain", gain_names(), kGainHelp)
         .choice(&Params::specular, "specular", specular_model_names(), "specular model")
         .preset("source", "Green 2004: widths and colour by eye",
-                {.width = Width::source, .transmission = Transmission::none})
+                {.width = Width::source, .transmission = Transmission::none, .gain = Gain::none})
         .build();
 }
 

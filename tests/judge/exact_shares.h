@@ -7,6 +7,7 @@
 #include "dermis/judge/effect_reference.h"
 #include "dermis/judge/technique_pictures.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/technique/gain.h"
 #include "support/built_in.h"
 
 namespace dermis {
@@ -37,7 +38,8 @@ inline std::vector<double> exact_shares(Renderer& renderer, std::span<const Cont
     const Result<Image> exact = exact_effect(scene, answer, side, side, grid, penumbra_mm);
     EXPECT_TRUE(exact) << exact.error().message;
     std::vector<double> shares;
-    for (const Contestant& contestant : contestants) {
+    for (Contestant contestant : contestants) {
+        contestant.values = without_gain(contestant.values);  // the answers are the profile's
         const Result<TechniquePictures> pictures = maker.make(contestant);
         EXPECT_TRUE(pictures) << pictures.error().message;
         Image mask(side, side, 1);

@@ -83,7 +83,7 @@ TEST_F(AtlasCheck, skin_outside_the_atlas_looks_like_lambert) {
     const DrawSettings diffuse = {.width = 64, .height = 64, .view = "diffuse", .shadow_map_size = 256};
     const Image lambert = radiance(renderer, built_in_technique("lambert"), diffuse);
     for (const char* id : {"texture_space", "texture_space_gaussians"}) {
-        ParameterValues values(built_in_technique(id).parameters);
+        ParameterValues values = profile_values(built_in_technique(id));
         ASSERT_TRUE(values.set("transmission", "none"));
         const Image drawn = radiance(renderer, built_in_technique(id), values, diffuse);
         EXPECT_LT(relative_difference(lambert, drawn, 1), 2e-3) << id;

@@ -72,7 +72,8 @@ class SwiftShaderGoldens : public Goldens {
 }  // namespace
 
 TEST_F(Goldens, of_the_spheres_with_every_technique) {
-    expect_goldens_of("spheres", kSpheresSettings, {});
+    // Without the gain the spheres are off by 0.117 codes.
+    expect_goldens_of("spheres", kSpheresSettings, {.mean_codes = 0.1, .outlier_share = 0.001});
 }
 
 TEST_F(Goldens, of_the_views_of_the_spheres) {

@@ -100,14 +100,14 @@ TEST_F(Properties, without_a_specular_model_nothing_is_reflected) {
 
 TEST_F(Properties, no_technique_adds_energy_in_a_white_furnace) {
     // The diffuse light of a white sphere under an environment of constant radiance is 1, with any
-    // scattering.
+    // profile. A gain may return up to 1 / albedo of its medium (gain_test.cpp).
     const TemporaryDirectory directory;
     const Scene scene = sphere_in_furnace(load("builtin:spheres"), directory, 1);
     Renderer renderer = make_renderer(scene);
     for (const Technique& technique : built_in_catalog().techniques) {
         DrawSettings diffuse = kSmall;
         diffuse.view = "diffuse";
-        const Image image = radiance(renderer, technique, diffuse);
+        const Image image = radiance(renderer, technique, profile_values(technique), diffuse);
         const Image ones = [&] {
             Image filled = image;
             std::ranges::fill(filled.floats(), 1.0f);
@@ -127,7 +127,7 @@ TEST_F(Properties, skin_and_its_reflection_return_less_light_than_arrives) {
     const Scene scene = sphere_in_furnace(load("builtin:spheres"), directory, 0.75f);
     Renderer renderer = make_renderer(scene);
     for (const Technique& technique : built_in_catalog().techniques) {
-        const Image image = radiance(renderer, technique, kSmall);
+        const Image image = radiance(renderer, technique, profile_values(technique), kSmall);
         double sum = 0;
         int count = 0;
         for (int y = 0; y < image.height; ++y)

@@ -29,8 +29,9 @@ class ReducedDiffuse : public RenderTest {
             DrawSettings settings = kSphereDraw;
             settings.view = view;
             settings.gbuffer = true;
-            reduced = radiance(reduced_renderer, technique, settings);
-            whole = radiance(whole_renderer, technique, settings);
+            const ParameterValues values = profile_values(technique);
+            reduced = radiance(reduced_renderer, technique, values, settings);
+            whole = radiance(whole_renderer, technique, values, settings);
         }
         Scene reduced_scene, whole_scene;
         Renderer reduced_renderer = make_renderer(reduced_scene), whole_renderer = make_renderer(whole_scene);

@@ -3,6 +3,7 @@
 
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/renderer.h"
+#include "dermis/technique/gain.h"
 #include "support/built_in.h"
 #include "support/gpu_fixture.h"
 
@@ -43,6 +44,11 @@ class RenderTest : public gpu::GpuTest {
         ParameterValues values(technique.parameters);
         if (technique.parameters.find("light_map_size")) EXPECT_TRUE(values.set("light_map_size", "256"));
         return values;
+    }
+
+    /// The same with the light that the profile describes alone.
+    static ParameterValues profile_values(const Technique& technique) {
+        return without_gain(small_map_values(technique));
     }
 
     /// Linear radiance of one frame with small_map_values(), as floats.

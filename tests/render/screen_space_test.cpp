@@ -38,7 +38,7 @@ class ScreenSpace : public RenderTest {
     static Image draw(Renderer& renderer, const std::string& id, const Settings& settings = {},
                       int samples = 1) {
         const Technique& technique = built_in_technique(id);
-        ParameterValues values(technique.parameters);
+        ParameterValues values = without_gain(ParameterValues(technique.parameters));
         for (const auto& [name, text] : settings) EXPECT_TRUE(values.set(name, text)) << name;
         return radiance(renderer, technique, values,
                         {.width = kPictureSize,

@@ -26,7 +26,7 @@ class Transmissions : public RenderTest {
         return list;
     }
     static ParameterValues with(const Technique& technique, const std::string& transmission) {
-        ParameterValues values(technique.parameters);
+        ParameterValues values = without_gain(ParameterValues(technique.parameters));
         EXPECT_TRUE(values.set("transmission", transmission)) << technique.id;
         (void)values.set("light_map_size", "256");  // of those that have one
         return values;
