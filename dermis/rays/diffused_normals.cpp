@@ -14,7 +14,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
 #include "dermis/base/progress.h"
-#include "dermis/image/dilate.h"
+#include "dermis/rays/diffused_normals_texel.h"
 #include "dermis/rays/skin_points.h"
 #include "dermis/scene/scene_hash.h"
 
@@ -309,22 +309,12 @@ std::vector<Sums> summed(const SkinTexels& skin, const GaussianSum& profile, flo
     return of_texel;
 }
 
-// The shader's frame: techniques/preintegrated/diffused_normals.glsl.
-struct TangentFrame {
-    Vec3 x, z;
-    explicit TangentFrame(Vec3 n) {
-        const float a = 1 / std::max(1 + n.y, 1e-4f), b = -n.x * n.z * a;
-        x = {1 - n.x * n.x * a, -n.x, b};
-        z = {b, -n.z, 1 - n.z * n.z * a};
-    }
-};
-
 // p and q of the spread around its mean.
 Vec2 unevenness(const Sums& sums) {
     if (sums.red[0] <= 0) return {};
     const auto part = [&](Float4 of) { return Vec3{of[1], of[2], of[3]} * (1 / sums.red[0]); };
     const Vec3 mean = part(sums.red), s = part(sums.squares), m = part(sums.mixed);
-    const TangentFrame frame(normalize(mean));
+    const SpreadFrame frame(normalize(mean));
     const auto spread = [&](Vec3 a, Vec3 b) {
         return s.x * a.x * b.x + s.y * a.y * b.y + s.z * a.z * b.z + m.x * (a.y * b.z + a.z * b.y) +
                m.y * (a.x * b.z + a.z * b.x) + m.z * (a.x * b.y + a.y * b.x) - dot(mean, a) * dot(mean, b);
@@ -332,10 +322,6 @@ Vec2 unevenness(const Sums& sums) {
     const float xx = spread(frame.x, frame.x), zz = spread(frame.z, frame.z), xz = spread(frame.x, frame.z);
     const float half = std::max(0.5f * (xx + zz), 1e-7f);
     return {std::clamp(0.5f * (xx - zz) / half, -1.0f, 1.0f), std::clamp(xz / half, -1.0f, 1.0f)};
-}
-
-uint16_t encoded(float x) {
-    return uint16_t(std::clamp(x * 0.5f + 0.5f, 0.0f, 1.0f) * 65535 + 0.5f);
 }
 
 // Such that its mix with the pixel's own normal, by the weights that the profile has over a plane, is the
@@ -364,14 +350,7 @@ DiffusedNormals bake(const SkinTexelReader& reader, const GaussianSum& profile,
             std::memcpy(&green.floats()[4 * size_t(texel.index)], &values[1], sizeof values[1]);
         }
     });
-    DiffusedNormals made{.size = request.size, .red = {}, .green = {}};
-    for (const auto& [image, texels] : {std::pair{&red, &made.red}, std::pair{&green, &made.green}}) {
-        dilate(*image, skin.coverage, kDiffusedNormalsGutter);
-        texels->resize(image->pixel_count());
-        for (size_t i = 0; i < texels->size(); ++i)
-            for (size_t c = 0; c < 4; ++c) (*texels)[i][c] = encoded(image->floats()[4 * i + c]);
-    }
-    return made;
+    return encoded_normals(std::move(red), std::move(green), skin.coverage);
 }
 
 Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,

@@ -26,22 +26,26 @@ bool has_occlusion(const SceneObject& object) {
     return object.mesh.occlusions.size() == object.mesh.positions_mm.size();
 }
 
-}  // namespace
-
-Result<void> complete_scene(Scene& scene) {
-    Progress progress("curvature", scene.objects.size());
-    for (SceneObject& object : scene.objects) {
+Result<void> complete_objects(std::vector<SceneObject>& objects) {
+    Progress progress("curvature", objects.size());
+    for (SceneObject& object : objects) {
         progress.advance();
         if (object.mesh.curvatures_per_mm.size() == object.mesh.positions_mm.size()) continue;
         DERMIS_TRY_ASSIGN(object.mesh.curvatures_per_mm, cached_curvature(object));
     }
-    if (!std::ranges::all_of(scene.objects, has_occlusion)) {
-        Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(scene.objects);
-        if (!occlusions) return occlusions.error();
-        for (size_t i = 0; i < scene.objects.size(); ++i)
-            if (!has_occlusion(scene.objects[i]))
-                scene.objects[i].mesh.occlusions = std::move((*occlusions)[i]);
-    }
+    if (std::ranges::all_of(objects, has_occlusion)) return {};
+    Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(objects);
+    if (!occlusions) return occlusions.error();
+    for (size_t i = 0; i < objects.size(); ++i)
+        if (!has_occlusion(objects[i])) objects[i].mesh.occlusions = std::move((*occlusions)[i]);
+    return {};
+}
+
+}  // namespace
+
+Result<void> complete_scene(Scene& scene) {
+    DERMIS_TRY(complete_objects(scene.objects));
+    DERMIS_TRY(complete_objects(scene.rest_objects));
     lay_out_skin_atlas(scene);
     return {};
 }

@@ -8,6 +8,7 @@
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
+#include "dermis/rays/carried_bakes.h"
 #include "dermis/rays/curvature_gain.h"
 #include "dermis/rays/vertex_gain.h"
 #include "dermis/render/atlas_check.h"
@@ -91,6 +92,16 @@ void take_gains(const Scene& scene, std::span<const gpu::Draw> draws, int profil
                 gains[o][mesh.indices[i]] = from[o][mesh.indices[i]];
         }
     }
+}
+
+// Of the pose, or of the rest pose and carried along.
+Result<DiffusedNormals> baked_normals(const Scene& scene, const GaussianSum& profile,
+                                      const DiffusedNormalsRequest& request) {
+    if (!scene.rest_bakes.normals) return bake_diffused_normals(scene, profile, request);
+    Scene rest = without_objects(scene);
+    rest.objects = scene.rest_objects;
+    DERMIS_TRY_ASSIGN(const DiffusedNormals baked, bake_diffused_normals(rest, profile, request));
+    return carried_normals(scene.rest_objects, scene.objects, baked);
 }
 
 // The light of each shadow map after the first.
@@ -283,7 +294,7 @@ Result<void> Renderer::prepare_diffused_normals(ProfileState& state) {
     std::string key = state.skin.profile.name + std::to_string(state.diffused_normals_request->size);
     if (key == state.diffused_normals_key) return {};
     DERMIS_TRY_ASSIGN(const DiffusedNormals baked,
-                      bake_diffused_normals(*scene_, state.skin.gaussians, *state.diffused_normals_request));
+                      baked_normals(*scene_, state.skin.gaussians, *state.diffused_normals_request));
     for (const gpu::TextureData& data : diffused_normals_textures(baked)) {
         DERMIS_TRY_ASSIGN(gpu::Texture texture, gpu::Texture::upload(*device_, data));
         state.diffused_normals.insert_or_assign(data.name, std::move(texture));
@@ -320,10 +331,12 @@ Result<void> Renderer::prepare_walked_gains() {
     for (const SceneObject& object : scene_->objects) hasher.add(object.classes);
     std::string key = hasher.hex();
     if (key == uploaded_->gains_key) return {};
+    const std::vector<SceneObject>& objects =
+        scene_->rest_bakes.gain ? scene_->rest_objects : scene_->objects;
     std::vector<std::vector<Vec3>> gains;
     for (size_t p = 0; p < profiles_.size(); ++p) {
         DERMIS_TRY_ASSIGN(VertexGains walked,
-                          walk_vertex_gains(scene_->objects, walk_medium_of(profiles_[p].skin.profile)));
+                          walk_vertex_gains(objects, walk_medium_of(profiles_[p].skin.profile)));
         if (p == 0)
             gains = std::move(walked.gains);
         else

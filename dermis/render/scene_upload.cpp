@@ -6,6 +6,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
 #include "dermis/mesh/uv_report.h"
+#include "dermis/rays/carried_bakes.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/material_maps.h"
 #include "dermis/render/seam_textures.h"
@@ -44,11 +45,14 @@ struct MovingStreams {
     std::vector<Vec4> tangents;
     std::vector<gpu::VertexStream> streams;
 
-    explicit MovingStreams(const Mesh& mesh) {
+    // `rest`: the mesh in its rest pose, null unless bakes of it are asked for.
+    MovingStreams(const Mesh& mesh, const Mesh* rest, const RestBakes& rest_bakes) {
         const size_t count = mesh.positions_mm.size();
         normals = filled(mesh.normals, count, Vec3{0, 0, 1});
         tangents = filled(mesh.tangents, count, Vec4{1, 0, 0, 1});
-        for (const CurvatureTensor& tensor : filled(mesh.curvatures_per_mm, count, CurvatureTensor{})) {
+        const std::vector<CurvatureTensor> curvatures =
+            rest && rest_bakes.curvature ? carried_curvatures(*rest, mesh) : mesh.curvatures_per_mm;
+        for (const CurvatureTensor& tensor : filled(curvatures, count, CurvatureTensor{})) {
             diagonals.push_back(tensor.diagonal);
             mixed.push_back(tensor.mixed);
         }
@@ -68,14 +72,20 @@ struct MovingStreams {
     MovingStreams& operator=(const MovingStreams&) = delete;
 };
 
-Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, const Mesh& mesh) {
+const Mesh* rest_mesh(const Scene& scene, size_t object) {
+    return scene.rest_objects.empty() ? nullptr : &scene.rest_objects[object].mesh;
+}
+
+Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, const Mesh& mesh,
+                                  const Mesh* rest, const RestBakes& rest_bakes) {
     const size_t count = mesh.positions_mm.size();
-    const MovingStreams moving(mesh);
+    const MovingStreams moving(mesh, rest, rest_bakes);
     const auto uvs = filled(mesh.uvs, count, Vec2{});
     const auto atlas_uvs = filled(atlas_uvs_of(mesh), count, Vec2{});
     const auto colors = filled(mesh.colors_linear, count, Vec4{1, 1, 1, 1});
-    const auto occlusions = filled(mesh.occlusions, count, 1.0f);
-    const Result<std::vector<Vec3>> occlusions_blurred = blurred_occlusions(mesh);
+    const Mesh& occluded = rest && rest_bakes.occlusion ? *rest : mesh;
+    const auto occlusions = filled(occluded.occlusions, count, 1.0f);
+    const Result<std::vector<Vec3>> occlusions_blurred = blurred_occlusions(occluded);
     if (!occlusions_blurred) return Error{std::string(name) + ": " + occlusions_blurred.error().message};
     const std::vector<Vec3> no_gain(count, Vec3{1, 1, 1});
     std::vector<gpu::VertexStream> streams = moving.streams;
@@ -181,7 +191,8 @@ Result<void> SceneOnDevice::upload_maps(gpu::Device& device, const Scene& scene)
 
 Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& scene) {
     for (const SceneObject& object : scene.objects) {
-        Result<gpu::Geometry> geometry = upload_mesh(device, object.name, object.mesh);
+        Result<gpu::Geometry> geometry = upload_mesh(device, object.name, object.mesh,
+                                                     rest_mesh(scene, geometries_.size()), scene.rest_bakes);
         if (!geometry) return geometry.error();
         geometries_.push_back(std::make_unique<gpu::Geometry>(std::move(*geometry)));
         for (const Submesh& submesh : object.mesh.submeshes) {
@@ -204,7 +215,7 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
 Result<void> SceneOnDevice::replace_vertices(gpu::Device& device, const Scene& scene) {
     for (size_t i = 0; i < geometries_.size(); ++i) {
         if (scene.objects[i].motion.empty()) continue;
-        const MovingStreams moving(scene.objects[i].mesh);
+        const MovingStreams moving(scene.objects[i].mesh, rest_mesh(scene, i), scene.rest_bakes);
         for (const gpu::VertexStream& stream : moving.streams)
             DERMIS_TRY(geometries_[i]->replace(device, stream));
     }
@@ -216,7 +227,8 @@ Result<void> SceneOnDevice::replace_objects(gpu::Device& device, const Scene& sc
     auto draw = draws_.begin();
     for (size_t i = 0; i < geometries_.size(); ++i) {
         const SceneObject& object = scene.objects[i];
-        DERMIS_TRY_ASSIGN(gpu::Geometry geometry, upload_mesh(device, object.name, object.mesh));
+        DERMIS_TRY_ASSIGN(gpu::Geometry geometry, upload_mesh(device, object.name, object.mesh,
+                                                              rest_mesh(scene, i), scene.rest_bakes));
         *geometries_[i] = std::move(geometry);
         for (const Submesh& submesh : object.mesh.submeshes) {
             draw->first_index = submesh.first_index;

@@ -16,6 +16,7 @@
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/placement.h"
+#include "dermis/scene/rest_bakes.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_files.h"
@@ -224,6 +225,34 @@ Result<void> check_motion(const SceneDescription& description, const Scene& scen
     return description.file.empty() ? checked : checked.error().within(description.file.string());
 }
 
+// The same objects in the rest pose.
+Result<void> add_rest_pose(const SceneDescription& given, std::span<const Subject> subjects, Scene& scene) {
+    if (given.motion.rest_bakes.empty()) return {};
+    const std::string place = given.file.empty() ? "" : given.file.string() + ": ";
+    const Result<RestBakes> bakes = parse_rest_bakes(given.motion.rest_bakes);
+    if (!bakes) return Error{place + "animation.rest_bakes: " + bakes.error().message};
+    if (!bakes->any()) return {};
+    SceneDescription rest = given;
+    rest.motion = {};
+    // A guessed unit must not depend on the pose.
+    for (size_t i = 0; rest.meshes.size() == scene.objects.size() && i < rest.meshes.size(); ++i)
+        if (!subject_name(rest.meshes[i].file.text)) rest.meshes[i].unit_mm = float(scene.objects[i].unit_mm);
+    Result<Scene> built = build_scene(rest, subjects);
+    if (!built) return built.error();
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        const Mesh &posed = scene.objects[i].mesh, &still = built->objects[i].mesh;
+        if (posed.indices == still.indices && posed.positions_mm.size() == still.positions_mm.size())
+            continue;
+        return Error{place + "animation.rest_bakes: '" + scene.objects[i].name + "' has " +
+                     std::to_string(still.triangle_count()) + " triangles at rest and " +
+                     std::to_string(posed.triangle_count()) +
+                     " in its pose, or in another order; only vertices that stay carry bakes along"};
+    }
+    scene.rest_objects = std::move(built->objects);
+    scene.rest_bakes = *bakes;
+    return {};
+}
+
 // The profile of a mesh whose skin states one, unless a word chose another; what the file has and a profile
 // has not is named.
 void take_profile_of_mesh(const SceneDescription& description, Scene& scene) {
@@ -298,6 +327,7 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     scene.credit = head.credit;
     scene.technique = head.technique;
     scene.settings = description.settings;
+    DERMIS_TRY(add_rest_pose(given, subjects, scene));
     return scene;
 }
 

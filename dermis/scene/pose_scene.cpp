@@ -5,43 +5,10 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
-#include "dermis/mesh/uv_report.h"
+#include "dermis/mesh/surface_frame.h"
 #include "dermis/scene/place_mesh.h"
 
 namespace dermis::inline scene {
-namespace {
-
-// A direction on the surface at each vertex that moves with it: dP/du, or an edge where the UVs have no area.
-std::vector<Vec3> surface_directions(const Mesh& mesh) {
-    std::vector<Vec3> directions(mesh.positions_mm.size());
-    if (mesh.uvs.size() == mesh.positions_mm.size()) directions = vertex_uv_derivatives(mesh).du_mm;
-    for (size_t i = 0; i < mesh.indices.size(); ++i) {
-        const uint32_t v = mesh.indices[i], next = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
-        if (directions[v] == Vec3{}) directions[v] = mesh.positions_mm[next] - mesh.positions_mm[v];
-    }
-    return directions;
-}
-
-// The frame of a normal and a direction beside it.
-struct SurfaceFrame {
-    Vec3 t, b, n;
-
-    SurfaceFrame(Vec3 normal, Vec3 direction)
-        : t(normalize(direction - normal * dot(normal, direction))), b(cross(normal, t)), n(normal) {}
-};
-
-Vec3 moved(const SurfaceFrame& from, const SurfaceFrame& to, Vec3 v) {
-    return to.t * dot(from.t, v) + to.b * dot(from.b, v) + to.n * dot(from.n, v);
-}
-
-// R S R^T.
-CurvatureTensor moved(const SurfaceFrame& from, const SurfaceFrame& to, const CurvatureTensor& s) {
-    const auto column = [&](Vec3 axis) { return moved(from, to, s * moved(to, from, axis)); };
-    const Vec3 x = column({1, 0, 0}), y = column({0, 1, 0}), z = column({0, 0, 1});
-    return {{x.x, y.y, z.z}, {z.y, z.x, y.x}};
-}
-
-}  // namespace
 
 bool ScenePoser::can_pose(const SceneObject& object) {
     return !object.motion.empty() && !object.file.empty() &&

@@ -13,6 +13,7 @@
 #include "dermis/image/tone_map.h"
 #include "dermis/mesh/mesh.h"
 #include "dermis/mesh/pose.h"
+#include "dermis/scene/rest_bakes.h"
 
 namespace dermis::inline scene {
 
@@ -88,10 +89,11 @@ struct Skin {
 
 /// Where mesh files are in their motion, as [animation] and [morph] state it; `morph` has weights by target.
 struct MotionDescription {
-    std::string clip;   ///< empty: none
-    double time_s = 0;  ///< since the clip began
-    float speed = 1;    ///< seconds of the clip in one second
-    bool loop = false;  ///< repeat the clip instead of holding its last pose
+    std::string clip;        ///< empty: none
+    double time_s = 0;       ///< since the clip began
+    float speed = 1;         ///< seconds of the clip in one second
+    bool loop = false;       ///< repeat the clip instead of holding its last pose
+    std::string rest_bakes;  ///< parse_rest_bakes(); empty: none
     std::map<std::string, float> morph;
 
     [[nodiscard]] Pose pose() const {
@@ -134,6 +136,10 @@ struct SceneObject {
 struct Scene {
     std::string name;
     std::vector<SceneObject> objects;
+    /// Objects in the rest pose, for bakes that stay as they are there; empty unless rest_bakes says so. Same
+    /// triangles and vertices. The reference reads `objects` alone.
+    std::vector<SceneObject> rest_objects;
+    RestBakes rest_bakes;
     std::vector<Light> lights;  ///< at least one; exactly one is_key
     int shadow_map_budget = 3;  ///< lights that cast shadows, at most (kMaxShadowMaps)
     Camera camera;

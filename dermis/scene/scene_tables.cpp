@@ -324,7 +324,13 @@ const KeyTable<MotionDescription>& animation_keys() {
                      .max = 1e6})
             .number(&D::speed,
                     {.name = "speed", .doc = "seconds of the clip in one second", .min = 0.01, .max = 100})
-            .toggle(&D::loop, {.name = "loop", .doc = "repeats the clip instead of holding its last pose"});
+            .toggle(&D::loop, {.name = "loop", .doc = "repeats the clip instead of holding its last pose"})
+            .text(
+                &D::rest_bakes,
+                {.name = "rest_bakes",
+                 .doc = "what techniques bake once, in the pose of the file's nodes, and the vertices carry "
+                        "along: `normals`, `curvature`, `gain`, `occlusion`, joined by `+`, or `all`; the "
+                        "reference is not changed"});
     return table;
 }
 

@@ -90,18 +90,24 @@ SkinParts skin_over_atlas(const Scene& scene) {
 }
 
 void lay_out_skin_atlas(Scene& scene) {
+    std::vector<SceneObject>& laid_out = scene.rest_objects.empty() ? scene.objects : scene.rest_objects;
+    for (SceneObject& object : scene.objects) object.mesh.atlas_uvs.clear();
     std::vector<AtlasPart> parts;
-    std::vector<Mesh*> meshes;
-    for (SceneObject& object : scene.objects) {
-        object.mesh.atlas_uvs.clear();
-        AtlasPart part{&object.mesh, skin_triangles(object)};
+    std::vector<size_t> numbers;
+    for (size_t i = 0; i < laid_out.size(); ++i) {
+        laid_out[i].mesh.atlas_uvs.clear();
+        laid_out[i].classes = scene.objects[i].classes;
+        AtlasPart part{&laid_out[i].mesh, skin_triangles(laid_out[i])};
         if (part.triangles.empty()) continue;
         parts.push_back(std::move(part));
-        meshes.push_back(&object.mesh);
+        numbers.push_back(i);
     }
     const AtlasLayout layout = lay_out_atlas(parts);
     if (layout.is_as_it_was) return;
-    for (size_t i = 0; i < parts.size(); ++i) apply(*meshes[i], parts[i], layout.parts[i]);
+    for (size_t i = 0; i < parts.size(); ++i) {
+        apply(laid_out[numbers[i]].mesh, parts[i], layout.parts[i]);
+        if (!scene.rest_objects.empty()) apply(scene.objects[numbers[i]].mesh, parts[i], layout.parts[i]);
+    }
 }
 
 }  // namespace dermis::inline scene

@@ -11,7 +11,7 @@ namespace dermis::inline scene {
 
 /// Fills Mesh::atlas_uvs of objects with skin where the UVs of the file are missing, share texels or leave
 /// 0..1; else leaves it empty. Vertices between layers are split; all attributes stay. Call it again after a
-/// change of classes.
+/// change of classes. Where the scene has its rest pose, the layout is that pose's, for both.
 void lay_out_skin_atlas(Scene& scene);
 
 /// Positions, triangles and materials of a mesh with atlas_uvs_of() as its UVs, for functions that measure a

@@ -1,0 +1,46 @@
+#include "dermis/scene/rest_bakes.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "dermis/base/text.h"
+
+namespace dermis::inline scene {
+namespace {
+
+struct RestBake {
+    const char* word;
+    bool RestBakes::*member;
+};
+constexpr RestBake kRestBakes[] = {{"normals", &RestBakes::normals},
+                                   {"curvature", &RestBakes::curvature},
+                                   {"gain", &RestBakes::gain},
+                                   {"occlusion", &RestBakes::occlusion}};
+constexpr RestBakes kAllRestBakes = {.normals = true, .curvature = true, .gain = true, .occlusion = true};
+
+}  // namespace
+
+Result<RestBakes> parse_rest_bakes(std::string_view text) {
+    if (text == "all") return kAllRestBakes;
+    if (text == "none") return RestBakes{};
+    std::vector<std::string> known = {"all", "none"};
+    for (const RestBake& bake : kRestBakes) known.emplace_back(bake.word);
+    RestBakes bakes;
+    for (const std::string_view word : split(text, '+')) {
+        const auto found = std::ranges::find(kRestBakes, word, &RestBake::word);
+        if (found == std::end(kRestBakes))
+            return Error{unknown_name("rest bake", std::string(word), known) + "; '+' joins them"};
+        bakes.*found->member = true;
+    }
+    return bakes;
+}
+
+std::string rest_bakes_text(const RestBakes& bakes) {
+    if (bakes == kAllRestBakes) return "all";
+    std::vector<std::string> words;
+    for (const RestBake& bake : kRestBakes)
+        if (bakes.*bake.member) words.emplace_back(bake.word);
+    return words.empty() ? "none" : join(words, "+");
+}
+
+}  // namespace dermis::inline scene
