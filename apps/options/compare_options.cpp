@@ -6,6 +6,7 @@
 #include "catalog/catalog.h"
 #include "compare_scenes.h"
 #include "dermis/base/text.h"
+#include "dermis/render/complete_scene.h"
 
 namespace dermis::cli {
 namespace {
@@ -25,6 +26,34 @@ Result<std::vector<OwnPicture>> read_pictures(const std::vector<std::string>& te
     return pictures;
 }
 
+// "normals,gain+curvature": two lists.
+Result<std::vector<RestBakes>> read_rest_bakes(const std::string& text) {
+    std::vector<RestBakes> lists;
+    if (text.empty()) return lists;
+    for (const std::string_view list : split(text, ',')) {
+        const Result<RestBakes> bakes = parse_rest_bakes(list);
+        if (!bakes) return bakes.error().within("--rest-bakes");
+        if (bakes->any()) lists.push_back(*bakes);
+    }
+    return lists;
+}
+
+Result<void> check_clip(const CompareChoice& choice, bool is_set) {
+    if (!choice.rest_bakes.empty() && is_set)
+        return Error{"--rest-bakes: " + choice.scene.name + " is a set of scenes, which do not move"};
+    if (choice.fps > 0 && choice.frames == 0)
+        return Error{"--fps is for the frames of a clip: --clip NAME --frames 8 --fps 24"};
+    if (choice.frames == 0) return {};
+    DERMIS_TRY(check_number("--frames", choice.frames, kClipFramesRange));
+    if (choice.scene.pose.clip.empty())
+        return Error{"--frames " + std::to_string(choice.frames) +
+                     " is for the frames of a clip: --clip NAME --frames 8 (--timed-frames sets how many "
+                     "frames are timed)"};
+    if (!choice.pictures.empty())
+        return Error{"--picture: shows one frame; leave --frames out and give its --time"};
+    return {};
+}
+
 std::string noise_text(const EffectNoise& noise) {
     if (!(noise.noise_rms < noise.effect_rms)) return "more noise than effect";
     const double share = noise.noise_rms / noise.effect_rms;
@@ -42,11 +71,13 @@ Result<ComparisonSettings> CompareChoice::settings() const {
     if (size.empty() && !own.empty()) pixels = {own.front().with.width, own.front().with.height};
     ComparisonSettings settings = comparison_settings(pixels.width, pixels.height);
     settings.pictures = std::move(own);
-    settings.frames = frames;
+    settings.frames = timed_frames;
+    DERMIS_TRY(check_clip(*this, is_set));
+    DERMIS_TRY_ASSIGN(settings.rest_bakes, read_rest_bakes(rest_bakes));
     settings.noise = noise;
     settings.samples = samples;
     settings.grid = int(std::lround(std::sqrt(double(std::max(samples_per_pixel, 0)))));
-    for (const Result<void>& in_range : {check_number("--frames", frames, kTimedFramesRange),
+    for (const Result<void>& in_range : {check_number("--timed-frames", timed_frames, kTimedFramesRange),
                                          check_number("--noise", noise, kReferenceNoiseRange),
                                          check_number("--samples", samples, kReferenceSamplesRange)})
         if (!in_range) return in_range.error();
@@ -74,6 +105,25 @@ Result<std::vector<Contestant>> CompareChoice::contestants() const {
     if (techniques.empty()) return default_contestants(known);
     Result<std::vector<Contestant>> list = parse_technique_list(known, techniques);
     return list ? std::move(list) : list.error().within("--techniques");
+}
+
+Result<Scene> CompareChoice::load_scene() const {
+    const std::span<const Subject> subjects = built_in_catalog().subjects;
+    const std::string_view name = subject_name(scene.name).value_or(scene.name);
+    const Error still{"--rest-bakes: " + scene.name + " does not move: it has no clip, morph target or skin"};
+    if (!rest_bakes.empty() && std::ranges::find(subjects, name, &Subject::name) != subjects.end())
+        return still;
+    SceneChoice loaded = scene;
+    if (!rest_bakes.empty()) loaded.words.push_back("animation.rest_bakes=all");
+    Result<Scene> made = loaded.load();
+    if (!made) return made;
+    if (!rest_bakes.empty()) {
+        made->rest_bakes = {};
+        if (std::ranges::all_of(made->objects, [](const SceneObject& o) { return o.motion.empty(); }))
+            return still;
+    }
+    DERMIS_TRY(complete_scene(*made));
+    return made;
 }
 
 std::vector<std::string> warnings_of(const Comparison& comparison, const ComparisonSettings& settings) {

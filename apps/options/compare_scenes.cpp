@@ -46,13 +46,11 @@ const Subject* set_of_scenes(const std::string& name) {
     return found == built_in_catalog().subjects.end() || found->cases.empty() ? nullptr : &*found;
 }
 
-Result<ComparedScenes> compared_scenes(const SceneChoice& choice) {
-    if (const Subject* set = set_of_scenes(choice.name)) return scenes_of_set(*set, choice);
-    Result<Scene> scene = choice.load();
-    if (!scene) return scene.error();
-    DERMIS_TRY(complete_scene(*scene));
+Result<ComparedScenes> compared_scenes(const CompareChoice& choice) {
+    if (const Subject* set = set_of_scenes(choice.scene.name)) return scenes_of_set(*set, choice.scene);
+    DERMIS_TRY_ASSIGN(Scene scene, choice.load_scene());
     ComparedScenes scenes;
-    scenes.all.push_back({.name = choice.name, .scene = std::move(*scene)});
+    scenes.all.push_back({.name = choice.scene.name, .scene = std::move(scene)});
     return scenes;
 }
 

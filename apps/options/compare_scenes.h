@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "compare_options.h"
 #include "dermis/scene/subject.h"
-#include "scene_choice.h"
 
 namespace dermis::cli {
 
@@ -18,6 +18,6 @@ struct ComparedScenes {
 
 /// Complete scenes. Of a set all, or the one that --scene mesh.shape=NAME chooses; what else is given changes
 /// each. Errors: as SceneChoice::load().
-[[nodiscard]] Result<ComparedScenes> compared_scenes(const SceneChoice& choice);
+[[nodiscard]] Result<ComparedScenes> compared_scenes(const CompareChoice& choice);
 
 }  // namespace dermis::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace dermis::cli {
 namespace {
@@ -71,6 +72,26 @@ void print_effect(Integrator integrator, const EffectReference& reference, const
                 reference.time_ms / 1000);
 }
 
+std::string change_text(const std::optional<ShareChange>& change) {
+    char text[40] = "";
+    if (change) std::snprintf(text, sizeof text, "%+.4f +-%.4f", change->change, change->error);
+    return text;
+}
+
+// Of the rows with bakes of the rest pose.
+void print_changes(const Comparison& comparison) {
+    const auto has_change = [](const Compared& row) { return row.remade.has_value(); };
+    if (std::ranges::none_of(comparison.rows, has_change)) return;
+    std::printf("bakes of the rest pose: change of the share of %s%s%s\n",
+                std::string(judge_name(comparison.integrator)).c_str(), comparison.second ? ", of " : "",
+                comparison.second ? std::string(judge_name(*comparison.second_integrator)).c_str() : "");
+    for (const Compared& row : comparison.rows)
+        if (has_change(row))
+            std::printf("  %s\n%24s %17s %17s\n", row.contestant.name().c_str(), "",
+                        change_text(row.first.change).c_str(),
+                        row.second ? change_text(row.second->change).c_str() : "");
+}
+
 std::string share_and_error(const CapturedShare& share) {
     char text[32] = "noise";
     if (share.known()) std::snprintf(text, sizeof text, "%.3f +-%.3f", share.share, share.error);
@@ -117,6 +138,7 @@ nlohmann::ordered_json judge_json(Integrator integrator, const EffectReference& 
 void print_table(const Comparison& comparison) {
     print_heading(comparison);
     for (const Compared& row : comparison.rows) print_row(comparison, row);
+    print_changes(comparison);
     print_effect(comparison.integrator, comparison.reference, comparison.rows.front().first.captured);
     if (comparison.second)
         print_effect(*comparison.second_integrator, *comparison.second,
@@ -126,6 +148,59 @@ void print_table(const Comparison& comparison) {
 void print_set_table(const std::vector<SubjectCase>& cases, const std::vector<Comparison>& comparisons) {
     print_shares(cases, comparisons, comparisons.front().integrator);
     if (const auto second = comparisons.front().second_integrator) print_shares(cases, comparisons, *second);
+}
+
+void print_clip_table(const std::vector<ClipFrame>& frames) {
+    constexpr size_t kShownFrames = 8;
+    const bool short_clip = frames.size() <= kShownFrames;
+    for (const Integrator integrator : {Integrator::walk, Integrator::surface}) {
+        bool headed = false;
+        for (const ClipRow& row : clip_rows(frames)) {
+            const std::optional<ClipShare> share = clip_share(frames, row, integrator);
+            if (!share) continue;
+            if (!std::exchange(headed, true)) {
+                std::printf("captured share of %s\n  mean   +-  worst",
+                            std::string(judge_name(integrator)).c_str());
+                for (const ClipFrame& frame : frames)
+                    if (short_clip) std::printf(" %4.2f s", frame.time_s);
+                std::printf("\n");
+            }
+            std::printf("%s\n%6.3f %.3f %5.2f ", row.name().c_str(), share->mean, share->error, share->worst);
+            for (const ClipFrame& frame : frames)
+                if (const ScoreRow* found = row_of(frame, row); short_clip && found)
+                    std::printf(
+                        " %6s",
+                        short_text((integrator == Integrator::walk ? found->walk : found->surface)->all)
+                            .c_str());
+            if (share->change)
+                std::printf("\n  change by bakes of the rest pose %s, worst %+.4f",
+                            change_text(share->change).c_str(), share->worst_change);
+            std::printf("\n");
+        }
+    }
+}
+
+nlohmann::ordered_json clip_json(const std::string& clip, const std::vector<ClipFrame>& frames,
+                                 const nlohmann::ordered_json& of_frames) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const ClipRow& row : clip_rows(frames)) {
+        nlohmann::ordered_json entry = {{"technique", row.technique}, {"settings", row.settings}};
+        for (const Integrator integrator : {Integrator::walk, Integrator::surface}) {
+            const std::optional<ClipShare> share = clip_share(frames, row, integrator);
+            if (!share) continue;
+            entry[std::string(judge_name(integrator))] = {
+                {"mean", share->mean},
+                {"mean_error", share->error},
+                {"worst", std::isfinite(share->worst) ? nlohmann::ordered_json(share->worst) : nullptr},
+                {"worst_time_s", share->worst_time_s}};
+            if (share->change)
+                entry[std::string(judge_name(integrator))].update({{"change", share->change->change},
+                                                                   {"change_error", share->change->error},
+                                                                   {"worst_change", share->worst_change}});
+        }
+        rows.push_back(std::move(entry));
+    }
+    return {{"clip", clip}, {"rows", rows}, {"frames", of_frames}};
 }
 
 nlohmann::ordered_json to_json(const std::string& output, const SubjectCase& one,
@@ -138,6 +213,9 @@ nlohmann::ordered_json to_json(const std::string& output, const SubjectCase& one
             entry[std::string(column.name)] =
                 value && std::isfinite(*value) ? nlohmann::ordered_json(*value) : nullptr;
         }
+        for (const auto& [name, change] :
+             {std::pair("walk_change", row.walk_change), std::pair("change", row.surface_change)})
+            if (change) entry[name] = {{"change", change->change}, {"error", change->error}};
         rows.push_back(std::move(entry));
     }
     auto judges = nlohmann::ordered_json::array({judge_json(comparison.integrator, comparison.reference)});

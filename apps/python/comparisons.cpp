@@ -58,7 +58,7 @@ Result<OneComparison> compare_one(gpu::Device& device, const SubjectCase& one,
 Result<std::vector<OneComparison>> compare_all(const cli::CompareChoice& choice,
                                                const ComparisonSettings& settings, Watch& watch) {
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, choice.contestants());
-    DERMIS_TRY_ASSIGN(const cli::ComparedScenes scenes, cli::compared_scenes(choice.scene));
+    DERMIS_TRY_ASSIGN(const cli::ComparedScenes scenes, cli::compared_scenes(choice));
     const Result<LentDevice> device = lend_device(choice.device);
     if (!device) return device.error();
     std::vector<OneComparison> made;
@@ -94,7 +94,7 @@ std::vector<OneComparison> compare(const SceneArguments& scene, const std::strin
     take(choice.ambient, given, "ambient");
     take(choice.samples, given, "samples");
     take(choice.samples_per_pixel, given, "samples_per_pixel");
-    take(choice.frames, given, "frames");
+    take(choice.timed_frames, given, "timed_frames");
     take(choice.noise, given, "noise");
     ComparisonSettings settings = value_of(choice.settings());
     for (const auto& [name, pair] : pictures) settings.pictures.push_back(own_picture(name, pair));

@@ -136,6 +136,53 @@ Result<Captured> captured(const EffectHalves& technique, const EffectHalves& ref
     return captured_of({technique.a, technique.b, reference.a, reference.b, mask});
 }
 
+namespace {
+
+// The variance that the reference's noise gives (sqrt(N_from) - sqrt(N_to)) / sqrt(D), with N the sum of
+// (T - S_a) (T - S_b) of each picture and D that of S_a S_b. With d = T - S, S_a = S + e_a, to first order in
+// N and D, a value adds
+//
+//     (e_a + e_b) (d_to / r_to - d_from / r_from - c S / D) / 2 + e_a e_b (1 / r_from - 1 / r_to - c / D) / 2
+//
+// with r = sqrt(N D) and c the change of the share. A pixel's channels come from the same paths.
+double variance_of_change(const Image& from, const Image& to, const EffectHalves& reference,
+                          const Image& mask, const CapturedShare& before, const CapturedShare& after,
+                          double values) {
+    constexpr double kLeast = 1e-6;  // of 1 - share
+    const double sum_d = before.effect_rms * before.effect_rms * values,
+                 r_from = std::max(1 - before.share, kLeast) * sum_d,
+                 r_to = std::max(1 - after.share, kLeast) * sum_d,
+                 change = (after.share - before.share) / sum_d;
+    double variance = 0;
+    for (size_t i = 0; i < mask.pixel_count(); ++i) {
+        if (mask.floats()[i] <= 0) continue;
+        double first = 0;
+        for (size_t at = 3 * i; at < 3 * i + 3; ++at) {
+            const double s_a = reference.a.floats()[at], s_b = reference.b.floats()[at],
+                         effect = 0.5 * (s_a + s_b), noise = s_a - s_b, d_from = from.floats()[at] - effect,
+                         d_to = to.floats()[at] - effect;
+            const double product = noise * noise * (1 / r_from - 1 / r_to - change) / 2;
+            first += noise * (d_to / r_to - d_from / r_from - change * effect) / 2;
+            variance += product * product / 12;
+        }
+        variance += first * first;
+    }
+    return variance;
+}
+
+}  // namespace
+
+Result<ShareChange> share_change(const Image& from, const Image& to, const EffectHalves& reference,
+                                 const Image& mask) {
+    DERMIS_TRY_ASSIGN(const Captured before, captured(from, reference, mask),
+                      after = captured(to, reference, mask));
+    if (!after) return after.error();
+    const double variance =
+        variance_of_change(from, to, reference, mask, before.all, after->all, 3 * double(before.pixels));
+    return ShareChange{.change = after->all.share - before.all.share,
+                       .error = kInterval * std::sqrt(variance)};
+}
+
 EffectNoise effect_noise(const EffectHalves& reference, const Image& mask) {
     Sums all;
     for (size_t c = 0; c < 3; ++c)

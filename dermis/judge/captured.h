@@ -58,6 +58,17 @@ struct Captured {
 [[nodiscard]] Result<Captured> captured(const EffectHalves& technique, const EffectHalves& reference,
                                         const Image& mask);
 
+/// How the captured share changes from one picture of a technique to another.
+struct ShareChange {
+    double change = 0;
+    /// Half of its 95 % interval. Both shares have the noise of one reference, which hardly counts where the
+    /// pictures are equal.
+    double error = 0;
+};
+/// Errors: as captured().
+[[nodiscard]] Result<ShareChange> share_change(const Image& from, const Image& to,
+                                               const EffectHalves& reference, const Image& mask);
+
 /// RMS of the effect and of its noise alone, for deciding how long the reference must go on.
 struct EffectNoise {
     double effect_rms = 0, noise_rms = 0;

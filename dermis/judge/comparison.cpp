@@ -31,12 +31,21 @@ EffectReferenceSettings reference_settings(const ComparisonSettings& settings) {
     return wanted;
 }
 
+const Image& second_effect_of(const Compared& row) {
+    return row.second_effect ? *row.second_effect : row.effect;
+}
+
+// `remade`: the effect with all bakes of the pose, where `effect` has some of the rest pose.
 Result<Judgement> judgement_of(const Image& effect, const EffectReference& reference,
-                               const Comparison& comparison) {
-    DERMIS_TRY_ASSIGN(const Captured share, captured(effect, reference.effect, comparison.masks.skin));
+                               const Comparison& comparison, const Image* remade) {
+    const Image& skin = comparison.masks.skin;
+    DERMIS_TRY_ASSIGN(const Captured share, captured(effect, reference.effect, skin));
     DERMIS_TRY_ASSIGN(std::vector<RegionShare> regions,
                       captured_by_region(effect, reference.effect, comparison.regions));
-    return Judgement{share, std::move(regions)};
+    Judgement judgement{.captured = share, .regions = std::move(regions)};
+    if (!remade) return judgement;
+    DERMIS_TRY_ASSIGN(judgement.change, share_change(*remade, effect, reference.effect, skin));
+    return judgement;
 }
 
 Result<void> judge(const Comparison& comparison, const Scene& scene, Compared& row) {
@@ -45,12 +54,14 @@ Result<void> judge(const Comparison& comparison, const Scene& scene, Compared& r
     const auto failed = [&](const Error& error) {
         return Error{row.contestant.name() + ": " + error.message};
     };
-    Result<Judgement> first = judgement_of(row.effect, comparison.reference, comparison);
+    const Compared* remade = row.remade ? &comparison.rows[*row.remade] : nullptr;
+    Result<Judgement> first =
+        judgement_of(row.effect, comparison.reference, comparison, remade ? &remade->effect : nullptr);
     if (!first) return failed(first.error());
     row.first = std::move(*first);
     if (comparison.second) {
-        const Image& effect = row.second_effect ? *row.second_effect : row.effect;
-        Result<Judgement> second = judgement_of(effect, *comparison.second, comparison);
+        Result<Judgement> second = judgement_of(second_effect_of(row), *comparison.second, comparison,
+                                                remade ? &second_effect_of(*remade) : nullptr);
         if (!second) return failed(second.error());
         row.second = std::move(*second);
     }
@@ -157,11 +168,68 @@ struct TechniqueWork {
     double pictures, frames;
 
     explicit TechniqueWork(size_t contestants, const ComparisonSettings& settings)
-        : pictures(double(contestants)),
-          frames(settings.frames > 0 ? pictures * (settings.frames + 1) / (settings.grid * settings.grid)
-                                     : 0) {}
+        : pictures(double(contestants * (1 + settings.rest_bakes.size()))),
+          frames(settings.frames > 0
+                     ? double(contestants) * (settings.frames + 1) / (settings.grid * settings.grid)
+                     : 0) {}
     [[nodiscard]] double all() const { return pictures + frames; }
 };
+
+PictureSettings picture_settings(const ComparisonSettings& settings) {
+    return {.width = settings.width,
+            .height = settings.height,
+            .grid = settings.grid,
+            .shadow_map_size = settings.shadow_map_size,
+            .penumbra_mm = settings.reference.lighting.penumbra_mm};
+}
+
+// The row of a technique, drawn by a maker whose renderer may have bakes of the rest pose.
+Result<Compared> drawn_row(PictureMaker& maker, PictureMaker& drawn_by, const Contestant& contestant,
+                           const ComparisonSettings& settings, Integrator integrator) {
+    const Contestant first = judged_by(integrator, contestant),
+                     second = judged_by(settings.second.value_or(integrator), contestant);
+    DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(first, drawn_by));
+    Compared row{.contestant = contestant,
+                 .radiance = std::move(pictures.radiance),
+                 .effect = std::move(pictures.effect)};
+    if (second.values == first.values) return row;
+    DERMIS_TRY_ASSIGN(TechniquePictures beside, maker.make(second, drawn_by));
+    row.second_effect = std::move(beside.effect);
+    return row;
+}
+
+bool same_pictures(const Compared& a, const Compared& b) {
+    return a.radiance.bytes == b.radiance.bytes && second_effect_of(a).bytes == second_effect_of(b).bytes;
+}
+
+// A row of each technique and of each of the settings' rest_bakes that changes its picture.
+Result<void> add_rest_bakes(gpu::Device& device, const Catalog& catalog, const Scene& scene,
+                            const std::vector<Contestant>& contestants, PictureMaker& maker,
+                            const ComparisonSettings& settings, const ComparisonHooks& hooks,
+                            Comparison& comparison) {
+    double done = double(contestants.size());
+    const TechniqueWork work(contestants.size(), settings);
+    for (const RestBakes& bakes : settings.rest_bakes) {
+        Scene baked = scene;
+        baked.rest_bakes = bakes;
+        DERMIS_TRY_ASSIGN(Renderer renderer,
+                          Renderer::create(device, gpu::embedded_shaders(catalog.shaders), baked));
+        PictureMaker drawn_by(renderer, maker.baseline(), picture_settings(settings));
+        for (size_t i = 0; i < contestants.size(); ++i) {
+            Contestant contestant = contestants[i];
+            if (contestant.technique->is_baseline) continue;
+            contestant.settings +=
+                (contestant.settings.empty() ? "rest=" : ",rest=") + rest_bakes_text(bakes);
+            if (hooks.techniques) hooks.techniques(done++ / work.all(), contestant.name());
+            if (hooks.cancel && hooks.cancel->load()) return Error{"stopped"};
+            DERMIS_TRY_ASSIGN(Compared row,
+                              drawn_row(maker, drawn_by, contestant, settings, comparison.integrator));
+            row.remade = i;
+            if (!same_pictures(row, comparison.rows[i])) comparison.rows.push_back(std::move(row));
+        }
+    }
+    return {};
+}
 
 // A row as a technique has it, whose effect is the formula's.
 Result<void> add_exact(PictureMaker& maker, const Technique& baseline, const Scene& scene,
@@ -217,31 +285,21 @@ Result<void> add_pictures(PictureMaker& maker, const Technique& baseline, const 
 }
 
 // Drawing and timing in one renderer: pictures first, then the costs in rounds.
-Result<void> draw_techniques(Renderer& renderer, const Catalog& catalog, const Scene& scene,
-                             const std::vector<Contestant>& contestants, const ComparisonSettings& settings,
-                             const ComparisonHooks& hooks, Comparison& comparison) {
+Result<void> draw_techniques(gpu::Device& device, Renderer& renderer, const Catalog& catalog,
+                             const Scene& scene, const std::vector<Contestant>& contestants,
+                             const ComparisonSettings& settings, const ComparisonHooks& hooks,
+                             Comparison& comparison) {
     DERMIS_TRY_ASSIGN(const Technique* baseline, find_baseline(catalog.techniques));
-    PictureMaker maker(renderer, *baseline,
-                       {.width = settings.width,
-                        .height = settings.height,
-                        .grid = settings.grid,
-                        .shadow_map_size = settings.shadow_map_size,
-                        .penumbra_mm = settings.reference.lighting.penumbra_mm});
+    PictureMaker maker(renderer, *baseline, picture_settings(settings));
     const TechniqueWork work(contestants.size(), settings);
     for (const Contestant& contestant : contestants) {
         if (hooks.techniques)
             hooks.techniques(double(comparison.rows.size()) / work.all(), contestant.name());
         if (hooks.cancel && hooks.cancel->load()) return Error{"stopped"};
-        const Contestant first = judged_by(comparison.integrator, contestant),
-                         second = judged_by(settings.second.value_or(comparison.integrator), contestant);
-        DERMIS_TRY_ASSIGN(TechniquePictures pictures, maker.make(first));
-        comparison.rows.push_back({.contestant = contestant,
-                                   .radiance = std::move(pictures.radiance),
-                                   .effect = std::move(pictures.effect)});
-        if (second.values == first.values) continue;
-        DERMIS_TRY_ASSIGN(TechniquePictures beside, maker.make(second));
-        comparison.rows.back().second_effect = std::move(beside.effect);
+        DERMIS_TRY_ASSIGN(Compared row, drawn_row(maker, maker, contestant, settings, comparison.integrator));
+        comparison.rows.push_back(std::move(row));
     }
+    DERMIS_TRY(add_rest_bakes(device, catalog, scene, contestants, maker, settings, hooks, comparison));
     if (settings.exact)
         if (Result<void> added = add_exact(maker, *baseline, scene, settings, comparison); !added)
             return added;
@@ -282,6 +340,8 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
                                       const ComparisonSettings& settings, const ComparisonHooks& hooks) {
     if (contestants.empty() && settings.pictures.empty()) return Error{"no technique to compare"};
     DERMIS_TRY(check_grid(settings));
+    if (!settings.rest_bakes.empty() && scene.rest_objects.size() != scene.objects.size())
+        return Error{"the scene was loaded without its rest pose (animation.rest_bakes)"};
     for (const OwnPicture& picture : settings.pictures)
         DERMIS_TRY(check_own_picture(picture, settings.width, settings.height));
     // First, as it says at once what it cannot do.
@@ -290,7 +350,7 @@ Result<Comparison> compare_techniques(gpu::Device& device, const Catalog& catalo
     Comparison comparison{.device = device.info().name};
     DERMIS_TRY(make_references(scene, settings, hooks, true, comparison));
     if (Result<void> drawn =
-            draw_techniques(renderer, catalog, scene, contestants, settings, hooks, comparison);
+            draw_techniques(device, renderer, catalog, scene, contestants, settings, hooks, comparison);
         !drawn)
         return drawn.error();
     DERMIS_TRY(make_references(scene, settings, hooks, false, comparison));
@@ -318,6 +378,10 @@ std::vector<ScoreRow> score_rows(const std::string& scene, const Comparison& com
         const Judgement* found = judgement_by(integrator, comparison, row);
         return found ? std::optional(found->captured) : std::nullopt;
     };
+    const auto change_by = [&](Integrator integrator, const Compared& row) {
+        const Judgement* found = judgement_by(integrator, comparison, row);
+        return found ? found->change : std::nullopt;
+    };
     for (const Compared& row : comparison.rows)
         rows.push_back({.scene = scene,
                         .technique = row.contestant.technique->id,
@@ -328,7 +392,9 @@ std::vector<ScoreRow> score_rows(const std::string& scene, const Comparison& com
                         .time_ms = row.cost.time_ms,
                         .bytes = row.cost.bytes(),
                         .time_ratio = row.cost.time_ratio,
-                        .reference_rmse = comparison.reference_rmse});
+                        .reference_rmse = comparison.reference_rmse,
+                        .walk_change = change_by(Integrator::walk, row),
+                        .surface_change = change_by(Integrator::surface, row)});
     return rows;
 }
 

@@ -47,6 +47,9 @@ struct ComparisonSettings {
     ExactExitance exact;
     /// Rows after the techniques; their cost is not known.
     std::vector<OwnPicture> pictures;
+    /// For each, a row of every technique whose picture it changes, beside the one with all bakes made for
+    /// the pose; the scene must have its rest_objects. The baseline and the reference stay.
+    std::vector<RestBakes> rest_bakes;
 };
 
 /// The row's id.
@@ -59,12 +62,15 @@ inline constexpr std::string_view kExactId = "exact";
 struct Judgement {
     Captured captured;
     std::vector<RegionShare> regions;  ///< in the order of kRegions
+    /// Of a row with bakes of the rest pose, from that with bakes of the pose.
+    std::optional<ShareChange> change;
 };
 
 struct Compared {
-    Contestant contestant;
-    Image radiance;  ///< linear, RGBA; beyond the skin as drawn
-    Image effect;    ///< RGB: radiance less the baseline's
+    Contestant contestant;              ///< with bakes of the rest pose, its settings end in "rest=normals"
+    std::optional<size_t> remade = {};  ///< then: the row with all bakes of the pose
+    Image radiance;                     ///< linear, RGBA; beyond the skin as drawn
+    Image effect;                       ///< RGB: radiance less the baseline's
     /// With gain=none, where the technique has a gain and the second reference is `surface`.
     std::optional<Image> second_effect;
     Image flip,

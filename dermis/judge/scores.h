@@ -62,6 +62,8 @@ struct ScoreRow {
     double reference_rmse = 0;  ///< noise of the reference that the raw errors are measured with
     /// A frame over the baseline's by the model of dermis/report; missing where it was not computed.
     std::optional<double> model_ratio;
+    /// Of a row with bakes of the rest pose: from the row with bakes of the pose. Not in scores.csv.
+    std::optional<ShareChange> walk_change = {}, surface_change = {};
 };
 
 /// The share that decides: against `walk` where it was made, else against `surface`.

@@ -36,11 +36,15 @@ Result<const Image*> PictureMaker::baseline_beside(const Contestant& contestant)
 }
 
 Result<TechniquePictures> PictureMaker::make(const Contestant& contestant) {
+    return make(contestant, *this);
+}
+
+Result<TechniquePictures> PictureMaker::make(const Contestant& contestant, PictureMaker& drawn_by) {
     DERMIS_TRY_ASSIGN(const Image* baseline, baseline_beside(contestant));
     // The baseline itself is drawn once, so that its effect is 0 and no rounding.
     Result<Image> radiance = contestant.technique->id == baseline_.id
                                  ? Result<Image>(*baseline)
-                                 : draw(*contestant.technique, contestant.values);
+                                 : drawn_by.draw(*contestant.technique, contestant.values);
     if (!radiance) return Error{contestant.name() + ": " + radiance.error().message};
     TechniquePictures pictures{.effect = difference(*radiance, *baseline)};
     pictures.radiance = std::move(*radiance);

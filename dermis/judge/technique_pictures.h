@@ -34,8 +34,13 @@ class PictureMaker {
     /// Errors name the contestant.
     [[nodiscard]] Result<TechniquePictures> make(const Contestant& contestant);
 
+    /// Drawn by another maker, with this one's baseline.
+    [[nodiscard]] Result<TechniquePictures> make(const Contestant& contestant, PictureMaker& drawn_by);
+
     /// The parts of the skin, from the baseline's G-buffer and the reference's share of skin.
     [[nodiscard]] Result<SkinMasks> masks(const Image& skin);
+
+    [[nodiscard]] const Technique& baseline() const { return baseline_; }
 
   private:
     [[nodiscard]] Result<Image> draw(const Technique& technique, const ParameterValues& values);

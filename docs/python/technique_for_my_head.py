@@ -26,7 +26,7 @@ def shown(radiance):
 
 def main(scene="bust", size=160):
     OUT.mkdir(exist_ok=True)
-    compared = dermis.compare(scene, TECHNIQUES, size=size, samples_per_pixel=16, frames=1,
+    compared = dermis.compare(scene, TECHNIQUES, size=size, samples_per_pixel=16, timed_frames=1,
                               progress=lambda done: print(f"\r{100 * done:.0f} %", end="", file=sys.stderr))
     print(file=sys.stderr)
     rows = [(name, row) for name, row in zip(compared.names, compared.rows) if row["captured"] is not None]

@@ -98,7 +98,13 @@ TEST_F(BadInput, comparisons_that_cannot_be_made_leave_nothing) {
                  "--picture: 'mine=a.exr': write NAME=with.exr,without.exr");
     expect_error("compare builtin:spheres --picture mine=none.exr,b.exr" + to, "--picture: none.exr: ");
     expect_error("compare unit --picture mine=a.exr,b.exr" + to, "--picture: unit is a set of scenes");
+    expect_error("compare builtin:spheres --timed-frames 0" + to,
+                 "--timed-frames: 0 is not in its range, 1 to 1000");
     expect_error("compare builtin:spheres --frames 0" + to, "--frames: 0 is not in its range, 1 to 1000");
+    expect_error("compare builtin:spheres --frames 5" + to, "--clip NAME --frames 8");
+    expect_error("compare builtin:spheres --fps 24" + to, "--clip NAME --frames 8 --fps 24");
+    expect_error("compare builtin:spheres --rest-bakes normal" + to, "did you mean 'normals'?");
+    expect_error("compare builtin:spheres --rest-bakes all" + to, "does not move");
     expect_error("compare builtin:spheres --integrator walkk" + to, "did you mean 'walk'?");
     expect_error("compare builtin:spheres --size 16x16 --samples 1" + to,
                  "--samples: 1 is not in its range, 4 to 1048576");

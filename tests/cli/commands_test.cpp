@@ -69,7 +69,7 @@ TEST_F(Commands, sixteen_bit_png_and_layered_exr_come_out) {
 TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_reference_once) {
     const std::string command =
         "compare builtin:spheres --techniques 'lambert,preintegrated[diffuse=closed_form]' "
-        "--size 32x32 --samples-per-pixel 4 --samples 16 --noise 0.0001 --frames 1 --json -o " +
+        "--size 32x32 --samples-per-pixel 4 --samples 16 --noise 0.0001 --timed-frames 1 --json -o " +
         path("report");
     const std::string own_cache = "DERMIS_CACHE=" + path("cache") + " " + DERMIS_PROGRAM + " ";
     const ProgramResult first = shell(own_cache + command);
@@ -92,7 +92,7 @@ TEST_F(Commands, compare_of_a_scene_without_light_prints_no_nan) {
     const ProgramResult result = dermis(
         "compare spheres --scene light.key.intensity=0 --scene environment.kind=none -t lambert,wrap --size "
         "16 "
-        "--samples-per-pixel 4 --samples 8 --frames 1 -o " +
+        "--samples-per-pixel 4 --samples 8 --timed-frames 1 -o " +
         path("dark"));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
@@ -103,7 +103,7 @@ TEST_F(Commands, compare_of_a_scene_without_light_prints_no_nan) {
 TEST_F(Commands, compare_of_the_unit_scenes_has_the_exact_answer_beside_the_techniques) {
     const ProgramResult result = dermis(
         "compare unit --scene mesh.shape=relief_5mm -t lambert --size 16x16 --samples-per-pixel 4 "
-        "--samples 16 --frames 1 -o " +
+        "--samples 16 --timed-frames 1 -o " +
         path("unit"));
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("\nunit/relief_5mm "));

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/run_program.h"
 #include "dermis/base/file.h"
 #include "support/temporary_directory.h"
@@ -71,4 +73,53 @@ TEST_F(Moving, what_a_mesh_has_is_listed_and_what_it_lacks_is_named) {
     EXPECT_THAT(run("info " + mesh + " --morph shape1").err, HasSubstr("'shape1': write TARGET=WEIGHT"));
     EXPECT_THAT(run("info builtin:spheres --morph a=1").err, HasSubstr("morph.a"));
     EXPECT_THAT(run("render " + mesh + " --fps 24 -o " + path("%d.png")).err, HasSubstr("--clip NAME"));
+}
+
+TEST_F(Moving, bakes_of_the_rest_pose_are_a_key_of_the_scene) {
+    const std::string draw = "render " + path("skin_and_morph.glb") +
+                             " --unit-mm 10 -t wrap[gain=map] --size 32x32 --clip move --time 0.5 ";
+    const auto picture = [&](const std::string& words) {
+        const ProgramResult drawn = run(draw + words + " -o " + path("one.png"));
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        return bytes_of("one.png");
+    };
+    const std::string remade = picture("");
+    EXPECT_TRUE(remade != picture("--scene animation.rest_bakes=gain"));
+    EXPECT_TRUE(remade == picture("--scene animation.rest_bakes=none"));
+    EXPECT_THAT(run(draw + "--scene animation.rest_bakes=gian -o " + path("no.png")).err,
+                HasSubstr("animation.rest_bakes: unknown rest bake 'gian'; known: all, none, normals"));
+}
+
+TEST_F(Moving, the_shares_of_a_clip_are_those_of_its_poses) {
+    const std::string common = "compare " + path("skin_and_morph.glb") +
+                               " --unit-mm 10 -t wrap[gain=map] --integrator walk --size 24"
+                               " --samples-per-pixel 4 --samples 64 --timed-frames 1 --clip move"
+                               " --camera \"eye_mm=0,0,30 target_mm=0,0,0\" --rest-bakes gain --json -o ";
+    const auto json_of = [&](const std::string& words) {
+        const ProgramResult compared = run(common + words);
+        EXPECT_EQ(compared.exit_code, 0) << compared.err;
+        return nlohmann::json::parse(compared.out, nullptr, false);
+    };
+    const nlohmann::json clip = json_of(path("clip") + " --frames 2 --fps 1.6");
+    ASSERT_EQ(clip["frames"].size(), 2u);
+    double sum = 0, change = 0, worst = 1;
+    for (const size_t frame : {0u, 1u}) {
+        const nlohmann::json pose = json_of(path("pose") + (frame == 0 ? " --time 0" : " --time 0.625")),
+                             &row = clip["frames"][frame]["rows"][0];
+        EXPECT_EQ(pose["judges"][0]["from_cache"], true) << "the clip has made this pose's reference";
+        ASSERT_TRUE(row["walk_captured"].is_number()) << row;
+        EXPECT_EQ(pose["rows"][0]["walk_captured"], row["walk_captured"]);
+        EXPECT_EQ(pose["rows"][0]["rmse"], row["rmse"]);
+        sum += double(row["walk_captured"]);
+        worst = std::min(worst, double(row["walk_captured"]));
+        if (const auto& rows = clip["frames"][frame]["rows"]; rows.size() > 1)
+            change += double(rows[1]["walk_change"]["change"]);
+    }
+    EXPECT_NEAR(double(clip["rows"][0]["walk"]["mean"]), sum / 2, 1e-9);
+    EXPECT_EQ(double(clip["rows"][0]["walk"]["worst"]), worst);
+    EXPECT_NEAR(double(clip["rows"][1]["walk"]["change"]), change / 2, 1e-9);
+    EXPECT_LT(change, -0.1) << "the gain of another pose is not this one's";
+    for (const char* file : {"report.html", "scores.csv", "regions.csv", "frame_01/report.html"})
+        EXPECT_FALSE(bytes_of(std::string("clip/") + file).empty()) << file;
+    EXPECT_THAT(bytes_of("clip/clip.csv"), HasSubstr("wrap,\"gain=map,rest=gain\",walk,2,"));
 }

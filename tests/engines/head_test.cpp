@@ -46,11 +46,11 @@ class HeadPackage : public testing::Test {
     }
     // The captured share against `surface` of each row.
     std::map<std::string, double> shares(const std::vector<std::string>& queries) {
-        std::string command =
-            DERMIS_PROGRAM
-            " compare bust --size 48 --samples-per-pixel 16 --integrator surface --frames 1 -t preintegrated "
-            "--json -o " +
-            path("report");
+        std::string command = DERMIS_PROGRAM
+                              " compare bust --size 48 --samples-per-pixel 16 --integrator surface "
+                              "--timed-frames 1 -t preintegrated "
+                              "--json -o " +
+                              path("report");
         for (const std::string& query : queries) {
             const std::string name = query.substr(query.find('=') + 1);
             command += " --picture " + name + "=" + path(query + ".exr") + "," + path("lambert.exr");

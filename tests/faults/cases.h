@@ -80,10 +80,11 @@ constexpr Case kCases[] = {
     {"turntable", "view scene.toml --turntable 2 --size 16x16 -o out/%04d.png", Made::each, Case::draws},
     {"view", "view scene.toml --size 32x32 --samples 1 --frames 1", Made::together, Case::draws},
     {"compare",
-     "compare scene.toml --size 16x16 --samples 8 --samples-per-pixel 4 --frames 1 -t lambert -o out",
+     "compare scene.toml --size 16x16 --samples 8 --samples-per-pixel 4 --timed-frames 1 -t lambert -o out",
      Made::varies, Case::draws},
     {"compare_picture",
-     "compare scene.toml --samples 8 --samples-per-pixel 4 --frames 1 -t lambert --picture a=a.exr,a.exr -o "
+     "compare scene.toml --samples 8 --samples-per-pixel 4 --timed-frames 1 -t lambert --picture "
+     "a=a.exr,a.exr -o "
      "out",
      Made::varies, Case::draws, kPicture},
 };

@@ -151,3 +151,28 @@ TEST(Captured, what_cannot_be_measured_is_refused) {
     broken.set(1, 1, 1, std::numeric_limits<float>::quiet_NaN());
     EXPECT_THAT(captured(broken, reference, everywhere()).error().message, HasSubstr("NaN"));
 }
+
+TEST(ShareChange, is_the_difference_of_both_shares_with_less_noise_than_either) {
+    const Image whole = effect(), most = scaled(whole, 0.8f), more = scaled(whole, 0.81f);
+    const EffectHalves noisy = halves(whole, 3 * kNoise, 5);
+    const auto change = share_change(most, more, noisy, everywhere());
+    ASSERT_TRUE(change) << change.error().message;
+    EXPECT_NEAR(change->change, share(more, noisy).all.share - share(most, noisy).all.share, 1e-12);
+    EXPECT_NEAR(change->change, 0.01, 2 * change->error);
+    EXPECT_LT(change->error, 0.3 * share(most, noisy).all.error);
+    const auto same = share_change(most, most, noisy, everywhere());
+    ASSERT_TRUE(same);
+    EXPECT_EQ(same->change, 0);
+    EXPECT_EQ(same->error, 0);
+}
+
+TEST(ShareChange, lies_within_its_interval_for_most_seeds) {
+    const Image whole = effect(), most = scaled(whole, 0.7f), more = scaled(whole, 0.75f);
+    int inside = 0;
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        const auto change = share_change(most, more, halves(whole, 2 * kNoise, seed), everywhere());
+        ASSERT_TRUE(change);
+        inside += int(std::abs(change->change - 0.05) <= change->error);
+    }
+    EXPECT_GE(inside, 52);
+}

@@ -8,8 +8,8 @@ import numpy
 import dermis
 from support import TestCase, run_program
 
-WHAT = ("--size", "48", "--samples-per-pixel", "4", "--samples", "64", "--noise", "1", "--frames", "1")
-SAME = {"size": 48, "samples_per_pixel": 4, "samples": 64, "noise": 1, "frames": 1}
+WHAT = ("--size", "48", "--samples-per-pixel", "4", "--samples", "64", "--noise", "1", "--timed-frames", "1")
+SAME = {"size": 48, "samples_per_pixel": 4, "samples": 64, "noise": 1, "timed_frames": 1}
 TIMES = ("time_ms", "time_ratio")
 
 
@@ -41,7 +41,7 @@ class Compare(TestCase):
 
     def test_effects_give_the_share(self):
         """As docs/reference.md defines it, but for the reference's noise."""
-        compared = dermis.compare("spheres", "wrap[wrap=0.4]", size=48, samples_per_pixel=4, noise=0.05, frames=1)
+        compared = dermis.compare("spheres", "wrap[wrap=0.4]", size=48, samples_per_pixel=4, noise=0.05, timed_frames=1)
         counts = compared.skin > 0.5
         reference, wrap = compared.reference_effect[counts], compared.effect("wrap[wrap=0.4]")[counts]
         share = 1 - numpy.sqrt(((wrap - reference) ** 2).sum() / (reference**2).sum())
@@ -67,7 +67,7 @@ class Compare(TestCase):
                             (("--noise", 0), lambda: dermis.compare("spheres", noise=0)),
                             (("-t", "wrap[wrap=9]"), lambda: dermis.compare("spheres", "wrap[wrap=9]")),
                             (("--integrator", "x"), lambda: dermis.compare("spheres", integrator="x")),
-                            (("--frames", 0), lambda: dermis.compare("spheres", frames=0))):
+                            (("--timed-frames", 0), lambda: dermis.compare("spheres", timed_frames=0))):
             self.assert_error(self.program_error("compare", "spheres", *words, *out), call)
         with self.assertRaisesRegex(dermis.Error, "--noise: nan is not a finite number"):
             dermis.compare("spheres", noise=float("nan"))

@@ -9,13 +9,14 @@
 #include <set>
 
 #include "catalog/catalog.h"
+#include "clip_comparison.h"
 #include "command.h"
 #include "compare_options.h"
 #include "compare_scenes.h"
 #include "compare_text.h"
+#include "comparison_progress.h"
 #include "dermis/base/file.h"
 #include "dermis/base/hash.h"
-#include "dermis/base/progress.h"
 #include "dermis/judge/comparison.h"
 #include "dermis/judge/report.h"
 #include "job_hash.h"
@@ -47,44 +48,6 @@ Result<FileUse> files_of(const CompareOptions& options) {
     return files;
 }
 
-// One line at a time: the references' first samples, the techniques, the rest of the references, with the
-// best share so far. For a set, with the scene's name.
-class ComparisonProgress {
-  public:
-    explicit ComparisonProgress(std::string prefix) : prefix_(std::move(prefix)) {}
-
-    [[nodiscard]] ComparisonHooks hooks() {
-        return {.reference = [this](double done,
-                                    const std::string& name) { show(drawn_ ? 3 : 1, done, name + best_); },
-                .techniques =
-                    [this](double done, const std::string& name) {
-                        drawn_ = true;
-                        show(2, done, name);
-                    },
-                .shares = [this](Integrator, const std::vector<Compared>& rows,
-                                 const std::vector<CapturedShare>& shares) { keep_best(rows, shares); },
-                .stop = &stop_requested()};
-    }
-
-  private:
-    void show(int step, double done, const std::string& text) {
-        if (step != step_) line_.emplace(prefix_, 0);
-        step_ = step;
-        line_->set(done, std::to_string(step) + "/3 " + prefix_ + text);
-    }
-    void keep_best(const std::vector<Compared>& rows, const std::vector<CapturedShare>& shares) {
-        const size_t best =
-            size_t(std::ranges::max_element(shares, {}, &CapturedShare::share) - shares.begin());
-        best_ = fmt::format(": {} {:.2f} +-{:.2f}", rows[best].contestant.technique->id, shares[best].share,
-                            shares[best].error);
-    }
-
-    std::string prefix_, best_;
-    std::optional<Progress> line_;
-    int step_ = 0;
-    bool drawn_ = false;
-};
-
 // report.html in the directory; for a set, one per scene in a folder of its own.
 fs::path report_path(const CompareOptions& options, const ComparedScenes& scenes, const SubjectCase& one) {
     const fs::path directory(options.output);
@@ -94,12 +57,12 @@ fs::path report_path(const CompareOptions& options, const ComparedScenes& scenes
 
 Result<Comparison> compare(gpu::Device& device, const SubjectCase& one, const std::string& prefix,
                            const std::vector<Contestant>& contestants, const ComparisonSettings& settings) {
-    ComparisonProgress progress(prefix);
+    ComparisonProgress progress({.what = prefix});
     return compare_techniques(device, built_in_catalog(), one.scene, contestants, settings, progress.hooks());
 }
 
 Result<ComparedScenes> scenes_of(const CompareOptions& options) {
-    Result<ComparedScenes> scenes = compared_scenes(options.choice.scene);
+    Result<ComparedScenes> scenes = compared_scenes(options.choice);
     if (!scenes) return scenes;
     for (const SubjectCase& one : scenes->all) {
         Result<FileUse> files = files_of(options);
@@ -179,6 +142,7 @@ void print_results(const CompareOptions& options, const ComparedScenes& scenes,
 }
 
 Result<int> run(const CompareOptions& options) {
+    if (options.choice.frames > 0) return run_clip_comparison(options.choice, options.output, options.json);
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, options.choice.contestants());
     DERMIS_TRY_ASSIGN(ComparedScenes scenes, scenes_of(options));
@@ -191,11 +155,23 @@ Result<int> run(const CompareOptions& options) {
     return stop_requested() ? stopped_exit_code() : 0;
 }
 
+// Each frame of a clip, in the content of a job.
+Result<void> add_clip_frames(const CompareChoice& choice, std::vector<SubjectCase>& all) {
+    if (choice.frames == 0) return {};
+    DERMIS_TRY_ASSIGN(const std::vector<double> times, clip_times(choice));
+    for (const double time_s : times) {
+        DERMIS_TRY_ASSIGN(SubjectCase one, clip_frame(choice, time_s, nullptr));
+        all.push_back(std::move(one));
+    }
+    return {};
+}
+
 // One job: the techniques share the reference.
 Result<JobPlan> plan(const CompareOptions& options, const std::vector<std::string>& words) {
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
     DERMIS_TRY(options.choice.contestants());
-    DERMIS_TRY_ASSIGN(const ComparedScenes scenes, scenes_of(options));
+    DERMIS_TRY_ASSIGN(ComparedScenes scenes, scenes_of(options));
+    DERMIS_TRY(add_clip_frames(options.choice, scenes.all));
     std::vector<const Scene*> all;
     for (const SubjectCase& one : scenes.all) all.push_back(&one.scene);
     std::vector<std::string> content = words;
@@ -218,7 +194,8 @@ void add_compare_command(CommandLine& line) {
         "compare", "Compares techniques with the reference: captured shares, errors, a report with pictures",
         "dermis compare head_scan -t \"wrap,preintegrated[shadow=plain]\" -o out/compare\n"
         "  dermis compare unit -o out/unit   (small scenes with exact answers)\n"
-        "  dermis compare bust --picture mine=with.exr,without.exr -o out/mine");
+        "  dermis compare bust --picture mine=with.exr,without.exr -o out/mine\n"
+        "  dermis compare head.glb --clip talk --frames 8 -o out/talk");
     options->choice.scene.add_to(*command)->required();
     command->add_option("-t,--techniques", options->choice.techniques,
                         "technique[name=value,...],technique,... (default: every technique)");
@@ -251,8 +228,16 @@ void add_compare_command(CommandLine& line) {
         ->add_option("--samples,--spp", options->choice.samples, kReferenceSamplesRange,
                      "maximum samples a pixel of the reference")
         ->capture_default_str();
+    command->add_option("--frames", options->choice.frames, kClipFramesRange,
+                        "compare this number of frames of the --clip, evenly over its length from --time on");
+    command->add_option("--fps", options->choice.fps, {0, 1000},
+                        "frames in a second of the --clip instead, from --time on");
+    command->add_option(
+        "--rest-bakes", options->choice.rest_bakes,
+        "more rows, with bakes of the rest pose: normals, curvature, gain, occlusion, joined by "
+        "+, or all; lists are separated by commas");
     command
-        ->add_option("--frames", options->choice.frames, kTimedFramesRange,
+        ->add_option("--timed-frames", options->choice.timed_frames, kTimedFramesRange,
                      "frames that are timed, after a first one that compiles the shaders")
         ->capture_default_str();
     command->add_option("--device", options->choice.device,

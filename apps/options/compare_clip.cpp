@@ -1,0 +1,55 @@
+#include "compare_clip.h"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "dermis/base/text.h"
+#include "dermis/render/complete_scene.h"
+
+namespace dermis::cli {
+namespace {
+
+// Of the first object that has the clip.
+double clip_length_s(const Scene& scene, const std::string& clip) {
+    for (const SceneObject& object : scene.objects) {
+        const std::vector<ClipInfo>& clips = object.motion.clips;
+        for (size_t i = 0; i < clips.size(); ++i)
+            if (clips[i].name == clip || numbered_name(i) == clip) return clips[i].length_s;
+    }
+    return 0;
+}
+
+}  // namespace
+
+Result<std::vector<double>> clip_times(const CompareChoice& choice) {
+    const double start_s = choice.scene.pose.time_s.value_or(0);
+    std::vector<double> times;
+    if (choice.fps > 0) {
+        for (int i = 0; i < choice.frames; ++i) times.push_back(start_s + i / choice.fps);
+        return times;
+    }
+    DERMIS_TRY_ASSIGN(const Scene scene, choice.scene.load());
+    const double length_s = clip_length_s(scene, choice.scene.pose.clip);
+    if (start_s >= length_s)
+        return Error{"--time " + to_text(start_s) + ": the clip ends at " + to_text(length_s) +
+                     " s; start earlier, or give --fps"};
+    const double part_s = (length_s - start_s) / choice.frames;
+    for (int i = 0; i < choice.frames; ++i) times.push_back(start_s + (i + 0.5) * part_s);
+    return times;
+}
+
+Result<SubjectCase> clip_frame(const CompareChoice& choice, double time_s, const Scene* first) {
+    CompareChoice moment = choice;
+    moment.scene.pose.time_s = time_s;
+    DERMIS_TRY_ASSIGN(Scene scene, moment.load_scene());
+    if (first) {
+        scene.camera = first->camera;
+        fit_depth_range(scene.camera, scene.bounds_center_mm, scene.bounds_radius_mm);
+        scene.lights = first->lights;
+    }
+    return SubjectCase{
+        .name = fmt::format("{} {} {:.3f} s", choice.scene.name, choice.scene.pose.clip, time_s),
+        .scene = std::move(scene)};
+}
+
+}  // namespace dermis::cli

@@ -1,0 +1,213 @@
+#include "dermis/judge/clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "dermis/base/text.h"
+#include "dermis/plot/plot.h"
+
+namespace dermis::inline judge {
+namespace {
+
+constexpr std::string_view kRestSetting = "rest=";
+
+// Settings without the last one, if that names bakes of the rest pose.
+std::optional<std::string> without_rest(const std::string& settings) {
+    const size_t at = settings.rfind(kRestSetting);
+    if (at == std::string::npos || (at > 0 && settings[at - 1] != ',')) return std::nullopt;
+    return settings.substr(0, at > 0 ? at - 1 : 0);
+}
+
+const ScoreRow* find_row(const ClipFrame& frame, const ClipRow& wanted) {
+    const auto found = std::ranges::find_if(frame.rows, [&](const ScoreRow& row) {
+        return row.technique == wanted.technique && row.settings == wanted.settings;
+    });
+    return found == frame.rows.end() ? nullptr : &*found;
+}
+
+constexpr Integrator kClipJudges[] = {Integrator::walk, Integrator::surface};
+
+const std::optional<Captured>& captured_by(Integrator integrator, const ScoreRow& row) {
+    return integrator == Integrator::walk ? row.walk : row.surface;
+}
+
+// Of a row without bakes of the rest pose, none.
+std::optional<ShareChange> change_by(Integrator integrator, const ScoreRow& row, bool rest) {
+    const std::optional<ShareChange>& change =
+        integrator == Integrator::walk ? row.walk_change : row.surface_change;
+    return change || !rest ? change : std::optional(ShareChange{});
+}
+
+std::string clip_number(double value) {
+    char text[32] = "";
+    if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.4f", value);
+    return text;
+}
+
+std::string html_text(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+std::string seconds(double time_s) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f s", time_s);
+    return text;
+}
+
+std::string short_share(const CapturedShare& share) {
+    char text[32] = "noise";
+    if (share.known()) std::snprintf(text, sizeof text, "%.2f", share.share);
+    return text;
+}
+
+PlotPanel clip_panel(std::span<const ClipFrame> frames, Integrator integrator) {
+    PlotPanel panel{.title = "captured share of " + std::string(judge_name(integrator)),
+                    .x = {.label = "time in the clip (s)"},
+                    .y = {.label = "captured share"}};
+    for (const ClipRow& row : clip_rows(frames)) {
+        PlotSeries series{.name = row.name(), .mark = PlotMark::line_and_points};
+        for (const ClipFrame& frame : frames) {
+            const ScoreRow* found = row_of(frame, row);
+            if (!found || !captured_by(integrator, *found)) continue;
+            series.x.push_back(frame.time_s);
+            series.y.push_back(captured_by(integrator, *found)->all.share);
+        }
+        if (!series.x.empty()) panel.series.push_back(std::move(series));
+    }
+    return panel;
+}
+
+std::string html_row(std::span<const ClipFrame> frames, const ClipRow& row, const ClipShare& share,
+                     Integrator integrator) {
+    std::string text = "<tr><th>" + html_text(row.name()) + "</th><td>" + clip_number(share.mean) +
+                       "</td><td>" + clip_number(share.error) + "</td><td>" + clip_number(share.worst) +
+                       "</td><td>" + (share.change ? clip_number(share.change->change) : "") + "</td><td>" +
+                       (share.change ? clip_number(share.change->error) : "") + "</td>";
+    for (const ClipFrame& frame : frames) {
+        const ScoreRow* found = row_of(frame, row);
+        const bool judged = found && captured_by(integrator, *found);
+        text += "<td>" + (judged ? short_share(captured_by(integrator, *found)->all) : "") + "</td>";
+    }
+    return text + "</tr>\n";
+}
+
+std::string html_table(std::span<const ClipFrame> frames, std::span<const std::string> links,
+                       Integrator integrator) {
+    std::string body;
+    for (const ClipRow& row : clip_rows(frames))
+        if (const std::optional<ClipShare> share = clip_share(frames, row, integrator))
+            body += html_row(frames, row, *share, integrator);
+    if (body.empty()) return "";
+    std::string head = "<tr><th>captured share of " + std::string(judge_name(integrator)) +
+                       "</th><th>mean</th><th>&plusmn;</th><th>worst</th><th>change by bakes of rest</th>"
+                       "<th>&plusmn;</th>";
+    for (size_t i = 0; i < frames.size(); ++i)
+        head += "<th><a href=\"" + html_text(links[i]) + "\">" + seconds(frames[i].time_s) + "</a></th>";
+    return "<table>\n" + head + "</tr>\n" + body + "</table>\n";
+}
+
+}  // namespace
+
+std::string ClipRow::name() const {
+    return settings.empty() ? technique : technique + "[" + settings + "]";
+}
+
+std::vector<ClipRow> clip_rows(std::span<const ClipFrame> frames) {
+    std::vector<ClipRow> rows;
+    for (const ClipFrame& frame : frames)
+        for (const ScoreRow& row : frame.rows)
+            if (ClipRow named{row.technique, row.settings}; std::ranges::find(rows, named) == rows.end())
+                rows.push_back(std::move(named));
+    return rows;
+}
+
+const ScoreRow* row_of(const ClipFrame& frame, const ClipRow& row) {
+    if (const ScoreRow* found = find_row(frame, row)) return found;
+    const std::optional<std::string> remade = without_rest(row.settings);
+    return remade ? find_row(frame, {row.technique, *remade}) : nullptr;
+}
+
+std::optional<ClipShare> clip_share(std::span<const ClipFrame> frames, const ClipRow& row,
+                                    Integrator integrator) {
+    const bool rest = without_rest(row.settings).has_value();
+    ClipShare share{.worst = std::numeric_limits<double>::infinity(), .worst_change = 0};
+    ShareChange change;
+    double squares = 0, change_squares = 0;
+    for (const ClipFrame& frame : frames) {
+        const ScoreRow* found = row_of(frame, row);
+        if (!found || !captured_by(integrator, *found)) return std::nullopt;
+        const CapturedShare& one = captured_by(integrator, *found)->all;
+        share.mean += one.share;
+        squares += one.error * one.error;
+        if (one.known() && one.share < share.worst)
+            share.worst = one.share, share.worst_time_s = frame.time_s;
+        if (const auto by_rest = change_by(integrator, *found, rest)) {
+            change.change += by_rest->change;
+            change_squares += by_rest->error * by_rest->error;
+            share.worst_change = std::min(share.worst_change, by_rest->change);
+        }
+    }
+    const double count = double(frames.size());
+    if (frames.empty()) return std::nullopt;
+    share.mean /= count;
+    share.error = std::sqrt(squares) / count;
+    if (!std::isfinite(share.worst)) share.worst = std::nan("");
+    if (rest) share.change = ShareChange{change.change / count, std::sqrt(change_squares) / count};
+    return share;
+}
+
+std::string clip_csv(std::span<const ClipFrame> frames) {
+    std::string text =
+        "technique,settings,reference,frames,mean,mean_error,worst,worst_time_s,change,change_error,"
+        "worst_change\n";
+    for (const Integrator integrator : kClipJudges)
+        for (const ClipRow& row : clip_rows(frames)) {
+            const std::optional<ClipShare> share = clip_share(frames, row, integrator);
+            if (!share) continue;
+            const std::optional<ShareChange>& change = share->change;
+            text += row.technique + ",\"" + row.settings + "\"," + std::string(judge_name(integrator)) + "," +
+                    std::to_string(frames.size()) + "," + clip_number(share->mean) + "," +
+                    clip_number(share->error) + "," + clip_number(share->worst) + "," +
+                    clip_number(share->worst_time_s) + "," + (change ? clip_number(change->change) : "") +
+                    "," + (change ? clip_number(change->error) : "") + "," +
+                    (change ? clip_number(share->worst_change) : "") + "\n";
+        }
+    return text;
+}
+
+std::string clip_html(const std::string& title, const std::string& credit, std::span<const ClipFrame> frames,
+                      std::span<const std::string> links) {
+    Plot plot{.panels = {}, .columns = 1, .panel_width_px = 900};
+    std::string tables;
+    for (const Integrator integrator : kClipJudges) {
+        const std::string table = html_table(frames, links, integrator);
+        if (table.empty()) continue;
+        plot.panels.push_back(clip_panel(frames, integrator));
+        tables += table;
+    }
+    return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>" + html_text(title) +
+           "</title>\n<style>\nbody { font: 15px/1.5 system-ui, sans-serif; margin: 24px; }\n"
+           "table { border-collapse: collapse; margin: 20px 0; font-variant-numeric: tabular-nums; }\n"
+           "th, td { padding: 4px 8px; border-bottom: 1px solid #ccc; text-align: right; }\n"
+           "th:first-child { text-align: left; }\n</style></head>\n<body>\n<h1>" +
+           html_text(title) +
+           "</h1>\n<p>Of each technique, how much of what scattering does it has: 1 is all, 0 none. "
+           "A time links to the report of that frame.</p>\n" +
+           plot_svg(plot) + tables + (credit.empty() ? "" : "<p>" + html_text(credit) + "</p>\n") +
+           "</body></html>\n";
+}
+
+}  // namespace dermis::inline judge

@@ -1,0 +1,74 @@
+// Shares over the frames of a clip.
+
+#include "dermis/judge/clip.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace dermis;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+Captured clip_captured(double share, double error) {
+    Captured captured;
+    captured.all = {.share = share, .error = error, .effect_rms = 0.02, .reference_noise = 0.001};
+    return captured;
+}
+
+ScoreRow clip_row(const std::string& settings, double share, std::optional<ShareChange> change = {}) {
+    return {.technique = "wrap",
+            .settings = settings,
+            .walk = clip_captured(share, 0.03),
+            .surface = {},
+            .scores = {},
+            .walk_change = change};
+}
+
+// In the first frame the rest pose's gain changes nothing, so that it has no row.
+std::vector<ClipFrame> two_frames() {
+    return {{0.5, {clip_row("gain=map", 0.6)}},
+            {1.5, {clip_row("gain=map", 0.4), clip_row("gain=map,rest=gain", 0.3, ShareChange{-0.1, 0.02})}}};
+}
+
+}  // namespace
+
+TEST(Clip, has_mean_and_worst_of_its_frames) {
+    const auto share = clip_share(two_frames(), {"wrap", "gain=map"}, Integrator::walk);
+    ASSERT_TRUE(share);
+    EXPECT_DOUBLE_EQ(share->mean, 0.5);
+    EXPECT_DOUBLE_EQ(share->error, 0.03 / std::sqrt(2.0));
+    EXPECT_EQ(share->worst, 0.4);
+    EXPECT_EQ(share->worst_time_s, 1.5);
+    EXPECT_FALSE(share->change);
+    EXPECT_FALSE(clip_share(two_frames(), {"wrap", "gain=map"}, Integrator::surface));
+}
+
+TEST(Clip, takes_a_row_that_a_frame_lacks_as_unchanged) {
+    const auto share = clip_share(two_frames(), {"wrap", "gain=map,rest=gain"}, Integrator::walk);
+    ASSERT_TRUE(share && share->change);
+    EXPECT_DOUBLE_EQ(share->mean, 0.45);
+    EXPECT_DOUBLE_EQ(share->change->change, -0.05);
+    EXPECT_DOUBLE_EQ(share->change->error, 0.01);
+    EXPECT_DOUBLE_EQ(share->worst_change, -0.1);
+    EXPECT_EQ(clip_rows(two_frames()).size(), 2u);
+}
+
+TEST(Clip, has_no_worst_frame_where_all_are_noise) {
+    std::vector<ClipFrame> frames = two_frames();
+    for (ClipFrame& frame : frames) frame.rows[0].walk->all.error = 1;
+    const auto share = clip_share(frames, {"wrap", "gain=map"}, Integrator::walk);
+    ASSERT_TRUE(share);
+    EXPECT_TRUE(std::isnan(share->worst));
+    EXPECT_THAT(clip_csv(frames), HasSubstr("wrap,\"gain=map\",walk,2,0.5000,0.7071,,"));
+}
+
+TEST(Clip, page_links_each_frame_and_escapes_text) {
+    const std::string links[] = {"frame_00/report.html", "frame_01/report.html"};
+    const std::string page = clip_html("<head>", "a & b", two_frames(), links);
+    for (const char* text :
+         {"&lt;head>", "a &amp; b", "<a href=\"frame_01/report.html\">1.50 s</a>", "-0.0500"})
+        EXPECT_THAT(page, HasSubstr(text));
+    EXPECT_THAT(page, Not(HasSubstr("<head>,")));
+}
