@@ -143,7 +143,8 @@ const ScoreRow* row_of(const ClipFrame& frame, const ClipRow& row) {
 std::optional<ClipShare> clip_share(std::span<const ClipFrame> frames, const ClipRow& row,
                                     Integrator integrator) {
     const bool rest = without_rest(row.settings).has_value();
-    ClipShare share{.worst = std::numeric_limits<double>::infinity(), .worst_change = 0};
+    ClipShare share{.worst = std::numeric_limits<double>::infinity(),
+                    .worst_change = std::numeric_limits<double>::infinity()};
     ShareChange change;
     double squares = 0, change_squares = 0;
     for (const ClipFrame& frame : frames) {

@@ -25,7 +25,7 @@ struct ClipShare {
     /// Of a row with bakes of the rest pose: from the row with bakes of each pose, the mean and the frame
     /// that loses most.
     std::optional<ShareChange> change = {};
-    double worst_change = 0;
+    double worst_change = 0;  ///< the least; read it only with `change`
 };
 /// Technique and settings of a row.
 struct ClipRow {

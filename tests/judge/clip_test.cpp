@@ -52,6 +52,9 @@ TEST(Clip, takes_a_row_that_a_frame_lacks_as_unchanged) {
     EXPECT_DOUBLE_EQ(share->change->change, -0.05);
     EXPECT_DOUBLE_EQ(share->change->error, 0.01);
     EXPECT_DOUBLE_EQ(share->worst_change, -0.1);
+    std::vector<ClipFrame> second = {two_frames()[1]};
+    second[0].rows[1].walk_change->change = 0.2;
+    EXPECT_DOUBLE_EQ(clip_share(second, {"wrap", "gain=map,rest=gain"}, Integrator::walk)->worst_change, 0.2);
     EXPECT_EQ(clip_rows(two_frames()).size(), 2u);
 }
 
