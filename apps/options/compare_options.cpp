@@ -108,11 +108,6 @@ Result<std::vector<Contestant>> CompareChoice::contestants() const {
 }
 
 Result<Scene> CompareChoice::load_scene() const {
-    const std::span<const Subject> subjects = built_in_catalog().subjects;
-    const std::string_view name = subject_name(scene.name).value_or(scene.name);
-    const Error still{"--rest-bakes: " + scene.name + " does not move: it has no clip, morph target or skin"};
-    if (!rest_bakes.empty() && std::ranges::find(subjects, name, &Subject::name) != subjects.end())
-        return still;
     SceneChoice loaded = scene;
     if (!rest_bakes.empty()) loaded.words.push_back("animation.rest_bakes=all");
     Result<Scene> made = loaded.load();
@@ -120,7 +115,8 @@ Result<Scene> CompareChoice::load_scene() const {
     if (!rest_bakes.empty()) {
         made->rest_bakes = {};
         if (std::ranges::all_of(made->objects, [](const SceneObject& o) { return o.motion.empty(); }))
-            return still;
+            return Error{"--rest-bakes: " + scene.name +
+                         " does not move: it has no clip, morph target or skin"};
     }
     DERMIS_TRY(complete_scene(*made));
     return made;

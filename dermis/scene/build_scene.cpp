@@ -16,6 +16,7 @@
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/place_mesh.h"
 #include "dermis/scene/placement.h"
+#include "dermis/scene/pose_scene.h"
 #include "dermis/scene/rest_bakes.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_description.h"
@@ -187,6 +188,7 @@ Result<SubjectScene> add_objects(const SceneDescription& description, const Mesh
     Result<SubjectScene> made = load_objects(description, mesh, subjects, scene);
     if (!made) return made.error();
     for (SceneObject& object : made->objects) {
+        pose_subject(object, description.motion.pose());
         object.placement = {.scale = mesh.scale,
                             .rotation_rad = mesh.rotate_deg * kRadiansPerDegree,
                             .translation_mm = mesh.translate_mm};
@@ -215,22 +217,11 @@ Result<void> check_material_names(const SceneDescription& description, const Sce
     return {};
 }
 
-// A clip or a target that no mesh has is a mistake.
-Result<void> check_motion(const SceneDescription& description, const Scene& scene) {
-    if (description.motion.pose().empty()) return {};
-    std::vector<Motion> motions;
-    for (const SceneObject& object : scene.objects) motions.push_back(object.motion);
-    const Result<void> checked = check_pose(description.motion.pose(), motions);
-    if (checked) return {};
-    return description.file.empty() ? checked : checked.error().within(description.file.string());
-}
-
 // The same objects in the rest pose.
 Result<void> add_rest_pose(const SceneDescription& given, std::span<const Subject> subjects, Scene& scene) {
-    if (given.motion.rest_bakes.empty()) return {};
     const std::string place = given.file.empty() ? "" : given.file.string() + ": ";
-    const Result<RestBakes> bakes = parse_rest_bakes(given.motion.rest_bakes);
-    if (!bakes) return Error{place + "animation.rest_bakes: " + bakes.error().message};
+    const Result<RestBakes> bakes = parse_rest_bakes(given.motion);
+    if (!bakes) return Error{place + bakes.error().message};
     if (!bakes->any()) return {};
     SceneDescription rest = given;
     rest.motion = {};
@@ -297,7 +288,8 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
         if (added.states_anything()) stated = std::move(added);
         progress.advance();
     }
-    DERMIS_TRY(check_motion(description, scene));
+    if (const Result<void> checked = check_motion(scene.objects, description.motion); !checked)
+        return description.file.empty() ? checked.error() : checked.error().within(description.file.string());
     DERMIS_TRY(check_material_names(description, scene));
     DERMIS_TRY(resolve_profiles(scene, description.file));
 

@@ -5,6 +5,8 @@
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
 #include "dermis/mesh/read_mesh.h"
+#include "dermis/scene/placement.h"
+#include "dermis/scene/pose_scene.h"
 #include "dermis/scene/scene_checks.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_words.h"
@@ -13,9 +15,22 @@ namespace dermis::inline scene {
 namespace fs = std::filesystem;
 namespace {
 
-Result<Scene> load_subject(std::string_view name, std::span<const Subject> subjects) {
-    DERMIS_TRY_ASSIGN(SubjectScene made, make_subject(subjects, name));
-    return scene_of(std::string(name), std::move(made));
+Result<Scene> load_subject(const std::string& path_or_name, std::string_view name,
+                           const SceneOptions& options) {
+    DERMIS_TRY_ASSIGN(SubjectScene made, make_subject(options.subjects, name));
+    SceneDescription posed;
+    for (const SceneWord& word : options.words)
+        if (is_motion_key(word.key)) DERMIS_TRY(set_word(posed, word, options.subjects));
+    if (const Result<void> checked = check_motion(made.objects, posed.motion); !checked)
+        return checked.error().within(path_or_name);
+    DERMIS_TRY_ASSIGN(const RestBakes rest_bakes, parse_rest_bakes(posed.motion));
+    Scene scene = scene_of(std::string(name), std::move(made));
+    scene.motion = posed.motion;
+    scene.rest_bakes = rest_bakes;
+    if (rest_bakes.any()) scene.rest_objects = scene.objects;
+    for (SceneObject& object : scene.objects) pose_subject(object, posed.motion.pose());
+    compute_bounds(scene);
+    return scene;
 }
 
 Result<SceneDescription> read_description(const fs::path& path, const SceneOptions& options) {
@@ -29,7 +44,8 @@ Result<SceneDescription> read_description(const fs::path& path, const SceneOptio
 
 // Only a scene file has these keys; an unknown one is reported as such first.
 Result<void> refuse_words(const std::string& name, const SceneOptions& options) {
-    const auto word = std::ranges::find_if(options.words, is_loading_key, &SceneWord::key);
+    const auto needs_file = [](const std::string& key) { return is_loading_key(key) && !is_motion_key(key); };
+    const auto word = std::ranges::find_if(options.words, needs_file, &SceneWord::key);
     if (word == options.words.end()) return {};
     SceneDescription any{.meshes = {{.file = {.text = name}}}};
     if (Result<void> set = set_word(any, *word, options.subjects); !set) return set;
@@ -92,7 +108,7 @@ Result<Scene> load_scene(const std::string& path_or_name, const SceneOptions& op
     const bool is_mesh = is_mesh_file(path_or_name);
     const auto subject = subject_name(path_or_name);
     if (subject) DERMIS_TRY(refuse_words(path_or_name, options));
-    if (subject) return load_subject(*subject, options.subjects);
+    if (subject) return load_subject(path_or_name, *subject, options);
     const fs::path path = path_or_name;
     std::error_code ec;
     if (looks_like_a_name(path_or_name) && !fs::is_regular_file(path, ec)) {

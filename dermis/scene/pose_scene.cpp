@@ -9,9 +9,81 @@
 #include "dermis/scene/place_mesh.h"
 
 namespace dermis::inline scene {
+namespace {
+
+SurfaceAtRest at_rest(const Mesh& mesh) {
+    return {.normals = mesh.normals,
+            .directions = surface_directions(mesh),
+            .tangents = mesh.tangents,
+            .curvatures_per_mm = mesh.curvatures_per_mm};
+}
+
+void move_vertices(Mesh& mesh, const PosedVertices& posed, const SurfaceAtRest& rest) {
+    const std::vector<uint32_t>& from = mesh.file_vertices;
+    for (size_t v = 0; v < from.size(); ++v) {
+        mesh.positions_mm[v] = posed.positions_mm[from[v]];
+        mesh.normals[v] = posed.normals[from[v]];
+    }
+    const std::vector<Vec3> directions = surface_directions(mesh);
+    for (size_t v = 0; v < from.size(); ++v) {
+        const SurfaceFrame before(rest.normals[v], rest.directions[v]), after(mesh.normals[v], directions[v]);
+        if (!rest.tangents.empty()) {
+            const Vec4 t = rest.tangents[v];
+            const Vec3 turned = moved(before, after, Vec3{t.x, t.y, t.z});
+            mesh.tangents[v] = {turned.x, turned.y, turned.z, t.w};
+        }
+        if (!rest.curvatures_per_mm.empty())
+            mesh.curvatures_per_mm[v] = moved(before, after, rest.curvatures_per_mm[v]);
+    }
+}
+
+// In the scene.
+Result<PosedVertices> vertices_of(const SceneObject& object, std::span<const std::byte> file,
+                                  const Pose& pose) {
+    Mesh mesh;
+    if (object.posed_vertices) {
+        PosedVertices made = object.posed_vertices(pose);
+        mesh.positions_mm = std::move(made.positions_mm);
+        mesh.normals = std::move(made.normals);
+    } else {
+        const bool is_glb = to_lower(object.file.extension().string()) == ".glb";
+        const ReadSibling read_sibling = [&](const std::string& path) {
+            return read_file(object.file.parent_path() / utf8_path(path));
+        };
+        DERMIS_TRY_ASSIGN(
+            LoadedMesh read,
+            parse_mesh(file, is_glb ? MeshFormat::glb : MeshFormat::gltf, object.file, read_sibling,
+                       {.unit_mm = object.unit_mm, .pose = pose, .keep_vertices = true}));
+        mesh = std::move(read.mesh);
+    }
+    place_mesh(mesh, object.placement);
+    if (mesh.positions_mm.size() <= std::ranges::max(object.mesh.file_vertices))
+        return Error{object.file.string() + ": has fewer vertices than before; open it again"};
+    return PosedVertices{std::move(mesh.positions_mm), std::move(mesh.normals)};
+}
+
+}  // namespace
+
+Result<void> check_motion(std::span<const SceneObject> objects, const MotionDescription& motion) {
+    if (motion.pose().empty()) return {};
+    std::vector<Motion> motions;
+    for (const SceneObject& object : objects) motions.push_back(object.motion);
+    return check_pose(motion.pose(), motions);
+}
+
+Result<RestBakes> parse_rest_bakes(const MotionDescription& motion) {
+    if (motion.rest_bakes.empty()) return RestBakes{};
+    const Result<RestBakes> bakes = parse_rest_bakes(motion.rest_bakes);
+    return bakes ? bakes : bakes.error().within("animation.rest_bakes");
+}
+
+void pose_subject(SceneObject& object, const Pose& pose) {
+    if (!object.posed_vertices || pose.empty()) return;
+    move_vertices(object.mesh, object.posed_vertices(pose), at_rest(object.mesh));
+}
 
 bool ScenePoser::can_pose(const SceneObject& object) {
-    return !object.motion.empty() && !object.file.empty() &&
+    return !object.motion.empty() && (object.posed_vertices || !object.file.empty()) &&
            object.mesh.file_vertices.size() == object.mesh.positions_mm.size();
 }
 
@@ -20,46 +92,20 @@ Result<ScenePoser> ScenePoser::create(const Scene& scene) {
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];
         if (!can_pose(object)) continue;
-        DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, read_file(object.file));
-        poser.rests_.push_back({.object = i,
-                                .file = std::move(bytes),
-                                .normals = object.mesh.normals,
-                                .directions = surface_directions(object.mesh),
-                                .tangents = object.mesh.tangents,
-                                .curvatures_per_mm = object.mesh.curvatures_per_mm});
+        std::vector<std::byte> file;
+        if (!object.posed_vertices) {
+            DERMIS_TRY_ASSIGN(file, read_file(object.file));
+        }
+        poser.all_.push_back({.object = i, .file = std::move(file), .rest = at_rest(object.mesh)});
     }
     return poser;
 }
 
 Result<void> ScenePoser::pose(const Pose& pose, Scene& scene) const {
-    for (const Rest& rest : rests_) {
-        SceneObject& object = scene.objects[rest.object];
-        const bool is_glb = to_lower(object.file.extension().string()) == ".glb";
-        DERMIS_TRY_ASSIGN(LoadedMesh posed,
-                          parse_mesh(rest.file, is_glb ? MeshFormat::glb : MeshFormat::gltf, object.file,
-                                     [&](const std::string& path) {
-                                         return read_file(object.file.parent_path() / utf8_path(path));
-                                     },
-                                     {.unit_mm = object.unit_mm, .pose = pose, .keep_vertices = true}));
-        place_mesh(posed.mesh, object.placement);
-        Mesh& mesh = object.mesh;
-        const std::vector<uint32_t>& from = mesh.file_vertices;
-        if (posed.mesh.positions_mm.size() <= std::ranges::max(from))
-            return Error{object.file.string() + ": has fewer vertices than before; open it again"};
-        for (size_t v = 0; v < from.size(); ++v) {
-            mesh.positions_mm[v] = posed.mesh.positions_mm[from[v]];
-            mesh.normals[v] = posed.mesh.normals[from[v]];
-        }
-        const std::vector<Vec3> directions = surface_directions(mesh);
-        for (size_t v = 0; v < from.size(); ++v) {
-            const SurfaceFrame before(rest.normals[v], rest.directions[v]),
-                after(mesh.normals[v], directions[v]);
-            const Vec4 t = rest.tangents[v];
-            const Vec3 turned = moved(before, after, Vec3{t.x, t.y, t.z});
-            mesh.tangents[v] = {turned.x, turned.y, turned.z, t.w};
-            if (!rest.curvatures_per_mm.empty())
-                mesh.curvatures_per_mm[v] = moved(before, after, rest.curvatures_per_mm[v]);
-        }
+    for (const Posed& posed : all_) {
+        SceneObject& object = scene.objects[posed.object];
+        DERMIS_TRY_ASSIGN(const PosedVertices vertices, vertices_of(object, posed.file, pose));
+        move_vertices(object.mesh, vertices, posed.rest);
     }
     return {};
 }

@@ -2,6 +2,7 @@
 // A loaded scene in another pose, without what loading costs: for pictures while a head moves.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "dermis/base/result.h"
@@ -9,14 +10,32 @@
 
 namespace dermis::inline scene {
 
+/// A clip or a target that none of the objects has is an error, which names what there is.
+[[nodiscard]] Result<void> check_motion(std::span<const SceneObject> objects,
+                                        const MotionDescription& motion);
+
+/// Of animation.rest_bakes; none where the key is not given. Errors: those of parse_rest_bakes(text).
+[[nodiscard]] Result<RestBakes> parse_rest_bakes(const MotionDescription& motion);
+
+/// Poses an object that code made (SceneObject::posed_vertices), which is at rest; others and an empty pose
+/// change nothing. Tangents turn with the surface.
+void pose_subject(SceneObject& object, const Pose& pose);
+
+/// What of an object's surface turns with it, in one pose.
+struct SurfaceAtRest {
+    std::vector<Vec3> normals, directions;  ///< directions: dP/du, or along an edge
+    std::vector<Vec4> tangents;
+    std::vector<CurvatureTensor> curvatures_per_mm;
+};
+
 class ScenePoser {
   public:
     /// Keeps the bytes of the mesh files that move, and the shape that the scene's objects have now. Errors:
     /// a file that cannot be read any more.
     [[nodiscard]] static Result<ScenePoser> create(const Scene& scene);
 
-    /// Whether the scene's object can be posed: its file has motion, and its vertices are those of the file.
-    /// Subdivided and displaced meshes cannot; load them in the pose.
+    /// Whether the scene's object can be posed: it has motion, and its vertices are those of its file or
+    /// subject. Subdivided and displaced meshes cannot; load them in the pose.
     [[nodiscard]] static bool can_pose(const SceneObject& object);
 
     /// Moves the vertices of `scene`, whose meshes must be those of create(). Positions and normals are those
@@ -26,14 +45,12 @@ class ScenePoser {
     [[nodiscard]] Result<void> pose(const Pose& pose, Scene& scene) const;
 
   private:
-    struct Rest {
+    struct Posed {
         size_t object = 0;
-        std::vector<std::byte> file;
-        std::vector<Vec3> normals, directions;
-        std::vector<Vec4> tangents;
-        std::vector<CurvatureTensor> curvatures_per_mm;
+        std::vector<std::byte> file;  ///< empty for subjects
+        SurfaceAtRest rest;
     };
-    std::vector<Rest> rests_;
+    std::vector<Posed> all_;
 };
 
 }  // namespace dermis::inline scene

@@ -2,6 +2,7 @@
 // A scene as the renderer and the reference take it: everything in mm and linear, world space, Y up.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -122,6 +123,11 @@ struct FoundPart {
     bool left_out = false;  ///< its triangles are not drawn
 };
 
+/// All vertices of a mesh in a pose, counted as Mesh::file_vertices counts them.
+struct PosedVertices {
+    std::vector<Vec3> positions_mm, normals;
+};
+
 struct SceneObject {
     std::string name;
     Mesh mesh;
@@ -130,7 +136,9 @@ struct SceneObject {
     double unit_mm = 1;                  ///< of the mesh file
     Motion motion = {};                  ///< its clips and morph targets
     std::filesystem::path file = {};     ///< the mesh file; empty for subjects
-    Placement placement = {};            ///< of the mesh file in the scene
+    Placement placement = {};            ///< of the mesh in the scene
+    /// A subject that moves: its vertices in a pose, before the placement.
+    std::function<PosedVertices(const Pose&)> posed_vertices = {};
 };
 
 struct Scene {

@@ -224,6 +224,10 @@ bool is_loading_key(std::string_view key) {
     return address.section != "light" && address.section != "environment" && address.section != "camera";
 }
 
+bool is_motion_key(std::string_view key) {
+    return key.starts_with("animation.") || key.starts_with("morph.");
+}
+
 Result<void> set_words(Scene& scene, std::span<const SceneWord> words) {
     if (words.empty()) return {};
     SceneDescription before = describe(scene), after = before;

@@ -32,6 +32,9 @@ namespace dermis::inline scene {
 /// root and of [skin]); set_words() takes the others.
 [[nodiscard]] bool is_loading_key(std::string_view key);
 
+/// Whether it is a key of [animation] or [morph].
+[[nodiscard]] bool is_motion_key(std::string_view key);
+
 /// Changes a loaded scene. What no word names keeps its bits; after an error nothing has changed. Errors:
 /// those of set_word() and of the file's checks, a key that is_loading_key(), an unknown profile, a panorama
 /// that is not there.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dermis/base/text.h"
+#include "dermis/scene/scene_words.h"
 
 namespace dermis::view {
 namespace {
@@ -63,14 +64,8 @@ double clip_length_s(const Scene& scene) {
     return length_s / double(scene.motion.speed);
 }
 
-Result<void> check_motion(const Scene& scene, const MotionDescription& motion) {
-    std::vector<Motion> motions;
-    for (const SceneObject& object : scene.objects) motions.push_back(object.motion);
-    return check_pose(motion.pose(), motions);
-}
-
 Result<void> set_motion(Scene& scene, MotionDescription motion) {
-    DERMIS_TRY(check_motion(scene, motion));
+    DERMIS_TRY(check_motion(scene.objects, motion));
     scene.motion = std::move(motion);
     return {};
 }
@@ -95,15 +90,11 @@ void advance_motion(Model& model, double elapsed_s) {
     motion.time_s = model.playing ? std::fmod(motion.time_s, length_s) : length_s;
 }
 
-bool is_motion_word(const SceneWord& word) {
-    return word.key.starts_with("animation.") || word.key.starts_with("morph.");
-}
-
 std::vector<SceneWord> words_to_load(const Model& model, const Scene& file) {
     std::vector<SceneWord> words = model.loading_words;
     const MotionDescription& motion = model.scene->motion;
     if (motion == file.motion) return words;
-    std::erase_if(words, is_motion_word);
+    std::erase_if(words, [](const SceneWord& word) { return is_motion_key(word.key); });
     for (SceneWord& word : motion_words(motion, file.motion)) words.push_back(std::move(word));
     return words;
 }

@@ -17,9 +17,7 @@ namespace dermis::view {
 /// Length of the scene's clip in its time: at its speed. 0 without a clip.
 [[nodiscard]] double clip_length_s(const Scene& scene);
 
-/// Errors: a clip or a target that no mesh has.
-[[nodiscard]] Result<void> check_motion(const Scene& scene, const MotionDescription& motion);
-/// The same, then the scene's motion is this one.
+/// The scene's motion is this one. Errors: those of check_motion().
 [[nodiscard]] Result<void> set_motion(Scene& scene, MotionDescription motion);
 
 /// Time begins to go on: of the scene's clip, else of the first. A clip that is over begins again. Errors: a
@@ -28,8 +26,6 @@ namespace dermis::view {
 /// A clip without `loop` stops at its end.
 void advance_motion(Model& model, double elapsed_s);
 
-/// A key of [animation] or [morph].
-[[nodiscard]] bool is_motion_word(const SceneWord& word);
 /// Words that load the scene with its motion of now; `file`: what the scene's files say.
 [[nodiscard]] std::vector<SceneWord> words_to_load(const Model& model, const Scene& file);
 

@@ -53,8 +53,9 @@ void show_targets(Model& model, const std::vector<std::string>& targets, WidgetM
         if (to_lower(target).find(wanted) == std::string::npos) continue;
         const auto stated = motion.morph.find(target);
         float weight = stated == motion.morph.end() ? 0 : stated->second;
-        if (!rows.number({.name = target, .doc = "weight of this morph target; at 0 the clip's applies"},
-                         weight))
+        if (!rows.number(
+                {.name = target, .doc = target + ": weight of the morph target; at 0 the clip's applies"},
+                weight))
             continue;
         if (weight == 0)
             motion.morph.erase(target);

@@ -159,9 +159,9 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
     SceneDescription posed;
     posed.motion = model.scene->motion;
     for (const SceneWord& word : wanted.words)
-        if (is_motion_word(word)) DERMIS_TRY(set_word(posed, word, {}));
-    std::erase_if(wanted.words, is_motion_word);
-    DERMIS_TRY(check_motion(*model.scene, posed.motion));
+        if (is_motion_key(word.key)) DERMIS_TRY(set_word(posed, word, {}));
+    std::erase_if(wanted.words, [](const SceneWord& word) { return is_motion_key(word.key); });
+    DERMIS_TRY(check_motion(model.scene->objects, posed.motion));
     if (Result<void> set = set_words(*model.scene, wanted.words); !set) return set;
     model.scene->motion = std::move(posed.motion);
     model.choices[0] = std::move(wanted.choice);

@@ -1,7 +1,14 @@
 // The built-in head with its parameters; bust.h describes how it is made.
 
+#include <memory>
+#include <numeric>
+
+#include "dermis/base/parallel.h"
+#include "dermis/mesh/follow_normals.h"
 #include "dermis/scene/subject.h"
 #include "subjects/bust/bust.h"
+#include "subjects/bust/expressions.h"
+#include "subjects/bust/field.h"
 
 namespace dermis {
 namespace {
@@ -24,11 +31,48 @@ std::string name_of(const ParameterValues& values) {
     return name;
 }
 
+// The head at rest, with what its expressions need at each vertex.
+struct HeadAtRest {
+    Mesh mesh;  // positions, normals, tangents, triangles
+    std::vector<bust::Point> standard;
+
+    [[nodiscard]] PosedVertices posed(const Pose& pose) const {
+        const bust::ExpressionWeights weights = bust::expression_weights(pose);
+        Mesh moved = mesh;
+        parallel_for(standard.size(), 4096, [&](size_t begin, size_t end) {
+            for (size_t v = begin; v < end; ++v) {
+                const Vec3 n = mesh.normals[v];
+                const bust::Point move = bust::expression_move(standard[v], {n.x, n.y, n.z}, weights);
+                moved.positions_mm[v] += Vec3{float(move.x), float(move.y), float(move.z)};
+            }
+        });
+        turn_normals(mesh.positions_mm, moved);
+        return {std::move(moved.positions_mm), std::move(moved.normals)};
+    }
+};
+
+// Measured in the standard head, applied in this one, whose proportions differ by some per cent.
+void add_expressions(SceneObject& object, const BustParams& params) {
+    const auto head = std::make_shared<HeadAtRest>();
+    head->mesh.positions_mm = object.mesh.positions_mm;
+    head->mesh.normals = object.mesh.normals;
+    head->mesh.tangents = object.mesh.tangents;
+    head->mesh.indices = object.mesh.indices;
+    const BustField field(params);
+    for (const Vec3& p : object.mesh.positions_mm)
+        head->standard.push_back(field.to_standard({p.x, p.y, p.z}));
+    object.mesh.file_vertices.resize(object.mesh.positions_mm.size());
+    std::iota(object.mesh.file_vertices.begin(), object.mesh.file_vertices.end(), 0u);
+    object.motion = bust::bust_motion();
+    object.posed_vertices = [head](const Pose& pose) { return head->posed(pose); };
+}
+
 Result<SubjectScene> make(const ParameterValues& values) {
     Result<Bust> bust = make_bust(values.as<BustParams>());
     if (!bust) return bust.error();
     SceneObject object{.name = "bust", .mesh = std::move(bust->mesh), .classes = {MaterialClass::skin}};
     object.mesh.materials.resize(1);
+    add_expressions(object, values.as<BustParams>());
     const std::string name = name_of(values);
     Material& skin = object.mesh.materials[0];
     skin.base_color_linear = {1, 1, 1};

@@ -71,7 +71,11 @@ TEST_F(Moving, what_a_mesh_has_is_listed_and_what_it_lacks_is_named) {
     EXPECT_THAT(run("info " + mesh + " --clip walk").err, HasSubstr("unknown clip 'walk'"));
     EXPECT_THAT(run("info " + mesh + " --morph shape9=1").err, HasSubstr("unknown morph target 'shape9'"));
     EXPECT_THAT(run("info " + mesh + " --morph shape1").err, HasSubstr("'shape1': write TARGET=WEIGHT"));
-    EXPECT_THAT(run("info builtin:spheres --morph a=1").err, HasSubstr("morph.a"));
+    EXPECT_THAT(run("info builtin:spheres --morph a=1").err,
+                HasSubstr("builtin:spheres: morph target 'a': the mesh has none"));
+    EXPECT_THAT(run("info builtin:bust --clip greet --time 1").out,
+                HasSubstr("clip greet: 4 s, 5 channels\n"));
+    EXPECT_THAT(run("info builtin:bust --clip walk").err, HasSubstr("builtin:bust: unknown clip 'walk'"));
     EXPECT_THAT(run("render " + mesh + " --fps 24 -o " + path("%d.png")).err, HasSubstr("--clip NAME"));
 }
 

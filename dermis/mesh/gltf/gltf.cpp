@@ -9,9 +9,9 @@
 #include <map>
 #include <utility>
 
+#include "dermis/mesh/follow_normals.h"
 #include "dermis/mesh/gltf/animation.h"
 #include "dermis/mesh/gltf/document.h"
-#include "dermis/mesh/gltf/follow_normals.h"
 #include "dermis/mesh/gltf/material.h"
 #include "dermis/mesh/gltf/node_tree.h"
 #include "dermis/mesh/gltf/primitive.h"

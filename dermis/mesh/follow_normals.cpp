@@ -1,8 +1,8 @@
-#include "dermis/mesh/gltf/follow_normals.h"
+#include "dermis/mesh/follow_normals.h"
 
 #include "dermis/mesh/normals.h"
 
-namespace dermis::inline mesh::gltf {
+namespace dermis::inline mesh {
 namespace {
 
 // The computed normal of every vertex.
@@ -42,4 +42,4 @@ void turn_normals(std::span<const Vec3> before_mm, Mesh& mesh) {
     }
 }
 
-}  // namespace dermis::inline mesh::gltf
+}  // namespace dermis::inline mesh
