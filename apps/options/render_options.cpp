@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "dermis/base/text.h"
-#include "dermis/render/atlas_check.h"
 #include "dermis/render/complete_scene.h"
 
 namespace dermis::cli {
@@ -14,7 +13,7 @@ void RenderOptions::add_to(Command& command) {
     command.add_option(
         "-t,--technique", technique,
         "ID or ID[NAME=VALUE,preset=NAME], listed by dermis techniques (default: the scene's, or "
-        "the best one that the scene's UVs allow)");
+        "the one with the highest share on heads)");
     command.add_option("--set", settings, "a parameter of the technique, NAME=VALUE; may be repeated")
         ->allow_extra_args(false);
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
@@ -38,23 +37,13 @@ Result<void> check_view(const Technique& technique, const std::string& view) {
     return Error{unknown_name("view", view, views)};
 }
 
-namespace {
-
-// Whether no two places of the skin share texels, and all lie in the atlas.
-bool has_atlas(const Scene& scene) {
-    const Result<std::vector<std::string>> faults = check_skin_atlas(scene);
-    return faults && faults->empty();
-}
-
-}  // namespace
-
 Result<Contestant> chosen_technique(const std::string& technique, const std::vector<std::string>& settings,
                                     const Scene* scene) {
     const std::span<const Technique> techniques = built_in_catalog().techniques;
     std::string text = technique;
     if (text.empty() && scene) text = scene->technique;
     if (text.empty()) {
-        DERMIS_TRY_ASSIGN(const Technique* usual, find_default(techniques, !scene || has_atlas(*scene)));
+        DERMIS_TRY_ASSIGN(const Technique* usual, find_default(techniques));
         text = usual->id;
     }
     DERMIS_TRY_ASSIGN(Contestant chosen, parse_technique(techniques, text));

@@ -251,15 +251,13 @@ bool lacks_uvs(std::span<const Triangle> triangles, const Members& members) {
     return area_mm2 > 0;
 }
 
-// Gives triangles of one part new UVs, a layer for each chart. A chart that still covers itself is cut into
-// flatter ones.
+// Gives triangles of one part new UVs, a layer for each chart.
 void unwrap_into(std::vector<Layer>& layers, const Mesh& mesh, std::span<Triangle> triangles,
-                 const Members& members, float cone_rad) {
-    constexpr float kFlattest_rad = 0.2f;
+                 const Members& members) {
     if (members.empty()) return;
     std::vector<uint32_t> numbers;
     for (const uint32_t t : members) numbers.push_back(triangles[t].corners / 3);
-    const Unwrapping unwrapping = unwrap(mesh, numbers, cone_rad);
+    const Unwrapping unwrapping = unwrap(mesh, numbers);
     std::vector<Members> charts(unwrapping.charts);
     for (size_t i = 0; i < members.size(); ++i) {
         Triangle& triangle = triangles[members[i]];
@@ -267,22 +265,16 @@ void unwrap_into(std::vector<Layer>& layers, const Mesh& mesh, std::span<Triangl
         triangle.metric = {1, 0, 1};  // in mm
         charts[unwrapping.chart[i]].push_back(members[i]);
     }
-    Members folded;
     for (Members& chart : charts) {
         if (chart.empty()) continue;
         const Box box = box_of(triangles, chart);
         const Frame frame{box.low, std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-6f})};
-        if (cone_rad > kFlattest_rad && !shares_none(texels_of(triangles, chart, frame)))
-            folded.insert(folded.end(), chart.begin(), chart.end());
-        else
-            layers.push_back({frame, false, std::move(chart), {}, true});
+        layers.push_back({frame, false, std::move(chart), {}, true});
     }
-    unwrap_into(layers, mesh, triangles, folded, cone_rad / 2);
 }
 
 // Step 2.
 std::vector<Layer> find_layers(std::span<const AtlasPart> parts, std::span<Triangle> triangles) {
-    constexpr float kCone_rad = 0.96f;
     std::vector<Layer> layers;
     std::vector<Members> without_layout(parts.size());
     for (const Unit& unit : find_units(parts, triangles)) {
@@ -306,7 +298,7 @@ std::vector<Layer> find_layers(std::span<const AtlasPart> parts, std::span<Trian
         }
     }
     for (size_t part = 0; part < parts.size(); ++part)
-        unwrap_into(layers, *parts[part].mesh, triangles, without_layout[part], kCone_rad);
+        unwrap_into(layers, *parts[part].mesh, triangles, without_layout[part]);
     return layers;
 }
 

@@ -5,18 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <queue>
 #include <tuple>
 
 #include "dermis/mesh/topology.h"
+#include "dermis/mesh/uv_texels.h"
 
 namespace dermis::inline mesh {
 namespace {
 
 constexpr uint32_t kNoFace = ~0u;
-// Charts with less than this share of the whole area join a neighbour.
-constexpr float kSmallChartShare = 1e-3f;
+// Charts with less than these shares of the whole area join a neighbour: where they still share texels with
+// none, and where they may share some.
+constexpr double kSmallShare = 1e-3, kTinyShare = 2e-5;
 
 struct Faces {
     std::vector<Vec3> normals;  // of length 0 for triangles without area
@@ -85,60 +86,158 @@ std::vector<Vec3> chart_axes(const Faces& faces, std::span<const uint32_t> chart
     return axes;
 }
 
-// The mean moves while a chart grows: faces that the last mean is too far from leave it.
-void release_steep(const Faces& faces, std::span<const Vec3> axes, float least_cosine,
+// The mean moves while a chart grows: faces of charts from `first` on that the last mean is too far from
+// leave them.
+void release_steep(const Faces& faces, std::span<const Vec3> axes, uint32_t first, float least_cosine,
                    std::vector<uint32_t>& chart) {
     for (uint32_t i = 0; i < chart.size(); ++i)
-        if (chart[i] != kNoFace && cosine_to(faces, i, axes[chart[i]]) < least_cosine) chart[i] = kNoFace;
+        if (chart[i] != kNoFace && chart[i] >= first && cosine_to(faces, i, axes[chart[i]]) < least_cosine)
+            chart[i] = kNoFace;
 }
 
-// Faces of small charts go to a neighbour that they can be projected with.
-void absorb_small(const Faces& faces, std::span<const Vec3> axes, float least_cosine,
+// Faces of charts with less than `share` of the whole area go to a neighbour that they can be projected with.
+void absorb_small(const Faces& faces, std::span<const Vec3> axes, double share, float least_cosine,
                   std::vector<uint32_t>& chart) {
     std::vector<double> areas(axes.size(), 0);
     double total = 0;
     for (uint32_t i = 0; i < chart.size(); ++i)
         areas[chart[i]] += double(faces.areas_mm2[i]), total += double(faces.areas_mm2[i]);
+    const auto is_small = [&](uint32_t face) { return areas[chart[face]] <= share * total; };
     for (int round = 0; round < 4; ++round)
         for (uint32_t i = 0; i < chart.size(); ++i) {
-            if (areas[chart[i]] > double(kSmallChartShare) * total) continue;
+            if (!is_small(i)) continue;
             float best = least_cosine;
+            uint32_t to = chart[i];
             for (const uint32_t next : faces.neighbours[i]) {
-                if (next == kNoFace || areas[chart[next]] <= double(kSmallChartShare) * total) continue;
+                if (next == kNoFace || is_small(next)) continue;
                 const float cosine = cosine_to(faces, i, axes[chart[next]]);
-                if (cosine > best) best = cosine, chart[i] = chart[next];
+                if (cosine > best) best = cosine, to = chart[next];
             }
+            chart[i] = to;
         }
+}
+
+// A face in its chart's plane, in mm.
+std::array<Vec2, 3> projected(const Mesh& mesh, uint32_t triangle, Vec3 axis) {
+    const Vec3 t =
+        normalize(std::abs(axis.x) < 0.7f ? cross(axis, Vec3{1, 0, 0}) : cross(axis, Vec3{0, 1, 0}));
+    const Vec3 b = cross(axis, t);
+    std::array<Vec2, 3> corners;
+    for (size_t k = 0; k < 3; ++k) {
+        const Vec3 p = mesh.positions_mm[mesh.indices[3 * size_t(triangle) + k]];
+        corners[k] = {dot(p, t), -dot(p, b)};
+    }
+    return corners;
+}
+
+// Texels of a chart's plane, some for each face.
+struct Plane {
+    Vec2 low;
+    double texels_per_mm = 1;
+    int side = 0;
+    std::vector<bool> taken;
+
+    Plane(std::span<const std::array<Vec2, 3>> corners_mm, std::span<const uint32_t> faces) {
+        Vec2 high = corners_mm[faces[0]][0];
+        low = high;
+        for (const uint32_t face : faces)
+            for (const Vec2 p : corners_mm[face]) {
+                low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+            }
+        side = int(std::clamp(8 * std::sqrt(double(faces.size())), 256.0, 4096.0));
+        texels_per_mm = side / double(std::max({high.x - low.x, high.y - low.y, 1e-6f}));
+        taken.assign(size_t(side) * size_t(side), false);
+    }
+    // False, and nothing taken, where another face has a texel.
+    bool take(const std::array<Vec2, 3>& corners_mm) {
+        std::array<std::array<double, 2>, 3> corners;
+        for (size_t k = 0; k < 3; ++k)
+            corners[k] = {double(corners_mm[k].x - low.x) * texels_per_mm,
+                          double(corners_mm[k].y - low.y) * texels_per_mm};
+        bool is_free = true;
+        std::vector<size_t> texels;
+        visit_texels_of(corners, {side, side}, [&](int x, int y, double, double) {
+            texels.push_back(size_t(y) * size_t(side) + size_t(x));
+            is_free = is_free && !taken[texels.back()];
+        });
+        if (is_free)
+            for (const size_t texel : texels) taken[texel] = true;
+        return is_free;
+    }
+};
+
+// Spreads over one chart from its largest face, ring by ring. Faces that it cannot reach without covering
+// texels twice leave the chart.
+void release_overlapping(const Faces& faces, std::span<const std::array<Vec2, 3>> corners_mm,
+                         std::span<const uint32_t> members, std::vector<uint32_t>& chart) {
+    constexpr uint32_t kWaits = kNoFace - 1;
+    const uint32_t number = chart[members[0]];
+    for (const uint32_t face : members) chart[face] = kWaits;
+    Plane plane(corners_mm, members);
+    std::queue<uint32_t> ring;
+    ring.push(*std::ranges::max_element(members, {}, [&](uint32_t face) { return faces.areas_mm2[face]; }));
+    while (!ring.empty()) {
+        const uint32_t face = ring.front();
+        ring.pop();
+        if (chart[face] != kWaits) continue;
+        chart[face] = plane.take(corners_mm[face]) ? number : kNoFace;
+        if (chart[face] == kNoFace) continue;
+        for (const uint32_t next : faces.neighbours[face])
+            if (next != kNoFace) ring.push(next);
+    }
+    for (const uint32_t face : members)
+        if (chart[face] == kWaits) chart[face] = kNoFace;
+}
+
+// Charts of the faces that have none; their numbers start at `first`.
+void add_charts(const Faces& faces, float least_cosine, Unwrapping& result, std::vector<Vec3>& axes) {
+    const uint32_t first = result.charts;
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < result.chart.size(); ++i)
+        if (result.chart[i] == kNoFace) order.push_back(i);
+    std::ranges::stable_sort(order, std::greater<>(), [&](uint32_t i) { return faces.areas_mm2[i]; });
+    const auto grow_all = [&] {
+        for (const uint32_t seed : order)
+            if (result.chart[seed] == kNoFace) grow(faces, seed, result.charts++, least_cosine, result.chart);
+    };
+    const auto update_axes = [&] {
+        std::vector<Vec3> all = chart_axes(faces, result.chart, result.charts);
+        std::copy_n(axes.begin(), first, all.begin());
+        axes = std::move(all);
+    };
+    grow_all();
+    update_axes();
+    release_steep(faces, axes, first, least_cosine, result.chart);
+    grow_all();
+    update_axes();
 }
 
 }  // namespace
 
 Unwrapping unwrap(const Mesh& mesh, std::span<const uint32_t> triangles, float cone_rad) {
+    constexpr int kRounds = 8;
     const Faces faces = find_faces(mesh, triangles);
     const float least_cosine = std::cos(cone_rad);
-    Unwrapping result{.corners_mm = {}, .chart = std::vector<uint32_t>(triangles.size(), kNoFace)};
-    std::vector<uint32_t> order(triangles.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, std::greater<>(), [&](uint32_t i) { return faces.areas_mm2[i]; });
+    Unwrapping result{.corners_mm = std::vector<std::array<Vec2, 3>>(triangles.size()),
+                      .chart = std::vector<uint32_t>(triangles.size(), kNoFace)};
     std::vector<Vec3> axes;
-    for (bool is_last : {false, true}) {
-        for (const uint32_t seed : order)
-            if (result.chart[seed] == kNoFace) grow(faces, seed, result.charts++, least_cosine, result.chart);
-        axes = chart_axes(faces, result.chart, result.charts);
-        if (!is_last) release_steep(faces, axes, least_cosine, result.chart);
+    const auto project = [&](uint32_t i) {
+        result.corners_mm[i] = projected(mesh, triangles[i], axes[result.chart[i]]);
+    };
+    for (int round = 0; round < kRounds && std::ranges::count(result.chart, kNoFace) > 0; ++round) {
+        const uint32_t first = result.charts;
+        add_charts(faces, least_cosine, result, axes);
+        if (round == 0) absorb_small(faces, axes, kSmallShare, 0.5f * least_cosine, result.chart);
+        std::vector<std::vector<uint32_t>> members(result.charts - first);
+        for (uint32_t i = 0; i < triangles.size(); ++i)
+            if (result.chart[i] >= first) project(i), members[result.chart[i] - first].push_back(i);
+        if (round + 1 == kRounds) break;
+        for (const std::vector<uint32_t>& of_chart : members)
+            if (of_chart.size() > 1) release_overlapping(faces, result.corners_mm, of_chart, result.chart);
     }
-    absorb_small(faces, axes, 0.5f * least_cosine, result.chart);
-    for (uint32_t i = 0; i < triangles.size(); ++i) {
-        const Vec3 n = axes[result.chart[i]];
-        const Vec3 t = normalize(std::abs(n.x) < 0.7f ? cross(n, Vec3{1, 0, 0}) : cross(n, Vec3{0, 1, 0}));
-        const Vec3 b = cross(n, t);
-        std::array<Vec2, 3> corners;
-        for (size_t k = 0; k < 3; ++k) {
-            const Vec3 p = mesh.positions_mm[mesh.indices[3 * size_t(triangles[i]) + k]];
-            corners[k] = {dot(p, t), -dot(p, b)};
-        }
-        result.corners_mm.push_back(corners);
-    }
+    absorb_small(faces, axes, kTinyShare, 0.1f, result.chart);
+    for (uint32_t i = 0; i < triangles.size(); ++i) project(i);
     return result;
 }
 

@@ -91,7 +91,8 @@ double overlap_of_skin(const Scene& scene) {
 std::string layout_warning(const SceneObject& object, const Submesh& submesh) {
     const std::string name = "skin material '" + name_of(object, submesh) + "'";
     const std::string end =
-        " for light maps and baked maps; their seams cost some accuracy: give each place UVs of its own";
+        " for light maps and baked maps, with larger texels than UVs of one atlas would have: "
+        "texture_space_gaussians[light_map_size=1024] makes up for it (docs/figures.md#uvs-of-other-heads)";
     if (object.mesh.uvs.size() != object.mesh.positions_mm.size())
         return name + " has no UVs, so Dermis makes some" + end;
     const double overlap = analyze_uvs(object.mesh, submesh.material, 512).overlap;

@@ -22,14 +22,11 @@ Result<const Technique*> find_baseline(std::span<const Technique> techniques) {
     return &*baseline;
 }
 
-Result<const Technique*> find_default(std::span<const Technique> techniques, bool has_atlas) {
-    const Technique* found = nullptr;
-    for (const Technique& technique : techniques)
-        if (technique.default_order > 0 && (has_atlas || !technique.needs_atlas) &&
-            (!found || technique.default_order < found->default_order))
-            found = &technique;
-    if (!found) return Error{"no technique is a default: set default_order in techniques/<id>/technique.cpp"};
-    return found;
+Result<const Technique*> find_default(std::span<const Technique> techniques) {
+    const auto usual = std::ranges::find(techniques, true, &Technique::is_default);
+    if (usual == techniques.end())
+        return Error{"no technique is the default: set is_default in techniques/<id>/technique.cpp"};
+    return &*usual;
 }
 
 Result<void> check_settings(const Technique& technique, const ParameterValues& values) {

@@ -76,11 +76,9 @@ struct Technique {
     std::string source;   ///< author, year, title
     /// Scatters nothing: effects and costs of the others are stated against it. One technique of a catalog.
     bool is_baseline = false;
-    /// Where no technique is chosen, the lowest that suits the scene draws: 1 has the highest share of
-    /// docs/scoreboard.md on heads. 0: never.
-    int default_order = 0;
-    /// Draws badly where places of the skin share texels (check_skin_atlas).
-    bool needs_atlas = false;
+    /// Draws where no technique is chosen: it has the highest share of docs/scoreboard.md on heads. One
+    /// technique of a catalog.
+    bool is_default = false;
     ParameterTable parameters;
     std::vector<std::string> views;  ///< debug views beyond final, diffuse, specular
     /// Why no frame can be made of these settings and what to change, "a=x ignores b; drop b or set a=y";
@@ -107,8 +105,8 @@ struct Technique {
 /// Error: none of them is the baseline.
 [[nodiscard]] Result<const Technique*> find_baseline(std::span<const Technique> techniques);
 
-/// The default for a scene whose skin has or lacks an atlas. Error: none has an order.
-[[nodiscard]] Result<const Technique*> find_default(std::span<const Technique> techniques, bool has_atlas);
+/// Error: none of them is the default.
+[[nodiscard]] Result<const Technique*> find_default(std::span<const Technique> techniques);
 
 /// Errors: a value out of its range, a combination that the technique refuses.
 [[nodiscard]] Result<void> check_settings(const Technique& technique, const ParameterValues& values);

@@ -124,7 +124,6 @@ Technique make_screen_space_separable_technique() {
     return {.id = "screen_space_separable",
             .summary = "diffuse light blurred on the picture, along x, then y",
             .source = "Jimenez et al. 2015, Separable Subsurface Scattering",
-            .default_order = 2,
             .parameters = parameters(),
             .views = {kOwnView},
             .build = build,

@@ -294,7 +294,6 @@ Technique make_texture_space_technique() {
     return {.id = "texture_space",
             .summary = "diffuse light blurred in the skin's texture atlas",
             .source = "Gosselin, Sander, Mitchell 2004, Real-Time Texture-Space Skin Rendering",
-            .needs_atlas = true,
             .parameters = parameters(),
             .views = {kOwnView},
             .refusal = refusal,

@@ -20,26 +20,6 @@ class SkinAtlas : public RenderTest {
     static inline const DrawSettings kSmall = {
         .width = 128, .height = 128, .view = "diffuse", .shadow_map_size = 1024};
 
-    // Maps would move with the UVs.
-    static Scene bust_without_maps() {
-        Result<Scene> scene = load_built_in_scene("builtin:bust");
-        EXPECT_TRUE(scene) << scene.error().message;
-        for (SceneObject& object : scene->objects)
-            for (Material& material : object.mesh.materials) {
-                Material plain;
-                plain.name = material.name;
-                material = plain;
-            }
-        return std::move(*scene);
-    }
-
-    static SceneObject& skin_of(Scene& scene) {
-        for (SceneObject& object : scene.objects)
-            if (object.classes[0] == MaterialClass::skin) return object;
-        ADD_FAILURE() << "no skin";
-        return scene.objects[0];
-    }
-
     static ParameterValues values_of(const Technique& technique) {
         ParameterValues values(technique.parameters);
         if (technique.parameters.find("light_map_size")) EXPECT_TRUE(values.set("light_map_size", "1024"));
@@ -67,28 +47,18 @@ class SkinAtlas : public RenderTest {
 }  // namespace
 
 TEST_F(SkinAtlas, tiles_mirrored_halves_and_eight_materials_look_like_one_atlas) {
-    Scene clean = bust_without_maps();
-    ASSERT_TRUE(complete_scene(clean));
-    clean.camera.vertical_fov_rad *= 0.3f;
-    clean.camera.target_mm += Vec3{0, 40, 0};
-    Scene tiles = clean, mirrored = clean, eight = clean;
-    move_half_to_next_tile(skin_of(tiles).mesh, tiles.bounds_center_mm.y);
-    mirror_halves(skin_of(mirrored).mesh);
-    split_into_eight_materials(skin_of(eight), eight.bounds_center_mm);
-    const Scene without_layout = eight;
-    for (Scene* scene : {&tiles, &mirrored, &eight}) lay_out_skin_atlas(*scene);
+    Scene clean = bust_without_maps(), without_layout = clean;
+    split_into_eight_materials(skin_of(without_layout), clean.bounds_center_mm);
     EXPECT_TRUE(skin_of(clean).mesh.atlas_uvs.empty());
     Renderer of_clean = make_renderer(clean);
     const Image lambert = drawn(of_clean, "lambert");
-    for (const auto& [name, scene] :
-         {std::pair{"tiles", &tiles}, {"mirrored", &mirrored}, {"eight", &eight}}) {
-        EXPECT_FALSE(skin_of(*scene).mesh.atlas_uvs.empty()) << name;
-        Renderer renderer = make_renderer(*scene);
+    for (const UvVariant& variant : uv_variants(clean)) {
+        Renderer renderer = make_renderer(variant.scene);
         for (const char* id : {"texture_space", "texture_space_gaussians", "preintegrated"}) {
             const Image wanted = drawn(of_clean, id);
             // Other texels alone make .05 to .08 of it, along the mouth and the eyelids.
             const double error = error_of(drawn(renderer, id), wanted, lambert);
-            EXPECT_LT(error, 0.35) << name << " " << id;
+            EXPECT_LT(error, 0.35) << variant.name << " " << id;
         }
     }
     Renderer shared = make_renderer(without_layout);

@@ -1,11 +1,17 @@
 #pragma once
 // The same surface with other UVs, as heads of other tools have them.
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "dermis/mesh/topology.h"
-#include "dermis/scene/scene.h"
+#include "dermis/render/complete_scene.h"
+#include "dermis/scene/skin_atlas.h"
+#include "support/built_in.h"
 
 namespace dermis {
 
@@ -81,6 +87,48 @@ inline void split_into_eight_materials(SceneObject& object, Vec3 middle_mm) {
         const Vec2 size = high[group] - low[group];
         return Vec2{(uv.x - low[group].x) / size.x, (uv.y - low[group].y) / size.y};
     });
+}
+
+/// The built-in head, near and complete, without maps, which would move with the UVs.
+inline Scene bust_without_maps() {
+    Result<Scene> scene = load_built_in_scene("builtin:bust");
+    EXPECT_TRUE(scene) << scene.error().message;
+    for (SceneObject& object : scene->objects)
+        for (Material& material : object.mesh.materials) {
+            Material plain;
+            plain.name = material.name;
+            material = plain;
+        }
+    EXPECT_TRUE(complete_scene(*scene));
+    scene->camera.vertical_fov_rad *= 0.3f;
+    scene->camera.target_mm += Vec3{0, 40, 0};
+    return std::move(*scene);
+}
+
+inline SceneObject& skin_of(Scene& scene) {
+    for (SceneObject& object : scene.objects)
+        if (object.classes[0] == MaterialClass::skin) return object;
+    ADD_FAILURE() << "no skin";
+    return scene.objects[0];
+}
+
+struct UvVariant {
+    std::string name;
+    Scene scene;
+};
+
+/// The scene with the UVs of two tiles, mirrored halves, eight materials, and none; with the atlas of each.
+inline std::vector<UvVariant> uv_variants(const Scene& clean) {
+    std::vector<UvVariant> all = {{"tiles", clean}, {"mirrored", clean}, {"eight", clean}, {"none", clean}};
+    move_half_to_next_tile(skin_of(all[0].scene).mesh, clean.bounds_center_mm.y);
+    mirror_halves(skin_of(all[1].scene).mesh);
+    split_into_eight_materials(skin_of(all[2].scene), clean.bounds_center_mm);
+    skin_of(all[3].scene).mesh.uvs.clear();
+    for (UvVariant& variant : all) {
+        lay_out_skin_atlas(variant.scene);
+        EXPECT_FALSE(skin_of(variant.scene).mesh.atlas_uvs.empty()) << variant.name;
+    }
+    return all;
 }
 
 }  // namespace dermis
