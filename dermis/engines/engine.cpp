@@ -82,6 +82,7 @@ const std::vector<Engine>& all_engines() {
          .texts = {{"skin.js", shading::Language::essl, "glslText"},
                    {"skin.js", shading::Language::wgsl, "wgslText"}},
          .head_path = "head/",
+         .takes_scripts = true,
          .table_path = "skin_table.exr",
          .v_origin = VOrigin::bottom},
         // Babylon.js: its reader of EXR fetches a library from another host, so the table is DDS, whose first
@@ -90,6 +91,7 @@ const std::vector<Engine>& all_engines() {
          .texts = {{"skin.js", shading::Language::essl, "glslText"},
                    {"skin.js", shading::Language::wgsl, "wgslText"}},
          .head_path = "head/",
+         .takes_scripts = true,
          .table_path = "skin_table.dds",
          .v_origin = VOrigin::top}};
     return all;

@@ -13,6 +13,7 @@
 #include "dermis/image/io.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/shading/skin_text.h"
+#include "shaders/include/constants.h"
 
 namespace dermis::inline engines {
 
@@ -118,39 +119,62 @@ std::string shadow_places_text(std::span<const ShadowPlace> places) {
     return text;
 }
 
+// Shading languages do not take a whole number for a float.
+std::string decimal(double whole) {
+    return to_text(whole) + ".0";
+}
+
 Words common_words(const PackageInput& input) {
     const Profile& profile = input.profile;
     const std::string tool = tool_version();
     return {{"profile", printable_line(profile.name)},
             {"shadow_places", shadow_places_text(input.shadow_places)},
+            {"shadow_taps", std::to_string(kShadowTaps)},
+            {"shadow_concavity", to_text(kShadowConcavity)},
+            {"shadow_facet_lift", to_text(kShadowFacetLift)},
+            {"shadow_max_slope", decimal(kShadowMaxSlope)},
+            {"golden_angle", to_text(kGoldenAngle)},
             {"source", printable_line(profile.source)},
             {"version", tool.substr(tool.find(' ') + 1)},
             {"table_width", std::to_string(kTableWidth)},
             {"table_height", std::to_string(kTableHeight)},
-            {"max_curvature_per_mm", to_text(kTableMaxCurvaturePerMm) + ".0"}};
+            {"max_curvature_per_mm", decimal(kTableMaxCurvaturePerMm)}};
 }
 
-// engines/common: functions for the packages alone, which are printed with the skin's.
-std::vector<shading::Source> printed_functions(const PackageInput& input) {
+constexpr std::string_view kCommonFolder = "engines/common/";
+
+// engines/common/*.glsl: functions for the packages alone, which are printed with the skin's.
+Result<std::vector<shading::Source>> printed_functions(const PackageInput& input) {
     std::vector<shading::Source> sources(input.functions.begin(), input.functions.end());
-    for (const PackageTemplate& file : input.templates)
-        if (file.path.starts_with("engines/common/") && file.path.ends_with(".glsl"))
-            sources.push_back({file.path, file.text});
+    const Words words = common_words(input);
+    for (const PackageTemplate& file : input.templates) {
+        if (!file.path.starts_with(kCommonFolder) || !file.path.ends_with(".glsl")) continue;
+        DERMIS_TRY_ASSIGN(const std::string text, filled(file, words));
+        sources.push_back({file.path, text});
+    }
     return sources;
+}
+
+// Where a template is in the package; empty: it is not for this engine.
+std::string template_path(const Engine& engine, const PackageInput& input, std::string_view path) {
+    const std::string folder = "engines/" + std::string(engine.name) + "/";
+    if (path == "LICENSE") return std::string(engine.license_path);
+    if (engine.takes_scripts && path.starts_with(kCommonFolder) && path.ends_with(".js"))
+        return std::string(path.substr(kCommonFolder.size()));
+    if (!path.starts_with(folder)) return "";
+    path.remove_prefix(folder.size());
+    const bool for_head = !engine.head_path.empty() && path.starts_with(engine.head_path);
+    return for_head && input.head.empty() ? "" : std::string(path);
 }
 
 Result<void> add_templates(const Engine& engine, const PackageInput& input, std::vector<PackageFile>& files) {
     Words words = common_words(input);
     if (engine.add_words) engine.add_words(words);
-    const std::string folder = "engines/" + std::string(engine.name) + "/";
     for (const PackageTemplate& file : input.templates) {
-        if (file.path == "LICENSE") files.push_back({std::string(engine.license_path), to_bytes(file.text)});
-        if (!file.path.starts_with(folder)) continue;
-        const bool for_head =
-            !engine.head_path.empty() && file.path.starts_with(folder + std::string(engine.head_path));
-        if (for_head && input.head.empty()) continue;
+        const std::string path = template_path(engine, input, file.path);
+        if (path.empty()) continue;
         DERMIS_TRY_ASSIGN(const std::string text, filled(file, words));
-        files.push_back({file.path.substr(folder.size()), to_bytes(text)});
+        files.push_back({path, to_bytes(text)});
     }
     return {};
 }
@@ -167,7 +191,7 @@ std::string javascript_constant(std::string_view name, std::string_view text) {
 
 Result<void> add_skin_texts(const Engine& engine, const PackageInput& input,
                             std::vector<PackageFile>& files) {
-    const std::vector<shading::Source> functions = printed_functions(input);
+    DERMIS_TRY_ASSIGN(const std::vector<shading::Source> functions, printed_functions(input));
     for (const Engine::SkinText& skin : engine.texts) {
         DERMIS_TRY_ASSIGN(const std::string text, skin_text(input.profile, functions, skin.language));
         const std::vector<std::byte> bytes =

@@ -25,8 +25,8 @@ struct PackageFile {
     std::vector<std::byte> bytes;
 };
 
-/// A file of this repository by its path: "engines/godot/README.md", "LICENSE". Those of engines/common and
-/// the licence are for every engine.
+/// A file of this repository by its path: "engines/godot/README.md", "LICENSE". The functions of
+/// engines/common and the licence are for every engine, its scripts for those in a browser.
 struct PackageTemplate {
     std::string path, text;
 };

@@ -30,8 +30,8 @@ struct NamedImage {
                                      std::span<const NamedImage> images = {},
                                      std::span<const std::string> extras = {});
 
-/// The bytes that write_glb() writes. `more_uvs`, each with one entry a position, become TEXCOORD_2 and on:
-/// numbers of the vertices that every engine reads.
+/// The bytes that write_glb() writes. `more_uvs`, each with one entry a position, become TEXCOORD_2 and on in
+/// one interleaved view: numbers of the vertices that every engine reads.
 [[nodiscard]] Result<std::vector<std::byte>> glb_bytes(const Mesh& mesh,
                                                        std::span<const NamedImage> images = {},
                                                        std::span<const std::string> extras = {},

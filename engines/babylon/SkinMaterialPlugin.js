@@ -10,6 +10,7 @@ import { MaterialPluginBase } from "@babylonjs/core/Materials/materialPluginBase
 import { ShaderLanguage } from "@babylonjs/core/Materials/shaderLanguage.js";
 import { glslCode, wgslCode } from "./SkinCode.js";
 import { faultOfEngine } from "./SkinEngineText.js";
+import { headAttributes, shadowUniforms } from "./SkinSurfaceCode.js";
 import { faultOfTable } from "./SkinTable.js";
 
 export * from "./SkinTable.js";
@@ -17,16 +18,38 @@ export * from "./SkinTable.js";
 // In 1/mm, a float a vertex: read with `curvatureFromVertices`.
 export const curvatureAttribute = "curvature_per_mm";
 
+// What decides about the shader's text.
+const kChoices = {
+  table: null,                   // of loadSkinTable()
+  closedForm: false,             // true: no table is read, about 90 multiply-adds a light instead
+  curvatureFromVertices: false,  // true: the curvature is the attribute curvature_per_mm; false: from derivatives, which see the facets
+  // Transmission through thin parts: green is their thickness, linear (gammaSpace false), in the first texture coordinates, of a head
+  // in those of the skin's atlas; null: none goes through.
+  thicknessTexture: null,
+  bakedNormals: null,            // { red, green, spread }: textures of a head, linear, over the skin's atlas
+  specularTexture: null,         // factor on f0, alpha
+  penumbraMm: 0,                 // width of a shadow's edge, with scattering around it, 88 reads; 0: Babylon's own filter. Needs PCF
+  scattering: true,              // false: Lambert's skin, for comparison
+  twoLobes: true,                // false: one lobe, GGX
+};
+
+const kSamplers = {
+  skinTable: skin => skin.table,
+  skinThickness: skin => skin.thicknessTexture,
+  skinRed: skin => skin.bakedNormals?.red,
+  skinGreen: skin => skin.bakedNormals?.green,
+  skinSpread: skin => skin.bakedNormals?.spread,
+  skinSpecular: skin => skin.specularTexture,
+};
+
 export class SkinMaterialPlugin extends MaterialPluginBase {
   constructor(material) {
     super(material, "DermisSkin", 200, {
-      SKIN_TABLE: false, SKIN_VERTEX_CURVATURE: false, SKIN_NO_TABLE: false, SKIN_NO_CURVATURE: false,
-      SKIN_ENVIRONMENT: false, SKIN_REFLECTION: false, SKIN_CHANGED_ENGINE: false, SKIN_THICKNESS: false,
+      SKIN_TABLE: false, SKIN_VERTEX_CURVATURE: false, SKIN_NO_TABLE: false, SKIN_NO_CURVATURE: false, SKIN_HEAD: false, SKIN_BAKED: false,
+      SKIN_ENVIRONMENT: false, SKIN_REFLECTION: false, SKIN_CHANGED_ENGINE: false, SKIN_THICKNESS: false, SKIN_SPECULAR: false,
+      SKIN_DISK: false, SKIN_SCATTERING: true, SKIN_ONE_LOBE: false,
     });
-    this._table = null;
-    this._closedForm = false;
-    this._curvatureFromVertices = false;
-    this._thicknessTexture = null;
+    this._choices = { ...kChoices };
     this._said = "";
     this._engineFault = null;  // null: not looked at yet
     this.thicknessMaxMm = 20;  // thickness in mm of a map value of 1
@@ -46,78 +69,90 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
       .catch(error => `the engine's shader cannot be read: ${error.message}`)
       .then(fault => {
         if (fault) console.warn(`SkinMaterialPlugin: ${fault}`);
-        this._change("_engineFault", fault);
+        this._engineFault = fault;
+        this.markAllDefinesAsDirty();
       });
-  }
-
-  // Of loadSkinTable().
-  get table() { return this._table; }
-  set table(table) { this._change("_table", table); }
-  // true: no table is read, about 90 multiply-adds a light instead.
-  get closedForm() { return this._closedForm; }
-  set closedForm(on) { this._change("_closedForm", on); }
-  // true: the curvature is the attribute curvature_per_mm of the mesh; false: from derivatives, which see its facets.
-  get curvatureFromVertices() { return this._curvatureFromVertices; }
-  set curvatureFromVertices(on) { this._change("_curvatureFromVertices", on); }
-  // Transmission through thin parts: green is their thickness, linear (gammaSpace false), in the first texture coordinates; null: none
-  // goes through.
-  get thicknessTexture() { return this._thicknessTexture; }
-  set thicknessTexture(texture) { this._change("_thicknessTexture", texture); }
-
-  _change(name, value) {
-    this[name] = value;
-    this.markAllDefinesAsDirty();
   }
 
   getClassName() { return "SkinMaterialPlugin"; }
   isCompatible(language) { return language === ShaderLanguage.GLSL || language === ShaderLanguage.WGSL; }
 
   prepareDefinesBeforeAttributes(defines) {
-    if (this._thicknessTexture) defines._needUVs = defines.MAINUV1 = true;
+    if (this.thicknessTexture || this.specularTexture) defines._needUVs = defines.MAINUV1 = true;
   }
 
-  // What is missing is written over the surface, and said once on the console.
   prepareDefines(defines, scene, mesh) {
-    const fault = this._closedForm ? "" : faultOfTable(this._table);
-    const attribute = this._curvatureFromVertices ? curvatureAttribute : "normal";
-    const hasCurvature = mesh.isVerticesDataPresent(attribute);
-    defines.SKIN_TABLE = !this._closedForm && fault === "";
-    defines.SKIN_THICKNESS = Boolean(this._thicknessTexture);
-    defines.SKIN_VERTEX_CURVATURE = this._curvatureFromVertices && hasCurvature;
+    const fault = this.closedForm ? "" : faultOfTable(this.table);
+    const attribute = this.curvatureFromVertices ? curvatureAttribute : "normal";
+    const hasCurvature = mesh.isVerticesDataPresent(attribute), isHead = this._isHead(mesh);
+    defines.SKIN_TABLE = !this.closedForm && fault === "";
+    defines.SKIN_THICKNESS = Boolean(this.thicknessTexture);
+    defines.SKIN_SPECULAR = Boolean(this.specularTexture);
+    defines.SKIN_HEAD = isHead;
+    defines.SKIN_BAKED = Boolean(isHead && this.bakedNormals);
+    defines.SKIN_DISK = this.penumbraMm > 0;
+    defines.SKIN_SCATTERING = this.scattering;
+    defines.SKIN_ONE_LOBE = !this.twoLobes;
+    defines.SKIN_VERTEX_CURVATURE = !isHead && this.curvatureFromVertices && hasCurvature;
     // An irradiance texture in place of the harmonics stays Lambert's.
     defines.SKIN_ENVIRONMENT = Boolean(defines.USESPHERICALFROMREFLECTIONMAP && !defines.REALTIME_FILTERING);
     defines.SKIN_REFLECTION = Boolean(defines.REFLECTION && defines.ENVIRONMENTBRDF);
     defines.SKIN_CHANGED_ENGINE = Boolean(this._engineFault);
     defines.SKIN_NO_TABLE = fault !== "";
     defines.SKIN_NO_CURVATURE = fault === "" && !hasCurvature;
-    const said = fault ? `SkinMaterialPlugin.table: ${fault}. Set it to what loadSkinTable() gives.`
-      : hasCurvature ? "" : `SkinMaterialPlugin: no curvature, as the mesh ${mesh.name} has no attribute "${attribute}".`;
-    if (said && said !== this._said) console.warn(said);
-    this._said = said;
+    this._say(fault ? `table: ${fault}. Set it to what loadSkinTable() gives.`
+      : !hasCurvature ? `no curvature, as the mesh ${mesh.name} has no attribute "${attribute}".`
+        : defines.SKIN_BAKED && Object.values(this.bakedNormals).some(map => map.gammaSpace)
+          ? "bakedNormals: gammaSpace of the maps has to be false: they hold directions, not colours." : "");
   }
 
-  getAttributes(attributes) {
-    if (this._curvatureFromVertices) attributes.push(curvatureAttribute);
+  // What is wrong is said once on the console; what is missing is written over the surface too.
+  _say(fault) {
+    if (fault && fault !== this._said) console.warn(`SkinMaterialPlugin: ${fault}`);
+    this._said = fault;
   }
-  getSamplers(samplers) { samplers.push("skinTable", "skinThickness"); }
-  get _textures() { return [this._table, this._thicknessTexture].filter(texture => texture); }
+
+  _isHead(mesh) { return Object.keys(headAttributes).every(name => mesh.isVerticesDataPresent(name)); }
+  get _textures() { return Object.values(kSamplers).map(textureOf => textureOf(this)).filter(texture => texture); }
+
+  getAttributes(attributes, scene, mesh) {
+    if (this._isHead(mesh)) attributes.push(...Object.keys(headAttributes));
+    else if (this.curvatureFromVertices) attributes.push(curvatureAttribute);
+  }
+  getSamplers(samplers) { samplers.push(...Object.keys(kSamplers)); }
   getActiveTextures(textures) { textures.push(...this._textures); }
   hasTexture(texture) { return this._textures.includes(texture); }
   isReadyForSubMesh() { return this._engineFault !== null && this._textures.every(texture => texture.isReady()); }
 
   getUniforms(language) {
-    const ubo = [{ name: "skinSettings", size: 4, type: "vec4" }, { name: "skinThicknessMaxMm", size: 1, type: "float" }];
-    return language === ShaderLanguage.WGSL ? { ubo } : { ubo, fragment: "uniform vec4 skinSettings; uniform float skinThicknessMaxMm;" };
+    const ubo = ["skinSettings", "skinShadowSettings"].map(name => ({ name, size: 4, type: "vec4" }));
+    for (const [name, numbers] of Object.entries(shadowUniforms)) ubo.push({ name, size: 4, type: "vec4", arraySize: numbers.length / 4 });
+    if (language === ShaderLanguage.WGSL) return { ubo };
+    const declared = ubo.map(({ name, arraySize }) => `uniform vec4 ${name}${arraySize ? `[${arraySize}]` : ""};`);
+    return { ubo, fragment: declared.join(" ") };
   }
 
   bindForSubMesh(uniforms, scene, engine) {
+    const { width = 0, height = 0 } = this.bakedNormals?.red.getSize() ?? {};
     uniforms.updateFloat4("skinSettings", this.mmPerUnit, this.curvatureGain, this.f0, engine.getRenderHeight());
-    uniforms.updateFloat("skinThicknessMaxMm", this.thicknessMaxMm);
-    if (this._table) uniforms.setTexture("skinTable", this._table);
-    if (this._thicknessTexture) uniforms.setTexture("skinThickness", this._thicknessTexture);
+    uniforms.updateFloat4("skinShadowSettings", 0.5 * this.penumbraMm, this.thicknessMaxMm, width, height);
+    for (const [name, numbers] of Object.entries(shadowUniforms)) uniforms.updateArray(name, numbers);
+    for (const [name, textureOf] of Object.entries(kSamplers)) {
+      const texture = textureOf(this);
+      if (texture) uniforms.setTexture(name, texture);
+    }
   }
 
   getCustomCode(shaderType, language) {
     return (language === ShaderLanguage.WGSL ? wgslCode : glslCode)[shaderType] ?? null;
   }
 }
+
+for (const name of Object.keys(kChoices))
+  Object.defineProperty(SkinMaterialPlugin.prototype, name, {
+    get() { return this._choices[name]; },
+    set(value) {
+      this._choices[name] = value;
+      this.markAllDefinesAsDirty();
+    },
+  });

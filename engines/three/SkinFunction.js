@@ -62,6 +62,7 @@ export const curvatureOfMean = /*@__PURE__*/ skinFunction("skin_curvature_of_mea
 export const band2OfMeans = /*@__PURE__*/ skinFunction("skin_band_2_of_means", "vec3", "vec3");
 export const spreadTowards = /*@__PURE__*/ skinFunction("skin_spread_towards", "float", "vec3", "vec2", "vec3");
 // Shadows from places around the point.
+export const diskOffsetMm = /*@__PURE__*/ skinFunction("skin_disk_offset_mm", "vec3", "float", "float", "vec3", "vec3", "float", "float");
 export const gatherLiftMm = /*@__PURE__*/ skinFunction("skin_gather_lift_mm", "float", "float");
 export const gatherTangent = /*@__PURE__*/ skinFunction("skin_gather_tangent", "vec3", "vec3", "vec3", "vec3");
 export const gatherBends = /*@__PURE__*/ skinFunction("skin_gather_bends", "vec3", "vec3", "vec3", "vec3", "vec3");

@@ -6,15 +6,15 @@
 //     renderer.shadowMap.enabled = true;
 
 import {
-  Color, DirectionalLight, EquirectangularReflectionMapping, Group, NoColorSpace, ObjectSpaceNormalMap, PerspectiveCamera, PointLight,
+  Color, DirectionalLight, DoubleSide, EquirectangularReflectionMapping, Group, NoColorSpace, ObjectSpaceNormalMap, PerspectiveCamera, PointLight,
   SpotLight, TextureLoader, Vector3,
 } from "three/webgpu";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
+import { metres, readSettings, shadowFrustum } from "./SkinHeadFiles.js";
 import { loadSkinTable, SkinNodeMaterial } from "./SkinNodeMaterial.js";
 
-const kShadowMapSide = 2048, kMmPerUnit = 1000;
-const metres = ([x, y, z]) => new Vector3(x, y, z).divideScalar(kMmPerUnit);
+const vector = lengthsMm => new Vector3(...metres(lengthsMm));
 
 // Of lengths, directions and factors: not colours.
 async function loadData(url) {
@@ -26,9 +26,9 @@ async function loadData(url) {
 }
 
 function skinMaterial(source, settings, shared) {
-  const { name, color, map, normalMap, normalScale, roughness, roughnessMap, aoMap, side } = source;
+  const { name, color, map, normalMap, normalScale, roughness, roughnessMap, aoMap, side, shadowSide } = source;
   return new SkinNodeMaterial({
-    name, color, map, normalMap, normalScale, roughness, roughnessMap, aoMap, side, ...shared,
+    name, color, map, normalMap, normalScale, roughness, roughnessMap, aoMap, side, shadowSide, ...shared,
     f0: settings.f0, specularMap: source.specularIntensityMap ?? null, twoLobes: false,
   });
 }
@@ -41,6 +41,7 @@ async function loadObject(folder, object, shared, skins) {
   for (const mesh of meshes) {
     const source = mesh.material, one = settings.get(source.name);
     mesh.castShadow = mesh.receiveShadow = one?.class !== "translucent";
+    source.shadowSide = DoubleSide;  // three.js draws back faces alone: light would get between lips
     if (one?.class !== "skin") continue;
     if (!made.has(source)) {
       const skin = skinMaterial(source, one, shared);
@@ -56,47 +57,42 @@ async function loadObject(folder, object, shared, skins) {
   return scene;
 }
 
-function castShadow(light, bounds, penumbraMm) {
-  const radius = bounds.radius_mm / kMmPerUnit, { shadow } = light;
+function castShadow(light, { side, radius, near, far, texel }) {
+  const { shadow } = light;
   light.castShadow = true;
-  shadow.mapSize.set(kShadowMapSide, kShadowMapSide);
-  // 1.5 texels along the normal; three.js adds to the depth what lies behind.
-  const texel = 2 * radius / kShadowMapSide;
+  shadow.mapSize.set(side, side);
   shadow.normalBias = 1.5 * texel;
-  shadow.radius = penumbraMm / 2 / kMmPerUnit / texel;
   if (!light.isDirectionalLight) return;
-  Object.assign(shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: 0.5 * radius, far: 3.5 * radius });
+  Object.assign(shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near, far });
 }
 
-function lightOf(settings, { bounds, penumbra_mm }) {
+function lightOf(settings, { bounds }, frustum) {
   const { kind, color_linear, intensity, to_light, position_mm, inner_angle_rad, outer_angle_rad } = settings;
-  const color = new Color().setRGB(...color_linear), centre = metres(bounds.center_mm);
+  const color = new Color().setRGB(...color_linear), centre = vector(bounds.center_mm);
   const toLight = new Vector3(...to_light);
   let light = null;
   if (kind === "directional") {
     light = new DirectionalLight(color, intensity);
-    light.position.copy(centre).addScaledVector(toLight, 2 * bounds.radius_mm / kMmPerUnit);
+    light.position.copy(centre).addScaledVector(toLight, frustum.distance);
     light.target.position.copy(centre);
   } else if (kind === "point") {
     light = new PointLight(color, intensity);
-    light.position.copy(metres(position_mm));
+    light.position.copy(vector(position_mm));
   } else {
     light = new SpotLight(color, intensity, 0, outer_angle_rad, 1 - inner_angle_rad / outer_angle_rad);
-    light.position.copy(metres(position_mm));
+    light.position.copy(vector(position_mm));
     light.target.position.copy(light.position).sub(toLight);
   }
   light.name = settings.name;
-  if (settings.casts_shadow) castShadow(light, bounds, penumbra_mm);
+  if (settings.casts_shadow) castShadow(light, frustum);
   return light;
 }
 
 // A promise of { group, skins, camera, environment, environmentIntensity, environmentYaw, background, settings }. Rejected with a
 // sentence where a file is missing. An aspect is for the camera.
 export async function loadSkinHead(folder = new URL("./head/", import.meta.url).href) {
-  const answer = await fetch(folder + "scene.json");
-  if (!answer.ok) throw new Error(`The head cannot be loaded from ${folder}: export one with \`dermis export --engine three SCENE\``);
-  const settings = await answer.json(), { baked_normals, thickness, environment, camera } = settings;
-  const shared = { table: await loadSkinTable(), mmPerUnit: kMmPerUnit };
+  const settings = await readSettings(folder, "three"), { baked_normals, thickness, environment, camera } = settings;
+  const shared = { table: await loadSkinTable(), penumbraMm: settings.penumbra_mm }, frustum = shadowFrustum(settings);
   if (baked_normals) {
     const [red, green, spread] = await Promise.all(baked_normals.map(file => loadData(folder + file)));
     shared.bakedNormals = { red, green, spread };
@@ -109,14 +105,14 @@ export async function loadSkinHead(folder = new URL("./head/", import.meta.url).
   const group = new Group(), skins = [];
   for (const object of settings.objects) group.add(await loadObject(folder, object, shared, skins));
   for (const one of settings.lights) {
-    const light = lightOf(one, settings);
+    const light = lightOf(one, settings, frustum);
     group.add(light);
     if (light.target) group.add(light.target);
   }
   const eye = new PerspectiveCamera(camera.vertical_fov_rad * 180 / Math.PI, 1, 0.05, 20);
-  eye.position.copy(metres(camera.eye_mm));
+  eye.position.copy(vector(camera.eye_mm));
   eye.up.set(...camera.up);
-  eye.lookAt(metres(camera.target_mm));
+  eye.lookAt(vector(camera.target_mm));
   const head = { group, skins, camera: eye, settings, background: new Color().setRGB(...settings.background_linear), environment: null };
   if (environment) {
     head.environment = await new HDRLoader().loadAsync(folder + environment.file);

@@ -51,11 +51,10 @@ class SkinLightingModel extends PhysicalLightingModel {
 
   // Light of one direction that leaves, before the albedo.
   diffuse(nDotL, lightDirection, lightColor, lightNode, builder) {
-    const { material, surface } = this;
-    if (!material.scattering) return lightColor.mul(nDotL.max(0));
-    const toLight = toMesh(lightDirection).toVar();
-    const arriving = material.scatteredShadow
-      ? gatheredColor(lightNode, lightColor, { ...surface, toLight }, builder) : lightColor;
+    const { material, surface } = this, toLight = toMesh(lightDirection).toVar();
+    const hasOwnShadow = material.penumbraMm > 0 || (material.scattering && material.scatteredShadow);
+    const arriving = hasOwnShadow ? gatheredColor(lightNode, lightColor, material, { ...surface, toLight }, builder) : lightColor;
+    if (!material.scattering) return arriving.mul(nDotL.max(0));
     let entered = arriving.mul(material.setupDiffuse(surface, nDotL, toLight));
     if (this.farShare) {
       const farCosine = normalViewGeometry.dot(lightDirection).negate().max(0);
@@ -95,6 +94,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
     this.closedForm = false;         // true: no table is read, about 90 multiply-adds a light instead
     this.bakedNormals = null;        // { red, green, spread }: textures of a head, over its second texture coordinates
     this.scatteredShadow = true;     // 64 reads of a shadow map instead of a hard edge
+    this.penumbraMm = 0;             // width of a shadow's edge: 24 reads of the map more; 0: the renderer's own filter
     this.scattering = true;          // false: Lambert's skin, for comparison
     this.specularMap = null;         // factor on f0, alpha
     this.curvatureAttribute = null;  // name of a vertex attribute, a float in 1/mm; null: from derivatives
@@ -111,8 +111,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
 
   copy(source) {
     const own = ["table", "closedForm", "curvatureAttribute", "thicknessMap", "thicknessMaxMm", "thicknessNode", "mmPerUnit",
-      "curvatureGain", "f0", "bakedNormals", "scatteredShadow", "scattering", "specularMap",
-      "twoLobes"];
+      "curvatureGain", "f0", "bakedNormals", "scatteredShadow", "penumbraMm", "scattering", "specularMap", "twoLobes"];
     for (const name of own) this[name] = source[name];
     return super.copy(source);
   }
@@ -121,7 +120,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
   customProgramCacheKey() {
     const table = this.closedForm ? "none" : this.table?.uuid ?? "missing";
     const maps = [this.thicknessMap, this.bakedNormals?.red, this.specularMap].map(map => map?.uuid).join(" ");
-    const choices = [this.curvatureAttribute, this.scatteredShadow, this.scattering, this.twoLobes].join(" ");
+    const choices = [this.curvatureAttribute, this.scatteredShadow, this.penumbraMm > 0, this.scattering, this.twoLobes].join(" ");
     return `${super.customProgramCacheKey()} ${table} ${faultOfTable(this.table)} ${choices} ${maps}`;
   }
 

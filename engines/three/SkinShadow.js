@@ -5,23 +5,21 @@ import {
   BasicShadowFilter, Fn, Loop, cross, dot, float, length, lightShadowMatrix, materialReference, modelWorldMatrix, positionWorld, reference, select,
   uniformArray, vec3, vec4,
 } from "three/tsl";
-import { gatherBends, gatherCosine, gatherLiftMm, gatherRiseMm, gatherTangent, gatheredLight } from "./SkinFunction.js";
+import { diskPlaces, shadowPlaces } from "./SkinShadowPlaces.js";
+import { diskOffsetMm, gatherBends, gatherCosine, gatherLiftMm, gatherRiseMm, gatherTangent, gatheredLight } from "./SkinFunction.js";
 
-// Along two tangents and off the surface, in mm; weights of red, green, blue, and of the penumbra alone.
-const kPlaces = [
-  @shadow_places@
-];
-
-const offsets = kPlaces.map(([x, y, lift]) => new Vector3(x, y, lift));
-const weights = kPlaces.map(([, , , r, g, b, penumbra]) => new Vector4(r, g, b, penumbra));
+const offsets = shadowPlaces.map(([x, y, lift]) => new Vector3(x, y, lift));
+// Meshes are not scaled.
+const inWorld = direction => modelWorldMatrix.mul(vec4(direction, 0)).xyz;
+const weights = shadowPlaces.map(([, , , r, g, b, penumbra]) => new Vector4(r, g, b, penumbra));
 
 class GatheredShadowNode extends Node {
   static get type() { return "GatheredShadowNode"; }
 
   // All directions are in the mesh's space; the tensor is in 1/mm.
-  constructor(shadowNode, { normal, toLight, diagonal, mixed }) {
+  constructor(shadowNode, material, { normal, toLight, diagonal, mixed }) {
     super("vec3");
-    Object.assign(this, { shadowNode, normal, toLight, diagonal, mixed });
+    Object.assign(this, { shadowNode, material, normal, toLight, diagonal, mixed });
   }
 
   // Millimetres of a texel of the shadow map; 0 for a light that is not directional.
@@ -32,50 +30,65 @@ class GatheredShadowNode extends Node {
       .mul(materialReference("mmPerUnit", "float"));
   }
 
+  // The visibility at a place in the world.
+  seenAt(position, builder) {
+    const { shadowNode } = this, { light, shadow } = shadowNode;
+    return float(shadowNode.setupShadowFilter(builder, {
+      filterFn: BasicShadowFilter,
+      depthTexture: shadowNode.shadowMap.depthTexture,
+      shadowCoord: shadowNode.setupShadowCoord(builder, lightShadowMatrix(light).mul(vec4(position, 1))),
+      shadow,
+      depthLayer: shadowNode.depthLayer,
+    }));
+  }
+
+  // The mean over the disk of an edge of penumbraMm; within Fn.
+  visible(texelMm, unitsPerMm, builder) {
+    const sum = float(0).toVar(), radius = materialReference("penumbraMm", "float").mul(0.5);
+    Loop(diskPlaces, ({ i }) => {
+      const offset = inWorld(diskOffsetMm(float(i), float(diskPlaces), this.normal, this.toLight, radius, texelMm).toVar());
+      sum.addAssign(this.seenAt(positionWorld.add(offset.mul(unitsPerMm)), builder));
+    });
+    return sum.div(diskPlaces);
+  }
+
   setup(builder) {
-    const { shadowNode, normal, toLight } = this, { light, shadow } = shadowNode;
-    const visible = float(shadowNode).toVar();
-    const { depthTexture } = shadowNode.shadowMap;
-    const inWorld = direction => modelWorldMatrix.mul(vec4(direction, 0)).xyz.normalize();
-    const gather = Fn(() => {
+    const { shadowNode, material, normal, toLight } = this;
+    const filtered = material.penumbraMm > 0 ? null : float(shadowNode).toVar();
+    return Fn(() => {
+      const texelMm = this.texelMm().toVar(), unitsPerMm = float(1).div(materialReference("mmPerUnit", "float")).toVar();
+      const visible = (filtered ?? this.visible(texelMm, unitsPerMm, builder)).toVar();
+      if (!material.scattering || !material.scatteredShadow) return vec3(visible);
       const places = uniformArray(offsets, "vec3"), amounts = uniformArray(weights, "vec4");
       const across = select(normal.y.abs().lessThan(0.9), vec3(0, 1, 0), vec3(1, 0, 0)).cross(normal).normalize();
       const x = gatherTangent(normal, toLight, across).toVar(), y = cross(normal, x).toVar();
       const bends = gatherBends(this.diagonal, this.mixed, x, y).toVar();
       const cosine = dot(normal, toLight).toVar(), sine = length(toLight.sub(normal.mul(cosine))).toVar();
       const xWorld = inWorld(x).toVar(), yWorld = inWorld(y).toVar(), nWorld = inWorld(normal).toVar();
-      const unitsPerMm = float(1).div(materialReference("mmPerUnit", "float")).toVar();
-      const origin = positionWorld.add(nWorld.mul(gatherLiftMm(this.texelMm()).mul(unitsPerMm))).toVar();
+      const origin = positionWorld.add(nWorld.mul(gatherLiftMm(texelMm).mul(unitsPerMm))).toVar();
       const lit = vec3(0).toVar(), all = vec3(0).toVar(), penumbra = float(0).toVar();
-      Loop(kPlaces.length, ({ i }) => {
+      Loop(shadowPlaces.length, ({ i }) => {
         const place = places.element(i).toVar(), amount = amounts.element(i).toVar();
         const faces = gatherCosine(place.xy, bends, cosine, sine).toVar();
         const rise = gatherRiseMm(place.xy, place.z, bends);
         const offset = xWorld.mul(place.x).add(yWorld.mul(place.y)).add(nWorld.mul(rise)).mul(unitsPerMm);
-        const there = float(shadowNode.setupShadowFilter(builder, {
-          filterFn: BasicShadowFilter,
-          depthTexture,
-          shadowCoord: shadowNode.setupShadowCoord(builder, lightShadowMatrix(light).mul(vec4(origin.add(offset), 1))),
-          shadow,
-          depthLayer: shadowNode.depthLayer,
-        })).toVar();
+        const there = this.seenAt(origin.add(offset), builder).toVar();
         all.addAssign(amount.xyz.mul(faces));
         lit.addAssign(amount.xyz.mul(faces.mul(there)));
         penumbra.addAssign(amount.w.mul(there));
       });
-      return gatheredLight(visible, lit, all, penumbra, float(kPlaces.length));
-    });
-    return gather();
+      return gatheredLight(visible, lit, all, penumbra, float(shadowPlaces.length));
+    })();
   }
 }
 
 // The colour of a light that has entered around the point; as it is where the light has no shadow map of its own.
-export function gatheredColor(lightNode, lightColor, surface, builder) {
+export function gatheredColor(lightNode, lightColor, material, surface, builder) {
   const { shadowNode, baseColorNode, colorNode } = lightNode;
-  if (!kPlaces.length || !shadowNode?.setupShadowCoord || !baseColorNode || colorNode === baseColorNode) return lightColor;
+  if (!shadowPlaces.length || !shadowNode?.setupShadowCoord || !baseColorNode || colorNode === baseColorNode) return lightColor;
   if (shadowNode.light.isPointLight) return lightColor;
   shadowNode.build(builder);  // it makes the map
-  lightNode.colorNode = baseColorNode.mul(new GatheredShadowNode(shadowNode, surface));
+  lightNode.colorNode = baseColorNode.mul(new GatheredShadowNode(shadowNode, material, surface));
   const { lightColor: entered } = lightNode.setupDirect(builder);
   lightNode.colorNode = colorNode;
   return entered;

@@ -1,5 +1,6 @@
-// A scene's head in three.js, in headless Chromium on WebGL 2, held against the reference beside Dermis' own
-// picture. Needs chromium, node, and `npm ci` in tools/checks; passed over without them.
+// A scene's head in three.js and Babylon.js, in headless Chromium on WebGL 2 and WebGPU, held against the
+// reference beside Dermis' own picture. Needs chromium, node, and `npm ci` in tools/checks; passed over
+// without them.
 
 #include <gtest/gtest.h>
 
@@ -18,43 +19,54 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBrowserModules = DERMIS_SOURCE_DIR "/tools/checks/node_modules";
 
-class HeadPackage : public testing::Test {
+// A picture of the page, and the one without scattering that it is compared with.
+struct Picture {
+    std::string name, query, lambert = "";
+};
+
+class HeadPackage : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
         if (!has_program("chromium") || !has_program("node")) GTEST_SKIP() << "no chromium or no node here";
-        if (!fs::exists(kBrowserModules)) GTEST_SKIP() << "no three here: npm ci in tools/checks";
+        if (!fs::exists(kBrowserModules))
+            GTEST_SKIP() << "no " << GetParam() << " here: npm ci in tools/checks";
+        export_head();
     }
     ProgramResult shell(const std::string& command) { return run_shell(command, directory_.path.string()); }
     std::string path(const std::string& name) { return (directory_.path / name).string(); }
 
     // The exported page, with the script of a test in place of its own.
     void export_head() {
-        const ProgramResult made = shell(DERMIS_PROGRAM " export --engine three bust -o " + path("package"));
+        const std::string engine = GetParam();
+        const fs::path hosts = DERMIS_SOURCE_DIR "/tests/engines/hosts";
+        const ProgramResult made =
+            shell(DERMIS_PROGRAM " export --engine " + engine + " bust -o " + path("package"));
         ASSERT_EQ(made.exit_code, 0) << made.err;
         fs::create_directory_symlink(kBrowserModules, path("package/node_modules"));
         fs::create_directory(path("package/test"));
         fs::copy_file(path("package/head/index.html"), path("package/test/index.html"));
-        fs::copy_file(DERMIS_SOURCE_DIR "/tests/engines/hosts/three_head.js", path("package/test/head.js"));
+        fs::copy_file(hosts / (engine + "_head.js"), path("package/test/head.js"));
+        fs::copy_file(hosts / "floats.js", path("package/test/floats.js"));
     }
-    // Linear pictures by the name of what the page's query adds.
-    ProgramResult draw(const std::vector<std::string>& queries) {
+    // Linear pictures.
+    ProgramResult draw(const std::vector<Picture>& pictures) {
         std::string jobs;
-        for (const std::string& query : queries)
-            jobs += " 'test/index.html?side=48&points=4&webgl&" + query + "' " + path(query + ".exr");
+        for (const Picture& picture : pictures)
+            jobs +=
+                " 'test/index.html?side=48&points=3&" + picture.query + "' " + path(picture.name + ".exr");
         return shell("node " DERMIS_SOURCE_DIR "/tools/checks/host_floats.mjs chromium " + path("package") +
                      jobs);
     }
     // The captured share against `surface` of each row.
-    std::map<std::string, double> shares(const std::vector<std::string>& queries) {
-        std::string command = DERMIS_PROGRAM
-                              " compare bust --size 48 --samples-per-pixel 16 --integrator surface "
-                              "--timed-frames 1 -t preintegrated "
-                              "--json -o " +
-                              path("report");
-        for (const std::string& query : queries) {
-            const std::string name = query.substr(query.find('=') + 1);
-            command += " --picture " + name + "=" + path(query + ".exr") + "," + path("lambert.exr");
-        }
+    std::map<std::string, double> shares(const std::vector<Picture>& pictures) {
+        std::string command =
+            DERMIS_PROGRAM
+            " compare bust --size 48 --samples-per-pixel 9 --noise 0.1 --integrator surface --timed-frames 1 "
+            "-t preintegrated --json -o " +
+            path("report");
+        for (const Picture& picture : pictures)
+            command += " --picture " + picture.name + "=" + path(picture.name + ".exr") + "," +
+                       path(picture.lambert + ".exr");
         const ProgramResult compared = shell(command);
         EXPECT_EQ(compared.exit_code, 0) << compared.err;
         // Light, camera and albedo are the scene's: else compare warns.
@@ -69,19 +81,30 @@ class HeadPackage : public testing::Test {
     TemporaryDirectory directory_;
 };
 
+INSTANTIATE_TEST_SUITE_P(, HeadPackage, testing::Values("three", "babylon"),
+                         [](const auto& one) { return std::string(one.param); });
+
 }  // namespace
 
-TEST_F(HeadPackage, in_three_js_has_most_of_the_renderers_share_and_a_mistake_loses_it) {
-    ASSERT_NO_FATAL_FAILURE(export_head());
-    const std::vector<std::string> queries = {"mistake=none", "mistake=normals", "mistake=curvature"};
-    const ProgramResult drawn = draw({"lambert", queries[0], queries[1], queries[2]});
+TEST_P(HeadPackage, has_the_renderers_share_and_a_mistake_loses_it) {
+    const std::vector<Picture> lamberts = {{"lambert_webgl", "webgl&lambert"},
+                                           {"lambert_webgpu", "webgpu&lambert"}};
+    const std::vector<Picture> pictures = {{"webgl", "webgl", "lambert_webgl"},
+                                           {"webgpu", "webgpu", "lambert_webgpu"},
+                                           {"normals", "webgl&mistake=normals", "lambert_webgl"},
+                                           {"curvature", "webgl&mistake=curvature", "lambert_webgl"}};
+    std::vector<Picture> all = pictures;
+    all.insert(all.end(), lamberts.begin(), lamberts.end());
+    const ProgramResult drawn = draw(all);
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
-    const std::map<std::string, double> share = shares(queries);
-    ASSERT_EQ(share.size(), 4u);
-    EXPECT_GT(share.at("none"), 0.75 * share.at("preintegrated"));
-    EXPECT_LT(share.at("normals"), share.at("none") - 0.1);
-    EXPECT_LT(share.at("curvature"), share.at("none") - 0.1);
-    const ProgramResult srgb = draw({"mistake=srgb"});
+    const std::map<std::string, double> share = shares(pictures);
+    ASSERT_EQ(share.size(), 5u);
+    EXPECT_GT(share.at("webgl"), 0.9 * share.at("preintegrated"));
+    EXPECT_GT(share.at("webgpu"), 0.75 * share.at("preintegrated"));
+    EXPECT_LT(share.at("normals"), share.at("webgl") - 0.05);
+    EXPECT_LT(share.at("curvature"), share.at("webgl") - 0.03);
+    const ProgramResult srgb = draw({{"srgb", "webgl&mistake=srgb"}});
     EXPECT_EQ(srgb.exit_code, 1);
-    EXPECT_NE(srgb.err.find("has to be NoColorSpace"), std::string::npos) << srgb.err;
+    EXPECT_NE(srgb.err.find("they hold directions, not colours"), std::string::npos) << srgb.err;
+    for (const auto& [name, value] : share) RecordProperty(name, std::to_string(value));
 }

@@ -193,6 +193,27 @@ size_t add_positions(GlbContent& glb, const Mesh& mesh) {
     return accessor;
 }
 
+// The numbers of a vertex one behind the other in one view: WebGPU guarantees only 8 vertex buffers, and an
+// engine makes one of each view.
+void add_more_uvs(GlbContent& glb, std::span<const std::vector<Vec2>> more_uvs, Json& attributes) {
+    if (more_uvs.empty()) return;
+    const size_t count = more_uvs.front().size();
+    std::vector<Vec2> values;
+    values.reserve(count * more_uvs.size());
+    for (size_t v = 0; v < count; ++v)
+        for (const std::vector<Vec2>& uvs : more_uvs) values.push_back(uvs[v]);
+    const size_t view = glb.add_view(std::as_bytes(std::span(values)), kArrayBuffer);
+    glb.root["bufferViews"][view]["byteStride"] = more_uvs.size() * sizeof(Vec2);
+    for (size_t i = 0; i < more_uvs.size(); ++i) {
+        attributes[fmt::format("TEXCOORD_{}", 2 + i)] = glb.root["accessors"].size();
+        glb.root["accessors"].push_back({{"bufferView", view},
+                                         {"byteOffset", i * sizeof(Vec2)},
+                                         {"componentType", kF32},
+                                         {"count", count},
+                                         {"type", "VEC2"}});
+    }
+}
+
 void add_geometry(GlbContent& glb, const Mesh& mesh, std::span<const std::vector<Vec2>> more_uvs) {
     Json attributes;
     attributes["POSITION"] = add_positions(glb, mesh);
@@ -200,8 +221,7 @@ void add_geometry(GlbContent& glb, const Mesh& mesh, std::span<const std::vector
     if (!mesh.tangents.empty()) attributes["TANGENT"] = add_attribute(glb, mesh.tangents, "VEC4");
     if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_attribute(glb, mesh.uvs, "VEC2");
     if (!mesh.atlas_uvs.empty()) attributes["TEXCOORD_1"] = add_attribute(glb, mesh.atlas_uvs, "VEC2");
-    for (size_t i = 0; i < more_uvs.size(); ++i)
-        attributes[fmt::format("TEXCOORD_{}", i + 2)] = add_attribute(glb, more_uvs[i], "VEC2");
+    add_more_uvs(glb, more_uvs, attributes);
     Json primitives = Json::array();
     for (const Submesh& submesh : mesh.submeshes) {
         if (submesh.index_count == 0) continue;

@@ -4,26 +4,9 @@
 
 import { FloatType, NoToneMapping, PCFShadowMap, RenderTarget, Scene, SRGBColorSpace, WebGPURenderer } from "three/webgpu";
 import { addSkinHead, loadSkinHead } from "../SkinHead.js";
+import { showFloats } from "./floats.js";
 
 const query = new URLSearchParams(location.search), side = Number(query.get("side")), points = Number(query.get("points"));
-
-// WebGL 2 reads rows from the bottom.
-function means(floats, wide, fromBottom) {
-  const picture = new Float32Array(side * side * 3), share = 1 / (points * points);
-  for (let y = 0; y < wide; ++y)
-    for (let x = 0; x < wide; ++x)
-      for (let c = 0; c < 3; ++c)
-        picture[3 * (Math.floor(y / points) * side + Math.floor(x / points)) + c] +=
-          share * floats[4 * ((fromBottom ? wide - 1 - y : y) * wide + x) + c];
-  return picture;
-}
-
-function base64(floats) {
-  const bytes = new Uint8Array(floats.buffer);
-  let text = "";
-  for (let i = 0; i < bytes.length; i += 4096) text += String.fromCharCode(...bytes.subarray(i, i + 4096));
-  return btoa(text);
-}
 
 function makeMistake(head, name) {
   for (const skin of head.skins) {
@@ -47,8 +30,7 @@ try {
   renderer.setRenderTarget(target);
   for (let i = 0; i < 2; ++i) renderer.render(scene, head.camera);
   const floats = await renderer.readRenderTargetPixelsAsync(target, 0, 0, wide, wide);
-  window.picture = { width: side, height: side, base64: base64(means(floats, wide, !renderer.backend.isWebGPUBackend)) };
-  document.body.dataset.state = "drawn";
+  showFloats(floats, { side, points, fromBottom: !renderer.backend.isWebGPUBackend });
 } catch (error) {
   document.getElementById("message").textContent = error.message;
 }

@@ -1,0 +1,130 @@
+// The head of `dermis export --engine babylon SCENE`: meshes with their maps bound, lights with shadows, environment, as
+// `dermis render` has them. Units are metres.
+//
+//     const head = await loadSkinHead(scene);   // of an engine with useExactSrgbConversions
+//     scene.activeCamera = ...                  // head.settings.camera
+
+import { DirectionalLight } from "@babylonjs/core/Lights/directionalLight.js";
+import { PointLight } from "@babylonjs/core/Lights/pointLight.js";
+import { ShadowGenerator } from "@babylonjs/core/Lights/Shadows/shadowGenerator.js";
+import "@babylonjs/core/Lights/Shadows/shadowGeneratorSceneComponent.js";
+import { SpotLight } from "@babylonjs/core/Lights/spotLight.js";
+import { HDRCubeTexture } from "@babylonjs/core/Materials/Textures/hdrCubeTexture.js";
+import { Color3 } from "@babylonjs/core/Maths/math.color.js";
+import { Vector3 } from "@babylonjs/core/Maths/math.vector.js";
+import { Mesh } from "@babylonjs/core/Meshes/mesh.js";
+import { VertexData } from "@babylonjs/core/Meshes/mesh.vertexData.js";
+import { metres, readGlb, readSettings, shadowFrustum } from "./SkinHeadFiles.js";
+import { loadTexture, materialOf } from "./SkinHeadMaterial.js";
+import { loadSkinTable } from "./SkinMaterialPlugin.js";
+import { headAttributes } from "./SkinSurfaceCode.js";
+
+const kEnvironmentSide = 128;
+const vector = numbers => Vector3.FromArray(numbers);
+
+// Pairs of a head as the attributes of SkinSurfaceCode.js: the atlas; two pairs; a pair and the first of another.
+function addHeadAttributes(mesh, { TEXCOORD_1: atlas, TEXCOORD_2: bends, TEXCOORD_3: bend, TEXCOORD_4: occlusion, TEXCOORD_5: plain }) {
+  if (!plain) return;
+  const count = atlas.length / 2, ofBends = new Float32Array(4 * count), ofOcclusion = new Float32Array(3 * count);
+  for (let v = 0; v < count; ++v) {
+    ofBends.set([bends[2 * v], bends[2 * v + 1], bend[2 * v], bend[2 * v + 1]], 4 * v);
+    ofOcclusion.set([occlusion[2 * v], occlusion[2 * v + 1], plain[2 * v]], 3 * v);
+  }
+  Object.entries(headAttributes).forEach(([name, size], i) => mesh.setVerticesData(name, [atlas, ofBends, ofOcclusion][i], false, size));
+}
+
+function meshOf(scene, name, { attributes, indices }) {
+  const { POSITION: positions, NORMAL: normals, TANGENT: tangents, TEXCOORD_0: uvs } = attributes;
+  const vertices = new VertexData(), mesh = new Mesh(name, scene);
+  Object.assign(vertices, { positions, normals, tangents, uvs, indices });
+  vertices.applyToMesh(mesh);
+  addHeadAttributes(mesh, attributes);
+  return mesh;
+}
+
+function lightOf(scene, settings, frustum, centre) {
+  const { name, kind, color_linear, intensity, to_light, position_mm, inner_angle_rad, outer_angle_rad } = settings;
+  const away = vector(to_light).scale(-1);
+  let light = null;
+  if (kind === "directional") {
+    light = new DirectionalLight(name, away, scene);
+    light.position = centre.subtract(away.scale(frustum.distance));
+    const half = frustum.radius;
+    Object.assign(light, { autoUpdateExtends: false, autoCalcShadowZBounds: false, shadowOrthoScale: 0, shadowMinZ: frustum.near, shadowMaxZ: frustum.far,
+      orthoLeft: -half, orthoRight: half, orthoTop: half, orthoBottom: -half });
+  } else if (kind === "point") {
+    light = new PointLight(name, vector(metres(position_mm)), scene);
+  } else {
+    light = new SpotLight(name, vector(metres(position_mm)), away, 2 * outer_angle_rad, 0, scene);
+    light.innerAngle = 2 * inner_angle_rad;
+    light.falloffType = SpotLight.FALLOFF_GLTF;
+  }
+  light.diffuse = light.specular = Color3.FromArray(color_linear);
+  light.intensity = intensity;
+  return light;
+}
+
+function castShadow(light, { side, near, far, texel }, meshes) {
+  const shadows = new ShadowGenerator(side, light);
+  shadows.usePercentageCloserFiltering = true;
+  shadows.bias = texel / (far - near);
+  for (const mesh of meshes) shadows.addShadowCaster(mesh, false);
+  return shadows;
+}
+
+const loadEnvironment = (scene, url) => new Promise((done, fail) => {
+  const texture = new HDRCubeTexture(url, scene, kEnvironmentSide, false, true, false, true, () => done(texture),
+    message => fail(new Error(`The environment of the head cannot be loaded from ${url}: ${message}`)));
+});
+
+async function addEnvironment(scene, { file, intensity, yaw_rad }, folder) {
+  const texture = await loadEnvironment(scene, folder + file);
+  texture.rotationY = -yaw_rad;
+  texture.level = intensity;
+  scene.environmentTexture = texture;
+}
+
+// The maps that all skin of the head shares.
+async function sharedMaps(scene, { baked_normals, thickness }, folder) {
+  const shared = { table: await loadSkinTable(scene) }, load = file => loadTexture(scene, folder + file, { isColor: false });
+  if (baked_normals) {
+    const [red, green, spread] = await Promise.all(baked_normals.map(load));
+    shared.bakedNormals = { red, green, spread };
+  }
+  if (thickness) Object.assign(shared, { thicknessTexture: await load(thickness.file), thicknessMaxMm: thickness.max_mm });
+  return shared;
+}
+
+// Adds all of it to a scene, which becomes right-handed. A promise of { meshes, skins, lights, shadows, background, settings }; skins
+// are of SkinMaterialPlugin. Rejected with a sentence where a file is missing.
+export async function loadSkinHead(scene, folder = new URL("./head/", import.meta.url).href) {
+  const settings = await readSettings(folder, "babylon"), frustum = shadowFrustum(settings), centre = vector(metres(settings.bounds.center_mm));
+  scene.useRightHandedSystem = true;
+  const shared = { ...await sharedMaps(scene, settings, folder), penumbraMm: settings.penumbra_mm };
+  const meshes = [], casters = [], skins = [];
+  for (const object of settings.objects) {
+    const glb = await readGlb(folder + object.file);
+    const made = await Promise.all(glb.materials.map((source, i) =>
+      materialOf(scene, { source, glb, folder, settings: object.materials[i], shared })));
+    skins.push(...made.map(({ skin }) => skin).filter(skin => skin));
+    for (const primitive of glb.primitives) {
+      const mesh = meshOf(scene, object.name, primitive), { material, settings: one } = made[primitive.material];
+      mesh.material = material;
+      meshes.push(mesh);
+      mesh.receiveShadows = one.class !== "translucent";
+      if (mesh.receiveShadows) casters.push(mesh);
+    }
+  }
+  const lights = settings.lights.map(one => lightOf(scene, one, frustum, centre));
+  const shadows = lights.filter((_, i) => settings.lights[i].casts_shadow).map(light => castShadow(light, frustum, casters));
+  if (settings.environment) await addEnvironment(scene, settings.environment, folder);
+  return { meshes, skins, lights, shadows, background: Color3.FromArray(settings.background_linear), settings };
+}
+
+// Eye, target and field of view of the scene's camera on one of Babylon's.
+export function placeSkinCamera(camera, { camera: { eye_mm, target_mm, up, vertical_fov_rad } }) {
+  camera.upVector = vector(up);
+  camera.position = vector(metres(eye_mm));
+  camera.setTarget(vector(metres(target_mm)));
+  Object.assign(camera, { fov: vertical_fov_rad, minZ: 0.05, maxZ: 20 });
+}

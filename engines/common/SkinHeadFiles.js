@@ -1,0 +1,63 @@
+// The files of a head of `dermis export --engine ... SCENE` for any engine in a browser: settings, meshes as arrays, pictures as
+// blobs. Lengths are metres where a name has no unit.
+
+const kMmPerUnit = 1000, kShadowMapSide = 2048;
+const kFloat = 5126, kUnsignedInt = 5125;  // glTF 2.0, accessor.componentType
+const kNumbers = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
+
+export const metres = lengthsMm => lengthsMm.map(length => length / kMmPerUnit);
+
+// A promise of scene.json. Rejected with a sentence where it is missing.
+export async function readSettings(folder, engine) {
+  const answer = await fetch(folder + "scene.json");
+  if (!answer.ok) throw new Error(`The head cannot be loaded from ${folder}: export one with \`dermis export --engine ${engine} SCENE\``);
+  return answer.json();
+}
+
+// A promise of the bytes of a file beside it.
+export async function readBytes(url) {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`A file of the head cannot be loaded from ${url}`);
+  return answer.arrayBuffer();
+}
+
+// Of the shadow map of a directional light: its side in texels, half the width that it covers, how far from the middle of the head the
+// light is, between which distances from it the map has depths, and the width of a texel.
+export function shadowFrustum({ bounds }) {
+  const radius = bounds.radius_mm / kMmPerUnit;
+  return { side: kShadowMapSide, radius, distance: 2 * radius, near: 0.5 * radius, far: 3.5 * radius, texel: 2 * radius / kShadowMapSide };
+}
+
+// An attribute or the indices as an array of its own; attributes may share a view.
+function numbersOf(json, start, bytes, accessor) {
+  const { bufferView, byteOffset = 0, componentType, count, type } = json.accessors[accessor];
+  const view = json.bufferViews[bufferView], each = kNumbers[type];
+  if (![kFloat, kUnsignedInt].includes(componentType)) throw new Error(`component type ${componentType} is not read`);
+  const all = new (componentType === kFloat ? Float32Array : Uint32Array)(bytes, start + (view.byteOffset ?? 0), view.byteLength / 4);
+  const stride = (view.byteStride ?? 4 * each) / 4, first = byteOffset / 4, numbers = new all.constructor(count * each);
+  for (let i = 0; i < count; ++i) numbers.set(all.subarray(first + i * stride, first + i * stride + each), i * each);
+  return numbers;
+}
+
+// A promise of { primitives, materials, pictureOf } of an object_N.glb: of each primitive the arrays by the names of glTF, indices and
+// the number of its material; materials as glTF has them; of a texture of glTF its picture as a blob.
+export async function readGlb(url) {
+  const bytes = await readBytes(url), header = new DataView(bytes), jsonBytes = header.getUint32(12, true), start = 20 + jsonBytes + 8;
+  const json = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 20, jsonBytes)));
+  const numbers = accessor => numbersOf(json, start, bytes, accessor);
+  const arrays = new Map();  // primitives share their attributes
+  const shared = accessor => {
+    if (!arrays.has(accessor)) arrays.set(accessor, numbers(accessor));
+    return arrays.get(accessor);
+  };
+  const primitives = json.meshes[0].primitives.map(({ attributes, indices, material }) => ({
+    attributes: Object.fromEntries(Object.entries(attributes).map(([name, accessor]) => [name, shared(accessor)])),
+    indices: numbers(indices),
+    material,
+  }));
+  const pictureOf = ({ index }) => {
+    const { bufferView, mimeType } = json.images[json.textures[index].source], { byteOffset = 0, byteLength } = json.bufferViews[bufferView];
+    return new Blob([new Uint8Array(bytes, start + byteOffset, byteLength)], { type: mimeType });
+  };
+  return { primitives, materials: json.materials, pictureOf };
+}
