@@ -2,6 +2,8 @@
 // All techniques, subjects and shaders of this repository, for programs, tests and benchmarks. The libraries
 // of dermis/ get it as an argument.
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "dermis/engines/package.h"
@@ -18,6 +20,11 @@ namespace dermis {
 
 /// The places at which packages look up the shadows of a light for this skin: PackageInput::shadow_places.
 [[nodiscard]] Result<std::vector<ShadowPlace>> package_shadow_places(const Profile& profile);
+
+/// The gain that packages of this skin have, PackageInput::gain. `settings`: of the technique preintegrated;
+/// none with gain=none. Of walks, which are cached: about 3 s of processor time.
+[[nodiscard]] Result<GainForm> package_gain(const Profile& profile,
+                                            const std::map<std::string, std::string>& settings = {});
 
 /// The files of engines/web, LICENSE, and the shaders that the page shares with the renderer.
 [[nodiscard]] std::span<const shading::Source> built_in_web_texts();

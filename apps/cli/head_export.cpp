@@ -75,6 +75,7 @@ Result<ExportedHead> export_head(const SceneChoice& choice, const std::string& p
     DERMIS_TRY_ASSIGN(Scene scene, choice.load());
     if (!profile_name.empty()) scene.skin.profile = profile_name;
     ExportedHead made = {.profile = scene.skin.profile, .inputs = files_of(scene)};
+    if (scene.technique == "preintegrated") made.settings = scene.settings;
     DERMIS_TRY_ASSIGN(const Profile profile, find_profile(scene.skin.profile));
     DERMIS_TRY(complete_scene(scene));
     const SkinContext skin = skin_context(profile);

@@ -124,6 +124,11 @@ std::string decimal(double whole) {
     return to_text(whole) + ".0";
 }
 
+// The components of a vector, whole or not.
+std::string components(const Rgb& rgb) {
+    return fmt::format("{:.6f}, {:.6f}, {:.6f}", rgb[0], rgb[1], rgb[2]);
+}
+
 Words common_words(const PackageInput& input) {
     const Profile& profile = input.profile;
     const std::string tool = tool_version();
@@ -134,6 +139,9 @@ Words common_words(const PackageInput& input) {
             {"shadow_facet_lift", to_text(kShadowFacetLift)},
             {"shadow_max_slope", decimal(kShadowMaxSlope)},
             {"golden_angle", to_text(kGoldenAngle)},
+            {"gain_slope_mm", components(input.gain.slope_mm)},
+            {"gain_length_mm", components(input.gain.length_mm)},
+            {"gain_bend_mm", components(input.gain.bend_mm)},
             {"source", printable_line(profile.source)},
             {"version", tool.substr(tool.find(' ') + 1)},
             {"table_width", std::to_string(kTableWidth)},

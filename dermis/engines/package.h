@@ -14,6 +14,7 @@
 
 #include "dermis/base/result.h"
 #include "dermis/base/vec.h"
+#include "dermis/optics/gain_form.h"
 #include "dermis/optics/profile.h"
 #include "dermis/shading/shading.h"
 
@@ -44,6 +45,7 @@ struct PackageInput {
     std::span<const shading::Source> functions;  ///< shaders/include/skin
     std::span<const PackageTemplate> templates;
     std::span<const ShadowPlace> shadow_places = {};
+    GainForm gain = {};  ///< of the skin; as it is: no gain
     /// A head with its maps (engines/head.h). With it the package has the files of its template folder head/.
     std::span<const PackageFile> head = {};
 };

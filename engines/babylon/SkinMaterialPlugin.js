@@ -30,6 +30,7 @@ const kChoices = {
   specularTexture: null,         // factor on f0, alpha
   penumbraMm: 0,                 // width of a shadow's edge, with scattering around it, 88 reads; 0: Babylon's own filter. Needs PCF
   scattering: true,              // false: Lambert's skin, for comparison
+  gain: true,                    // false: the profile alone; curved skin returns no more than flat skin
   twoLobes: true,                // false: one lobe, GGX
 };
 
@@ -47,7 +48,7 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
     super(material, "DermisSkin", 200, {
       SKIN_TABLE: false, SKIN_VERTEX_CURVATURE: false, SKIN_NO_TABLE: false, SKIN_NO_CURVATURE: false, SKIN_HEAD: false, SKIN_BAKED: false,
       SKIN_ENVIRONMENT: false, SKIN_REFLECTION: false, SKIN_CHANGED_ENGINE: false, SKIN_THICKNESS: false, SKIN_SPECULAR: false,
-      SKIN_DISK: false, SKIN_SCATTERING: true, SKIN_ONE_LOBE: false,
+      SKIN_DISK: false, SKIN_SCATTERING: true, SKIN_GAIN: true, SKIN_ONE_LOBE: false,
     });
     this._choices = { ...kChoices };
     this._said = "";
@@ -92,6 +93,7 @@ export class SkinMaterialPlugin extends MaterialPluginBase {
     defines.SKIN_BAKED = Boolean(isHead && this.bakedNormals);
     defines.SKIN_DISK = this.penumbraMm > 0;
     defines.SKIN_SCATTERING = this.scattering;
+    defines.SKIN_GAIN = this.gain;
     defines.SKIN_ONE_LOBE = !this.twoLobes;
     defines.SKIN_VERTEX_CURVATURE = !isHead && this.curvatureFromVertices && hasCurvature;
     // An irradiance texture in place of the harmonics stays Lambert's.

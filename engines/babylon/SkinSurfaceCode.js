@@ -54,6 +54,7 @@ ${l.global("vec2", "skinUneven")}
 ${l.global("float", "skinCurvatureOfMeans")}
 #endif
 ${l.global("float", "skinCurvature")}
+${l.global("float", "skinMeanCurvature")}
 ${l.global("vec3", "skinMeshNormal")}
 ${l.global("vec3", "skinDiagonal")}
 ${l.global("vec3", "skinMixed")}
@@ -100,14 +101,18 @@ skinMeshNormal = skinToMesh(geometricNormalW);
 ${l.local("vec3", "skinTangent")} = skin_vertex_tangent(skinMeshNormal);
 ${l.local("vec3", "skinBitangent")} = cross(skinMeshNormal, skinTangent);
 skinDiagonal = skin_tangent_diagonal(${l.input(bends)}.xyz, skinTangent, skinBitangent);
+skinMeanCurvature = ${l.input(bends)}.x;
 skinMixed = skin_tangent_mixed(${l.input(bends)}.xyz, skinTangent, skinBitangent);
 skinCurvature = skinLimited(skin_curvature_around(skinDiagonal, skinMixed));
 #else
 #ifdef SKIN_VERTEX_CURVATURE
-skinCurvature = skinLimited(abs(${l.input("vSkinCurvature")}));
+skinMeanCurvature = ${l.input("vSkinCurvature")};
+skinCurvature = skinLimited(abs(skinMeanCurvature));
 #else
-skinCurvature = skinLimited(skin_curvature_from_derivatives(fwidth(geometricNormalW),
-    fwidth(${l.input("vPositionW")}) * ${l.own("skinSettings")}.x));
+${l.local("vec3", "skinPositionMm")} = ${l.input("vPositionW")} * ${l.own("skinSettings")}.x;
+skinCurvature = skinLimited(skin_curvature_from_derivatives(fwidth(geometricNormalW), fwidth(skinPositionMm)));
+skinMeanCurvature = skin_mean_curvature_from_derivatives(${l.across("skinPositionMm")}, ${l.down("skinPositionMm")},
+    ${l.across("geometricNormalW")}, ${l.down("geometricNormalW")});
 #endif
 skinDiagonal = skin_sphere_diagonal(skinCurvature, skinMeshNormal);
 skinMixed = skin_sphere_mixed(skinCurvature, skinMeshNormal);
@@ -254,6 +259,14 @@ skinIrradiance = skinEnvironment(skinToEnvironment(normalW), skinBand1(skinCurva
 #endif
 finalIrradiance = max(skinIrradiance, vec3(0.0)) * ${l.own("vReflectionColor")} * ${l.own("vReflectionInfos")}.x * surfaceAlbedo *
                   ${l.own("vLightingIntensity")}.z * skinOcclusion;
+#endif
+#if defined(SKIN_SCATTERING) && defined(SKIN_GAIN)
+${l.local("vec3", "skinGain")} = skin_gain(skinMeanCurvature * ${l.own("skinSettings")}.y);
+finalDiffuse *= skinGain;
+finalAmbient *= skinGain;
+#ifdef REFLECTION
+finalIrradiance *= skinGain;
+#endif
 #endif
 #ifdef SKIN_REFLECTION
 ${l.local("vec3", "skinReflectance")} = getReflectanceFromBRDFLookup(vec3(skinF0), environmentBrdf);

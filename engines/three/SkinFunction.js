@@ -69,6 +69,10 @@ export const gatherBends = /*@__PURE__*/ skinFunction("skin_gather_bends", "vec3
 export const gatherCosine = /*@__PURE__*/ skinFunction("skin_gather_cosine", "float", "vec2", "vec3", "float", "float");
 export const gatherRiseMm = /*@__PURE__*/ skinFunction("skin_gather_rise_mm", "float", "vec2", "float", "vec3");
 export const gatheredLight = /*@__PURE__*/ skinFunction("skin_gathered_light", "vec3", "float", "vec3", "vec3", "float", "float");
+// What all diffuse light is multiplied with, by the mean curvature in 1/mm, above 0 on convex skin; and that curvature from dFdx and dFdy
+// of the position in mm and of the normal.
+export const skinGain = /*@__PURE__*/ skinFunction("skin_gain", "vec3", "float");
+export const meanCurvatureFromDerivatives = /*@__PURE__*/ skinFunction("skin_mean_curvature_from_derivatives", "float", "vec3", "vec3", "vec3", "vec3");
 // Transmission through thin geometry, 0 to 1, by its thickness in mm.
 export const skinTransmittance = /*@__PURE__*/ skinFunction("skin_transmittance", "vec3", "float");
 // Of the diffuse light of a thin part, the share that has entered its far side, 0 to 0.5, by its thickness in mm.

@@ -61,7 +61,7 @@ class SkinLightingModel extends PhysicalLightingModel {
       const behind = colorBehind(lightNode, lightDirection, lightColor, this.thickness, builder).mul(farCosine);
       entered = mix(entered, behind, this.farShare);
     }
-    return entered;
+    return entered.mul(surface.gain);
   }
 
   // Diffuse light is not lessened by what is reflected: the table has all of it.
@@ -75,7 +75,7 @@ class SkinLightingModel extends PhysicalLightingModel {
     const arriving = irradiance.add(iblIrradiance).max(0);
     const ofMap = float(context.ambientOcclusion).toVar();
     const plain = (surface.plainOcclusion ?? float(1)).min(ofMap).toVar();
-    const occlusion = material.scattering && surface.occlusion ? surface.occlusion.min(ofMap) : plain;
+    const occlusion = !material.scattering ? plain : (surface.occlusion?.min(ofMap) ?? plain).mul(surface.gain);
     reflectedLight.indirectDiffuse.addAssign(arriving.mul(occlusion).mul(diffuseContribution).div(Math.PI));
     // As Lagarde and de Rousiers 2014.
     const nDotV = normalView.dot(positionViewDirection).clamp();
@@ -96,6 +96,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
     this.scatteredShadow = true;     // 64 reads of a shadow map instead of a hard edge
     this.penumbraMm = 0;             // width of a shadow's edge: 24 reads of the map more; 0: the renderer's own filter
     this.scattering = true;          // false: Lambert's skin, for comparison
+    this.gain = true;                // false: the profile alone; curved skin returns no more than flat skin
     this.specularMap = null;         // factor on f0, alpha
     this.curvatureAttribute = null;  // name of a vertex attribute, a float in 1/mm; null: from derivatives
     this.thicknessMap = null;        // transmission through thin parts: green is their thickness, linear; null: none goes through
@@ -111,7 +112,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
 
   copy(source) {
     const own = ["table", "closedForm", "curvatureAttribute", "thicknessMap", "thicknessMaxMm", "thicknessNode", "mmPerUnit",
-      "curvatureGain", "f0", "bakedNormals", "scatteredShadow", "penumbraMm", "scattering", "specularMap", "twoLobes"];
+      "curvatureGain", "f0", "bakedNormals", "scatteredShadow", "penumbraMm", "scattering", "gain", "specularMap", "twoLobes"];
     for (const name of own) this[name] = source[name];
     return super.copy(source);
   }
@@ -120,7 +121,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
   customProgramCacheKey() {
     const table = this.closedForm ? "none" : this.table?.uuid ?? "missing";
     const maps = [this.thicknessMap, this.bakedNormals?.red, this.specularMap].map(map => map?.uuid).join(" ");
-    const choices = [this.curvatureAttribute, this.scatteredShadow, this.penumbraMm > 0, this.scattering, this.twoLobes].join(" ");
+    const choices = [this.curvatureAttribute, this.scatteredShadow, this.penumbraMm > 0, this.scattering, this.gain, this.twoLobes].join(" ");
     return `${super.customProgramCacheKey()} ${table} ${faultOfTable(this.table)} ${choices} ${maps}`;
   }
 

@@ -6,9 +6,9 @@ import {
   texture, uniform, uv, vec2, vec3, vec4,
 } from "three/tsl";
 import {
-  bakedLevel, bakedSkin, band2OfMeans, curvatureAround, curvatureFromDerivatives, curvatureOfMean, curvatureTowards, meanNormalBlue,
-  meanNormalGreen, meanNormalRed, skinAmbientBand1, skinAmbientBand2, sphereDiagonal, sphereMixed, spreadTowards, tangentDiagonal,
-  tangentMixed, vertexTangent,
+  bakedLevel, bakedSkin, band2OfMeans, curvatureAround, curvatureFromDerivatives, curvatureOfMean, curvatureTowards, meanCurvatureFromDerivatives,
+  meanNormalBlue, meanNormalGreen, meanNormalRed, skinAmbientBand1, skinAmbientBand2, skinGain, sphereDiagonal, sphereMixed, spreadTowards,
+  tangentDiagonal, tangentMixed, vertexTangent,
 } from "./SkinFunction.js";
 import { maxCurvaturePerMm } from "./SkinTable.js";
 
@@ -43,9 +43,11 @@ export function readSurface(material, geometry) {
   const gain = materialReference("curvatureGain", "float");
   const limited = curvature => curvature.mul(gain).min(maxCurvaturePerMm);
   const surface = { normal, own };
+  let mean = null;
   if (headAttributes.every(name => geometry.hasAttribute(name))) {
     const pair = attribute("uv2", "vec2"), third = attribute("uv3", "vec2");
     const perMm = vec3(pair, third.x).toVar(), t = vertexTangent(normal).toVar(), b = cross(normal, t).toVar();
+    mean = perMm.x;
     surface.diagonal = tangentDiagonal(perMm, t, b).toVar();
     surface.mixed = tangentMixed(perMm, t, b).toVar();
     surface.occlusion = vec3(third.y, attribute("texcoord_4", "vec2"));
@@ -53,14 +55,15 @@ export function readSurface(material, geometry) {
     surface.curvature = limited(curvatureAround(surface.diagonal, surface.mixed)).toVar("skinCurvature");
     surface.towards = toLight => limited(curvatureTowards(surface.diagonal, surface.mixed, normal, toLight));
   } else {
-    const measured = material.curvatureAttribute
-      ? attribute(material.curvatureAttribute, "float").abs()
-      : curvatureFromDerivatives(fwidth(normalViewGeometry), fwidth(positionView.mul(materialReference("mmPerUnit", "float"))));
-    surface.curvature = limited(measured).toVar("skinCurvature");
+    const given = material.curvatureAttribute && attribute(material.curvatureAttribute, "float");
+    const positionMm = positionView.mul(materialReference("mmPerUnit", "float")), n = normalViewGeometry;
+    mean = given || meanCurvatureFromDerivatives(dFdx(positionMm), dFdy(positionMm), dFdx(n), dFdy(n));
+    surface.curvature = limited(given ? given.abs() : curvatureFromDerivatives(fwidth(n), fwidth(positionMm))).toVar("skinCurvature");
     surface.diagonal = sphereDiagonal(surface.curvature, normal).toVar();
     surface.mixed = sphereMixed(surface.curvature, normal).toVar();
     surface.towards = () => surface.curvature;
   }
+  surface.gain = material.gain ? skinGain(mean.mul(gain)).toVar("skinGain") : vec3(1);
   surface.bands = [skinAmbientBand1(surface.curvature).div(2 / 3 * Math.PI), skinAmbientBand2(surface.curvature).div(Math.PI / 4)]
     .map(band => band.toVar());
   surface.ambientNormals = null;

@@ -57,7 +57,7 @@ const Image& renderer_picture(const std::string& scene_file, const std::string& 
     const std::string size = std::to_string(kSide) + "x" + std::to_string(kSide);
     const ProgramResult result = run_shell(std::string(DERMIS_PROGRAM) + " render " + scene_file +
                                                " --technique preintegrated --set specular=two_lobe_ggx --set "
-                                               "transmission=none --set gain=none " +
+                                               "transmission=none " +
                                                settings + " --size " + size + " -o " + path.string(),
                                            directory.path.string());
     EXPECT_EQ(result.exit_code, 0) << result.err;

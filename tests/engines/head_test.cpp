@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "dermis/image/io.h"
+#include "dermis/image/resample.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;
@@ -78,11 +81,43 @@ class HeadPackage : public testing::TestWithParam<const char*> {
         return found;
     }
 
+    // Linear, as draw() samples it.
+    Image rendered(const std::string& gain) {
+        const ProgramResult made =
+            shell(DERMIS_PROGRAM " render bust --technique preintegrated --size 144 --set gain=" + gain +
+                  " -o " + path(gain + ".exr"));
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        return resize(read(gain), 48, 48);
+    }
+    Image read(const std::string& name) {
+        const auto picture = read_image(path(name + ".exr"), ImageUse::color);
+        EXPECT_TRUE(picture) << picture.error().message;
+        return picture ? to_linear_float(picture->image) : Image(48, 48, 3);
+    }
+
     TemporaryDirectory directory_;
 };
 
 INSTANTIATE_TEST_SUITE_P(, HeadPackage, testing::Values("three", "babylon"),
                          [](const auto& one) { return std::string(one.param); });
+
+// Root of the sum of squares.
+double distance(const Image& a, const Image& b) {
+    double sum = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x)
+            for (int c = 0; c < 3; ++c) sum += std::pow(double(a.at(x, y, c)) - double(b.at(x, y, c)), 2);
+    return std::sqrt(sum);
+}
+
+// a - b.
+Image change(const Image& a, const Image& b) {
+    Image image(a.width, a.height, 3);
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x)
+            for (int c = 0; c < 3; ++c) image.set(x, y, c, a.at(x, y, c) - b.at(x, y, c));
+    return image;
+}
 
 }  // namespace
 
@@ -94,6 +129,8 @@ TEST_P(HeadPackage, has_the_renderers_share_and_a_mistake_loses_it) {
                                            {"normals", "webgl&mistake=normals", "lambert_webgl"},
                                            {"curvature", "webgl&mistake=curvature", "lambert_webgl"}};
     std::vector<Picture> all = pictures;
+    all.push_back({"webgl_gain", "webgl&gain"});
+    all.push_back({"webgpu_gain", "webgpu&gain"});
     all.insert(all.end(), lamberts.begin(), lamberts.end());
     const ProgramResult drawn = draw(all);
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
@@ -103,6 +140,11 @@ TEST_P(HeadPackage, has_the_renderers_share_and_a_mistake_loses_it) {
     EXPECT_GT(share.at("webgpu"), 0.75 * share.at("preintegrated"));
     EXPECT_LT(share.at("normals"), share.at("webgl") - 0.05);
     EXPECT_LT(share.at("curvature"), share.at("webgl") - 0.03);
+    const Image gain = change(rendered("curvature"), rendered("none")), nothing(48, 48, 3);
+    for (const char* device : {"webgl", "webgpu"})
+        EXPECT_LT(distance(change(read(device + std::string("_gain")), read(device)), gain),
+                  0.2 * distance(gain, nothing))
+            << device;
     const ProgramResult srgb = draw({{"srgb", "webgl&mistake=srgb"}});
     EXPECT_EQ(srgb.exit_code, 1);
     EXPECT_NE(srgb.err.find("they hold directions, not colours"), std::string::npos) << srgb.err;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "catalog/catalog.h"
 #include "dermis/image/colour.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/preintegration.h"
@@ -74,6 +75,7 @@ float thickness_mm(float u) {
 Image with_transmission(const Image& sphere, const std::string& profile_name) {
     const Profile profile = gaussians_of(profile_name);
     const std::vector<Rgb> curve = diffuse_curve(profile);
+    const GainForm gain_form = package_gain(find_profile(profile_name).value()).value();
     const SpherePixels pixels(sphere);
     const Vec3 to_light = to_light_behind();
     Image picture = sphere;
@@ -86,7 +88,8 @@ Image with_transmission(const Image& sphere, const std::string& profile_name) {
             for (int c = 0; c < 3; ++c) {
                 const double here = at_cosine(curve, n_dot_l, size_t(c)), behind = std::max(-n_dot_l, 0.0);
                 const double radiance = kAlbedo[size_t(c)] * kBehindIntensity / std::numbers::pi *
-                                        far_share(profile, c, thickness_mm(u)) * (behind - here);
+                                        far_share(profile, c, thickness_mm(u)) * (behind - here) *
+                                        gain(gain_form, c, 1 / kHostRadiusMm);
                 const double sum = srgb_decode(sphere.at(x, y, c)) + radiance;
                 picture.set(x, y, c, srgb_encode(float(std::clamp(sum, 0.0, 1.0))));
             }

@@ -23,8 +23,11 @@ inline std::map<std::string, std::string> package_of(const std::string& engine, 
     const auto places = package_shadow_places(*skin);
     EXPECT_TRUE(places) << places.error().message;
     if (!places) return files;
+    const auto gain = package_gain(*skin);
+    EXPECT_TRUE(gain) << gain.error().message;
+    if (!gain) return files;
     const auto package =
-        make_package(engine, {*skin, shading::skin_sources(), built_in_package_templates(), *places});
+        make_package(engine, {*skin, shading::skin_sources(), built_in_package_templates(), *places, *gain});
     EXPECT_TRUE(package) << package.error().message;
     if (!package) return files;
     for (const PackageFile& file : *package)

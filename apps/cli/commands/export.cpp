@@ -92,12 +92,14 @@ Result<int> export_package(const ExportOptions& options) {
     }
     DERMIS_TRY_ASSIGN(const Profile profile, find_profile(head.profile));
     DERMIS_TRY_ASSIGN(const std::vector<ShadowPlace> places, package_shadow_places(profile));
+    DERMIS_TRY_ASSIGN(const GainForm gain, package_gain(profile, head.settings));
     head.inputs.emplace_back(options.profile);
     return write_package(options,
                          {.profile = profile,
                           .functions = shading::skin_sources(),
                           .templates = built_in_package_templates(),
                           .shadow_places = places,
+                          .gain = gain,
                           .head = head.head.files},
                          head.inputs);
 }

@@ -29,7 +29,7 @@ try {
   await engine.initAsync?.();
   const scene = new Scene(engine), head = await loadSkinHead(scene);
   makeMistake(head, query.get("mistake"));
-  for (const skin of head.skins) skin.scattering = !query.has("lambert");
+  for (const skin of head.skins) Object.assign(skin, { scattering: !query.has("lambert"), gain: query.has("gain") });
   scene.imageProcessingConfiguration.applyByPostProcess = true;  // linear
   const camera = new FreeCamera("camera", Vector3.Zero(), scene);
   placeSkinCamera(camera, head.settings);

@@ -1,5 +1,5 @@
 // The head of a package as linear floats for tools/checks/host_floats.mjs, in place of head/head.js: ?side=96&points=4 (4 x 4 points in
-// a pixel), &webgl, &lambert.
+// a pixel), &webgl, &lambert, &gain.
 // Seeded mistakes: &mistake=normals (not bound), curvature (in 1/m), srgb (on a map of directions).
 
 import { FloatType, NoToneMapping, PCFShadowMap, RenderTarget, Scene, SRGBColorSpace, WebGPURenderer } from "three/webgpu";
@@ -20,7 +20,7 @@ try {
   const head = await loadSkinHead(), scene = new Scene(), wide = side * points;
   addSkinHead(scene, head);
   makeMistake(head, query.get("mistake"));
-  for (const skin of head.skins) skin.scattering = !query.has("lambert");
+  for (const skin of head.skins) Object.assign(skin, { scattering: !query.has("lambert"), gain: query.has("gain") });
   const renderer = new WebGPURenderer({ forceWebGL: query.has("webgl") });
   renderer.toneMapping = NoToneMapping;
   renderer.shadowMap.enabled = true;
