@@ -7,6 +7,7 @@
 #include "compare_scenes.h"
 #include "dermis/base/text.h"
 #include "dermis/render/complete_scene.h"
+#include "dermis/scene/rest_bakes.h"
 
 namespace dermis::cli {
 namespace {

@@ -7,6 +7,7 @@
 #include "dermis/judge/effect_reference.h"
 #include "dermis/judge/technique_pictures.h"
 #include "dermis/render/renderer.h"
+#include "dermis/scene/rest_bakes.h"
 #include "dermis/technique/gain.h"
 
 namespace dermis::inline judge {

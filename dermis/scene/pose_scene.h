@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/scene/rest_bakes.h"
 #include "dermis/scene/scene.h"
 
 namespace dermis::inline scene {

@@ -14,7 +14,6 @@
 #include "dermis/image/tone_map.h"
 #include "dermis/mesh/mesh.h"
 #include "dermis/mesh/pose.h"
-#include "dermis/scene/rest_bakes.h"
 
 namespace dermis::inline scene {
 
@@ -101,6 +100,18 @@ struct MotionDescription {
         return {.clip = clip, .time_s = time_s * double(speed), .loop = loop, .morph = morph};
     }
     friend bool operator==(const MotionDescription&, const MotionDescription&) = default;
+};
+
+/// Which baked quantities of a posed head are those of its rest pose, carried along by the vertices, as an
+/// engine has them that bakes once. Everything else is made again for the pose.
+struct RestBakes {
+    bool normals = false;    ///< baked normals, which turn with the tangent frame of their texel
+    bool curvature = false;  ///< curvature tensors of the vertices, which turn with their tangent frames
+    bool gain = false;       ///< walked gains of the vertices, for gain=map
+    bool occlusion = false;  ///< ambient occlusion of the vertices
+
+    [[nodiscard]] bool any() const { return normals || curvature || gain || occlusion; }
+    friend bool operator==(const RestBakes&, const RestBakes&) = default;
 };
 
 /// A similarity transform: p' = translation + Rz Ry Rx (scale * p): turned about X first, each rotation
