@@ -12,6 +12,10 @@
 
 namespace dermis::cli {
 
+/// For --help: what find_profile() takes.
+inline constexpr const char* kProfileNames =
+    "preset, .csv, .mtlx or .glb file, burley:R,G,B (d in mm), or skin:melanin=0.02";
+
 inline constexpr NumberRange kTermsRange = {1, kMaxGaussianFitTerms};
 /// Errors: --terms out of its range.
 [[nodiscard]] Result<GaussianFit> fit_gaussians(const Profile& profile, int terms);

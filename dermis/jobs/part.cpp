@@ -368,7 +368,8 @@ Result<MergedPicture> merge_parts(std::span<const fs::path> files,
         if (progress) progress(double(&file + 1 - files.data()) / double(files.size()));
     }
     if (parts.empty() && damaged.empty()) return Error{"no part is named"};
-    if (parts.empty()) return Error{damaged[0] + "; no other part is readable"};
+    if (parts.empty())
+        return Error{damaged[0] + (damaged.size() > 1 ? "; none of the others is readable either" : "")};
     const std::vector<SampleRange> holes = holes_of(parts, facts.samples);
     if (!damaged.empty() || !holes.empty()) return incomplete(damaged, holes, facts);
     return MergedPicture{picture_of(sums), std::move(facts)};

@@ -65,6 +65,10 @@ Result<PosedVertices> vertices_of(const SceneObject& object, std::span<const std
 }  // namespace
 
 Result<void> check_motion(std::span<const SceneObject> objects, const MotionDescription& motion) {
+    if (motion.clip.empty() && motion.time_s != 0)
+        return Error{
+            "animation.time_s: is the time in a clip; name one with animation.clip or --clip (dermis "
+            "info lists them)"};
     if (motion.pose().empty()) return {};
     std::vector<Motion> motions;
     for (const SceneObject& object : objects) motions.push_back(object.motion);

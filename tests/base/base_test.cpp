@@ -42,6 +42,7 @@ TEST(Text, an_unknown_name_proposes_the_closest) {
     EXPECT_EQ(closest_name("subsurface", names), std::nullopt);
     const std::vector<std::string> keys = {"exposure_ev", "explosion"};
     EXPECT_EQ(closest_name("exposure", keys), "exposure_ev");
+    EXPECT_EQ(closest_name("wrpa", names), "wrap");
 }
 
 TEST(Text, a_printable_line_is_one_line_for_any_quoted_text) {

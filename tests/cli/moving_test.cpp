@@ -76,6 +76,7 @@ TEST_F(Moving, what_a_mesh_has_is_listed_and_what_it_lacks_is_named) {
     EXPECT_THAT(run("info builtin:bust --clip greet --time 1").out,
                 HasSubstr("clip greet: 4 s, 5 channels\n"));
     EXPECT_THAT(run("info builtin:bust --clip walk").err, HasSubstr("builtin:bust: unknown clip 'walk'"));
+    EXPECT_THAT(run("info " + mesh + " --time 1").err, HasSubstr("name one with animation.clip or --clip"));
     EXPECT_THAT(run("render " + mesh + " --fps 24 -o " + path("%d.png")).err, HasSubstr("--clip NAME"));
 }
 
@@ -90,8 +91,9 @@ TEST_F(Moving, bakes_of_the_rest_pose_are_a_key_of_the_scene) {
     const std::string remade = picture("");
     EXPECT_TRUE(remade != picture("--scene animation.rest_bakes=gain"));
     EXPECT_TRUE(remade == picture("--scene animation.rest_bakes=none"));
-    EXPECT_THAT(run(draw + "--scene animation.rest_bakes=gian -o " + path("no.png")).err,
-                HasSubstr("animation.rest_bakes: unknown rest bake 'gian'; known: all, none, normals"));
+    EXPECT_THAT(
+        run(draw + "--scene animation.rest_bakes=gian -o " + path("no.png")).err,
+        HasSubstr("animation.rest_bakes: unknown rest bake 'gian'; did you mean 'gain'? known: all, none"));
 }
 
 TEST_F(Moving, the_shares_of_a_clip_are_those_of_its_poses) {

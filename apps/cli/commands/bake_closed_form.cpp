@@ -9,6 +9,7 @@
 #include "dermis/base/text.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
+#include "profile_options.h"
 
 namespace dermis::cli {
 namespace {
@@ -71,7 +72,7 @@ void add_bake_closed_form_command(CommandLine& line) {
     Command* command = line.add(
         "closed_form", "Coefficients and errors of the closed form, which needs no table",
         "dermis bake closed_form --profile jensen_skin1 -o skin.csv --plot errors.svg", bake_group(line));
-    command->add_option("--profile", options->profile, "preset, .csv, .mtlx or .glb file, or burley:R,G,B");
+    command->add_option("--profile", options->profile, kProfileNames);
     command->add_option("--construction", options->construction,
                         "sphere, full_ring or half_ring (-90 to 90 degrees)");
     command->add_option("--max-curvature", options->max_curvature_per_mm, {1e-6, 1000},

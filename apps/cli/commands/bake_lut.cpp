@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "bake_options.h"
+#include "profile_options.h"
 
 namespace dermis::cli {
 namespace {
@@ -34,8 +35,7 @@ void add_bake_lut_command(CommandLine& line) {
                         "normalisation of the ring's Gaussians: line (as in published code) or area");
     command->add_option("--variance-scale", options->lut.variance_scale, kVarianceScaleRange,
                         "factor on every variance");
-    command->add_option("--profile", options->lut.profile,
-                        "preset, .csv, .mtlx or .glb file, or burley:R,G,B (see dermis profile list)");
+    command->add_option("--profile", options->lut.profile, kProfileNames);
     command->add_option("--size", options->lut.size, "WIDTHxHEIGHT or one side");
     command->add_option("--axis", options->lut.axis, "meaning of the rows: curvature (1/mm) or radius (mm)");
     command->add_option("--range", options->lut.range, "MIN,MAX of the rows' axis");

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "bake_options.h"
+#include "profile_options.h"
 
 namespace dermis::cli {
 namespace {
@@ -24,8 +25,7 @@ void add_bake_shadow_command(CommandLine& line) {
     Command* command = line.add(
         "shadow", "Light that scatters into a penumbra, over its position and width",
         "dermis bake shadow --range 1,40 --sharpening 3 -o shadow.exr --plot shadow.svg", bake_group(line));
-    command->add_option("--profile", options->shadow.profile,
-                        "preset, .csv, .mtlx or .glb file, or burley:R,G,B");
+    command->add_option("--profile", options->shadow.profile, kProfileNames);
     command->add_option("--size", options->shadow.size, "WIDTHxHEIGHT");
     command->add_option("--range", options->shadow.range, "MIN,MAX of the penumbra's width in mm");
     command->add_option("--warp", options->shadow.warp,

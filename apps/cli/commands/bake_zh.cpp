@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "bake_options.h"
+#include "profile_options.h"
 
 namespace dermis::cli {
 namespace {
@@ -27,8 +28,7 @@ void add_bake_zh_command(CommandLine& line) {
                                 "dermis bake zh --profile gpu_gems_3 -o skin_zh.exr\n"
                                 "  dermis bake zh --layout remapped --construction half_ring -o skin_zh.png",
                                 bake_group(line));
-    command->add_option("--profile", options->zh.profile,
-                        "preset, .csv, .mtlx or .glb file, or burley:R,G,B");
+    command->add_option("--profile", options->zh.profile, kProfileNames);
     command->add_option("--construction", options->zh.construction,
                         "sphere, full_ring or half_ring (-90 to 90 degrees)");
     command->add_option("--variance-scale", options->zh.variance_scale, kVarianceScaleRange,

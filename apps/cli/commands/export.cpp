@@ -12,6 +12,7 @@
 #include "dermis/optics/presets.h"
 #include "dermis/shading/skin_text.h"
 #include "head_export.h"
+#include "profile_options.h"
 #include "scene_choice.h"
 #include "web_export.h"
 
@@ -167,9 +168,9 @@ void add_export_command(CommandLine& line) {
             join(engine_names(), ", "));
     command->add_flag("--web", options->web,
                       "a folder for any web server: a page that shows a scene's skin (default: bust)");
-    command->add_option("--profile", options->profile,
-                        "preset, .csv, .mtlx or .glb file, or burley:R,G,B; default: " +
-                            std::string(kDefaultProfile) + ", with a scene the scene's");
+    command->add_option(
+        "--profile", options->profile,
+        kProfileNames + ("; default: " + std::string(kDefaultProfile)) + ", with a scene the scene's");
     options->scene.add_to(*command);
     command
         ->add_output("-o,--output", options->output,

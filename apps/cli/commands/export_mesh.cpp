@@ -11,6 +11,7 @@
 #include "dermis/scene/subject.h"
 #include "parameter_list.h"
 #include "posed_mesh.h"
+#include "profile_options.h"
 #include "subjects/bust/bust.h"
 #include "subjects/bust/export.h"
 
@@ -82,7 +83,7 @@ void add_export_mesh_command(CommandLine& line) {
     options->posed.add_to(*command);
     command->add_output("-o,--output", options->path, "file to write, .glb or .obj")->required();
     command->add_option("--profile", options->profile,
-                        "of the GLB's material: preset, .csv, .mtlx or .glb file, or burley:R,G,B");
+                        "of the GLB's material: " + std::string(kProfileNames));
     command->add_output("--maps", options->maps, "folder for all maps as PNG, kernel size included");
     for (const Parameter& row : bust_parameters().parameters)
         command->add_option(flag_of(row.name), options->parameters[row.name],

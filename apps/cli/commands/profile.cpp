@@ -170,12 +170,12 @@ std::string tool_list() {
     return names;
 }
 
-void add_fit_walk(CommandLine& line, Command* profile, const char* name_help) {
+void add_fit_walk(CommandLine& line, Command* profile, const char* kProfileNames) {
     const auto options = std::make_shared<FitWalkOptions>();
     Command* command = line.add(
         "fit-walk", "Fits a profile to random walks, and says how far Burley's and the dipole are from it",
         "dermis profile fit-walk openpbr_skin_1 -o skin1_walks.csv", profile);
-    command->add_option("NAME", options->name, name_help);
+    command->add_option("NAME", options->name, kProfileNames);
     command->add_option("--g", options->g, {-0.99, 0.99},
                         "mean cosine of the volume's phase function; keeps the reduced mean free path");
     command->add_option("--eta", options->eta, {1, 3}, "the volume's index of refraction");
@@ -194,9 +194,6 @@ void add_profile_command(CommandLine& line) {
                  "dermis profile convert jensen_skin1 --to hdrp");
     profile->require_subcommand();
     const auto options = std::make_shared<ProfileOptions>();
-    const char* name_help =
-        "a preset's name, a .csv, .mtlx or .glb file, burley:R,G,B (d in mm), or skin:melanin=0.02";
-
     Command* list_command =
         line.add("list", "Lists the built-in profiles", "dermis profile list --json", profile);
     list_command->add_output("--plot", options->plot, "SVG file: all profiles in one plot");
@@ -210,7 +207,7 @@ void add_profile_command(CommandLine& line) {
 
     Command* show_command = line.add("show", "Prints a profile's lengths, albedo and Gaussians",
                                      "dermis profile show jensen_skin1 --plot skin1.svg", profile);
-    show_command->add_option("NAME", options->name, name_help)->required();
+    show_command->add_option("NAME", options->name, kProfileNames)->required();
     show_command->add_output("--plot", options->plot, "SVG file: the curves of the profile");
     show_command
         ->add_option("--terms", options->terms, kTermsRange, "number of Gaussians of the fit, 1 to 12")
@@ -221,7 +218,7 @@ void add_profile_command(CommandLine& line) {
     Command* convert_command = line.add(
         "convert", "Converts a profile to another tool's parameters, with quantity, unit and boundary",
         "dermis profile convert --from hdrp --set scatteringDistance=1 --to unreal", profile);
-    convert_command->add_option("NAME", options->conversion.name, name_help);
+    convert_command->add_option("NAME", options->conversion.name, kProfileNames);
     convert_command->add_option("--from", options->conversion.from,
                                 "read the settings of this tool instead of a profile");
     convert_command->add_option("--set", options->conversion.assignments,
@@ -236,7 +233,7 @@ void add_profile_command(CommandLine& line) {
         convert_command, [options] { return converted_file(*options); },
         [options] { return convert(*options); });
 
-    add_fit_walk(line, profile, name_help);
+    add_fit_walk(line, profile, kProfileNames);
     add_profile_skin(line, profile);
 
     Command* table_command =
