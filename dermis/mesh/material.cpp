@@ -38,4 +38,16 @@ bool is_blended(const Material& material) {
     return material.alpha_mode != AlphaMode::mask && (material.opacity < 1 || cutoff_of_map(material) > 0);
 }
 
+std::vector<NamedMap> maps_of(const Material& m) {
+    std::vector<NamedMap> maps = {
+        {"base color", &m.base_color_map}, {"emission", &m.emission_map},
+        {"normal", &m.normal_map},         {"metallic roughness", &m.metallic_roughness_map},
+        {"roughness", &m.roughness_map},   {"specular", &m.specular_map},
+        {"occlusion", &m.occlusion_map},   {"displacement", &m.displacement_map},
+        {"thickness", &m.thickness_map},   {"scatter", &m.scatter_map},
+        {"opacity", &m.opacity_map},       {"transmission", &m.transmission_map}};
+    std::erase_if(maps, [](const NamedMap& map) { return !map.image->present(); });
+    return maps;
+}
+
 }  // namespace dermis::inline mesh

@@ -106,4 +106,12 @@ struct Material {
 /// Whether it is blended over the background, by its opacity times that of the alpha map and the vertices.
 [[nodiscard]] bool is_blended(const Material& material);
 
+/// A map and what it holds: "base color", "normal".
+struct NamedMap {
+    const char* kind;
+    const ImageSource* image;
+};
+/// The maps that the material has. They point into it.
+[[nodiscard]] std::vector<NamedMap> maps_of(const Material& material);
+
 }  // namespace dermis::inline mesh

@@ -78,9 +78,12 @@ struct Skin {
     std::optional<float> melanin, blood, oxygen, pheomelanin, epidermis_mm;
     float melanin_scale = 1, blood_scale = 1;  ///< of maps of pigments, applied on loading
     float ior = 1.4f;
-    float roughness = 0.45f;                ///< perceptual
-    float specular = 1;                     ///< scales F0
-    Vec3 albedo_tint_linear = {1, 1, 1};    ///< multiplies the materials' base colour
+    float roughness = 0.45f;              ///< perceptual
+    float specular = 1;                   ///< scales F0
+    Vec3 albedo_tint_linear = {1, 1, 1};  ///< multiplies the materials' base colour
+    /// What loading made of tone or pigments: the tone, and its factor in albedo_tint_linear.
+    int loaded_tone = 0;
+    Vec3 loaded_tint_linear = {1, 1, 1};
     bool specular_reduces_diffuse = false;  ///< shaders/include/reduced_diffuse.glsl has the formula
     std::string diffuse_table;   ///< a file of `dermis bake lut` for techniques that read one; empty: baked
     std::string zonal_table;     ///< the same of `dermis bake zh`

@@ -135,6 +135,27 @@ Result<void> set_light(SceneDescription& scene, const Address& address, const st
     return done;
 }
 
+// The row of a key of [[mesh]], [maps], [material.NAME], [material.NAME.maps], [skin] or the root.
+const KeyInfo* info_of(const Address& address) {
+    const auto in = [&](const auto& table) -> const KeyInfo* {
+        const auto* row = table.find(address.key);
+        return row ? &row->info : nullptr;
+    };
+    if (address.section.empty()) return in(head_keys());
+    if (address.section == "mesh") return in(mesh_keys());
+    if (address.section == "skin") return in(skin_keys());
+    if (address.section == "maps" || address.which.ends_with(".maps")) return in(maps_keys());
+    return address.section == "material" ? in(material_keys()) : nullptr;
+}
+
+std::string table_of(const Address& address) {
+    if (address.section != "material") return address.section;
+    constexpr std::string_view kMaps = ".maps";
+    const bool is_map = address.which.ends_with(kMaps);
+    const std::string name = address.which.substr(0, address.which.size() - (is_map ? kMaps.size() : 0));
+    return "material." + toml_key(name) + (is_map ? ".maps" : "");
+}
+
 template <class Value>
 void keep_equal(const Value& before, Value& after, const Value& value) {
     if (before == after) after = value;
@@ -211,6 +232,20 @@ Result<void> set_word(SceneDescription& scene, const SceneWord& word, std::span<
     }
     return Error{unknown_name("section", address.section,
                               std::vector<std::string>(std::begin(kSections), std::end(kSections)))};
+}
+
+Result<FileKey> file_key(const SceneWord& word) {
+    const Address address(word.key);
+    const KeyInfo* info = info_of(address);
+    if (!info) return Error{word.key + ": no key of a mesh, a material, the maps or the skin"};
+    KeyValue value;
+    if (!read_toml_value(word_node(word.value, *info), *info, value))
+        return Error{word.key + " = " + word.value.substr(0, 40) + ": " + address.key + " " +
+                     wanted_text(*info)};
+    return FileKey{.table = table_of(address),
+                   .which = address.section == "mesh" ? address.which : "",
+                   .key = address.key,
+                   .value = toml_value(*info, value)};
 }
 
 bool is_loading_key(std::string_view key) {

@@ -35,6 +35,15 @@ namespace dermis::inline scene {
 /// Whether it is a key of [animation] or [morph].
 [[nodiscard]] bool is_motion_key(std::string_view key);
 
+/// The place of a word in a scene file, and its value as TOML. `table`: as a header has it,
+/// `material."M Lips".maps`. `which`: the [[mesh]] or [[light]] by its name or its number from 1; may be
+/// empty.
+struct FileKey {
+    std::string table, which, key, value;
+};
+/// Errors: no such key, a value that the key does not take.
+[[nodiscard]] Result<FileKey> file_key(const SceneWord& word);
+
 /// Changes a loaded scene. What no word names keeps its bits; after an error nothing has changed. Errors:
 /// those of set_word() and of the file's checks, a key that is_loading_key(), an unknown profile, a panorama
 /// that is not there.

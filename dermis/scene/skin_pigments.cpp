@@ -112,9 +112,9 @@ Result<void> apply_pigments(Scene& scene) {
     const Result<Vec3> mean = mean_skin_albedo(scene);
     if (!mean) return mean.error().within("skin.melanin");
     const Rgb albedo = skin_albedo(*model);
-    scene.skin.albedo_tint_linear =
-        scene.skin.albedo_tint_linear *
+    scene.skin.loaded_tint_linear =
         tint_towards({float(albedo[0]), float(albedo[1]), float(albedo[2])}, *mean);
+    scene.skin.albedo_tint_linear = scene.skin.albedo_tint_linear * scene.skin.loaded_tint_linear;
     remove_pigments(scene.skin);
     return {};
 }

@@ -47,6 +47,7 @@ bool has_scatter_weights(const Scene& scene) {
 }
 
 Result<void> resolve_profiles(Scene& scene, const std::filesystem::path& scene_file) {
+    const std::string place = scene_file.empty() ? "" : scene_file.string() + ": ";
     for (SceneObject& object : scene.objects)
         for (Material& material : object.mesh.materials) {
             if (material.profile.empty()) continue;
@@ -54,12 +55,11 @@ Result<void> resolve_profiles(Scene& scene, const std::filesystem::path& scene_f
                 if (const auto file = resolve_path(material.profile, scene_file))
                     material.profile = file->string();
             if (const Result<Profile> known = find_profile(material.profile); !known)
-                return Error{scene_file.string() + ": material." + material.name +
-                             ".profile: " + known.error().message};
+                return Error{place + "material." + material.name + ".profile: " + known.error().message};
         }
     if (const size_t count = skin_profiles(scene).size(); count > kMostProfiles)
-        return Error{scene_file.string() + ": the skin has " + std::to_string(count) +
-                     " profiles; a scene can have " + std::to_string(kMostProfiles)};
+        return Error{place + "the skin has " + std::to_string(count) + " profiles; a scene can have " +
+                     std::to_string(kMostProfiles)};
     return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dermis/base/text.h"
 #include "dermis/image/colour.h"
@@ -89,6 +90,12 @@ std::string other_tone(const Scene& scene) {
 
 }  // namespace
 
+Vec3 stated_tint(const Skin& skin) {
+    const Vec3 tint = skin.albedo_tint_linear, loaded = skin.loaded_tint_linear;
+    const auto rest = [](float all, float part) { return part > 0 ? all / part : 1; };
+    return {rest(tint.x, loaded.x), rest(tint.y, loaded.y), rest(tint.z, loaded.z)};
+}
+
 std::string tone_profile(int tone) {
     return "openpbr_skin_" + std::to_string(tone);
 }
@@ -108,9 +115,10 @@ Result<void> apply_tone(Scene& scene) {
     if (scene.skin.tone == 0) return {};
     const Result<Vec3> mean = mean_skin_albedo(scene);
     if (!mean) return mean.error().within("skin.tone");
-    scene.skin.albedo_tint_linear =
-        scene.skin.albedo_tint_linear * tint_towards(skin_tone_albedo_linear(scene.skin.tone), *mean);
-    scene.skin.tone = 0;
+    Skin& skin = scene.skin;
+    skin.loaded_tint_linear = tint_towards(skin_tone_albedo_linear(skin.tone), *mean);
+    skin.albedo_tint_linear = skin.albedo_tint_linear * skin.loaded_tint_linear;
+    skin.loaded_tone = std::exchange(skin.tone, 0);
     return {};
 }
 

@@ -18,6 +18,9 @@ namespace dermis::inline scene {
 /// freckles) stay.
 [[nodiscard]] Vec3 tint_towards(Vec3 albedo_linear, Vec3 mean_linear);
 
+/// The skin's tint beside that of its tone or pigments: a file that states both has this albedo_tint.
+[[nodiscard]] Vec3 stated_tint(const Skin& skin);
+
 /// "openpbr_skin_3", the profile of a tone, 1 to 6.
 [[nodiscard]] std::string tone_profile(int tone);
 

@@ -1,6 +1,7 @@
 #include "dermis/scene/toml_values.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "dermis/base/text.h"
@@ -66,6 +67,13 @@ std::string toml_string(std::string_view text) {
         result += c;
     }
     return result + "\"";
+}
+
+std::string toml_key(std::string_view name) {
+    const bool is_bare = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+        return (c < 128 && std::isalnum(c) != 0) || c == '_' || c == '-';
+    });
+    return is_bare ? std::string(name) : toml_string(name);
 }
 
 std::string toml_text(const TomlNode& node) {

@@ -17,6 +17,9 @@ namespace dermis::inline scene {
 /// In double quotes, as TOML writes a string without line breaks.
 [[nodiscard]] std::string toml_string(std::string_view text);
 
+/// A key or a part of a header: in quotes where TOML needs them.
+[[nodiscard]] std::string toml_key(std::string_view name);
+
 /// The value as the file has it when it is short, else its kind.
 [[nodiscard]] std::string toml_text(const TomlNode& node);
 

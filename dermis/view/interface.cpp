@@ -190,6 +190,7 @@ void Interface::begin(std::span<const Event> events, int width, int height, doub
 }
 
 Result<InterfaceDraws> Interface::end() {
+    holds_widget_ = ImGui::IsAnyItemActive();
     ImGui::Render();
     const ImDrawData& data = *ImGui::GetDrawData();
     Collected all;

@@ -45,11 +45,14 @@ class Interface {
     /// Whether the mouse or the keyboard is with a panel just now.
     [[nodiscard]] bool wants_mouse() const;
     [[nodiscard]] bool wants_keyboard() const;
+    /// Whether a widget is held: its value may still change.
+    [[nodiscard]] bool holds_widget() const { return holds_widget_; }
 
   private:
     struct State;
     explicit Interface(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
+    bool holds_widget_ = false;
 };
 
 }  // namespace dermis::view

@@ -52,7 +52,7 @@ class Notices {
 struct Model {
     std::string scene_path;  ///< as opened: a file, a name, builtin:NAME
     std::vector<SceneWord>
-        loading_words;       ///< with which scene_path was loaded: --scene keys of is_loading_key()
+        loading_words;       ///< --scene keys of is_loading_key(); the scene is read again when they change
     Scene* scene = nullptr;  ///< lives in the stage; null until the first one is loaded
     Catalog catalog;         ///< what may be chosen
     std::array<TechniqueChoice, 2> choices;

@@ -1,11 +1,14 @@
 #include "dermis/view/opener.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "dermis/base/text.h"
 #include "dermis/image/io.h"
 #include "dermis/scene/scene_files.h"
+#include "dermis/scene/scene_words.h"
 #include "dermis/scene/skin_tone.h"
+#include "dermis/view/head_words.h"
 #include "dermis/view/motion.h"
 #include "dermis/view/scene_look.h"
 
@@ -65,6 +68,30 @@ void Opener::load_pose() {
         loader_.expect_pose();
 }
 
+bool Opener::has_new_words() const {
+    return to_.model.scene &&
+           words_beside_motion(to_.model.loading_words) != words_beside_motion(shown_words_);
+}
+
+void Opener::follow_words() {
+    if (!has_new_words() || loader_.is_loading()) return;
+    load(to_.model.scene_path);
+    loader_.expect_same_scene(false);
+}
+
+// What was changed while the scene was read stays for the next reading.
+void Opener::take_words(std::vector<SceneWord> loaded) {
+    std::vector<SceneWord>& words = to_.model.loading_words;
+    shown_words_ = loaded;
+    if (!loader_.is_reload()) {
+        words = std::move(loaded);
+        return;
+    }
+    words = words_beside_motion(std::move(words));
+    std::ranges::copy_if(loaded, std::back_inserter(words),
+                         [](const SceneWord& word) { return is_motion_key(word.key); });
+}
+
 Result<bool> Opener::take() {
     std::optional<Result<Start>> start = loader_.take();
     if (!start) return false;
@@ -72,6 +99,7 @@ Result<bool> Opener::take() {
     const Result<void> shown = *start ? show(std::move(**start), first) : start->error();
     if (shown) return true;
     if (first) return shown.error();
+    if (loader_.is_reload()) to_.model.loading_words = shown_words_;
     if (loader_.is_reload()) loader_.follow_stated_files();  // a file may be missing and come later
     to_.model.notices.report_error("open", shown.error().message + (loader_.is_reload() ? kLastGood : ""));
     return false;
@@ -89,6 +117,7 @@ Result<void> Opener::show(Start start, bool first) {
             keep_look(shown.file_look(), *model.scene, *scene);
         else
             put_look(*model.scene, *scene);
+        if (has_other_unit(*model.scene, *scene)) scale_look(*model.scene, *scene);
         loader_.follow_too(files_of(*scene));  // even if it cannot be drawn
     }
     DERMIS_TRY_ASSIGN(Stage stage,
@@ -97,9 +126,13 @@ Result<void> Opener::show(Start start, bool first) {
     if (!first) take_technique(file);
     shown.put(std::move(stage), std::move(file), pose, model);
     model.scene_path = loader_.path();
-    model.loading_words = std::move(start.loading_words);
-    const bool same_tone = model.scene->skin.profile == tone_profile(model.tone);
-    if (!same_tone || (!loader_.is_reload() && !start.handed)) model.tone = 0;
+    take_words(std::move(start.loading_words));
+    const Skin& skin = model.scene->skin;
+    const bool same_tone = skin.profile == tone_profile(model.tone);
+    if (!loader_.is_reload() && !start.handed)
+        model.tone = skin.albedo_tint_linear == skin.loaded_tint_linear ? skin.loaded_tone : 0;
+    else if (!same_tone)
+        model.tone = 0;
     if (loader_.is_reload() && model.tone > 0) shown.choose_tone(model.tone, model);  // another mean
     loader_.follow(*model.scene);
     model.notices.clear("open");

@@ -33,6 +33,10 @@ class Opener {
     /// The shown scene again, in the pose that its motion has now; only its objects change. Not while another
     /// one is loading.
     void load_pose();
+    /// Model::loading_words have changed since the scene was loaded with them.
+    [[nodiscard]] bool has_new_words() const;
+    /// Then the scene is read again. If it cannot be, the words become again those that it was loaded with.
+    void follow_words();
     [[nodiscard]] bool is_loading() const { return loader_.is_loading(); }
     void wait() const { loader_.wait(); }
 
@@ -45,6 +49,7 @@ class Opener {
   private:
     [[nodiscard]] Result<void> show(Start start, bool first);
     void take_start(const Start& start);
+    void take_words(std::vector<SceneWord> loaded);
     void take_technique(const Scene& file);
     void open_panorama(const std::string& path);
     [[nodiscard]] bool follow_scene_files();
@@ -52,6 +57,7 @@ class Opener {
     const ViewerOptions& options_;
     OpenTargets to_;
     Loader loader_;
+    std::vector<SceneWord> shown_words_;  ///< with which the shown scene was loaded
     double last_look_s_ = 0;
 };
 

@@ -17,6 +17,10 @@ void show_light(Scene& scene, WidgetMap& widgets);
 void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets);
 void show_camera(Scene& scene, PanelRequests& requests, WidgetMap& widgets);
 
+// head_panel.cpp; wants a scene
+/// Unit and materials of the scene's mesh files.
+void show_head(Model& model, WidgetMap& widgets);
+
 // motion_panel.cpp; wants a scene
 /// Clip, time and morph targets.
 void show_motion(Model& model, PanelRequests& requests, WidgetMap& widgets);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dermis/view/head_words.h"
 #include "dermis/view/motion.h"
 #include "dermis/view/panel_parts.h"
 #include "dermis/view/widgets.h"
@@ -38,15 +39,18 @@ void show_column(Model& model, const PanelFacts& facts, PanelRequests& requests,
         if (!model.scene->credit.empty()) ImGui::TextDisabled("%s", model.scene->credit.c_str());
         ImGui::PopTextWrapPos();
     }
-    if (model.scene && has_motion(*model.scene) && section("Motion", true))
+    if (model.scene && !materials_of(*model.scene).empty() &&
+        section("Head", has_guessed_classes(*model.scene), widgets))
+        show_head(model, widgets);
+    if (model.scene && has_motion(*model.scene) && section("Motion", true, widgets))
         show_motion(model, requests, widgets);
-    if (section("Technique", true)) show_technique(model, 0, requests, widgets);
-    if (section("Picture", true)) show_view(model, widgets);
-    if (model.scene && section("Skin", false)) show_skin(model, requests, widgets);
-    if (section("Compare", true)) show_compare(model, requests, widgets);
-    if (model.scene && section("Light", true)) show_light(*model.scene, widgets);
-    if (model.scene && section("Camera", false)) show_camera(*model.scene, requests, widgets);
-    if (section("Time", true)) show_times(facts);
+    if (section("Technique", true, widgets)) show_technique(model, 0, requests, widgets);
+    if (section("Picture", true, widgets)) show_view(model, widgets);
+    if (model.scene && section("Skin", false, widgets)) show_skin(model, requests, widgets);
+    if (section("Compare", true, widgets)) show_compare(model, requests, widgets);
+    if (model.scene && section("Light", true, widgets)) show_light(*model.scene, widgets);
+    if (model.scene && section("Camera", false, widgets)) show_camera(*model.scene, requests, widgets);
+    if (section("Time", true, widgets)) show_times(facts);
     ImGui::End();
 }
 

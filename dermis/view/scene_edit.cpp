@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dermis/base/text.h"
+#include "dermis/scene/toml_values.h"
 
 namespace dermis::view {
 namespace {
@@ -14,13 +15,34 @@ struct Line {
     bool header = false;
 };
 
-// "[camera]" and "[[light]] # key": the name between the brackets; empty for any other line.
+// "[camera]" and "[[light]] # key": the name between the brackets, each part quoted as toml_key() does; empty
+// for any other line.
 std::string header_name(std::string_view line) {
     const std::string_view text = trim(line);
-    if (!text.starts_with('[')) return "";
-    const size_t open = text.find_first_not_of('['), close = text.find(']');
-    if (open == text.npos || close == text.npos || close < open) return "";
-    return std::string(trim(text.substr(open, close - open)));
+    const size_t open = text.find_first_not_of('[');
+    if (open == 0 || open == text.npos) return "";
+    std::string name, part;
+    char quote = 0;
+    for (size_t i = open; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quote) {
+            if (c == quote)
+                quote = 0;
+            else if (c == '\\' && quote == '"' && i + 1 < text.size())
+                part += text[++i];
+            else
+                part += c;
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+        } else if (c == '.' || c == ']') {
+            name += (name.empty() ? "" : ".") + toml_key(part);
+            part.clear();
+            if (c == ']') return name;
+        } else if (c != ' ' && c != '\t') {
+            part += c;
+        }
+    }
+    return "";
 }
 
 // The end of the value: a '#' or the end of the line, outside of quotes. Adds the brackets that it opens to

@@ -10,7 +10,7 @@
 namespace dermis::view {
 
 /// One value. `table`: "" for keys outside of any section, "camera", "light" with the number `index` of its
-/// [[light]]. An empty `value` removes the key.
+/// [[light]], "material.Lips" with names as toml_key() writes them. An empty `value` removes the key.
 struct TomlEdit {
     std::string table, key, value;  ///< value: as TOML writes it
     int index = 0;

@@ -102,8 +102,9 @@ void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets) {
                     kProfiles, profile))
         skin.profile = kProfiles[size_t(profile)];
     show_pigments(skin, requests, rows);
-    rows.color({.name = "tint", .doc = "multiplies the colour of the skin, linear", .max = 4},
-               skin.albedo_tint_linear);
+    if (rows.color({.name = "tint", .doc = "multiplies the colour of the skin, linear", .max = 4},
+                   skin.albedo_tint_linear))
+        model.tone = 0;
 }
 
 void show_camera(Scene& scene, PanelRequests& requests, WidgetMap& widgets) {

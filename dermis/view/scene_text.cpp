@@ -1,12 +1,15 @@
 // The user's changes as edits of the scene file.
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/scene/find_parts.h"
+#include "dermis/scene/part_words.h"
 #include "dermis/scene/scene_files.h"
 #include "dermis/scene/scene_words.h"
+#include "dermis/scene/skin_tone.h"
 #include "dermis/scene/toml_values.h"
 #include "dermis/view/scene_edit.h"
 
@@ -17,13 +20,20 @@ namespace {
 // The keys of a light that the window changes; a file's other keys are kept.
 constexpr std::string_view kLightKeys[] = {"yaw_deg", "pitch_deg", "distance_mm", "intensity", "color"};
 
-// Every key that can be changed of a loaded scene; of lights that are in the file, only the keys above.
+// Of lights that are in the file, only the keys above; no angles of a cone where there is none.
+bool is_saved(const SceneKey& key, const Scene& scene, bool lights_in_file) {
+    if (key.section != "light") return true;
+    const std::string& name = key.info->name;
+    const Light& light = scene.lights[size_t(key.light)];
+    if (lights_in_file) return light.is_key && std::ranges::count(kLightKeys, name) > 0;
+    return light.kind == LightKind::spot || (name != "inner_angle_deg" && name != "outer_angle_deg");
+}
+
+// Every key that can be changed of a loaded scene.
 void add_scene(std::vector<TomlEdit>& edits, const Scene& scene, bool lights_in_file) {
     for (const SceneKey& key : keys_of(scene)) {
         const std::string& name = key.info->name;
-        if (key.section == "light" && lights_in_file &&
-            (!scene.lights[size_t(key.light)].is_key || !std::ranges::count(kLightKeys, name)))
-            continue;
+        if (!is_saved(key, scene, lights_in_file)) continue;
         edits.push_back({key.section, name, toml_value(*key.info, key.value), key.light});
     }
     // Keys that cannot be combined with those.
@@ -33,14 +43,6 @@ void add_scene(std::vector<TomlEdit>& edits, const Scene& scene, bool lights_in_
     if (key == scene.lights.end() || key->kind == LightKind::directional) return;
     for (const char* name : {"position_mm", "target_mm"})
         edits.push_back({"light", name, "", int(key - scene.lights.begin())});
-}
-
-// A key of [morph]: quoted where TOML needs it.
-std::string target_key(const std::string& target) {
-    const bool is_bare = !target.empty() && std::ranges::all_of(target, [](unsigned char c) {
-        return (c < 128 && std::isalnum(c) != 0) || c == '_' || c == '-';
-    });
-    return is_bare ? target : toml_string(target);
 }
 
 // [animation] and [morph]; what is as it would be without a line has none. `file`: what the scene file
@@ -56,9 +58,9 @@ void add_motion(std::vector<TomlEdit>& edits, const MotionDescription& motion,
     add("speed", motion.speed == none.speed, to_text(motion.speed));
     add("loop", !motion.loop, "true");
     for (const auto& [target, weight] : file.morph)
-        if (!motion.morph.contains(target)) edits.push_back({"morph", target_key(target), ""});
+        if (!motion.morph.contains(target)) edits.push_back({"morph", toml_key(target), ""});
     for (const auto& [target, weight] : motion.morph)
-        edits.push_back({"morph", target_key(target), to_text(weight)});
+        edits.push_back({"morph", toml_key(target), to_text(weight)});
 }
 
 // As in [settings]: a choice is a string, a toggle true or false, a colour an array.
@@ -90,6 +92,52 @@ void add_technique(std::vector<TomlEdit>& edits, Model& model) {
     }
 }
 
+// [[mesh]] by its name or its number from 1; the first without one.
+int mesh_index(const std::string& which, const std::vector<MeshDescription>& meshes) {
+    if (which.empty()) return 0;
+    const auto named = std::ranges::find(meshes, which, &MeshDescription::name);
+    if (named != meshes.end()) return int(named - meshes.begin());
+    return int(parse_number(which).value_or(1)) - 1;
+}
+
+// The keys with which the scene was loaded, beyond its file.
+Result<void> add_loading_words(std::vector<TomlEdit>& edits, const Model& model,
+                               const std::vector<MeshDescription>& meshes) {
+    for (const SceneWord& word : model.loading_words) {
+        if (is_motion_key(word.key) || word.key.starts_with("settings.") || word.key == "technique") continue;
+        DERMIS_TRY_ASSIGN(const FileKey place, file_key(word));
+        edits.push_back({place.table, place.key, place.value, mesh_index(place.which, meshes)});
+    }
+    return {};
+}
+
+// Classes that were found by name, and what was left out: a file that states them needs no guess.
+void add_found_classes(std::vector<TomlEdit>& edits, const Scene& scene) {
+    for (const SceneObject& object : scene.objects) {
+        if (!is_guessed(object.parts)) continue;
+        for (size_t i = 0; i < object.parts.size(); ++i) {
+            const std::string& name = object.mesh.materials[i].name;
+            if (name.empty()) continue;
+            const std::string table = "material." + toml_key(name);
+            edits.push_back({table, "class", toml_string(part_name(object.parts[i].part))});
+            if (object.parts[i].left_out) edits.push_back({table, "visible", "false"});
+        }
+    }
+}
+
+// The tone, or the tint beside the file's tone or pigments.
+void add_tone(std::vector<TomlEdit>& edits, const Model& model) {
+    const Skin& skin = model.scene->skin;
+    const Vec3 tint = model.tone > 0 ? Vec3{1, 1, 1} : stated_tint(skin);
+    const auto number = [](float x) { return to_text(std::round(x * 1e4f) / 1e4f); };
+    const std::string text = "[" + number(tint.x) + ", " + number(tint.y) + ", " + number(tint.z) + "]";
+    edits.push_back({"skin", "albedo_tint", text == "[1, 1, 1]" ? "" : text});
+    if (model.tone == 0) return;
+    edits.push_back({"skin", "tone", std::to_string(model.tone)});
+    for (const char* pigment : {"melanin", "blood", "oxygen", "pheomelanin", "epidermis_mm"})
+        if (model.tone != skin.loaded_tone) edits.push_back({"skin", pigment, ""});
+}
+
 std::string empty_lights(const Scene& scene) {
     std::string text;
     for (size_t i = 0; i < scene.lights.size(); ++i) text += "\n[[light]]\n";
@@ -102,6 +150,7 @@ std::string new_scene(const Model& model) {
     const bool is_file = !path.starts_with("builtin:");
     return "name = " + toml_string(model.scene->name) +
            "\n\n[[mesh]]\nfile = " + toml_string(is_file ? fs::absolute(path).string() : path) + "\n" +
+           (is_file ? "unit_mm = " + to_text(float(model.scene->objects.front().unit_mm)) + "\n" : "") +
            empty_lights(*model.scene);
 }
 
@@ -135,6 +184,7 @@ Result<std::string> scene_text(Model& model, const fs::path& directory) {
     std::string text;
     bool lights_in_file = false;
     MotionDescription motion_in_file;
+    std::vector<MeshDescription> meshes;
     if (file.empty()) {
         text = new_scene(model);
     } else {
@@ -146,11 +196,15 @@ Result<std::string> scene_text(Model& model, const fs::path& directory) {
         text = same_place ? old : with_absolute_paths(old, *scene);
         lights_in_file = !scene->lights.empty();
         motion_in_file = scene->motion;
+        meshes = scene->meshes;
         if (!lights_in_file) text += empty_lights(*model.scene);  // the studio's
     }
     std::vector<TomlEdit> edits;
     add_technique(edits, model);
+    add_found_classes(edits, *model.scene);
+    DERMIS_TRY(add_loading_words(edits, model, meshes));
     add_scene(edits, *model.scene, lights_in_file);
+    add_tone(edits, model);
     add_motion(edits, model.scene->motion, motion_in_file);
     const std::string edited = edit_toml(text, edits);
     if (const Result<SceneDescription> read = parse_scene(edited, file, model.catalog.subjects); !read)

@@ -22,6 +22,7 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
                                 {"set", CommandKind::set, "w", "set wrap=0.4"},
                                 {"view", CommandKind::view, "w", "view curvature"},
                                 {"tone", CommandKind::tone, "n", "tone 5"},
+                                {"scene", CommandKind::scene, "w", "scene material.M_Lips.class=skin"},
                                 {"clip", CommandKind::clip, "w", "clip talk"},
                                 {"time", CommandKind::time, "n", "time 1.2"},
                                 {"play", CommandKind::play, "", "play"},
@@ -31,6 +32,7 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
                                 {"scroll", CommandKind::scroll, "nnn", "scroll 300 300 -2"},
                                 {"key", CommandKind::key, "k", "key ctrl+C"},
                                 {"slide", CommandKind::slide, "wn", "slide wrap 0.7"},
+                                {"click", CommandKind::click, "w", "click head.M_Lips.visible"},
                                 {"drop", CommandKind::drop, "w", "drop head.glb"},
                                 {"copy", CommandKind::copy, "ww", "copy broken.frag shaders/a/b.frag"},
                                 {"save", CommandKind::save, "w", "save scene.toml"},
@@ -179,6 +181,12 @@ std::deque<std::vector<Event>> input_frames(const ScriptCommand& command) {
         default:
             return {};
     }
+}
+
+std::deque<std::vector<Event>> click_frames(const Region& widget) {
+    const ScriptCommand left;
+    const Vec2 at_px = {widget.x + widget.width / 2, widget.y + widget.height / 2};
+    return {{moved(at_px)}, {button(left, at_px, true)}, {button(left, at_px, false)}, {}};
 }
 
 std::deque<std::vector<Event>> slide_frames(const Region& widget, double share) {

@@ -20,6 +20,7 @@ enum class CommandKind {
     set,
     view,
     tone,
+    scene,
     clip,
     time,
     play,
@@ -29,6 +30,7 @@ enum class CommandKind {
     scroll,
     key,
     slide,
+    click,
     drop,
     copy,
     save,
@@ -66,6 +68,8 @@ inline constexpr size_t kMaxScriptBytes = size_t{1} << 20;
 
 /// The events of a command that is input, one batch a frame; empty for the others.
 [[nodiscard]] std::deque<std::vector<Event>> input_frames(const ScriptCommand& command);
+/// A click on the middle of a widget.
+[[nodiscard]] std::deque<std::vector<Event>> click_frames(const Region& widget);
 /// A drag of a widget's handle to `share` of its width, from its middle.
 [[nodiscard]] std::deque<std::vector<Event>> slide_frames(const Region& widget, double share);
 

@@ -6,7 +6,9 @@
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/scene/part_words.h"
 #include "dermis/scene/scene_words.h"
+#include "dermis/view/head_words.h"
 #include "dermis/view/motion.h"
 #include "dermis/view/perform.h"
 
@@ -35,7 +37,13 @@ std::string state_text(Parts& p) {
         text += "right " + (p.reference.texture() ? model.reference_path : model.choices[1].technique().id) +
                 "\n";
     if (model.reference_is_of_another_view) text += "stale reference\n";
-    text += "profile " + model.scene->skin.profile + "\n";
+    for (const HeadMesh& mesh : meshes_of(*model.scene))
+        text += "unit_mm " + mesh.name + " " + to_text(float(mesh.unit_mm)) + "\n";
+    for (const HeadMaterial& material : materials_of(*model.scene))
+        text += "material " + material.name + " " + part_name(material.part) +
+                (material.visible ? "" : " hidden") +
+                (material.profile.empty() ? "" : " profile " + material.profile) + "\n";
+    text += "tone " + std::to_string(model.tone) + "\nprofile " + model.scene->skin.profile + "\n";
     text += "view " + model.view + "\ncamera " + camera_text(model.scene->camera) + "\n";
     const auto key = std::ranges::find(model.scene->lights, true, &Light::is_key);
     if (key != model.scene->lights.end()) text += "light " + light_text(*key) + "\n";
@@ -111,14 +119,31 @@ Result<void> use_morph(Parts& p, Command command) {
     return set_motion(*p.model.scene, std::move(motion));
 }
 
-Result<void> slide_widget(Parts& p, Command command) {
+Result<void> change_scene(Parts& p, Command command) {
+    const std::string& word = command.words[0];
+    if (word.find('"') != word.npos) return Error{"scene: " + word + ": write it without quotation marks"};
+    return p.pictures.scene().paste("--scene \"" + word + "\"", p.model);
+}
+
+Result<Region> visible_widget(const Parts& p, Command command) {
     const auto widget = p.widgets.find(command.words[0]);
     std::vector<std::string> names;
     for (const auto& [name, region] : p.widgets) names.push_back(name);
     if (widget == p.widgets.end()) return Error{unknown_name("widget", command.words[0], names)};
     if (widget->second.y + widget->second.height > float(p.presenter->size().height))
         return Error{command.words[0] + " is not visible; make the window higher"};
-    p.input.play(slide_frames(widget->second, command.numbers[0]));
+    return widget->second;
+}
+
+Result<void> slide_widget(Parts& p, Command command) {
+    DERMIS_TRY_ASSIGN(const Region widget, visible_widget(p, command));
+    p.input.play(slide_frames(widget, command.numbers[0]));
+    return {};
+}
+
+Result<void> click_widget(Parts& p, Command command) {
+    DERMIS_TRY_ASSIGN(const Region widget, visible_widget(p, command));
+    p.input.play(click_frames(widget));
     return {};
 }
 
@@ -165,12 +190,14 @@ constexpr Runner kRunners[] = {
     {CommandKind::set, set_parameter},
     {CommandKind::view, use_view},
     {CommandKind::tone, use_tone},
+    {CommandKind::scene, change_scene},
     {CommandKind::clip, use_clip},
     {CommandKind::time, use_time},
     {CommandKind::play, [](Parts& p, Command) { return play(p.model); }},
     {CommandKind::pause, always<[](Parts& p, Command) { p.model.playing = false; }>},
     {CommandKind::morph, use_morph},
     {CommandKind::slide, slide_widget},
+    {CommandKind::click, click_widget},
     {CommandKind::copy, copy_file},
     {CommandKind::save, [](Parts& p, Command c) { return save_scene(p, c.words[0]); }},
     {CommandKind::clipboard, always<[](Parts& p, Command c) { p.window.set_clipboard(c.words[0]); }>},

@@ -101,6 +101,7 @@ Result<void> Session::frame() {
     if (requests->tone) p.pictures.scene().choose_tone(*requests->tone, p.model);
     if (requests->pigments) p.pictures.scene().choose_pigments(*requests->pigments, p.model);
     if (!requests->open.empty()) p.opener.open(requests->open);
+    if (!p.interface->holds_widget()) p.opener.follow_words();
     if (Result<void> shown = show_pictures(draws); !shown) return shown;
     return step_script();
 }
@@ -120,7 +121,8 @@ void Session::step_motion() {
     const double now_s = p.clock.now_s();
     advance_motion(p.model, now_s - std::exchange(last_step_s_, now_s));
     if (p.model.playing) p.input.wake();
-    if (p.resting_pose.is_to_be_loaded(p.model, p.pictures.scene(), now_s) && !p.opener.is_loading())
+    if (p.resting_pose.is_to_be_loaded(p.model, p.pictures.scene(), now_s) && !p.opener.is_loading() &&
+        !p.opener.has_new_words())
         p.opener.load_pose(), p.resting_pose.asked(p.pictures.scene());
 }
 
@@ -160,7 +162,9 @@ Result<void> Session::show_pictures(const InterfaceDraws& draws) {
 
 Result<void> Session::step_script() {
     Parts& p = *parts_;
-    if (p.input.is_playing() || p.opener.is_loading() || !p.pictures.scene().is_there()) return {};
+    if (p.input.is_playing() || p.opener.is_loading() || p.opener.has_new_words() ||
+        !p.pictures.scene().is_there())
+        return {};
     const ScriptCommand* command = p.player.next(p.is_settled());
     if (!command) {
         // A script that nobody watches would wait for a hand for ever.

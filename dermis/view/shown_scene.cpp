@@ -63,7 +63,7 @@ void ShownScene::choose_tone(int tone, Model& model) {
     if (!model.scene) return;
     Skin& skin = model.scene->skin;
     if (tone == 0) {
-        skin.albedo_tint_linear = file_look_.skin.albedo_tint_linear;
+        skin.albedo_tint_linear = stated_tint(file_look_.skin);
         skin.profile = file_look_.skin.profile;
         model.tone = 0;
         return;

@@ -7,6 +7,7 @@
 #include "dermis/scene/scene_description.h"
 #include "dermis/scene/scene_words.h"
 #include "dermis/technique/technique_list.h"
+#include "dermis/view/head_words.h"
 #include "dermis/view/motion.h"
 #include "dermis/view/words.h"
 
@@ -153,17 +154,25 @@ Result<void> apply_view_line(Model& model, std::string_view line) {
         return Error{"the clipboard holds no view; copy one with ctrl+C, or write --camera 'yaw_deg=30'"};
     const std::vector<std::string> views = view_names(wanted.choice.technique());
     if (!std::ranges::count(views, wanted.view)) return Error{unknown_name("view", wanted.view, views)};
-    std::erase_if(wanted.words, [&](const SceneWord& word) {  // those that the scene was loaded with
-        return std::ranges::find(model.loading_words, word) != model.loading_words.end();
-    });
+    std::vector<SceneWord> loading_words = model.loading_words;
+    for (const SceneWord& word : wanted.words)
+        if (is_loading_key(word.key) && !is_motion_key(word.key) &&
+            std::ranges::find(loading_words, word) == loading_words.end()) {
+            if (model.scene_path.starts_with("builtin:"))
+                return Error{word.key + ": cannot be changed for " + model.scene_path +
+                             "; save the scene (ctrl+S) and open that file"};
+            DERMIS_TRY(file_key(word));
+            put_word(loading_words, word);
+        }
     SceneDescription posed;
     posed.motion = model.scene->motion;
     for (const SceneWord& word : wanted.words)
         if (is_motion_key(word.key)) DERMIS_TRY(set_word(posed, word, {}));
-    std::erase_if(wanted.words, [](const SceneWord& word) { return is_motion_key(word.key); });
+    std::erase_if(wanted.words, [](const SceneWord& word) { return is_loading_key(word.key); });
     DERMIS_TRY(check_motion(model.scene->objects, posed.motion));
     if (Result<void> set = set_words(*model.scene, wanted.words); !set) return set;
     model.scene->motion = std::move(posed.motion);
+    model.loading_words = std::move(loading_words);
     model.choices[0] = std::move(wanted.choice);
     model.view = wanted.view;
     return {};

@@ -83,8 +83,7 @@ void Rows::begin(const NumberRow& row, bool changed_from_default) {
 
 // True when the default is to be restored.
 bool Rows::end(const NumberRow& row) {
-    const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
-    (*widgets_)[prefix_ + row.name] = {min.x, min.y, max.x - min.x, max.y - min.y};
+    name_widget(*widgets_, prefix_ + row.name);
     if (!ImGui::IsItemHovered()) return false;
     if (!ImGui::IsItemActive()) tooltip(row.doc, row.whole || row.max > row.min ? range_text(row) : "");
     return ImGui::IsMouseClicked(ImGuiMouseButton_Right);
@@ -185,9 +184,16 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : int(found - names.begin());
 }
 
-bool section(const char* title, bool open_at_first) {
+bool section(const char* title, bool open_at_first, WidgetMap& widgets) {
     ImGui::Spacing();
-    return ImGui::CollapsingHeader(title, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    const bool open = ImGui::CollapsingHeader(title, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    name_widget(widgets, std::string("section.") + title);
+    return open;
+}
+
+void name_widget(WidgetMap& widgets, const std::string& name) {
+    const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+    widgets[name] = {min.x, min.y, max.x - min.x, max.y - min.y};
 }
 
 }  // namespace dermis::view

@@ -43,8 +43,11 @@ class Rows {
     std::string prefix_;
 };
 
-/// A heading that folds; true while open.
-[[nodiscard]] bool section(const char* title, bool open_at_first);
+/// A heading that folds; true while open. Its widget is "section.TITLE".
+[[nodiscard]] bool section(const char* title, bool open_at_first, WidgetMap& widgets);
+
+/// The region of the last widget gets this name.
+void name_widget(WidgetMap& widgets, const std::string& name);
 
 /// Window flags for fixed windows: no frame, no moving, no saved state.
 [[nodiscard]] int fixed_window();

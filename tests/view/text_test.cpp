@@ -49,6 +49,16 @@ TEST(EditToml, replaces_adds_and_takes_out_and_leaves_the_rest) {
         "yaw_deg = 7\n[camera]   # eye\ntarget_mm = [4, 5, 6]  # end\n\n[skin]\nprofile = \"x\"\n");
 }
 
+TEST(EditToml, finds_the_section_of_a_material_however_its_name_is_quoted) {
+    const std::string text =
+        "[material.'M Lips']\nclass = \"skin\"\n[material.\"a.]b\" ] # x\n[material.eye]\n";
+    EXPECT_EQ(edit_toml(text, {{"material.\"M Lips\"", "class", "\"mouth\""},
+                               {"material.\"a.]b\"", "visible", "false"},
+                               {"material.eye.maps", "albedo", "\"e.png\""}}),
+              "[material.'M Lips']\nclass = \"mouth\"\n[material.\"a.]b\" ] # x\nvisible = false\n\n"
+              "[material.eye]\n\n[material.eye.maps]\nalbedo = \"e.png\"\n");
+}
+
 TEST(EditToml, a_second_edit_of_the_same_changes_nothing_more) {
     const std::vector<TomlEdit> edits = {{"camera", "yaw_deg", "3"}, {"", "technique", "\"wrap\""}};
     const std::string once = edit_toml("[[mesh]]\nfile = \"a.obj\"\n", edits);
@@ -73,6 +83,27 @@ TEST(SceneText, a_saved_built_in_reads_back_as_what_was_seen) {
     EXPECT_EQ(again->exposure_ev, 0.25f);
     EXPECT_EQ(again->skin.profile, "jensen_skin2");
     EXPECT_EQ(again->technique, built_in_catalog().techniques.front().id);
+}
+
+TEST(SceneText, a_saved_scene_keeps_the_tone_and_pigments_of_its_file_once) {
+    const TemporaryDirectory directory;
+    const auto file = directory.path / "scene.toml";
+    for (const char* stated : {"tone = 5", "melanin = 0.2"}) {
+        ASSERT_TRUE(write_text_file(file, "[[mesh]]\nfile = \"builtin:spheres\"\n[skin]\n" +
+                                              std::string(stated) + "\nalbedo_tint = [0.5, 1, 1]\n"));
+        Result<Scene> loaded = load_built_in_scene(file.string());
+        ASSERT_TRUE(loaded) << loaded.error().message;
+        Viewed viewed;
+        viewed.model.scene = &*loaded;
+        viewed.model.scene_path = file.string();
+        const Result<std::string> text = scene_text(viewed.model, directory.path);
+        ASSERT_TRUE(text) << text.error().message;
+        EXPECT_THAT(*text, HasSubstr(std::string(stated) + "\nalbedo_tint = [0.5, 1, 1]\n"));
+        ASSERT_TRUE(write_text_file(file, *text));
+        const Result<Scene> again = load_built_in_scene(file.string());
+        ASSERT_TRUE(again) << again.error().message;
+        EXPECT_EQ(again->skin.albedo_tint_linear, loaded->skin.albedo_tint_linear) << *text;
+    }
 }
 
 TEST(SceneText, comments_are_kept_and_paths_are_valid_from_another_folder) {

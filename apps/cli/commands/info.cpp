@@ -33,27 +33,10 @@ struct NamedMesh {
     Flesh flesh = {};
 };
 
-struct MapRow {
-    const char* kind;
-    const ImageSource* image;
-
-    [[nodiscard]] const char* state() const {
-        if (!image->encoded.empty()) return "embedded";
-        std::error_code ec;
-        return std::filesystem::is_regular_file(image->name, ec) ? "found" : "missing";
-    }
-};
-
-std::vector<MapRow> maps_of(const Material& m) {
-    std::vector<MapRow> rows = {
-        {"base color", &m.base_color_map}, {"emission", &m.emission_map},
-        {"normal", &m.normal_map},         {"metallic roughness", &m.metallic_roughness_map},
-        {"roughness", &m.roughness_map},   {"specular", &m.specular_map},
-        {"occlusion", &m.occlusion_map},   {"displacement", &m.displacement_map},
-        {"thickness", &m.thickness_map},   {"scatter", &m.scatter_map},
-        {"opacity", &m.opacity_map},       {"transmission", &m.transmission_map}};
-    std::erase_if(rows, [](const MapRow& row) { return !row.image->present(); });
-    return rows;
+const char* state_of(const ImageSource& image) {
+    if (!image.encoded.empty()) return "embedded";
+    std::error_code ec;
+    return std::filesystem::is_regular_file(image.name, ec) ? "found" : "missing";
 }
 
 struct Box {
@@ -108,8 +91,9 @@ Json material_json(const SceneObject& object, uint32_t i) {
     if (!mesh.materials[i].profile.empty()) row["profile"] = mesh.materials[i].profile;
     if (mesh.materials[i].scatter != 1) row["scatter"] = mesh.materials[i].scatter;
     row["maps"] = Json::array();
-    for (const MapRow& map : maps_of(mesh.materials[i]))
-        row["maps"].push_back({{"kind", map.kind}, {"name", map.image->name}, {"state", map.state()}});
+    for (const NamedMap& map : maps_of(mesh.materials[i]))
+        row["maps"].push_back(
+            {{"kind", map.kind}, {"name", map.image->name}, {"state", state_of(*map.image)}});
     if (!mesh.uvs.empty() && row["triangles"] != 0) row["uv"] = uv_json(analyze_uvs(mesh, i));
     return row;
 }
@@ -203,8 +187,8 @@ void print_material(const SceneObject& object, uint32_t i) {
     if (material.scatter != 1)
         fmt::print("    scatter       {} of its diffuse light\n", to_text(material.scatter));
     if (!object.mesh.uvs.empty() && triangles > 0) print_uv(analyze_uvs(object.mesh, i));
-    for (const MapRow& map : maps_of(material))
-        fmt::print("    {:<13} {} ({})\n", map.kind, printable_line(map.image->name), map.state());
+    for (const NamedMap& map : maps_of(material))
+        fmt::print("    {:<13} {} ({})\n", map.kind, printable_line(map.image->name), state_of(*map.image));
 }
 
 void print_text(const std::string& path, const NamedMesh& named) {
