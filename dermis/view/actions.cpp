@@ -7,6 +7,7 @@ namespace {
 
 constexpr Modifiers kCtrl{.ctrl = true};
 constexpr Modifiers kShift{.shift = true};
+constexpr Modifiers kCtrlShift{.shift = true, .ctrl = true};
 
 constexpr Shortcut kShortcuts[] = {
     {{kKeyF1, {}}, Action::help, "this page"},
@@ -24,6 +25,8 @@ constexpr Shortcut kShortcuts[] = {
     {{{'X'}, {}}, Action::swap_sides, "exchange left and right side"},
     {{{'G'}, {}}, Action::reference, "compare with the reference of this view; again: stop"},
     {{kKeySpace, {}}, Action::play, "play or pause the clip of a mesh that moves"},
+    {{{'Z'}, kCtrl}, Action::undo, "undo the last change of a panel"},
+    {{{'Z'}, kCtrlShift}, Action::redo, "redo what was undone"},
     {{{'C'}, kCtrl}, Action::copy_view, "copy this view as a command line"},
     {{{'V'}, kCtrl}, Action::paste_view, "paste a view"},
     {{{'S'}, kCtrl}, Action::save_scene, "save the scene with what was changed"},

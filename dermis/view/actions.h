@@ -26,6 +26,8 @@ enum class Action {
     swap_sides,
     reference,
     play,
+    undo,
+    redo,
     copy_view,
     paste_view,
     save_scene,

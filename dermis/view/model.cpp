@@ -28,6 +28,21 @@ void Notices::expire(double now_s) {
     std::erase_if(all_, [&](const Notice& notice) { return !notice.is_error && notice.until_s < now_s; });
 }
 
+void Warnings::add(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings)
+        if (!std::ranges::count(unread_, warning) && !std::ranges::count(read_, warning))
+            unread_.push_back(warning);
+}
+
+void Warnings::read(size_t index) {
+    read_.push_back(unread_.at(index));
+    unread_.erase(unread_.begin() + std::ptrdiff_t(index));
+}
+
+void Warnings::read_all() {
+    while (!unread_.empty()) read(0);
+}
+
 std::string picture_key(Model& model, size_t choice) {
     const Scene& scene = *model.scene;
     TechniqueChoice& chosen = model.choices[choice];

@@ -49,6 +49,23 @@ class Notices {
     std::vector<Notice> all_;
 };
 
+/// Warnings about the scene and its picture, each once, until the user has read it.
+class Warnings {
+  public:
+    void add(const std::vector<std::string>& warnings);
+    /// Removes one of unread(); it does not come back before forget().
+    void read(size_t index);
+    void read_all();
+    /// Forgets those that are not read: the scene is read again.
+    void begin_again() { unread_.clear(); }
+    /// Forgets all: of another scene.
+    void forget() { unread_.clear(), read_.clear(); }
+    [[nodiscard]] const std::vector<std::string>& unread() const { return unread_; }
+
+  private:
+    std::vector<std::string> unread_, read_;
+};
+
 struct Model {
     std::string scene_path;  ///< as opened: a file, a name, builtin:NAME
     std::vector<SceneWord>
@@ -68,6 +85,7 @@ struct Model {
     bool show_panels = true, show_help = false, vsync = true;
     float user_scale = 1;  ///< of the interface, on top of the display's
     Notices notices;
+    Warnings warnings;
 
     [[nodiscard]] bool compares() const { return compare != Compare::off; }
 };

@@ -126,6 +126,10 @@ Result<void> Opener::show(Start start, bool first) {
     if (!first) take_technique(file);
     shown.put(std::move(stage), std::move(file), pose, model);
     model.scene_path = loader_.path();
+    if (loader_.is_reload())
+        model.warnings.begin_again();
+    else
+        model.warnings.forget();
     take_words(std::move(start.loading_words));
     const Skin& skin = model.scene->skin;
     const bool same_tone = skin.profile == tone_profile(model.tone);
@@ -136,8 +140,6 @@ Result<void> Opener::show(Start start, bool first) {
     if (loader_.is_reload() && model.tone > 0) shown.choose_tone(model.tone, model);  // another mean
     loader_.follow(*model.scene);
     model.notices.clear("open");
-    for (const std::string& warning : model.scene->warnings)
-        model.notices.inform("warning", warning, to_.clock.now_s());
     return {};
 }
 

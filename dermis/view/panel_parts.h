@@ -17,6 +17,10 @@ void show_light(Scene& scene, WidgetMap& widgets);
 void show_skin(Model& model, PanelRequests& requests, WidgetMap& widgets);
 void show_camera(Scene& scene, PanelRequests& requests, WidgetMap& widgets);
 
+// warning_panel.cpp
+/// What is not read yet.
+void show_warnings(Warnings& warnings, WidgetMap& widgets);
+
 // head_panel.cpp; wants a scene
 /// Unit and materials of the scene's mesh files.
 void show_head(Model& model, WidgetMap& widgets);

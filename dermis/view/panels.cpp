@@ -39,6 +39,8 @@ void show_column(Model& model, const PanelFacts& facts, PanelRequests& requests,
         if (!model.scene->credit.empty()) ImGui::TextDisabled("%s", model.scene->credit.c_str());
         ImGui::PopTextWrapPos();
     }
+    if (!model.warnings.unread().empty() && section("Warnings", true, widgets))
+        show_warnings(model.warnings, widgets);
     if (model.scene && !materials_of(*model.scene).empty() &&
         section("Head", has_guessed_classes(*model.scene), widgets))
         show_head(model, widgets);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "dermis/view/clock.h"
+#include "dermis/view/history.h"
 #include "dermis/view/input.h"
 #include "dermis/view/interface.h"
 #include "dermis/view/motion.h"
@@ -37,6 +38,7 @@ struct Parts {
     Pictures pictures;
     Reference reference;  ///< the reference job
     Opener opener;
+    History history;
     RestingPose resting_pose;
     Input input;
     ScriptPlayer player;

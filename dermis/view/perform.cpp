@@ -104,6 +104,14 @@ void toggle_play(Parts& p) {
         p.model.notices.inform("motion", played.error().message, p.clock.now_s());
 }
 
+void go_in_history(Parts& p, Result<bool> (History::*go)(Model&, ShownScene&), const char* nothing) {
+    const Result<bool> gone = (p.history.*go)(p.model, p.pictures.scene());
+    if (!gone)
+        p.model.notices.report_error("history", gone.error().message);
+    else if (!*gone)
+        p.model.notices.inform("history", nothing, p.clock.now_s());
+}
+
 // The reference is of a moment.
 void ask_reference(Parts& p) {
     p.model.playing = false;
@@ -142,6 +150,8 @@ constexpr Performer kPerformers[] = {
     {Action::swap_sides, swap_sides},
     {Action::reference, ask_reference},
     {Action::play, toggle_play},
+    {Action::undo, [](Parts& p) { go_in_history(p, &History::undo, "nothing to undo"); }},
+    {Action::redo, [](Parts& p) { go_in_history(p, &History::redo, "nothing to redo"); }},
     {Action::copy_view, copy_view},
     {Action::paste_view, paste_view},
     {Action::save_scene, save_shown_scene},

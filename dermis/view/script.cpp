@@ -33,6 +33,8 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
                                 {"key", CommandKind::key, "k", "key ctrl+C"},
                                 {"slide", CommandKind::slide, "wn", "slide wrap 0.7"},
                                 {"click", CommandKind::click, "w", "click head.M_Lips.visible"},
+                                {"undo", CommandKind::undo, "", "undo"},
+                                {"redo", CommandKind::redo, "", "redo"},
                                 {"drop", CommandKind::drop, "w", "drop head.glb"},
                                 {"copy", CommandKind::copy, "ww", "copy broken.frag shaders/a/b.frag"},
                                 {"save", CommandKind::save, "w", "save scene.toml"},

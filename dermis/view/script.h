@@ -31,6 +31,8 @@ enum class CommandKind {
     key,
     slide,
     click,
+    undo,
+    redo,
     drop,
     copy,
     save,

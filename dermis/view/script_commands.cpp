@@ -63,6 +63,7 @@ std::string state_text(Parts& p) {
     text += "device_objects " + std::to_string(p.device.created_objects()) + "\n";
     text += "peak_memory_mb " + std::to_string(peak_memory_mb()) + "\n";
     text += "clipboard " + p.window.clipboard() + "\n";
+    for (const std::string& warning : model.warnings.unread()) text += "warning " + warning + "\n";
     for (const Notice& notice : model.notices.all()) text += "notice " + notice.text + "\n";
     return text;
 }
@@ -198,6 +199,8 @@ constexpr Runner kRunners[] = {
     {CommandKind::morph, use_morph},
     {CommandKind::slide, slide_widget},
     {CommandKind::click, click_widget},
+    {CommandKind::undo, always<[](Parts& p, Command) { perform(p, Action::undo); }>},
+    {CommandKind::redo, always<[](Parts& p, Command) { perform(p, Action::redo); }>},
     {CommandKind::copy, copy_file},
     {CommandKind::save, [](Parts& p, Command c) { return save_scene(p, c.words[0]); }},
     {CommandKind::clipboard, always<[](Parts& p, Command c) { p.window.set_clipboard(c.words[0]); }>},

@@ -80,6 +80,7 @@ void take_input(Parts& p, const std::vector<Event>& events) {
 Result<void> Session::frame() {
     Parts& p = *parts_;
     const std::vector<Event> events = gather_events(p);
+    if (!p.interface->holds_widget() && !p.input.drags()) p.history.follow(p.model);
     if (Result<void> taken = take_scene(); !taken) return taken;
     step_motion();
     if (p.opener.follow_files()) p.input.wake();
@@ -108,8 +109,13 @@ Result<void> Session::frame() {
 
 Result<void> Session::take_scene() {
     Parts& p = *parts_;
+    const std::string before = p.model.scene ? p.model.scene_path : "";
     DERMIS_TRY_ASSIGN(const bool taken, p.opener.take());
     if (!taken) return {};
+    if (p.model.scene_path == before)
+        p.history.amend(p.model);
+    else
+        p.history.forget();
     remember(state_, p.model.scene_path);
     p.model.recent = state_.recent;
     p.window.set_title(p.model.scene->name + " - Dermis");
@@ -152,6 +158,9 @@ Result<void> Session::show_pictures(const InterfaceDraws& draws) {
     Parts& p = *parts_;
     if (Result<void> made = p.reference.refresh(p.device, p.model); !made) return made;
     p.pictures.refresh(p.model, p.reference.texture(), p.picture_size(), p.clock.now_s());
+    const size_t warnings = p.model.warnings.unread().size();
+    if (p.pictures.scene().is_there()) p.pictures.scene().stage().add_warnings(p.model.warnings);
+    if (p.model.warnings.unread().size() > warnings) p.input.wake();  // the panel shows them
     const ShownPictures pictures = p.pictures.shown(p.model, p.reference.texture());
     DERMIS_TRY_ASSIGN(const bool shown, p.presenter->show(draws, pictures, p.model, p.interface->scale()));
     if (!shown || !pictures.a || report_.first_picture_s) return {};

@@ -121,6 +121,12 @@ Result<void> Stage::write(Model& model, size_t choice, PictureSize size, const s
     return write_output(*drawer, chosen.technique(), chosen.values(), draw, path, output);
 }
 
+void Stage::add_warnings(Warnings& warnings) const {
+    warnings.add(scene_->warnings);
+    for (const Side& side : sides_)
+        if (side.renderer) warnings.add(side.renderer->warnings());
+}
+
 void Stage::skin_changed() {
     sides_[0].renderer->materials_changed();
     invalidate();

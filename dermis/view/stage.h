@@ -52,6 +52,9 @@ class Stage {
     [[nodiscard]] Result<void> write(Model& model, size_t choice, PictureSize size,
                                      const std::filesystem::path& path);
 
+    /// Those of the scene and of the techniques that drew it.
+    void add_warnings(Warnings& warnings) const;
+
     /// The scene's skin or its environment were changed. An error leaves the environment as it was drawn.
     void skin_changed();
     [[nodiscard]] Result<void> environment_changed();

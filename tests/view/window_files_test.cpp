@@ -40,10 +40,10 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_other_files_make_a_n
     ASSERT_EQ(result.exit_code, 0) << result.err;
     for (const char* name : {"square.obj", "square.glb", "scene.toml"})
         EXPECT_THAT(result.out, HasSubstr("scene " + path(name) + "\n"));
-    EXPECT_THAT(result.out, HasSubstr("notice " + path("square.glb") + ": no map of colour"));
+    EXPECT_THAT(result.out, HasSubstr("warning " + path("square.glb") + ": no map of colour"));
     EXPECT_THAT(result.out, HasSubstr("notice " + path("broken.toml")));
     EXPECT_THAT(result.out, Not(HasSubstr("notice " + path("scene.toml"))));
-    EXPECT_THAT(result.out, Not(HasSubstr("notice " + path("square.obj"))));
+    EXPECT_THAT(result.out, Not(HasSubstr("warning " + path("square.obj"))));
     EXPECT_THAT(result.out, HasSubstr("broken.toml:2: mesh.file"));
     EXPECT_THAT(result.out, HasSubstr("nowhere.hdr"));
     EXPECT_THAT(last_state(result), Not(HasSubstr("notice")));  // escape closed it

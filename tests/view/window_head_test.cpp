@@ -29,6 +29,21 @@ double mean_difference(const Image& a, const Image& b) {
 
 const std::vector<std::string> kHead = {"unit_mm", "material", "tone", "profile"};
 
+// What each print said.
+std::vector<std::string> head_states(const ProgramResult& result) {
+    std::vector<std::string> states;
+    for (size_t at = result.out.find("technique "); at != std::string::npos;) {
+        const size_t next = result.out.find("\ntechnique ", at);
+        states.push_back(result.out.substr(at, next == std::string::npos ? next : next + 1 - at));
+        at = next == std::string::npos ? next : next + 1;
+    }
+    return states;
+}
+
+std::string head_line(const std::string& state, const std::string& word) {
+    return lines_of(state, {word});
+}
+
 }  // namespace
 
 class ViewHead : public ViewWindow {
@@ -65,7 +80,6 @@ TEST_F(ViewHead,
         screenshot DIR/changed.png
         save DIR/saved.toml
         print
-        wait 130
         open DIR/saved.toml
         settle
         screenshot DIR/again.png
@@ -83,7 +97,8 @@ TEST_F(ViewHead,
               "unit_mm head 9\nmaterial M Face skin profile jensen_skin2\nmaterial M_Eye teeth\n"
               "tone 5\nprofile openpbr_skin_5\n");
     EXPECT_EQ(lines_of(last, kHead), changed);
-    EXPECT_THAT(last, Not(HasSubstr("notice")));
+    EXPECT_THAT(last, Not(HasSubstr("\nwarning")));
+    EXPECT_THAT(last, Not(HasSubstr("\nnotice")));
     // A saved camera is rounded to 1e-4.
     EXPECT_LT(mean_difference(image("changed.png"), image("again.png")), 0.002);
     EXPECT_GT(mean_difference(image("changed.png"), first), 0.02);
@@ -107,6 +122,81 @@ TEST_F(ViewHead, another_unit_keeps_the_framing_and_a_change_that_cannot_be_load
     EXPECT_THAT(result.out, HasSubstr("unit_mm head 25.4\n"));
     EXPECT_THAT(result.out, HasSubstr("notice material.M Face.profile: unknown profile 'no_such_profile'"));
     EXPECT_THAT(result.out, HasSubstr("material M Face skin\n"));
+}
+
+TEST_F(ViewHead, warnings_of_loading_and_of_techniques_stay_until_they_are_read) {
+    const ProgramResult result =
+        view(head() + " --scene mesh.unit_mm=10 --size 900x700 --samples 1 -t wrap", R"(
+        settle
+        key escape
+        wait 130
+        print
+        click warning.1
+        wait 1
+        print
+        scene "material.M_Eye.visible=false"
+        technique preintegrated
+        set curvature=image
+        settle
+        print
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::vector<std::string> states = head_states(result);
+    ASSERT_EQ(states.size(), 3u);
+    EXPECT_THAT(states[0], HasSubstr("\nwarning 'head': classes found by name: eye 'M_Eye'"));
+    EXPECT_THAT(states[1], Not(HasSubstr("classes found by name")));
+    EXPECT_THAT(states[2], Not(HasSubstr("classes found by name")));  // the same text, of the second loading
+    EXPECT_THAT(states[2], HasSubstr("\nwarning material 'M Face' has no curvature map"));
+}
+
+TEST_F(ViewHead, undo_takes_back_one_change_after_the_other_and_redo_brings_them_again) {
+    const ProgramResult result =
+        view(head() + " --scene mesh.unit_mm=10 --size 900x700 --samples 1 -t wrap", R"(
+        settle
+        screenshot DIR/first.png
+        set wrap=0.125
+        tone 5
+        scene material.M_Eye.class=teeth
+        click section.Head
+        slide picture.exposure_ev 0.9
+        drag left 90 90 120 80
+        print
+        undo
+        print
+        key ctrl+Z
+        settle
+        print
+        undo
+        undo
+        undo
+        key F
+        settle
+        screenshot DIR/undone.png
+        print
+        redo
+        redo
+        key ctrl+shift+Z
+        redo
+        settle
+        print
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::vector<std::string> words = {"set", "tone", "material", "exposure_ev"};
+    const std::vector<std::string> states = head_states(result);
+    ASSERT_EQ(states.size(), 5u);
+    EXPECT_THAT(states[0], HasSubstr("material M_Eye teeth"));
+    EXPECT_THAT(states[0], Not(HasSubstr("exposure_ev 0.6\n")));
+    EXPECT_THAT(states[1], HasSubstr("exposure_ev 0.6\n"));  // the whole drag of the slider
+    EXPECT_EQ(head_line(states[1], "camera"), head_line(states[0], "camera"));
+    EXPECT_THAT(states[1], HasSubstr("material M_Eye teeth"));
+    EXPECT_THAT(states[2], HasSubstr("material M_Eye eye"));
+    EXPECT_THAT(states[2], HasSubstr("tone 5\n"));
+    EXPECT_THAT(states[3], HasSubstr("tone 0\n"));
+    EXPECT_THAT(states[3], HasSubstr("set wrap=0.25\n"));
+    EXPECT_THAT(states[3], HasSubstr("notice nothing to undo\n"));
+    EXPECT_EQ(lines_of(states[4], words), lines_of(states[0], words));
 }
 
 }  // namespace dermis

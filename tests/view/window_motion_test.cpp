@@ -115,6 +115,7 @@ TEST_F(ViewMotion, the_saved_scene_has_its_pose_and_its_unknown_names_are_one_li
         clip nod
         time 0.75
         morph lift 0.25
+        click section.Warnings
         click section.Head
         slide motion.speed 1
         save DIR/saved.toml
