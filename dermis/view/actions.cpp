@@ -25,6 +25,7 @@ constexpr Shortcut kShortcuts[] = {
     {{{'X'}, {}}, Action::swap_sides, "exchange left and right side"},
     {{{'G'}, {}}, Action::reference, "compare with the reference of this view; again: stop"},
     {{kKeySpace, {}}, Action::play, "play or pause the clip of a mesh that moves"},
+    {{{'O'}, kCtrl}, Action::open, "open a scene, mesh or picture by its path"},
     {{{'Z'}, kCtrl}, Action::undo, "undo the last change of a panel"},
     {{{'Z'}, kCtrlShift}, Action::redo, "redo what was undone"},
     {{{'C'}, kCtrl}, Action::copy_view, "copy this view as a command line"},

@@ -26,6 +26,7 @@ enum class Action {
     swap_sides,
     reference,
     play,
+    open,
     undo,
     redo,
     copy_view,

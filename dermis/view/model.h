@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,13 @@ class Warnings {
     std::vector<std::string> unread_, read_;
 };
 
+/// The field in which a path is typed.
+struct OpenField {
+    std::string text;
+    bool is_fresh = true;      ///< takes the keyboard with the next frame
+    bool is_untouched = true;  ///< its cursor is not at the end yet
+};
+
 struct Model {
     std::string scene_path;  ///< as opened: a file, a name, builtin:NAME
     std::vector<SceneWord>
@@ -82,6 +90,7 @@ struct Model {
     std::string reference_path;  ///< a picture that is shown on the right side instead of a technique
     bool reference_is_of_another_view = false;
     std::vector<std::string> recent;
+    std::optional<OpenField> open_field;
     bool show_panels = true, show_help = false, vsync = true;
     float user_scale = 1;  ///< of the interface, on top of the display's
     Notices notices;

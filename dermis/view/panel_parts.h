@@ -32,8 +32,9 @@ void show_motion(Model& model, PanelRequests& requests, WidgetMap& widgets);
 // time_panel.cpp
 void show_times(const PanelFacts& facts);
 
-// overlays.cpp; over the picture
+// overlays.cpp, open_panel.cpp; over the picture
 void show_side_names(const Model& model, const PanelFacts& facts);
+void show_open_field(Model& model, const PanelFacts& facts, PanelRequests& requests);
 void show_notices(const Model& model, const PanelFacts& facts);
 void show_help(const PanelFacts& facts);
 

@@ -15,11 +15,16 @@ namespace {
 
 constexpr float kColumnWidth = 330, kStatusHeight = 26;
 
-// The list of recent files, which opens over its button.
-void show_recent(const Model& model, PanelRequests& requests) {
-    if (model.recent.size() < 2) return;
-    const float width = ImGui::CalcTextSize("recent").x + 2 * ImGui::GetStyle().FramePadding.x;
+// Buttons beside the scene's name: open, and a list of recent scenes.
+void show_files(const Model& model, PanelRequests& requests) {
+    const float padding = 2 * ImGui::GetStyle().FramePadding.x;
+    const bool has_recent = model.recent.size() > 1;
+    const float recent_width = ImGui::CalcTextSize("recent").x + padding + ImGui::GetStyle().ItemSpacing.x;
+    const float width = ImGui::CalcTextSize("open").x + padding + (has_recent ? recent_width : 0);
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+    if (ImGui::SmallButton("open")) requests.actions.push_back(Action::open);
+    if (!has_recent) return;
+    ImGui::SameLine();
     if (ImGui::SmallButton("recent")) ImGui::OpenPopup("recent scenes");
     if (!ImGui::BeginPopup("recent scenes")) return;
     for (const std::string& path : model.recent)
@@ -34,7 +39,7 @@ void show_column(Model& model, const PanelFacts& facts, PanelRequests& requests,
     ImGui::Begin("settings", nullptr, fixed_window() & ~ImGuiWindowFlags_NoScrollbar);
     if (model.scene) {
         ImGui::TextUnformatted(model.scene->name.c_str());
-        show_recent(model, requests);
+        show_files(model, requests);
         ImGui::PushTextWrapPos(0);
         if (!model.scene->credit.empty()) ImGui::TextDisabled("%s", model.scene->credit.c_str());
         ImGui::PopTextWrapPos();
@@ -92,6 +97,7 @@ void show_panels(Model& model, const PanelFacts& facts, PanelRequests& requests,
     }
     show_side_names(model, facts);
     show_notices(model, facts);
+    show_open_field(model, facts, requests);
     if (model.show_help) show_help(facts);
 }
 

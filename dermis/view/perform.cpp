@@ -104,6 +104,22 @@ void toggle_play(Parts& p) {
         p.model.notices.inform("motion", played.error().message, p.clock.now_s());
 }
 
+// Begins in the folder of the shown scene.
+void open_by_path(Parts& p) {
+    if (p.model.open_field) return p.model.open_field.reset();
+    std::error_code ec;
+    const fs::path shown = p.model.scene_path;
+    const std::string folder =
+        fs::is_regular_file(shown, ec) ? fs::absolute(shown).parent_path().string() : "";
+    p.model.open_field = OpenField{.text = folder.empty() ? "" : folder + "/"};
+}
+
+void dismiss(Parts& p) {
+    p.model.show_help = false;
+    p.model.notices.dismiss();
+    p.model.open_field.reset();
+}
+
 void go_in_history(Parts& p, Result<bool> (History::*go)(Model&, ShownScene&), const char* nothing) {
     const Result<bool> gone = (p.history.*go)(p.model, p.pictures.scene());
     if (!gone)
@@ -150,6 +166,7 @@ constexpr Performer kPerformers[] = {
     {Action::swap_sides, swap_sides},
     {Action::reference, ask_reference},
     {Action::play, toggle_play},
+    {Action::open, open_by_path},
     {Action::undo, [](Parts& p) { go_in_history(p, &History::undo, "nothing to undo"); }},
     {Action::redo, [](Parts& p) { go_in_history(p, &History::redo, "nothing to redo"); }},
     {Action::copy_view, copy_view},
@@ -157,7 +174,7 @@ constexpr Performer kPerformers[] = {
     {Action::save_scene, save_shown_scene},
     {Action::screenshot, take_screenshot},
     {Action::vsync, toggle_vsync},
-    {Action::dismiss, [](Parts& p) { p.model.show_help = false, p.model.notices.dismiss(); }},
+    {Action::dismiss, dismiss},
     {Action::larger_interface, [](Parts& p) { scale_interface(p, 1.125f); }},
     {Action::smaller_interface, [](Parts& p) { scale_interface(p, 1 / 1.125f); }},
     {Action::quit, [](Parts& p) { p.quit = true; }},

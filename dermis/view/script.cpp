@@ -31,6 +31,7 @@ constexpr Grammar kGrammar[] = {{"open", CommandKind::open, "w", "open head.obj"
                                 {"drag", CommandKind::drag, "bnnnnm", "drag left 300 300 420 280 ctrl"},
                                 {"scroll", CommandKind::scroll, "nnn", "scroll 300 300 -2"},
                                 {"key", CommandKind::key, "k", "key ctrl+C"},
+                                {"type", CommandKind::type, "w", "type head.glb"},
                                 {"slide", CommandKind::slide, "wn", "slide wrap 0.7"},
                                 {"click", CommandKind::click, "w", "click head.M_Lips.visible"},
                                 {"undo", CommandKind::undo, "", "undo"},
@@ -175,6 +176,12 @@ std::deque<std::vector<Event>> input_frames(const ScriptCommand& command) {
             release.pressed = false;
             release.modifiers = {};
             return {{press}, {release}};
+        }
+        case CommandKind::type: {
+            std::vector<Event> typed;
+            for (const char c : command.words[0])
+                typed.push_back({.kind = EventKind::text, .character = static_cast<unsigned char>(c)});
+            return {typed, {}};
         }
         case CommandKind::drop:
             return {{{.kind = EventKind::drop, .paths = {command.words[0]}}}};

@@ -29,6 +29,7 @@ enum class CommandKind {
     drag,
     scroll,
     key,
+    type,
     slide,
     click,
     undo,

@@ -184,7 +184,7 @@ struct Runner {
     Result<void> (*run)(Parts& p, Command command);
 };
 
-// Commands that are not listed are input: drag, scroll, key, drop, wait.
+// Commands that are not listed are input: drag, scroll, key, type, drop, wait.
 constexpr Runner kRunners[] = {
     {CommandKind::open, open_scene},
     {CommandKind::technique, use_technique},

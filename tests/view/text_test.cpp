@@ -5,6 +5,7 @@
 
 #include "dermis/base/file.h"
 #include "dermis/scene/scene_words.h"
+#include "dermis/view/path_completion.h"
 #include "dermis/view/scene_edit.h"
 #include "dermis/view/state_file.h"
 #include "dermis/view/view_line.h"
@@ -120,6 +121,22 @@ TEST(SceneText, comments_are_kept_and_paths_are_valid_from_another_folder) {
     const Result<std::string> beside = scene_text(viewed.model, directory.path);
     ASSERT_TRUE(beside);
     EXPECT_THAT(*beside, HasSubstr("file = \"quad.obj\" # flat"));
+}
+
+TEST(CompletePath, lists_folders_and_the_files_that_the_window_opens) {
+    const TemporaryDirectory directory;
+    const std::string folder = directory.path.string() + "/";
+    std::filesystem::create_directory(directory.path / "heads");
+    for (const char* name : {"head.glb", "head.OBJ", "headless.txt", "other.toml", ".head.glb"})
+        ASSERT_TRUE(write_text_file(directory.path / name, ""));
+    EXPECT_THAT(complete_path(folder + "he"),
+                ElementsAre(folder + "heads/", folder + "head.OBJ", folder + "head.glb"));
+    EXPECT_THAT(complete_path(folder), ElementsAre(folder + "heads/", folder + "head.OBJ",
+                                                   folder + "head.glb", folder + "other.toml"));
+    EXPECT_THAT(complete_path(folder + "."), ElementsAre(folder + ".head.glb"));
+    EXPECT_TRUE(complete_path(folder + "nowhere/").empty());
+    EXPECT_EQ(common_start(complete_path(folder + "he")), folder + "head");
+    EXPECT_EQ(common_start({}), "");
 }
 
 const DrawSettings kSize = {.width = 640, .height = 480};

@@ -50,6 +50,33 @@ TEST_F(ViewWindow, dropped_scenes_and_meshes_are_opened_and_other_files_make_a_n
     EXPECT_THAT(last_state(result), HasSubstr("environment studio\n"));
 }
 
+TEST_F(ViewWindow, a_path_is_typed_completed_by_tab_and_opened_by_enter) {
+    (void)square();
+    ASSERT_TRUE(write_text_file(path("scene.toml"), "[[mesh]]\nfile = \"square.obj\"\n"));
+    const ProgramResult result = view(kSmall, R"(
+        settle
+        key ctrl+O
+        wait 2
+        type DIR/sq
+        key tab
+        wait 1
+        capture DIR/field.png
+        key enter
+        settle
+        print
+        key ctrl+O
+        wait 2
+        type scene.toml
+        key escape
+        settle
+        print
+        quit
+    )");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("scene " + path("square.obj") + "\n"));
+    EXPECT_EQ(result.out.find("scene " + path("scene.toml")), std::string::npos);
+}
+
 TEST_F(ViewWindow, a_script_draws_over_no_map_of_the_scene) {
     const std::string mesh = square();
     const Result<std::string> before = read_text_file(path("white.png"));
