@@ -28,7 +28,7 @@ const Catalog& built_in_catalog() {
     return catalog;
 }
 
-Result<std::vector<ShadowPlace>> package_shadow_places(const Profile& profile) {
+Result<ShadowPlaces> package_shadow_places(const Profile& profile) {
     DERMIS_TRY_ASSIGN(const Technique* technique,
                       find_technique(built_in_catalog().techniques, "preintegrated"));
     const SkinContext skin = {.profile = profile, .gaussians = to_gaussian_sum(profile).sum};
@@ -36,12 +36,12 @@ Result<std::vector<ShadowPlace>> package_shadow_places(const Profile& profile) {
                       technique->tables(ParameterValues(technique->parameters), skin));
     const auto rows = std::ranges::find(tables, "skin_rows", &TableImage::name);
     if (rows == tables.end()) return Error{"the technique makes no table skin_rows"};
-    std::vector<ShadowPlace> places;
+    ShadowPlaces places = {.all = {}, .first = size_t(kShadowFirstTaps)};
     for (int i = 0; i < kShadowGatherTaps; ++i) {
         const Vec4 weight = texel_of(*rows, kRowTapWeights, i), place = texel_of(*rows, kRowTapPlaces, i);
-        places.push_back({.offset_mm = {place.x, place.y, place.z},
-                          .weight = {weight.x, weight.y, weight.z},
-                          .penumbra = weight.w});
+        places.all.push_back({.offset_mm = {place.x, place.y, place.z},
+                              .weight = {weight.x, weight.y, weight.z},
+                              .penumbra = weight.w});
     }
     return places;
 }

@@ -19,7 +19,7 @@ namespace dermis {
 [[nodiscard]] std::span<const PackageTemplate> built_in_package_templates();
 
 /// The places at which packages look up the shadows of a light for this skin: PackageInput::shadow_places.
-[[nodiscard]] Result<std::vector<ShadowPlace>> package_shadow_places(const Profile& profile);
+[[nodiscard]] Result<ShadowPlaces> package_shadow_places(const Profile& profile);
 
 /// The gain that packages of this skin have, PackageInput::gain. `settings`: of the technique preintegrated;
 /// none with gain=none. Of walks, which are cached: about 3 s of processor time.

@@ -133,7 +133,8 @@ Words common_words(const PackageInput& input) {
     const Profile& profile = input.profile;
     const std::string tool = tool_version();
     return {{"profile", printable_line(profile.name)},
-            {"shadow_places", shadow_places_text(input.shadow_places)},
+            {"shadow_places", shadow_places_text(input.shadow_places.all)},
+            {"first_shadow_places", std::to_string(input.shadow_places.first)},
             {"shadow_taps", std::to_string(kShadowTaps)},
             {"shadow_concavity", to_text(kShadowConcavity)},
             {"shadow_facet_lift", to_text(kShadowFacetLift)},

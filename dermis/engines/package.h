@@ -40,11 +40,16 @@ struct ShadowPlace {
     float penumbra = 1;  ///< weight in the penumbra alone
 };
 
+struct ShadowPlaces {
+    std::vector<ShadowPlace> all;
+    size_t first = 0;  ///< where so many agree with the filtered shadow, the others are not read
+};
+
 struct PackageInput {
     Profile profile;
     std::span<const shading::Source> functions;  ///< shaders/include/skin
     std::span<const PackageTemplate> templates;
-    std::span<const ShadowPlace> shadow_places = {};
+    ShadowPlaces shadow_places = {};
     GainForm gain = {};  ///< of the skin; as it is: no gain
     /// A head with its maps (engines/head.h). With it the package has the files of its template folder head/.
     std::span<const PackageFile> head = {};

@@ -5,7 +5,7 @@
 // Hanrahan 2001). The even ones are in (E(n) + E(-n)) / 2, the odd one is (E(n) - E(-n)) / 2; skin multiplies those of order 1
 // and 2 by factors, which depend on its curvature or its baked normals.
 
-import { diskPlaces, shadowPlaces } from "./SkinShadowPlaces.js";
+import { diskPlaces, firstPlaces, shadowPlaces } from "./SkinShadowPlaces.js";
 
 // Attributes of a head of `dermis export`: the place on the skin's atlas; three numbers of the curvature tensor and the scattered
 // occlusion of red; that of green and blue, and the occlusion as it is.
@@ -168,8 +168,9 @@ ${l.method("vec3", "skinShadow", ["mat4", "toMap"], ["vec2", "depthValues"], ...
     ${l.local("vec3", "offset")} = skin_disk_offset_mm(${l.toFloat("i")}, ${diskPlaces}.0, normalWorld, toLightWorld,
         ${l.own("skinShadowSettings")}.x, texelMm);
     ${l.local("vec4", "place")} = here + skinStep(toMap, offset);
-    skinVisible += computeShadowWithPCF1(place, skinDepth(place, depthValues), ${l.shadowMap("map")}, info.x, 0.0) / ${diskPlaces}.0;
+    skinVisible += computeShadowWithPCF1(place, skinDepth(place, depthValues), ${l.shadowMap("map")}, info.x, 0.0);
   }
+  skinVisible /= ${diskPlaces}.0;
 #ifndef SKIN_SCATTERING
   return vec3(skinVisible);
 #else
@@ -189,6 +190,7 @@ ${l.method("vec3", "skinShadow", ["mat4", "toMap"], ["vec2", "depthValues"], ...
   ${l.local("vec3", "whole")} = vec3(0.0);
   ${l.local("float", "penumbra")} = 0.0;
   ${l.count("i", shadowPlaces.length)} {
+    if (i == ${firstPlaces} && lit.r == skinVisible * whole.r) { return vec3(skinVisible); }
     ${l.local("vec4", "around")} = ${l.own("skinPlaces")}[i];
     ${l.local("vec3", "weight")} = ${l.own("skinWeights")}[i].rgb;
     ${l.local("float", "faces")} = skin_gather_cosine(around.xy, bent, cosine, sine);

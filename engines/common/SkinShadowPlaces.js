@@ -5,5 +5,8 @@ export const shadowPlaces = [
   @shadow_places@
 ];
 
+// Where so many of them agree with the filtered shadow, the others are not read.
+export const firstPlaces = @first_shadow_places@;
+
 // Places on the disk that a shadow's edge is filtered with.
 export const diskPlaces = @shadow_taps@;

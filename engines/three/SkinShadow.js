@@ -2,10 +2,10 @@
 
 import { Node, Vector3, Vector4 } from "three/webgpu";
 import {
-  BasicShadowFilter, Fn, Loop, cross, dot, float, length, lightShadowMatrix, materialReference, modelWorldMatrix, positionWorld, reference, select,
+  BasicShadowFilter, Break, Fn, If, Loop, bool, cross, dot, float, length, lightShadowMatrix, materialReference, modelWorldMatrix, positionWorld, reference, select,
   uniformArray, vec3, vec4,
 } from "three/tsl";
-import { diskPlaces, shadowPlaces } from "./SkinShadowPlaces.js";
+import { diskPlaces, firstPlaces, shadowPlaces } from "./SkinShadowPlaces.js";
 import { diskOffsetMm, gatherBends, gatherCosine, gatherLiftMm, gatherRiseMm, gatherTangent, gatheredLight } from "./SkinFunction.js";
 
 const offsets = shadowPlaces.map(([x, y, lift]) => new Vector3(x, y, lift));
@@ -66,8 +66,12 @@ class GatheredShadowNode extends Node {
       const cosine = dot(normal, toLight).toVar(), sine = length(toLight.sub(normal.mul(cosine))).toVar();
       const xWorld = inWorld(x).toVar(), yWorld = inWorld(y).toVar(), nWorld = inWorld(normal).toVar();
       const origin = positionWorld.add(nWorld.mul(gatherLiftMm(texelMm).mul(unitsPerMm))).toVar();
-      const lit = vec3(0).toVar(), all = vec3(0).toVar(), penumbra = float(0).toVar();
+      const lit = vec3(0).toVar(), all = vec3(0).toVar(), penumbra = float(0).toVar(), settled = bool(false).toVar();
       Loop(shadowPlaces.length, ({ i }) => {
+        If(i.equal(firstPlaces).and(lit.x.equal(visible.mul(all.x))), () => {
+          settled.assign(true);
+          Break();
+        });
         const place = places.element(i).toVar(), amount = amounts.element(i).toVar();
         const faces = gatherCosine(place.xy, bends, cosine, sine).toVar();
         const rise = gatherRiseMm(place.xy, place.z, bends);
@@ -77,7 +81,7 @@ class GatheredShadowNode extends Node {
         lit.addAssign(amount.xyz.mul(faces.mul(there)));
         penumbra.addAssign(amount.w.mul(there));
       });
-      return gatheredLight(visible, lit, all, penumbra, float(shadowPlaces.length));
+      return settled.select(vec3(visible), gatheredLight(visible, lit, all, penumbra, float(shadowPlaces.length)));
     })();
   }
 }

@@ -92,7 +92,7 @@ Result<int> export_package(const ExportOptions& options) {
         print_warnings(head.head.warnings);
     }
     DERMIS_TRY_ASSIGN(const Profile profile, find_profile(head.profile));
-    DERMIS_TRY_ASSIGN(const std::vector<ShadowPlace> places, package_shadow_places(profile));
+    DERMIS_TRY_ASSIGN(const ShadowPlaces places, package_shadow_places(profile));
     DERMIS_TRY_ASSIGN(const GainForm gain, package_gain(profile, head.settings));
     head.inputs.emplace_back(options.profile);
     return write_package(options,
