@@ -28,7 +28,7 @@ const kChoices = {
   thicknessTexture: null,
   bakedNormals: null,            // { red, green, spread }: textures of a head, linear, over the skin's atlas
   specularTexture: null,         // factor on f0, alpha
-  penumbraMm: 0,                 // width of a shadow's edge, with scattering around it, 88 reads; 0: Babylon's own filter. Needs PCF
+  penumbraMm: 0,                 // width of a shadow's edge, with scattering around it, 40 to 88 reads; 0: Babylon's own filter. Needs PCF
   scattering: true,              // false: Lambert's skin, for comparison
   gain: true,                    // false: the profile alone; curved skin returns no more than flat skin
   twoLobes: true,                // false: one lobe, GGX

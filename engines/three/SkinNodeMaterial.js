@@ -93,7 +93,7 @@ export class SkinNodeMaterial extends MeshStandardNodeMaterial {
     this.table = null;               // of loadSkinTable()
     this.closedForm = false;         // true: no table is read, about 90 multiply-adds a light instead
     this.bakedNormals = null;        // { red, green, spread }: textures of a head, over its second texture coordinates
-    this.scatteredShadow = true;     // 64 reads of a shadow map instead of a hard edge
+    this.scatteredShadow = true;     // 16 reads of a shadow map, 64 at an edge, instead of a hard edge
     this.penumbraMm = 0;             // width of a shadow's edge: 24 reads of the map more; 0: the renderer's own filter
     this.scattering = true;          // false: Lambert's skin, for comparison
     this.gain = true;                // false: the profile alone; curved skin returns no more than flat skin
