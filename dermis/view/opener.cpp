@@ -18,10 +18,15 @@ namespace {
 
 constexpr double kLookEveryS = 0.3;
 
+const Technique* baseline_of(std::span<const Technique> all) {
+    const auto baseline = std::ranges::find(all, true, &Technique::is_baseline);
+    return baseline == all.end() ? nullptr : &*baseline;
+}
+
 // The baseline, or, for the baseline itself, the second technique.
 const Technique& compared_with(const Technique& technique, std::span<const Technique> all) {
-    const auto baseline = std::ranges::find(all, true, &Technique::is_baseline);
-    if (baseline != all.end() && technique.id != baseline->id) return *baseline;
+    const Technique* baseline = baseline_of(all);
+    if (baseline && technique.id != baseline->id) return *baseline;
     return all[1 % all.size()];
 }
 
@@ -123,6 +128,8 @@ Result<void> Opener::show(Start start, bool first) {
     DERMIS_TRY_ASSIGN(Stage stage,
                       Stage::create(to_.device, to_.pictures.shaders(), std::move(scene), options_.samples));
     if (first) take_start(start);
+    if (const Technique* baseline = baseline_of(model.catalog.techniques); first && !start.handed && baseline)
+        stage.begin_with(*baseline);
     if (!first) take_technique(file);
     shown.put(std::move(stage), std::move(file), pose, model);
     model.scene_path = loader_.path();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 
+#include "dermis/base/text.h"
 #include "dermis/view/panel_parts.h"
 #include "dermis/view/widgets.h"
 
@@ -39,6 +40,18 @@ void help_table(const char* id, std::span<const std::pair<std::string, std::stri
 }
 
 }  // namespace
+
+void show_loading(const Model& model, const PanelFacts& facts) {
+    if (model.scene || facts.loading.empty()) return;
+    const Region picture = picture_region(model, facts.width, facts.height, facts.scale);
+    const std::string name = std::filesystem::path(facts.loading).filename().string();
+    ImGui::SetNextWindowPos({picture.width / 2, picture.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("loading", nullptr,
+                 fixed_window() | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    ImGui::Text("loading %s, %.0f s", printable_line(name).c_str(), facts.elapsed_s);
+    ImGui::TextDisabled("the first time, curvature and occlusion of its surface are baked and kept");
+    ImGui::End();
+}
 
 void show_side_names(const Model& model, const PanelFacts& facts) {
     if (!model.compares() || !model.scene) return;

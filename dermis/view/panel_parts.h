@@ -33,6 +33,8 @@ void show_motion(Model& model, PanelRequests& requests, WidgetMap& widgets);
 void show_times(const PanelFacts& facts);
 
 // overlays.cpp, open_panel.cpp; over the picture
+/// While there is no picture yet.
+void show_loading(const Model& model, const PanelFacts& facts);
 void show_side_names(const Model& model, const PanelFacts& facts);
 void show_open_field(Model& model, const PanelFacts& facts, PanelRequests& requests);
 void show_notices(const Model& model, const PanelFacts& facts);

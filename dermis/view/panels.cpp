@@ -68,7 +68,7 @@ void show_status(const Model& model, const PanelFacts& facts) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(12 * facts.scale, 4 * facts.scale));
     ImGui::Begin("status", nullptr, fixed_window() | ImGuiWindowFlags_NoInputs);
     if (facts.probe.empty())
-        ImGui::TextDisabled("%s   %s", facts.picture_state.c_str(), facts.loading ? "loading …" : "");
+        ImGui::TextDisabled("%s   %s", facts.picture_state.c_str(), facts.loading.empty() ? "" : "loading …");
     else
         ImGui::TextUnformatted(facts.probe.c_str());
     const char* right = "F1 help";
@@ -95,6 +95,7 @@ void show_panels(Model& model, const PanelFacts& facts, PanelRequests& requests,
         show_column(model, facts, requests, widgets);
         show_status(model, facts);
     }
+    show_loading(model, facts);
     show_side_names(model, facts);
     show_notices(model, facts);
     show_open_field(model, facts, requests);

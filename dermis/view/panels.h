@@ -31,8 +31,9 @@ struct PanelFacts {
     std::vector<TimedPass> passes;
     double frame_ms = 0;
     std::vector<float> frame_history_ms;  ///< oldest first
-    bool loading = false;
-    std::string probe;  ///< the surface under the mouse pointer
+    std::string loading;                  ///< the scene that is being read; empty: none
+    double elapsed_s = 0;                 ///< since the window's start
+    std::string probe;                    ///< the surface under the mouse pointer
 };
 
 /// Requests of a panel beyond the model.

@@ -37,13 +37,21 @@ PanelFacts panel_facts(Parts& p) {
                         .height = p.presenter->size().height,
                         .device = p.device.info().name,
                         .picture_state = p.device.info().name,
-                        .loading = p.opener.is_loading(),
+                        .loading = p.opener.is_loading() ? p.opener.loaded_path() : "",
+                        .elapsed_s = p.clock.elapsed_s(),
                         .probe = probe_line(p)};
     p.pictures.describe(facts);
     return facts;
 }
 
+// Nothing to draw before the scene has come: the processor is left to its loading.
+bool only_loads(const Parts& p) {
+    return p.opener.is_loading() && !p.input.is_awake() && !p.input.is_playing() && !p.input.has_waiting() &&
+           !p.model.playing && (!p.pictures.scene().is_there() || p.has_final_pictures());
+}
+
 std::vector<Event> gather_events(Parts& p) {
+    if (only_loads(p)) return p.input.gather(p.window, kShortSleepS);
     const bool busy = p.input.is_awake() || p.opener.is_loading() || p.player.has_script() ||
                       !p.has_final_pictures() || p.options.frames > 0 || p.input.has_waiting();
     // While a reference is computed, the window leaves the processor to it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dermis::view {
 namespace {
@@ -47,6 +48,20 @@ DrawSettings Stage::settings(const Model& model, PictureSize size, Quality quali
             .shadow_map_size = quality.scale < 1 ? 1024 : 2048};
 }
 
+// Its time says nothing about the chosen technique, so the ladder does not see it.
+Result<bool> Stage::draw_preview(const Model& model, PictureSize size, Quality quality) {
+    Side& side = sides_[0];
+    const Technique& baseline = *std::exchange(preview_, nullptr);
+    const DrawSettings draw = settings(model, size, quality);
+    DERMIS_TRY(side.renderer->submit(baseline, ParameterValues(baseline.parameters), draw));
+    side.key.clear();
+    side.picture = {.quality = quality,
+                    .width = draw.width,
+                    .height = draw.height,
+                    .passes = side.renderer->list().passes.size()};
+    return true;
+}
+
 Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, double now_s) {
     Side& side = sides_[choice];
     const std::string key =
@@ -65,6 +80,8 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
     const DrawSettings draw = settings(model, size, *quality);
     fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
     const Technique& technique = model.choices[choice].technique();
+    if (choice == 0 && preview_ && preview_ != &technique && model.view == "final")
+        return draw_preview(model, size, *quality);
     const ParameterValues& chosen = model.choices[choice].values();
     const bool coarse = quality->scale < 1 && technique.coarse;
     const Result<uint64_t> frame =

@@ -36,6 +36,10 @@ class Stage {
     /// Samples per pixel of the finished picture.
     [[nodiscard]] int samples() const { return limits_.samples; }
 
+    /// The next picture of the left side comes first without scattering, which needs no tables and few
+    /// shaders.
+    void begin_with(const Technique& baseline) { preview_ = &baseline; }
+
     /// Draws the side `choice` if it is due. True when it drew. An error leaves the last picture standing,
     /// and comes once: the next attempt waits for a change.
     [[nodiscard]] Result<bool> refresh(Model& model, size_t choice, PictureSize size, double now_s);
@@ -87,6 +91,7 @@ class Stage {
     };
 
     Stage() = default;
+    [[nodiscard]] Result<bool> draw_preview(const Model& model, PictureSize size, Quality quality);
     [[nodiscard]] Result<Renderer*> renderer(size_t choice);
     [[nodiscard]] DrawSettings settings(const Model& model, PictureSize size, Quality quality) const;
 
@@ -95,6 +100,7 @@ class Stage {
     std::unique_ptr<Scene> scene_;
     std::array<Side, 2> sides_;
     QualityLimits limits_;
+    const Technique* preview_ = nullptr;
 };
 
 }  // namespace dermis::view
