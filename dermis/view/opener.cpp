@@ -137,6 +137,7 @@ Result<void> Opener::show(Start start, bool first) {
         model.warnings.begin_again();
     else
         model.warnings.forget();
+    shown.stage().add_warnings(model.warnings);
     take_words(std::move(start.loading_words));
     const Skin& skin = model.scene->skin;
     const bool same_tone = skin.profile == tone_profile(model.tone);

@@ -75,6 +75,7 @@ TEST_F(ViewHead,
         scene material.M_Eye.class=teeth
         scene "material.M Face.profile=jensen_skin2"
         scene mesh.unit_mm=9
+        click "head.M_Eye.visible"
         tone 5
         settle
         screenshot DIR/changed.png
@@ -94,7 +95,7 @@ TEST_F(ViewHead,
     const std::string last = last_state(result);
     const std::string changed = lines_of(result.out.substr(0, result.out.rfind("technique ")), kHead);
     EXPECT_EQ(changed,
-              "unit_mm head 9\nmaterial M Face skin profile jensen_skin2\nmaterial M_Eye teeth\n"
+              "unit_mm head 9\nmaterial M Face skin profile jensen_skin2\nmaterial M_Eye teeth hidden\n"
               "tone 5\nprofile openpbr_skin_5\n");
     EXPECT_EQ(lines_of(last, kHead), changed);
     EXPECT_THAT(last, Not(HasSubstr("\nwarning")));
