@@ -15,6 +15,7 @@
 #include "dermis/rays/guided_walk.h"
 #include "dermis/rays/rays_version.h"
 #include "dermis/rays/uv_raster.h"
+#include "dermis/rays/vertex_occlusion.h"
 #include "dermis/scene/scene_hash.h"
 
 namespace dermis::inline rays {
@@ -40,16 +41,22 @@ struct WalkTask {
     const RayScene* rays;
     WalkMedium medium;
     WalkGuide guide;
-    Vec3 per_flat;  // one over what flat skin returns
+    Vec3 per_flat;                                  // one over what flat skin returns
+    std::span<const std::vector<float>> occlusion;  // of the vertices of each object
 };
 
 // Of one object: what its walks need, and what they gave.
 struct ObjectWalks {
     const Mesh* mesh;
+    size_t number;                                // in the scene
     std::vector<uint32_t> walks;                  // of each triangle
     std::vector<Vec3> prior;                      // gain by curvature at the vertices
     std::vector<SurfaceSamples> all, difference;  // returned light less the prior; of even and odd walks
 };
+
+// Less than this share of a uniform sky arrives at places that are hidden: behind lids, in nostrils. They are
+// darker than the rest by any light.
+constexpr float kHiddenShare = 0.3f;
 
 std::vector<CurvatureTensor> curvatures_of(const Mesh& mesh) {
     return mesh.curvatures_per_mm.size() == mesh.positions_mm.size()
@@ -107,7 +114,24 @@ std::array<float, 3> uniform_weights(Vec2 place) {
     return {1 - root, root * (1 - place.y), root * place.y};
 }
 
+// Light at a place of a triangle: 1, or less where it is hidden.
+float light_at(std::span<const float> occlusion, const Mesh& mesh, size_t triangle,
+               const std::array<float, 3>& weights) {
+    float share = 0;
+    for (size_t k = 0; k < 3; ++k) share += weights[k] * occlusion[mesh.indices[3 * triangle + k]];
+    return std::clamp(share / kHiddenShare, 1e-3f, 1.0f);
+}
+
+// The light where a walk ends over the light where it starts. More does not count: a technique blurs that.
+float light_at_end(const WalkTask& task, const RayHit& end, float at_start) {
+    if (end.object == kCapObject) return 1;
+    const float at_end = light_at(task.occlusion[end.object], task.rays->mesh(end.object), end.triangle,
+                                  {1 - end.u - end.v, end.u, end.v});
+    return std::min(1.0f, at_end / at_start);
+}
+
 void walk_triangle(const WalkTask& task, size_t t, uint32_t seed, ObjectWalks& object) {
+    const std::vector<float>& occlusion = task.occlusion[object.number];
     const auto [a, b, c] = corners_mm(*object.mesh, uint32_t(t));
     const uint32_t* corner = &object.mesh->indices[3 * t];
     const Vec3 n = face_normal(*object.mesh, uint32_t(t));
@@ -125,7 +149,10 @@ void walk_triangle(const WalkTask& task, size_t t, uint32_t seed, ObjectWalks& o
         const PlaneBoundary plane{p_mm, n};
         const WalkEnd flat = guided_walk(task.medium, task.guide, plane, p_mm, n, start, hero, same);
         FleshBoundary boundary(*task.rays);
-        const WalkEnd end = guided_walk(task.medium, task.guide, boundary, p_mm, n, start, hero, random);
+        WalkEnd end = guided_walk(task.medium, task.guide, boundary, p_mm, n, start, hero, random);
+        if (end.throughput != Vec3{})
+            end.throughput = end.throughput * light_at_end(task, boundary.last(),
+                                                           light_at(occlusion, *object.mesh, t, weights));
         Vec3 value = Vec3{1, 1, 1} + (end.throughput - flat.throughput) * task.per_flat;
         for (size_t k = 0; k < 3; ++k) value -= object.prior[corner[k]] * weights[k];
         object.all[t].add(weights, share_mm2, value);
@@ -189,6 +216,7 @@ Result<std::vector<ObjectWalks>> planned(std::span<const SceneObject> objects, c
     for (size_t i = 0; i < objects.size(); ++i) {
         const Mesh& mesh = objects[i].mesh;
         planned.push_back({.mesh = &mesh,
+                           .number = i,
                            .walks = walks_of(mesh, walked[i], per_mm2),
                            .prior = gains_by_curvature(curvatures[i], form),
                            .all = {},
@@ -203,12 +231,14 @@ Result<VertexGains> walk(std::span<const SceneObject> objects, const Curvatures&
     DERMIS_TRY_ASSIGN(const RayScene rays, RayScene::build(objects, flesh));
     DERMIS_TRY_ASSIGN(std::vector<ObjectWalks> all,
                       planned(objects, curvatures, flesh, walked_gain_form(medium), settings));
+    DERMIS_TRY_ASSIGN(const std::vector<std::vector<float>> occlusion, compute_vertex_occlusion(objects));
     const Vec3 flat = guided_half_space_albedo(medium, kFlatWalks, 1).mean;
     const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
     const WalkTask task = {.rays = &rays,
                            .medium = walk_medium(medium),
                            .guide = walk_guide(medium),
-                           .per_flat = {inverse(flat.x), inverse(flat.y), inverse(flat.z)}};
+                           .per_flat = {inverse(flat.x), inverse(flat.y), inverse(flat.z)},
+                           .occlusion = occlusion};
     size_t total = 0;
     for (const ObjectWalks& object : all)
         for (const uint32_t walks : object.walks) total += walks;

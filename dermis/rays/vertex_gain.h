@@ -24,11 +24,12 @@ struct VertexGains {
 };
 
 /// Walks start all over the visible skin, with diffuse light, and end at the boundary of the flesh
-/// (FleshBoundary). A walk in flat skin with the same random numbers is the control variate. The gain less
-/// gain(form, curvature) is fitted by a function that is linear in each triangle and blurred along the
-/// surface. So noise is blurred, and the part of the gain that curvature explains stays sharp. Deterministic;
-/// cached by content. Cost: about 0.5 microseconds a walk. Errors: settings out of range, the ray library
-/// fails.
+/// (FleshBoundary). One that ends in hidden skin, where less than 0.3 of a uniform sky arrives, counts less:
+/// it is dark behind lids and in nostrils. A walk in flat skin with the same random numbers is the control
+/// variate. The gain less gain(form, curvature) is fitted by a function that is linear in each triangle and
+/// blurred along the surface. So noise is blurred, and the part of the gain that curvature explains stays
+/// sharp. Deterministic; cached by content. Cost: about 0.5 microseconds a walk. Errors: settings out of
+/// range, the ray library fails.
 [[nodiscard]] Result<VertexGains> walk_vertex_gains(std::span<const SceneObject> objects,
                                                     const ScatteringMedium& medium,
                                                     const VertexGainSettings& settings = {});

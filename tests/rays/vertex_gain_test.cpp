@@ -79,6 +79,30 @@ TEST(VertexGain, OfWhatIsNotSkinIsOne) {
     EXPECT_EQ(none.error().message, "there is no skin that returns light to the outside");
 }
 
+// As an eyeball hides the back of its lid: a cup around the lower half of a ball.
+TEST(VertexGain, CountsNoLightFromHiddenSkin) {
+    SceneObject objects[] = {ball(4), ball(4)};
+    Mesh& cup = objects[1].mesh;
+    objects[1].classes = {MaterialClass::other};
+    for (Vec3& p : cup.positions_mm) p = p * 1.2f;
+    std::vector<uint32_t> lower;
+    for (size_t i = 0; i < cup.indices.size(); i += 3)
+        if (cup.positions_mm[cup.indices[i]].y < 0)
+            lower.insert(lower.end(), cup.indices.begin() + std::ptrdiff_t(i),
+                         cup.indices.begin() + std::ptrdiff_t(i) + 3);
+    cup.indices = lower;
+    cup.submeshes[0].index_count = uint32_t(lower.size());
+    const std::vector<Vec3> open = gains_of(objects[0]).gains[0];
+    const Result<VertexGains> walked = walk_vertex_gains(objects, skin_medium());
+    ASSERT_TRUE(walked) << walked.error().message;
+    Vec3 lost;
+    float count = 0;
+    for (size_t v = 0; v < open.size(); ++v)
+        if (objects[0].mesh.positions_mm[v].y > 2) lost += open[v] - walked->gains[0][v], ++count;
+    EXPECT_GT(lost.x / count, 0.05f);
+    EXPECT_GT(lost.x, lost.z);
+}
+
 TEST(VertexGain, RefusesSettingsOutOfRange) {
     const SceneObject object = ball(4);
     for (const VertexGainSettings& bad :
