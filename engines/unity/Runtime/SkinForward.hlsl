@@ -147,6 +147,9 @@ float4 SkinFragment(SkinVaryings input) : SV_Target {
     s.curvature_per_mm = min(_CurvatureGain * skin_curvature_from_derivatives(fwidth(n_geometry),
                                                                          fwidth(input.positionWS) * _MmPerUnit),
                              kSkinMaxCurvaturePerMm);
+    float3 p_mm = input.positionWS * _MmPerUnit;
+    s.albedo *= skin_gain(_CurvatureGain *
+                          skin_mean_curvature_from_derivatives(ddx(p_mm), ddy(p_mm), ddx(n_geometry), ddy(n_geometry)));
 #if defined(_SKIN_THIN)
     float thickness_mm = SAMPLE_TEXTURE2D(_ThicknessMap, sampler_ThicknessMap, input.uv).g * _ThicknessMaxMm;
     s.n_geometry = n_geometry;

@@ -16,6 +16,12 @@ void SkinCurvature_float(float3 Normal, float3 Position, float MmPerUnit, out fl
     Curvature = saturate(skin_curvature_from_derivatives(fwidth(Normal), fwidth(Position) * MmPerUnit));
 }
 
+// Name SkinGain. What all diffuse light is multiplied with: more than 1 on convex skin, less in folds. As SkinCurvature.
+void SkinGain_float(float3 Normal, float3 Position, float MmPerUnit, out float3 Gain) {
+    Position *= MmPerUnit;
+    Gain = skin_gain(skin_mean_curvature_from_derivatives(ddx(Position), ddy(Position), ddx(Normal), ddy(Normal)));
+}
+
 // Name SkinTransmittance. Thickness in mm.
 void SkinTransmittance_float(float Thickness, out float3 Transmittance) {
     Transmittance = skin_transmittance(Thickness);

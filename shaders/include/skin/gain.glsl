@@ -1,4 +1,4 @@
-// The gain of a curved place: how much of uniform light skin of a mean curvature returns, over flat skin. More
+// What skin of a mean curvature returns of uniform light, over flat skin (docs/transport.md). More
 // paths leave a convex body before they are absorbed, fewer a concave one. dermis/optics/gain_form.h has the terms
 // and the error.
 #ifndef DERMIS_SKIN_GAIN_GLSL
