@@ -25,6 +25,9 @@ namespace dermis::inline base {
 /// Editors of some systems begin a text file with a byte order mark.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
+/// For text and quoted attributes of HTML and SVG: & < > " as entities.
+[[nodiscard]] std::string as_markup(std::string_view text);
+
 /// Each text once, in order of first appearance, with " (N times)" if repeated.
 [[nodiscard]] std::vector<std::string> each_once(std::span<const std::string> texts);
 

@@ -46,21 +46,6 @@ std::string clip_number(double value) {
     return text;
 }
 
-std::string html_text(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
-
 std::string seconds(double time_s) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2f s", time_s);
@@ -92,7 +77,7 @@ PlotPanel clip_panel(std::span<const ClipFrame> frames, Integrator integrator) {
 
 std::string html_row(std::span<const ClipFrame> frames, const ClipRow& row, const ClipShare& share,
                      Integrator integrator) {
-    std::string text = "<tr><th>" + html_text(row.name()) + "</th><td>" + clip_number(share.mean) +
+    std::string text = "<tr><th>" + as_markup(row.name()) + "</th><td>" + clip_number(share.mean) +
                        "</td><td>" + clip_number(share.error) + "</td><td>" + clip_number(share.worst) +
                        "</td><td>" + (share.change ? clip_number(share.change->change) : "") + "</td><td>" +
                        (share.change ? clip_number(share.change->error) : "") + "</td>";
@@ -115,7 +100,7 @@ std::string html_table(std::span<const ClipFrame> frames, std::span<const std::s
                        "</th><th>mean</th><th>&plusmn;</th><th>worst</th><th>change by bakes of rest</th>"
                        "<th>&plusmn;</th>";
     for (size_t i = 0; i < frames.size(); ++i)
-        head += "<th><a href=\"" + html_text(links[i]) + "\">" + seconds(frames[i].time_s) + "</a></th>";
+        head += "<th><a href=\"" + as_markup(links[i]) + "\">" + seconds(frames[i].time_s) + "</a></th>";
     return "<table>\n" + head + "</tr>\n" + body + "</table>\n";
 }
 
@@ -199,15 +184,15 @@ std::string clip_html(const std::string& title, const std::string& credit, std::
         plot.panels.push_back(clip_panel(frames, integrator));
         tables += table;
     }
-    return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>" + html_text(title) +
+    return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>" + as_markup(title) +
            "</title>\n<style>\nbody { font: 15px/1.5 system-ui, sans-serif; margin: 24px; }\n"
            "table { border-collapse: collapse; margin: 20px 0; font-variant-numeric: tabular-nums; }\n"
            "th, td { padding: 4px 8px; border-bottom: 1px solid #ccc; text-align: right; }\n"
            "th:first-child { text-align: left; }\n</style></head>\n<body>\n<h1>" +
-           html_text(title) +
+           as_markup(title) +
            "</h1>\n<p>Of each technique, how much of what scattering does it has: 1 is all, 0 none. "
            "A time links to the report of that frame.</p>\n" +
-           plot_svg(plot) + tables + (credit.empty() ? "" : "<p>" + html_text(credit) + "</p>\n") +
+           plot_svg(plot) + tables + (credit.empty() ? "" : "<p>" + as_markup(credit) + "</p>\n") +
            "</body></html>\n";
 }
 

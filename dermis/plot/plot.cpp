@@ -142,23 +142,6 @@ std::string px(double value) {
     return text == "-0" ? "0" : text;
 }
 
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
-
 // Sans-serif fonts differ; 0.56 em per glyph is at least the mean width in all common ones.
 double estimated_width_px(std::string_view text, double size_px) {
     const auto is_start = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };  // UTF-8
@@ -176,7 +159,7 @@ std::string line_element(double x1, double y1, double x2, double y2, std::string
 }
 
 std::string stroke_attributes(const PlotSeries& series, std::string_view color) {
-    std::string text = "fill=\"none\" stroke=\"" + escaped(color) + "\" stroke-width=\"" +
+    std::string text = "fill=\"none\" stroke=\"" + as_markup(color) + "\" stroke-width=\"" +
                        px(series.width_px) + "\" stroke-linejoin=\"round\"";
     if (series.stroke == PlotStroke::dashed) text += " stroke-dasharray=\"7 4\"";
     if (series.stroke == PlotStroke::dotted) text += " stroke-dasharray=\"1.5 3.5\" stroke-linecap=\"round\"";
@@ -184,7 +167,8 @@ std::string stroke_attributes(const PlotSeries& series, std::string_view color) 
 }
 
 std::string circle(double x, double y, std::string_view color) {
-    return "<circle cx=\"" + px(x) + "\" cy=\"" + px(y) + "\" r=\"2.6\" fill=\"" + escaped(color) + "\"/>\n";
+    return "<circle cx=\"" + px(x) + "\" cy=\"" + px(y) + "\" r=\"2.6\" fill=\"" + as_markup(color) +
+           "\"/>\n";
 }
 
 std::string_view color_of(const PlotPanel& panel, size_t index) {
@@ -284,7 +268,7 @@ std::string draw_legend(const PlotPanel& panel, const std::vector<LegendEntry>& 
         if (series.mark != PlotMark::points)
             out += line_element(x0, y0, x0 + 24, y0, stroke_attributes(series, color));
         if (series.mark != PlotMark::line) out += circle(x0 + 12, y0, color);
-        out += text_element(x0 + 30, y0 + 4, "font-size=\"12\"", escaped(series.name));
+        out += text_element(x0 + 30, y0 + 4, "font-size=\"12\"", as_markup(series.name));
     }
     return out;
 }
@@ -294,7 +278,7 @@ std::string draw_panel(const PlotPanel& panel, const Rect& cell, const std::stri
     double top = cell.y + 8;
     if (!panel.title.empty()) {
         out += text_element(cell.x + kMarginLeft, top + 12, "font-size=\"13\" font-weight=\"600\"",
-                            escaped(panel.title));
+                            as_markup(panel.title));
         top += 22;
     }
     const auto entries = lay_out_legend(panel, cell.width - kMarginLeft - kMarginRight);
@@ -317,12 +301,12 @@ std::string draw_panel(const PlotPanel& panel, const Rect& cell, const std::stri
 
     const double x_middle = area.x + area.width / 2, y_middle = area.y + area.height / 2;
     out += text_element(x_middle, area.y + area.height + 36, "font-size=\"12\" text-anchor=\"middle\"",
-                        escaped(panel.x.label));
+                        as_markup(panel.x.label));
     const double label_x = cell.x + 16;
     out += text_element(label_x, y_middle,
                         "font-size=\"12\" text-anchor=\"middle\" transform=\"rotate(-90 " + px(label_x) +
                             " " + px(y_middle) + ")\"",
-                        escaped(panel.y.label));
+                        as_markup(panel.y.label));
     return out;
 }
 
@@ -340,7 +324,7 @@ std::string plot_svg(const Plot& plot) {
                       "\" font-family=\"system-ui, 'DejaVu Sans', 'Liberation Sans', Arial, sans-serif\" "
                       "fill=\"#212529\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
     if (!plot.title.empty())
-        out += text_element(16, 23, "font-size=\"16\" font-weight=\"600\"", escaped(plot.title));
+        out += text_element(16, 23, "font-size=\"16\" font-weight=\"600\"", as_markup(plot.title));
     for (size_t i = 0; i < plot.panels.size(); ++i) {
         const Rect cell{plot.panel_width_px * double(i % columns),
                         title_height + plot.panel_height_px * double(i / columns), plot.panel_width_px,
@@ -348,7 +332,7 @@ std::string plot_svg(const Plot& plot) {
         out += draw_panel(plot.panels[i], cell, "panel" + std::to_string(i));
     }
     if (!plot.caption.empty())
-        out += text_element(16, height - 10, "font-size=\"11\" fill=\"#495057\"", escaped(plot.caption));
+        out += text_element(16, height - 10, "font-size=\"11\" fill=\"#495057\"", as_markup(plot.caption));
     return out + "</svg>\n";
 }
 
