@@ -71,7 +71,7 @@ TEST(Clip, page_links_each_frame_and_escapes_text) {
     const std::string links[] = {"frame_00/report.html", "frame_01/report.html"};
     const std::string page = clip_html("<head>", "a & b", two_frames(), links);
     for (const char* text :
-         {"&lt;head>", "a &amp; b", "<a href=\"frame_01/report.html\">1.50 s</a>", "-0.0500"})
+         {"&lt;head&gt;", "a &amp; b", "<a href=\"frame_01/report.html\">1.50 s</a>", "-0.0500"})
         EXPECT_THAT(page, HasSubstr(text));
     EXPECT_THAT(page, Not(HasSubstr("<head>,")));
 }
