@@ -1,26 +1,11 @@
 #include "compare_clip.h"
 
 #include <fmt/core.h>
-#include <algorithm>
 
 #include "dermis/base/text.h"
-#include "dermis/render/complete_scene.h"
+#include "dermis/scene/pose_scene.h"
 
 namespace dermis::cli {
-namespace {
-
-// Of the first object that has the clip.
-double clip_length_s(const Scene& scene, const std::string& clip) {
-    for (const SceneObject& object : scene.objects) {
-        const std::vector<ClipInfo>& clips = object.motion.clips;
-        for (size_t i = 0; i < clips.size(); ++i)
-            if (clips[i].name == clip || numbered_name(i) == clip) return clips[i].length_s;
-    }
-    return 0;
-}
-
-}  // namespace
-
 Result<std::vector<double>> clip_times(const CompareChoice& choice) {
     const double start_s = choice.scene.pose.time_s.value_or(0);
     std::vector<double> times;
@@ -29,7 +14,7 @@ Result<std::vector<double>> clip_times(const CompareChoice& choice) {
         return times;
     }
     DERMIS_TRY_ASSIGN(const Scene scene, choice.scene.load());
-    const double length_s = clip_length_s(scene, choice.scene.pose.clip);
+    const double length_s = clip_length_s(scene);
     if (start_s >= length_s)
         return Error{"--time " + to_text(start_s) + ": the clip ends at " + to_text(length_s) +
                      " s; start earlier, or give --fps"};

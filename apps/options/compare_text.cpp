@@ -78,7 +78,7 @@ std::string change_text(const std::optional<ShareChange>& change) {
     return text;
 }
 
-// Of the rows with bakes of the rest pose.
+// Rows with bakes of the rest pose: how their share differs from that with bakes of the pose.
 void print_changes(const Comparison& comparison) {
     const auto has_change = [](const Compared& row) { return row.remade.has_value(); };
     if (std::ranges::none_of(comparison.rows, has_change)) return;

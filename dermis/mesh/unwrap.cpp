@@ -15,6 +15,8 @@ namespace dermis::inline mesh {
 namespace {
 
 constexpr uint32_t kNoFace = ~0u;
+// Normals of a chart around their mean.
+constexpr float kCone_rad = 0.96f;
 // Charts with less than these shares of the whole area join a neighbour: where they still share texels with
 // none, and where they may share some.
 constexpr double kSmallShare = 1e-3, kTinyShare = 2e-5;
@@ -215,10 +217,10 @@ void add_charts(const Faces& faces, float least_cosine, Unwrapping& result, std:
 
 }  // namespace
 
-Unwrapping unwrap(const Mesh& mesh, std::span<const uint32_t> triangles, float cone_rad) {
+Unwrapping unwrap(const Mesh& mesh, std::span<const uint32_t> triangles) {
     constexpr int kRounds = 8;
     const Faces faces = find_faces(mesh, triangles);
-    const float least_cosine = std::cos(cone_rad);
+    const float least_cosine = std::cos(kCone_rad);
     Unwrapping result{.corners_mm = std::vector<std::array<Vec2, 3>>(triangles.size()),
                       .chart = std::vector<uint32_t>(triangles.size(), kNoFace)};
     std::vector<Vec3> axes;

@@ -17,11 +17,10 @@ struct Unwrapping {
     uint32_t charts = 0;
 };
 
-/// Charts grow over the surface while its normals stay within `cone_rad` of their mean, and are projected
+/// Charts grow over the surface while its normals stay within 55 degrees of their mean, and are projected
 /// along that mean. What would cover texels of its own chart twice begins another chart; only pieces below
-/// 2e-5 of the area may share texels with a neighbour. Texels are stretched by at most 1 / cos(cone_rad) but
-/// for such pieces. Nearly linear; 100 ms for 20,000 triangles.
-[[nodiscard]] Unwrapping unwrap(const Mesh& mesh, std::span<const uint32_t> triangles,
-                                float cone_rad = 0.96f);
+/// 2e-5 of the area may share texels with a neighbour. Texels are stretched by at most 1.7, but for such
+/// pieces. Nearly linear; 100 ms for 20,000 triangles.
+[[nodiscard]] Unwrapping unwrap(const Mesh& mesh, std::span<const uint32_t> triangles);
 
 }  // namespace dermis::inline mesh

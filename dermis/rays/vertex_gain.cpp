@@ -42,7 +42,7 @@ struct WalkTask {
     WalkMedium medium;
     WalkGuide guide;
     Vec3 per_flat;                                  // one over what flat skin returns
-    std::span<const std::vector<float>> occlusion;  // of the vertices of each object
+    std::span<const std::vector<float>> occlusion;  // one array an object, one value a vertex
 };
 
 // Of one object: what its walks need, and what they gave.

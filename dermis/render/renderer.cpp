@@ -94,7 +94,7 @@ void take_gains(const Scene& scene, std::span<const gpu::Draw> draws, int profil
     }
 }
 
-// Of the pose, or of the rest pose and carried along.
+// Normals baked for the pose; with rest_bakes.normals baked for the rest pose and turned with the surface.
 Result<DiffusedNormals> baked_normals(const Scene& scene, const GaussianSum& profile,
                                       const DiffusedNormalsRequest& request) {
     if (!scene.rest_bakes.normals) return bake_diffused_normals(scene, profile, request);

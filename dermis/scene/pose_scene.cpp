@@ -75,6 +75,17 @@ Result<void> check_motion(std::span<const SceneObject> objects, const MotionDesc
     return check_pose(motion.pose(), motions);
 }
 
+double clip_length_s(const Scene& scene) {
+    const std::string& name = scene.motion.clip;
+    if (name.empty()) return 0;
+    double length_s = 0;
+    for (const SceneObject& object : scene.objects)
+        for (size_t i = 0; i < object.motion.clips.size(); ++i)
+            if (const ClipInfo& clip = object.motion.clips[i]; clip.name == name || numbered_name(i) == name)
+                length_s = std::max(length_s, clip.length_s);
+    return length_s / double(scene.motion.speed);
+}
+
 Result<RestBakes> parse_rest_bakes(const MotionDescription& motion) {
     if (motion.rest_bakes.empty()) return RestBakes{};
     const Result<RestBakes> bakes = parse_rest_bakes(motion.rest_bakes);

@@ -15,6 +15,9 @@ namespace dermis::inline scene {
 [[nodiscard]] Result<void> check_motion(std::span<const SceneObject> objects,
                                         const MotionDescription& motion);
 
+/// Length of the scene's clip in the scene's time: at animation.speed. 0 without a clip.
+[[nodiscard]] double clip_length_s(const Scene& scene);
+
 /// Of animation.rest_bakes; none where the key is not given. Errors: those of parse_rest_bakes(text).
 [[nodiscard]] Result<RestBakes> parse_rest_bakes(const MotionDescription& motion);
 
@@ -22,7 +25,7 @@ namespace dermis::inline scene {
 /// change nothing. Tangents turn with the surface.
 void pose_subject(SceneObject& object, const Pose& pose);
 
-/// What of an object's surface turns with it, in one pose.
+/// The directions and tensors of an object's vertices in one pose; they turn when the surface turns.
 struct SurfaceAtRest {
     std::vector<Vec3> normals, directions;  ///< directions: dP/du, or along an edge
     std::vector<Vec4> tangents;

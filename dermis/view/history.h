@@ -23,8 +23,8 @@ class History {
     /// Another scene.
     void forget() { states_.clear(), now_ = 0; }
 
-    /// False when there is no step. A step that changes loading words makes the opener read the scene again.
-    /// Errors: a panorama that cannot be read any more.
+    /// Returns false where nothing is left to undo or redo. If the change belongs to the words that a scene
+    /// is loaded with, the opener reads the scene again. Errors: a panorama that cannot be read any more.
     [[nodiscard]] Result<bool> undo(Model& model, ShownScene& shown) { return go(-1, model, shown); }
     [[nodiscard]] Result<bool> redo(Model& model, ShownScene& shown) { return go(1, model, shown); }
 

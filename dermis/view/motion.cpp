@@ -53,17 +53,6 @@ std::vector<std::string> targets_of(const Scene& scene) {
     return targets;
 }
 
-double clip_length_s(const Scene& scene) {
-    const std::string& name = scene.motion.clip;
-    if (name.empty()) return 0;
-    double length_s = 0;
-    for (const SceneObject& object : scene.objects)
-        for (size_t i = 0; i < object.motion.clips.size(); ++i)
-            if (const ClipInfo& clip = object.motion.clips[i]; clip.name == name || numbered_name(i) == name)
-                length_s = std::max(length_s, clip.length_s);
-    return length_s / double(scene.motion.speed);
-}
-
 Result<void> set_motion(Scene& scene, MotionDescription motion) {
     DERMIS_TRY(check_motion(scene.objects, motion));
     scene.motion = std::move(motion);

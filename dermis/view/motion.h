@@ -14,9 +14,6 @@ namespace dermis::view {
 [[nodiscard]] std::vector<ClipInfo> clips_of(const Scene& scene);
 [[nodiscard]] std::vector<std::string> targets_of(const Scene& scene);
 
-/// Length of the scene's clip in its time: at its speed. 0 without a clip.
-[[nodiscard]] double clip_length_s(const Scene& scene);
-
 /// The scene's motion is this one. Errors: those of check_motion().
 [[nodiscard]] Result<void> set_motion(Scene& scene, MotionDescription motion);
 

@@ -38,7 +38,7 @@ class Opener {
     /// Then the scene is read again. If it cannot be, the words become again those that it was loaded with.
     void follow_words();
     [[nodiscard]] bool is_loading() const { return loader_.is_loading(); }
-    /// Of the scene that is being read, or was last.
+    /// The path of the scene that is being read; if none is, of the last one.
     [[nodiscard]] const std::string& loaded_path() const { return loader_.path(); }
     void wait() const { loader_.wait(); }
 

@@ -33,7 +33,7 @@ void show_motion(Model& model, PanelRequests& requests, WidgetMap& widgets);
 void show_times(const PanelFacts& facts);
 
 // overlays.cpp, open_panel.cpp; over the picture
-/// While there is no picture yet.
+/// Shows name and seconds of loading until the first picture.
 void show_loading(const Model& model, const PanelFacts& facts);
 void show_side_names(const Model& model, const PanelFacts& facts);
 void show_open_field(Model& model, const PanelFacts& facts, PanelRequests& requests);
