@@ -153,7 +153,7 @@ void print_set_table(const std::vector<SubjectCase>& cases, const std::vector<Co
 void print_clip_table(const std::vector<ClipFrame>& frames) {
     constexpr size_t kShownFrames = 8;
     const bool short_clip = frames.size() <= kShownFrames;
-    for (const Integrator integrator : {Integrator::walk, Integrator::surface}) {
+    for (const Integrator integrator : kClipJudges) {
         bool headed = false;
         for (const ClipRow& row : clip_rows(frames)) {
             const std::optional<ClipShare> share = clip_share(frames, row, integrator);
@@ -165,13 +165,14 @@ void print_clip_table(const std::vector<ClipFrame>& frames) {
                     if (short_clip) std::printf(" %4.2f s", frame.time_s);
                 std::printf("\n");
             }
-            std::printf("%s\n%6.3f %.3f %5.2f ", row.name().c_str(), share->mean, share->error, share->worst);
+            std::printf("%s\n%6.3f %.3f ", row.name().c_str(), share->mean, share->error);
+            if (std::isfinite(share->worst))
+                std::printf("%5.2f ", share->worst);
+            else
+                std::printf("noise ");
             for (const ClipFrame& frame : frames)
                 if (const ScoreRow* found = row_of(frame, row); short_clip && found)
-                    std::printf(
-                        " %6s",
-                        short_text((integrator == Integrator::walk ? found->walk : found->surface)->all)
-                            .c_str());
+                    std::printf(" %6s", short_text(captured_by(integrator, *found)->all).c_str());
             if (share->change)
                 std::printf("\n  change by bakes of the rest pose %s, worst %+.4f",
                             change_text(share->change).c_str(), share->worst_change);
@@ -185,7 +186,7 @@ nlohmann::ordered_json clip_json(const std::string& clip, const std::vector<Clip
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const ClipRow& row : clip_rows(frames)) {
         nlohmann::ordered_json entry = {{"technique", row.technique}, {"settings", row.settings}};
-        for (const Integrator integrator : {Integrator::walk, Integrator::surface}) {
+        for (const Integrator integrator : kClipJudges) {
             const std::optional<ClipShare> share = clip_share(frames, row, integrator);
             if (!share) continue;
             entry[std::string(judge_name(integrator))] = {

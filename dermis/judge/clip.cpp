@@ -27,12 +27,6 @@ const ScoreRow* find_row(const ClipFrame& frame, const ClipRow& wanted) {
     return found == frame.rows.end() ? nullptr : &*found;
 }
 
-constexpr Integrator kClipJudges[] = {Integrator::walk, Integrator::surface};
-
-const std::optional<Captured>& captured_by(Integrator integrator, const ScoreRow& row) {
-    return integrator == Integrator::walk ? row.walk : row.surface;
-}
-
 // Of a row without bakes of the rest pose, none.
 std::optional<ShareChange> change_by(Integrator integrator, const ScoreRow& row, bool rest) {
     const std::optional<ShareChange>& change =
@@ -105,6 +99,10 @@ std::string html_table(std::span<const ClipFrame> frames, std::span<const std::s
 }
 
 }  // namespace
+
+const std::optional<Captured>& captured_by(Integrator integrator, const ScoreRow& row) {
+    return integrator == Integrator::walk ? row.walk : row.surface;
+}
 
 std::string ClipRow::name() const {
     return settings.empty() ? technique : technique + "[" + settings + "]";

@@ -35,6 +35,11 @@ struct ClipRow {
     [[nodiscard]] std::string name() const;
     friend bool operator==(const ClipRow&, const ClipRow&) = default;
 };
+/// References of a clip's tables, in their order.
+inline constexpr Integrator kClipJudges[] = {Integrator::walk, Integrator::surface};
+/// Missing where the row was not judged by that reference.
+[[nodiscard]] const std::optional<Captured>& captured_by(Integrator integrator, const ScoreRow& row);
+
 /// Those of all frames, in the order of their first frame.
 [[nodiscard]] std::vector<ClipRow> clip_rows(std::span<const ClipFrame> frames);
 
