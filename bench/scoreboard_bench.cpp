@@ -66,7 +66,7 @@ constexpr const char* kText =
     "channels of the first. `bust/openpbr_skin_1` is the bust with that profile. Green and blue scatter a "
     "few tenths of a millimetre, less than a pixel here. noise: the "
     "reference is not\n"
-    "fine enough. **Measured**: a frame over lambert's in one run, %s,\n"
+    "fine enough, or has not judged these settings. **Measured**: a frame over lambert's in one run, %s,\n"
     "%d x %d (unit scenes 96 x 96). **Modelled**: the same for a %s at %d x %d, a model\n"
     "([assumptions](performance.md)); empty where Mesa's RADV was not installed. Memory: tables and images "
     "of the technique\n"
