@@ -150,6 +150,7 @@ gpu::Values frame_values(const Scene& scene, const FrameValueSettings& settings)
         {"gain_slope_mm", to_vec3(settings.gain.slope_mm)},
         {"gain_length_mm", to_vec3(settings.gain.length_mm)},
         {"gain_bend_mm", to_vec3(settings.gain.bend_mm)},
+        {"slab_gain", to_vec3(settings.slab_gain)},
         {"pixel_per_distance", 2 * std::tan(scene.camera.vertical_fov_rad / 2) / float(settings.height)}};
     const std::array<Vec3, 9> terms = environment_terms(settings.environment_sh, yaw_rad);
     for (size_t i = 0; i < terms.size(); ++i)

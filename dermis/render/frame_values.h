@@ -14,6 +14,7 @@ struct FrameValueSettings {
     int environment_mip_count = 1;
     std::array<Vec3, 9> environment_sh = {};  ///< EnvironmentLight::radiance_sh
     GainForm gain;                            ///< of the skin
+    Rgb slab_gain = {1, 1, 1};
 };
 
 /// Coefficients of shaders/include/frame.glsl's environment_terms: radiance from the directions of the world

@@ -10,6 +10,7 @@
 #include "dermis/optics/presets.h"
 #include "dermis/rays/carried_bakes.h"
 #include "dermis/rays/curvature_gain.h"
+#include "dermis/rays/slab_gain.h"
 #include "dermis/rays/vertex_gain.h"
 #include "dermis/render/atlas_check.h"
 #include "dermis/render/frame_values.h"
@@ -311,11 +312,13 @@ Result<void> Renderer::prepare_gains() {
                    pass.constants.end();
         });
     };
-    if (asks_for(kGainMap)) DERMIS_TRY(prepare_walked_gains());
-    if (!asks_for(kGainCurvature)) return {};
+    const bool by_curvature = asks_for(kGainCurvature), by_map = asks_for(kGainMap);
+    if (by_map) DERMIS_TRY(prepare_walked_gains());
+    if (!by_curvature && !by_map) return {};
     for (ProfileState& state : profiles_) {
         if (state.has_gain_form) continue;
         state.gain_form = walked_gain_form(walk_medium_of(state.skin.profile));
+        state.slab_gain = walked_slab_gain(state.skin.profile);
         state.has_gain_form = true;
     }
     return {};
@@ -371,7 +374,8 @@ gpu::FrameInputs Renderer::inputs(const ParameterValues& values, const DrawSetti
                                    .penumbra_mm = settings.penumbra_mm,
                                    .environment_mip_count = uploaded_->environment_mip_count(),
                                    .environment_sh = uploaded_->environment_sh(),
-                                   .gain = state.gain_form});
+                                   .gain = state.gain_form,
+                                   .slab_gain = state.slab_gain});
     }
     inputs.blocks["Params"] = parameter_block(values);
     inputs.arrays["Lights"] = light_values(*scene_);

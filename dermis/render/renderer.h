@@ -34,6 +34,7 @@ struct ProfileState {
     std::map<std::string, gpu::Texture> diffused_normals;
     std::string diffused_normals_key;
     GainForm gain_form;
+    Rgb slab_gain = {1, 1, 1};
     bool has_gain_form = false;
 };
 

@@ -123,7 +123,8 @@ void main() {
 #ifdef DERMIS_OWN_VIEW
     own_radiance = own_view(s);
 #endif
-    vec3 exitance = ambient_response(s), unscattered = vec3(0.0);
+    vec3 gain_of_place = gain_at(gain_curvature_per_mm(s));
+    vec3 exitance = gain_of_place * ambient_response(s), unscattered = vec3(0.0);
     vec3 specular_radiance =
         reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
     [[unroll]] for (int i = 0; i < light_count; ++i) {
@@ -134,10 +135,10 @@ void main() {
             arriving = arrival(s, i);
         LightSample light = arriving.light;
         vec3 response = direct_response(s, light.to_light_world) * arriving.entering;
-        vec3 direct = light.irradiance_linear * entered_part(s, light.to_light_world) * response;
+        vec3 direct = light.irradiance_linear * entered_part(s, light.to_light_world) * response * gain_of_place;
 #ifdef DERMIS_TRANSMISSION
         // Both are estimates of the same integral; each misses light where the other is right.
-        direct = max(direct, light.irradiance_linear * s.occlusion * arriving.transmitted);
+        direct = max(direct, light.irradiance_linear * s.occlusion * arriving.transmitted * transmitted_gain(gain_of_place));
 #endif
         exitance += direct;
 #ifdef DERMIS_TRANSMISSION
@@ -149,7 +150,6 @@ void main() {
         specular_radiance += light.irradiance_linear * arriving.visibility *
                              specular_reflection(s.n_world, s.to_eye_world, light.to_light_world, s.roughness, s.f0);
     }
-    exitance *= gain_at(gain_curvature_per_mm(s));
 #ifdef DERMIS_TRANSMISSION
     if (has_scatter != 0) {
         unscattered += environment_irradiance(s.n_world) * s.occlusion;

@@ -49,7 +49,7 @@ layout(scalar) uniform Frame {
     mat4 second_light_view_projection;
     float pixel_per_distance;    // side of a pixel over its distance along the view
     // Of the skin's gain (shaders/include/skin/gain.glsl); 0 where no pass asks for it.
-    vec3 gain_slope_mm, gain_length_mm, gain_bend_mm;
+    vec3 gain_slope_mm, gain_length_mm, gain_bend_mm, slab_gain;
     LightSource first_light;     // lights[0]
 };
 

@@ -14,4 +14,9 @@ vec3 gain_at(float mean_curvature_per_mm) {
     return gain_of_curvature(mean_curvature_per_mm, gain_slope_mm, gain_length_mm, gain_bend_mm);
 }
 
+// Of light from the other side of a thin part, over what the profile passes.
+vec3 transmitted_gain(vec3 gain_of_place) {
+    return gain == kGainNone ? gain_of_place : max(gain_of_place, slab_gain);
+}
+
 #endif

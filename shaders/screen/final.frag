@@ -100,6 +100,8 @@ void main() {
     if (one_light != 0) first = arrival(s, 0, key_visibility);
     load_gloss(s);
     vec3 specular_radiance = vec3(0.0);
+    vec3 gain_of_place = gain_at(mean_curvature_per_mm(s)), through = transmitted_gain(gain_of_place);
+    exitance *= gain_of_place;
     [[unroll]] for (int i = 0; i < light_count; ++i) {
         Arrival arriving;
         if (one_light != 0)
@@ -107,13 +109,12 @@ void main() {
         else
             arriving = arrival(s, i, key_visibility);
         vec3 light = arriving.light.irradiance_linear;
-        exitance += light * (s.occlusion * arriving.transmitted);
+        exitance += light * (s.occlusion * arriving.transmitted) * through;
         specular_radiance +=
             light * arriving.visibility * arriving.tint *
             specular_reflection(s.n_world, s.to_eye_world, arriving.light.to_light_world, s.roughness, s.f0);
     }
     specular_radiance += reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion);
-    exitance *= gain_at(mean_curvature_per_mm(s));
     if (has_scatter != 0) {
         float of_key;
         exitance = mix(unblurred_exitance(s, of_key), exitance, scatter_weight(s));

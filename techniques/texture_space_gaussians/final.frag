@@ -13,8 +13,9 @@ void main() {
     vec3 specular_radiance = reflected_environment(s.n_world, s.to_eye_world, s.roughness, s.f0, s.occlusion) +
                              light.specular + light.key_specular * shadow_factor(key_light, light.key_passing);
     // The base colour where light enters is taken to be that where it leaves.
-    exitance += pow(s.albedo_linear, vec3(pre_scatter)) * light.transmitted;
-    exitance *= gain_at(mean_curvature_per_mm(s));
+    vec3 gain_of_place = gain_at(mean_curvature_per_mm(s));
+    exitance = gain_of_place * exitance +
+               transmitted_gain(gain_of_place) * pow(s.albedo_linear, vec3(pre_scatter)) * light.transmitted;
     if (has_scatter != 0) {
         vec3 unscattered = unblurred_exitance(s, light.direct).of_normal * pow(s.albedo_linear, vec3(pre_scatter));
         exitance = mix(unscattered, exitance, scatter_weight(s));
