@@ -2,9 +2,8 @@
 // The gain of light that passes a thin part, as an ear or a wing of the nose.
 //
 // Techniques take that light from the profile: t / (1 + t) of the base colour, t = slab_transmittance(),
-// since both sides together return 1. Walks through a slab bring 1.25 to 1.75 / albedo times as much: most of
-// what is absorbed in a half-space lies deeper than the slab. The ratio hardly depends on the thickness where
-// it matters, so one number a channel holds it.
+// since both sides together return 1. Walks through a slab bring 1.25 to 1.75 / albedo times as much. The
+// ratio hardly depends on the thickness up to the mean radius, so one number a channel holds it.
 
 #include "dermis/optics/profile.h"
 

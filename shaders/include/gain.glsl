@@ -1,5 +1,5 @@
 // How much more or less a place returns than flat skin: what a normalised profile leaves out (docs/transport.md). The
-// includer multiplies all of the skin's diffuse light by it.
+// includer multiplies the skin's diffuse light by gain_at(), and light through thin parts by transmitted_gain().
 #ifndef DERMIS_GAIN_GLSL
 #define DERMIS_GAIN_GLSL
 
