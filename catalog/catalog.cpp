@@ -7,6 +7,7 @@
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/rays/curvature_gain.h"
+#include "dermis/rays/slab_gain.h"
 #include "dermis/technique/gain.h"
 #include "dermis/technique/technique.h"
 #include "techniques/preintegrated/constants.h"
@@ -46,14 +47,15 @@ Result<ShadowPlaces> package_shadow_places(const Profile& profile) {
     return places;
 }
 
-Result<GainForm> package_gain(const Profile& profile, const std::map<std::string, std::string>& settings) {
+Result<PackageGain> package_gain(const Profile& profile, const std::map<std::string, std::string>& settings) {
     DERMIS_TRY_ASSIGN(const Technique* technique,
                       find_technique(built_in_catalog().techniques, "preintegrated"));
     ParameterValues values(technique->parameters);
     DERMIS_TRY(values.set_all(settings));
     if (values.text(*technique->parameters.find("gain")) == gain_names()[size_t(Gain::none)])
-        return GainForm{};
-    return walked_gain_form(walk_medium_of(profile));
+        return PackageGain{};
+    return PackageGain{.of_curvature = walked_gain_form(walk_medium_of(profile)),
+                       .of_slabs = walked_slab_gain(profile)};
 }
 
 }  // namespace dermis

@@ -22,9 +22,9 @@ namespace dermis {
 [[nodiscard]] Result<ShadowPlaces> package_shadow_places(const Profile& profile);
 
 /// The gain that packages of this skin have, PackageInput::gain. `settings`: of the technique preintegrated;
-/// none with gain=none. Of walks, which are cached: about 3 s of processor time.
-[[nodiscard]] Result<GainForm> package_gain(const Profile& profile,
-                                            const std::map<std::string, std::string>& settings = {});
+/// none with gain=none. Of walks, which are cached: about 4 s of processor time.
+[[nodiscard]] Result<PackageGain> package_gain(const Profile& profile,
+                                               const std::map<std::string, std::string>& settings = {});
 
 /// The files of engines/web, LICENSE, and the shaders that the page shares with the renderer.
 [[nodiscard]] std::span<const shading::Source> built_in_web_texts();

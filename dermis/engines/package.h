@@ -45,12 +45,18 @@ struct ShadowPlaces {
     size_t first = 0;  ///< where so many agree with the filtered shadow, the others are not read
 };
 
+/// What this skin returns beyond its profile; as it is: nothing (docs/transport.md).
+struct PackageGain {
+    GainForm of_curvature;
+    Rgb of_slabs = {1, 1, 1};  ///< on light through thin parts
+};
+
 struct PackageInput {
     Profile profile;
     std::span<const shading::Source> functions;  ///< shaders/include/skin
     std::span<const PackageTemplate> templates;
     ShadowPlaces shadow_places = {};
-    GainForm gain = {};  ///< of the skin; as it is: no gain
+    PackageGain gain = {};
     /// A head with its maps (engines/head.h). With it the package has the files of its template folder head/.
     std::span<const PackageFile> head = {};
 };

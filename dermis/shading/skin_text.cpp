@@ -130,8 +130,9 @@ std::string transmission_function(const std::vector<ChannelGaussians>& terms) {
            total + ";\n    return (" + sum +
            ") / total;\n}\n\n"
            "// Of what a point of a slab sends out, the share that has entered its far side, 0 to 0.5; the "
-           "rest has entered\n// here. mix(skin_diffuse(...), vec3(max(-N.L, 0.0)), skin_far_share(t)), each "
-           "times the visibility of the light on\n// its side, is exact for a slab and keeps the energy. "
+           "rest has entered\n// here. skin_thin_light() mixes skin_diffuse(...) and max(-N.L, 0.0) by it, "
+           "each "
+           "times the visibility of the light\n// on its side: exact for a slab by the profile. "
            "thickness_mm is 0 upwards.\n"
            "vec3 skin_far_share(float thickness_mm) {\n    vec3 through = skin_transmittance(thickness_mm);\n"
            "    return through / (1.0 + through);\n}\n";

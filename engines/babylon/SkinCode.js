@@ -91,6 +91,10 @@ const diffuseCall = l => `skinDiffuseLight(preInfo, $1.rgb);
 #if defined(SKIN_THICKNESS) && defined(SKIN_SCATTERING)
 info.diffuse *= 1.0 - skinFarShare;
 skinBehind = skinFarShare * max(-dot(geometricNormalW, preInfo.L), 0.0) * preInfo.attenuation * $1.rgb / kSkinPi;
+#ifdef SKIN_GAIN
+// All diffuse light is multiplied with skinGain later.
+skinBehind *= skin_gain_through(skinGain, kSkinGainOfSlabs) / max(skinGain, vec3(1e-3));
+#endif
 skinFarPosition = ${l.input("vPositionW")} + preInfo.L * (skin_past_far_wall_mm(skinThicknessMm) / ${l.own("skinSettings")}.x);
 #endif
 `;

@@ -55,6 +55,7 @@ ${l.global("float", "skinCurvatureOfMeans")}
 #endif
 ${l.global("float", "skinCurvature")}
 ${l.global("float", "skinMeanCurvature")}
+${l.global("vec3", "skinGain")}
 ${l.global("vec3", "skinMeshNormal")}
 ${l.global("vec3", "skinDiagonal")}
 ${l.global("vec3", "skinMixed")}
@@ -117,6 +118,7 @@ skinMeanCurvature = skin_mean_curvature_from_derivatives(${l.across("skinPositio
 skinDiagonal = skin_sphere_diagonal(skinCurvature, skinMeshNormal);
 skinMixed = skin_sphere_mixed(skinCurvature, skinMeshNormal);
 #endif
+skinGain = skin_gain(skinMeanCurvature * ${l.own("skinSettings")}.y);
 #ifdef SKIN_BAKED
 ${l.local("float", "skinLevel")} = skin_baked_level(${l.across(l.input(atlas))} * ${l.own("skinShadowSettings")}.zw,
     ${l.down(l.input(atlas))} * ${l.own("skinShadowSettings")}.zw);
@@ -263,7 +265,6 @@ finalIrradiance = max(skinIrradiance, vec3(0.0)) * ${l.own("vReflectionColor")} 
                   ${l.own("vLightingIntensity")}.z * skinOcclusion;
 #endif
 #if defined(SKIN_SCATTERING) && defined(SKIN_GAIN)
-${l.local("vec3", "skinGain")} = skin_gain(skinMeanCurvature * ${l.own("skinSettings")}.y);
 finalDiffuse *= skinGain;
 finalAmbient *= skinGain;
 #ifdef REFLECTION

@@ -1,4 +1,5 @@
-// The gain of this skin: how much of uniform light a curved place returns, over flat skin (docs/transport.md).
+// The gain of this skin: how much of uniform light a curved place returns, over flat skin, and how much more passes a thin part
+// than by the profile (docs/transport.md).
 #ifndef DERMIS_PACKAGE_GAIN_GLSL
 #define DERMIS_PACKAGE_GAIN_GLSL
 
@@ -8,6 +9,9 @@
 vec3 gain(float mean_curvature_per_mm) {
     return gain_of_curvature(mean_curvature_per_mm, vec3(@gain_slope_mm@), vec3(@gain_length_mm@), vec3(@gain_bend_mm@));
 }
+
+// Of light through thin parts: how much more of it passes slabs than the profile says.
+const vec3 kGainOfSlabs = vec3(@gain_of_slabs@);
 
 // From derivatives over the pixel, to the right and down, of the position in mm and of the normal: half the trace of the
 // second fundamental form over the first (do Carmo 1976, "Differential Geometry of Curves and Surfaces", section 3-3).

@@ -77,6 +77,8 @@ export const meanCurvatureFromDerivatives = /*@__PURE__*/ skinFunction("skin_mea
 export const skinTransmittance = /*@__PURE__*/ skinFunction("skin_transmittance", "vec3", "float");
 // Of the diffuse light of a thin part, the share that has entered its far side, 0 to 0.5, by its thickness in mm.
 export const skinFarShare = /*@__PURE__*/ skinFunction("skin_far_share", "vec3", "float");
+// Diffuse light of a thin part: what has entered here and behind, the share of the latter, the gain of the place and that of slabs.
+export const thinLight = /*@__PURE__*/ skinFunction("skin_thin_light", "vec3", "vec3", "vec3", "vec3", "vec3", "vec3");
 // How far towards the light the shadow of that light is looked up, in mm, by the thickness in mm.
 export const pastFarWallMm = /*@__PURE__*/ skinFunction("skin_past_far_wall_mm", "float", "float");
 // Light in a penumbra 3 mm wide, by the share of the light that is visible, 0 to 1.

@@ -11,7 +11,8 @@ import {
 } from "three/tsl";
 import { changeOfEnvironment, changeOfLight } from "./SkinAmbient.js";
 import {
-  diffuseCoordinate, fresnelSchlick, ggx, signOfMissingCurvature, signOfMissingTable, skinDiffuse, skinFarShare, twoLobeGgx,
+  diffuseCoordinate, fresnelSchlick, ggx, signOfMissingCurvature, signOfMissingTable, skinDiffuse, skinFarShare, thinLight,
+  twoLobeGgx,
 } from "./SkinFunction.js";
 import { gatheredColor } from "./SkinShadow.js";
 import { readSurface, toMesh } from "./SkinSurface.js";
@@ -20,6 +21,8 @@ import { colorBehind, thicknessMm } from "./SkinThickness.js";
 
 export * from "./SkinFunction.js";
 export * from "./SkinTable.js";
+
+const gainOfSlabs = /*@__PURE__*/ vec3(@gain_of_slabs@);
 
 // Reflections of the environment stay those of MeshStandardNodeMaterial (GGX).
 class SkinLightingModel extends PhysicalLightingModel {
@@ -55,13 +58,11 @@ class SkinLightingModel extends PhysicalLightingModel {
     const hasOwnShadow = material.penumbraMm > 0 || (material.scattering && material.scatteredShadow);
     const arriving = hasOwnShadow ? gatheredColor(lightNode, lightColor, material, { ...surface, toLight }, builder) : lightColor;
     if (!material.scattering) return arriving.mul(nDotL.max(0));
-    let entered = arriving.mul(material.setupDiffuse(surface, nDotL, toLight));
-    if (this.farShare) {
-      const farCosine = normalViewGeometry.dot(lightDirection).negate().max(0);
-      const behind = colorBehind(lightNode, lightDirection, lightColor, this.thickness, builder).mul(farCosine);
-      entered = mix(entered, behind, this.farShare);
-    }
-    return entered.mul(surface.gain);
+    const entered = arriving.mul(material.setupDiffuse(surface, nDotL, toLight));
+    if (!this.farShare) return entered.mul(surface.gain);
+    const farCosine = normalViewGeometry.dot(lightDirection).negate().max(0);
+    const behind = colorBehind(lightNode, lightDirection, lightColor, this.thickness, builder).mul(farCosine);
+    return thinLight(entered, behind, this.farShare, surface.gain, material.gain ? gainOfSlabs : vec3(1));
   }
 
   // Diffuse light is not lessened by what is reflected: the table has all of it.

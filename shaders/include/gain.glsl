@@ -16,7 +16,7 @@ vec3 gain_at(float mean_curvature_per_mm) {
 
 // Of light from the other side of a thin part, over what the profile passes.
 vec3 transmitted_gain(vec3 gain_of_place) {
-    return gain == kGainNone ? gain_of_place : max(gain_of_place, slab_gain);
+    return gain == kGainNone ? gain_of_place : gain_through(gain_of_place, slab_gain);
 }
 
 #endif

@@ -98,7 +98,7 @@ TEST_F(UnityShaders, of_the_graph_nodes_compile) {
         "float4 main(float3 n : NORMAL, float3 p : TEXCOORD0) : SV_Target {\n"
         "    float k;\n    float3 d, t;\n    SkinCurvature_float(n, p, 1000.0, k);\n"
         "    SkinDiffuse_float(n.z, k, d);\n    SkinTransmittance_float(k, t);\n"
-        "    SkinThin_float(d, 1.0, n.z, 2.0, d);\n    return float4(d * t, 1.0);\n}\n";
+        "    SkinThin_float(d, t, 1.0, n.z, 2.0, d);\n    return float4(d * t, 1.0);\n}\n";
     EXPECT_EQ(errors(text, {"", "fragment", "main", ""}), "");
 }
 

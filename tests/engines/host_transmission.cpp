@@ -75,7 +75,7 @@ float thickness_mm(float u) {
 Image with_transmission(const Image& sphere, const std::string& profile_name) {
     const Profile profile = gaussians_of(profile_name);
     const std::vector<Rgb> curve = diffuse_curve(profile);
-    const GainForm gain_form = package_gain(find_profile(profile_name).value()).value();
+    const PackageGain gains = package_gain(find_profile(profile_name).value()).value();
     const SpherePixels pixels(sphere);
     const Vec3 to_light = to_light_behind();
     Image picture = sphere;
@@ -87,9 +87,11 @@ Image with_transmission(const Image& sphere, const std::string& profile_name) {
             const float u = std::atan2(n.x, n.z) / float(2 * std::numbers::pi) + 0.5f;
             for (int c = 0; c < 3; ++c) {
                 const double here = at_cosine(curve, n_dot_l, size_t(c)), behind = std::max(-n_dot_l, 0.0);
+                const double of_place = gain(gains.of_curvature, c, 1 / kHostRadiusMm);
+                const double through = std::max(of_place, gains.of_slabs[size_t(c)]);
                 const double radiance = kAlbedo[size_t(c)] * kBehindIntensity / std::numbers::pi *
-                                        far_share(profile, c, thickness_mm(u)) * (behind - here) *
-                                        gain(gain_form, c, 1 / kHostRadiusMm);
+                                        far_share(profile, c, thickness_mm(u)) *
+                                        (behind * through - here * of_place);
                 const double sum = srgb_decode(sphere.at(x, y, c)) + radiance;
                 picture.set(x, y, c, srgb_encode(float(std::clamp(sum, 0.0, 1.0))));
             }
@@ -99,10 +101,11 @@ Image with_transmission(const Image& sphere, const std::string& profile_name) {
 
 Vec3 sheet_color_srgb(const std::string& profile_name) {
     const Profile profile = gaussians_of(profile_name);
+    const PackageGain gains = package_gain(find_profile(profile_name).value()).value();
     float color[3];
     for (int c = 0; c < 3; ++c)
         color[c] = float(kAlbedo[size_t(c)] * kBehindIntensity / std::numbers::pi * -to_light_behind().z *
-                         far_share(profile, c, thickness_mm(kSheetU)));
+                         far_share(profile, c, thickness_mm(kSheetU)) * gains.of_slabs[size_t(c)]);
     return srgb_encode(Vec3{color[0], color[1], color[2]});
 }
 

@@ -8,7 +8,7 @@
 
 namespace dermis {
 
-inline constexpr float kBehindYawDeg = 160, kBehindPitchDeg = 20, kBehindIntensity = 2 * 3.14159265f;
+inline constexpr float kBehindYawDeg = 160, kBehindPitchDeg = 20, kBehindIntensity = 3.14159265f;
 [[nodiscard]] Vec3 to_light_behind();
 inline constexpr float kThicknessMaxMm = 4;
 /// The sheet is this thick at u: 1 mm. The board's edge is past it, so that the shadow ends in the picture.

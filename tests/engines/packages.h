@@ -14,8 +14,9 @@
 
 namespace dermis {
 
-/// Content by path.
-inline std::map<std::string, std::string> package_of(const std::string& engine, const std::string& profile) {
+/// Content by path. `gain_of_slabs` replaces the skin's.
+inline std::map<std::string, std::string> package_of(const std::string& engine, const std::string& profile,
+                                                     std::optional<Rgb> gain_of_slabs = {}) {
     std::map<std::string, std::string> files;
     const auto skin = find_profile(profile);
     EXPECT_TRUE(skin);
@@ -23,9 +24,10 @@ inline std::map<std::string, std::string> package_of(const std::string& engine, 
     const auto places = package_shadow_places(*skin);
     EXPECT_TRUE(places) << places.error().message;
     if (!places) return files;
-    const auto gain = package_gain(*skin);
+    auto gain = package_gain(*skin);
     EXPECT_TRUE(gain) << gain.error().message;
     if (!gain) return files;
+    if (gain_of_slabs) gain->of_slabs = *gain_of_slabs;
     const auto package =
         make_package(engine, {*skin, shading::skin_sources(), built_in_package_templates(), *places, *gain});
     EXPECT_TRUE(package) << package.error().message;

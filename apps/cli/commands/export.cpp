@@ -93,7 +93,7 @@ Result<int> export_package(const ExportOptions& options) {
     }
     DERMIS_TRY_ASSIGN(const Profile profile, find_profile(head.profile));
     DERMIS_TRY_ASSIGN(const ShadowPlaces places, package_shadow_places(profile));
-    DERMIS_TRY_ASSIGN(const GainForm gain, package_gain(profile, head.settings));
+    DERMIS_TRY_ASSIGN(const PackageGain gain, package_gain(profile, head.settings));
     head.inputs.emplace_back(options.profile);
     return write_package(options,
                          {.profile = profile,

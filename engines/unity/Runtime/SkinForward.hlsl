@@ -51,10 +51,10 @@ SkinVaryings SkinVertex(SkinAttributes input) {
 }
 
 struct SkinSurface {
-    float3 albedo, n, v;  // linear; world space, normalised
+    float3 albedo, n, v;  // linear, with the gain of the place; world space, normalised
     float curvature_per_mm;
 #if defined(_SKIN_THIN)
-    float3 n_geometry, far_share;
+    float3 n_geometry, far_share, albedo_through;
     float past_far_wall;  // towards a light, to where the shadow of what comes through is looked up, in units
 #endif
 };
@@ -82,7 +82,7 @@ float3 SkinLight(SkinSurface s, Light light) {
 // own back.
 float3 SkinLightBehind(SkinSurface s, Light light) {
     float3 irradiance = light.color * (light.distanceAttenuation * light.shadowAttenuation);
-    return s.albedo * s.far_share * saturate(-dot(s.n_geometry, light.direction)) * irradiance;
+    return s.albedo_through * s.far_share * saturate(-dot(s.n_geometry, light.direction)) * irradiance;
 }
 
 #endif
@@ -148,14 +148,16 @@ float4 SkinFragment(SkinVaryings input) : SV_Target {
                                                                          fwidth(input.positionWS) * _MmPerUnit),
                              kSkinMaxCurvaturePerMm);
     float3 p_mm = input.positionWS * _MmPerUnit;
-    s.albedo *= skin_gain(_CurvatureGain *
-                          skin_mean_curvature_from_derivatives(ddx(p_mm), ddy(p_mm), ddx(n_geometry), ddy(n_geometry)));
+    float3 gain = skin_gain(_CurvatureGain *
+                            skin_mean_curvature_from_derivatives(ddx(p_mm), ddy(p_mm), ddx(n_geometry), ddy(n_geometry)));
 #if defined(_SKIN_THIN)
     float thickness_mm = SAMPLE_TEXTURE2D(_ThicknessMap, sampler_ThicknessMap, input.uv).g * _ThicknessMaxMm;
     s.n_geometry = n_geometry;
     s.far_share = skin_far_share(thickness_mm);
+    s.albedo_through = s.albedo * skin_gain_through(gain, kSkinGainOfSlabs);
     s.past_far_wall = skin_past_far_wall_mm(thickness_mm) / _MmPerUnit;
 #endif
+    s.albedo *= gain;
     float3 radiance = SkinLights(s, input) + s.albedo * SampleSH(s.n);
     return float4(MixFog(radiance, input.fog), 1.0);
 }

@@ -27,10 +27,10 @@ void SkinTransmittance_float(float Thickness, out float3 Transmittance) {
     Transmittance = skin_transmittance(Thickness);
 }
 
-// Name SkinThin. Diffuse light of a thin part: Diffuse of SkinDiffuse times the light's visibility here, Behind its visibility on
-// the far side. Thickness in mm.
-void SkinThin_float(float3 Diffuse, float Behind, float NdotL, float Thickness, out float3 Thin) {
-    Thin = lerp(Diffuse, (float3)(Behind * saturate(-NdotL)), skin_far_share(Thickness));
+// Name SkinThin. Diffuse light of a thin part, with its gain: Diffuse of SkinDiffuse times the light's visibility here, Gain of SkinGain,
+// Behind the light's visibility on the far side. Thickness in mm.
+void SkinThin_float(float3 Diffuse, float3 Gain, float Behind, float NdotL, float Thickness, out float3 Thin) {
+    Thin = skin_thin_light(Diffuse, (float3)(Behind * saturate(-NdotL)), skin_far_share(Thickness), Gain, kSkinGainOfSlabs);
 }
 
 #endif

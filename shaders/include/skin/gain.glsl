@@ -12,4 +12,15 @@ vec3 gain_of_curvature(float curvature_per_mm, vec3 slope_mm, vec3 length_mm, ve
     return max(1.0 + slope_mm * v / max(1.0 - bend_mm * v, 1e-3), vec3(0.0));
 }
 
+// What light through a thin part is multiplied with. gain_of_slabs: how much more of it passes slabs than the
+// profile says, one number a channel (dermis/rays/slab_gain.h).
+vec3 gain_through(vec3 gain_of_place, vec3 gain_of_slabs) { return max(gain_of_place, gain_of_slabs); }
+
+// Diffuse light of a thin part: what has entered here and on its far side, each 0 to 1, and the share of the
+// latter (far_share()).
+vec3 thin_light(vec3 here, vec3 behind, vec3 share_behind, vec3 gain_of_place, vec3 gain_of_slabs) {
+    return here * (1.0 - share_behind) * gain_of_place +
+           behind * share_behind * gain_through(gain_of_place, gain_of_slabs);
+}
+
 #endif
