@@ -85,7 +85,7 @@ def make_material(table):
                code="float NdotL = dot(normalize(Normal), LightDirection);\n"
                     "float3 Diffuse = SkinDiffuseOfTable(Table, TableSampler, NdotL, SkinCurvature(Normal, Position),\n"
                     "    Parameters.SvPosition.xy);\n"
-                    "return SkinThin(Diffuse, NdotL, Thickness) * Albedo.rgb * LightColor.rgb;")
+                    "return SkinThin(Diffuse, SkinGain(Normal, Position), NdotL, Thickness) * Albedo.rgb * LightColor.rgb;")
     for name, source in inputs.items():
         unreal.MaterialEditingLibrary.connect_material_expressions(source, "", node, name)
     unreal.MaterialEditingLibrary.connect_material_property(node, "", unreal.MaterialProperty.MP_EMISSIVE_COLOR)
