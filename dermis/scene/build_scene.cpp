@@ -12,6 +12,7 @@
 #include "dermis/base/warnings.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/presets.h"
+#include "dermis/scene/corneas.h"
 #include "dermis/scene/find_parts.h"
 #include "dermis/scene/object_checks.h"
 #include "dermis/scene/place_mesh.h"
@@ -150,6 +151,7 @@ Result<void> set_up_materials(const SceneDescription& description, const MeshDes
     const bool is_file = !subject_name(mesh.file.text);
     if (is_file) {
         object.parts = parts_of(description, mesh, object.mesh);
+        cut_out_corneas(object.mesh, object.parts);
         object.classes.clear();
         for (const FoundPart& found : object.parts) object.classes.push_back(class_of(found.part));
         if (const std::string note = parts_note(object); !note.empty() && is_guessed(object.parts))
