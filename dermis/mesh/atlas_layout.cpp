@@ -16,7 +16,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "dermis/mesh/pack_rectangles.h"
+#include "dermis/mesh/pack_charts.h"
 #include "dermis/mesh/topology.h"
 #include "dermis/mesh/unwrap.h"
 #include "dermis/mesh/uv_report.h"
@@ -321,41 +321,35 @@ Vec2 scale_mm(std::span<const Triangle> triangles, const Members& members) {
     return {float(mean * stretch), float(mean / stretch)};
 }
 
-// Less between many rectangles, so that gaps do not take most of the atlas.
+// Less between many layers, so that gaps do not take most of the atlas.
 float gap_between(size_t count) {
     return std::clamp(0.12f / std::sqrt(float(count)), 1.0f / 256, 1.0f / 32);
 }
 
 // Step 3.
-AtlasLayout packed(std::span<const AtlasPart> parts, std::span<const Triangle> triangles,
-                   std::span<const Layer> layers) {
-    std::vector<Box> boxes;
-    std::vector<Vec2> scales, sides;
+AtlasLayout pack(std::span<const AtlasPart> parts, std::span<const Triangle> triangles,
+                 std::span<const Layer> layers) {
+    std::vector<std::vector<std::array<Vec2, 3>>> charts;
     for (const Layer& layer : layers) {
-        boxes.push_back(box_of(triangles, layer.members));
-        scales.push_back(scale_mm(triangles, layer.members));
-        const Vec2 size = boxes.back().high - boxes.back().low;
-        sides.push_back(
-            {std::max(size.x * scales.back().x, 1e-3f), std::max(size.y * scales.back().y, 1e-3f)});
+        const Vec2 scale = scale_mm(triangles, layer.members);
+        std::vector<std::array<Vec2, 3>>& chart = charts.emplace_back();
+        for (const uint32_t t : layer.members) {
+            chart.push_back(triangles[t].uvs);
+            for (Vec2& uv : chart.back()) uv = {uv.x * scale.x, uv.y * scale.y};
+        }
     }
-    const Packing packing = pack_rectangles(sides, gap_between(layers.size()));
+    const std::vector<PackedChart> packed = pack_charts(charts, gap_between(layers.size()));
     AtlasLayout layout{.parts = {}, .layers = uint32_t(layers.size())};
     for (const AtlasPart& part : parts) layout.parts.emplace_back(part.triangles.size());
     std::vector<uint32_t> first(parts.size(), 0);
     for (size_t part = 1; part < parts.size(); ++part)
         first[part] = first[part - 1] + uint32_t(parts[part - 1].triangles.size());
     for (uint32_t i = 0; i < layers.size(); ++i)
-        for (const uint32_t t : layers[i].members) {
-            const Triangle& triangle = triangles[t];
-            AtlasLayout::Corners& corners = layout.parts[triangle.part][t - first[triangle.part]];
+        for (size_t k = 0; k < layers[i].members.size(); ++k) {
+            const uint32_t t = layers[i].members[k], part = triangles[t].part;
+            AtlasLayout::Corners& corners = layout.parts[part][t - first[part]];
             corners.layer = i;
-            for (size_t k = 0; k < 3; ++k) {
-                const Vec2 from_low = triangle.uvs[k] - boxes[i].low;
-                Vec2 at = Vec2{from_low.x * scales[i].x, from_low.y * scales[i].y} * packing.scale;
-                // Turned by 90 degrees, so that no layer is mirrored.
-                if (packing.rectangles[i].is_turned) at = {at.y, sides[i].x * packing.scale - at.x};
-                corners.uvs[k] = packing.rectangles[i].corner + at;
-            }
+            for (size_t c = 0; c < 3; ++c) corners.uvs[c] = packed[i].at(charts[i][k][c]);
         }
     return layout;
 }
@@ -370,7 +364,7 @@ AtlasLayout lay_out_atlas(std::span<const AtlasPart> parts) {
             return !layer.is_unwrapped && box_of(triangles, layer.members).within({0, 0}, 1, kTileTolerance);
         });
     if (is_one_tile) return {.is_as_it_was = true, .parts = {}};
-    return packed(parts, triangles, layers);
+    return pack(parts, triangles, layers);
 }
 
 }  // namespace dermis::inline mesh

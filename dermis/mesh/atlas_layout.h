@@ -2,9 +2,9 @@
 // One atlas for surfaces whose UVs share texels: materials that each have 0..1, UDIM tiles, mirrored halves,
 // tiled patches.
 //
-// Triangles that share no texels stay together in a layer, a piece of a UV plane. Layers become rectangles of
-// the atlas, as large as their area on the surface. Triangles without UVs, and those whose UVs fold over
-// themselves, get new ones (mesh/unwrap.h).
+// Triangles that share no texels stay together in a layer, a piece of a UV plane. The atlas has layers as
+// large as their area on the surface, packed by their outlines (mesh/pack_charts.h). Triangles without UVs,
+// and those whose UVs fold over themselves, get new ones (mesh/unwrap.h).
 
 #include <array>
 #include <cstdint>

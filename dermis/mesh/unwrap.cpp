@@ -215,10 +215,55 @@ void add_charts(const Faces& faces, float least_cosine, Unwrapping& result, std:
     update_axes();
 }
 
+// The charts with at least `share` of the area, each from the face that its mean normal fits best. All grow
+// at once, the best fit first, so that borders lie where two mean normals fit equally (Lloyd's iteration as
+// in Cohen-Steiner, Alliez, Desbrun 2004, "Variational Shape Approximation", section 3). Other faces have
+// none.
+void regrow(const Faces& faces, double share, float least_cosine, Unwrapping& result,
+            std::vector<Vec3>& axes) {
+    axes = chart_axes(faces, result.chart, result.charts);
+    std::vector<double> areas(result.charts, 0);
+    std::vector<uint32_t> seeds(result.charts, kNoFace);
+    double total = 0;
+    for (uint32_t i = 0; i < result.chart.size(); ++i) {
+        const uint32_t chart = result.chart[i];
+        areas[chart] += double(faces.areas_mm2[i]), total += double(faces.areas_mm2[i]);
+        if (faces.normals[i] == Vec3{}) continue;
+        if (seeds[chart] == kNoFace ||
+            cosine_to(faces, i, axes[chart]) > cosine_to(faces, seeds[chart], axes[chart]))
+            seeds[chart] = i;
+    }
+    std::ranges::fill(result.chart, kNoFace);
+    struct Candidate {
+        float cosine;
+        uint32_t face, chart;
+        bool operator<(const Candidate& other) const { return cosine < other.cosine; }
+    };
+    std::priority_queue<Candidate> queue;
+    uint32_t kept = 0;
+    for (uint32_t chart = 0; chart < result.charts; ++chart) {
+        if (seeds[chart] == kNoFace || areas[chart] < share * total) continue;
+        axes[kept] = axes[chart];
+        queue.push({1, seeds[chart], kept++});
+    }
+    result.charts = kept;
+    axes.resize(kept);
+    while (!queue.empty()) {
+        const Candidate best = queue.top();
+        queue.pop();
+        if (result.chart[best.face] != kNoFace || best.cosine < least_cosine) continue;
+        result.chart[best.face] = best.chart;
+        for (const uint32_t next : faces.neighbours[best.face])
+            if (next != kNoFace && result.chart[next] == kNoFace)
+                queue.push({cosine_to(faces, next, axes[best.chart]), next, best.chart});
+    }
+}
+
 }  // namespace
 
 Unwrapping unwrap(const Mesh& mesh, std::span<const uint32_t> triangles) {
-    constexpr int kRounds = 8;
+    constexpr int kRounds = 8, kLloydRounds = 6;
+    constexpr double kSeedShare = 0.01;
     const Faces faces = find_faces(mesh, triangles);
     const float least_cosine = std::cos(kCone_rad);
     Unwrapping result{.corners_mm = std::vector<std::array<Vec2, 3>>(triangles.size()),
@@ -230,6 +275,10 @@ Unwrapping unwrap(const Mesh& mesh, std::span<const uint32_t> triangles) {
     for (int round = 0; round < kRounds && std::ranges::count(result.chart, kNoFace) > 0; ++round) {
         const uint32_t first = result.charts;
         add_charts(faces, least_cosine, result, axes);
+        for (int turn = 0; round == 0 && turn < kLloydRounds; ++turn) {
+            regrow(faces, kSeedShare, least_cosine, result, axes);
+            add_charts(faces, least_cosine, result, axes);
+        }
         if (round == 0) absorb_small(faces, axes, kSmallShare, 0.5f * least_cosine, result.chart);
         std::vector<std::vector<uint32_t>> members(result.charts - first);
         for (uint32_t i = 0; i < triangles.size(); ++i)

@@ -10,17 +10,17 @@
 
 namespace dermis::inline mesh {
 
-/// Charts in millimetres, each with its own origin: pack them (pack_rectangles.h).
+/// Charts in millimetres, each with its own origin: pack them (pack_charts.h).
 struct Unwrapping {
     std::vector<std::array<Vec2, 3>> corners_mm;  ///< of each given triangle; v points down
     std::vector<uint32_t> chart;                  ///< of each given triangle
     uint32_t charts = 0;
 };
 
-/// Charts grow over the surface while its normals stay within 55 degrees of their mean, and are projected
-/// along that mean. What would cover texels of its own chart twice begins another chart; only pieces below
-/// 2e-5 of the area may share texels with a neighbour. Texels are stretched by at most 1.7, but for such
-/// pieces. Nearly linear; 100 ms for 20,000 triangles.
+/// Charts hold the surface whose normals are within 55 degrees of their mean and nearer to it than to those
+/// of other charts, and are projected along that mean. What would cover texels of its own chart twice begins
+/// another chart; only pieces below 2e-5 of the area may share texels with a neighbour. Texels are stretched
+/// by at most 1.7, but for such pieces. Nearly linear; 150 ms for 20,000 triangles.
 [[nodiscard]] Unwrapping unwrap(const Mesh& mesh, std::span<const uint32_t> triangles);
 
 }  // namespace dermis::inline mesh

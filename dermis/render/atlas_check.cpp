@@ -90,11 +90,10 @@ double overlap_of_skin(const Scene& scene) {
 // moves UVs.
 std::string layout_warning(const SceneObject& object, const Submesh& submesh) {
     const std::string name = "skin material '" + name_of(object, submesh) + "'";
-    const std::string end =
-        " for light maps and baked maps, with larger texels than UVs of one atlas would have: "
-        "texture_space_gaussians[light_map_size=1024] makes up for it (docs/figures.md#uvs-of-other-heads)";
+    const std::string end = " for light maps and baked maps";
     if (object.mesh.uvs.size() != object.mesh.positions_mm.size())
-        return name + " has no UVs, so Dermis makes some" + end;
+        return name + " has no UVs, so Dermis makes some" + end +
+               "; UVs that were made for the head draw better (docs/figures.md#uvs-of-other-heads)";
     const double overlap = analyze_uvs(object.mesh, submesh.material, 512).overlap;
     if (overlap <= kOverlapUnfit) return {};
     return percent(overlap) + " of the UVs of " + name + " overlap, so Dermis spreads them" + end;

@@ -409,6 +409,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
         .reduced_diffuse = scene_->skin.specular_reduces_diffuse,
         .densest_uv_per_mm = uploaded_->uv_density().densest_uv_per_mm,
         .typical_uv_per_mm = uploaded_->uv_density().typical_uv_per_mm,
+        .light_map_scale = uploaded_->uv_density().light_map_scale,
         .has_zonal_table = !scene_->skin.zonal_table.empty(),
         .has_beckmann_table = !scene_->skin.beckmann_table.empty(),
         .skin_gaussians = {}};

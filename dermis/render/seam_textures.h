@@ -23,6 +23,7 @@ struct SeamTextures {
 struct UvDensity {
     float densest_uv_per_mm = 0;  ///< the longest, in 99 % of the skin's area
     float typical_uv_per_mm = 0;  ///< median by area of the mean over all directions
+    float light_map_scale = 1;    ///< FrameContext::light_map_scale
 };
 [[nodiscard]] UvDensity uv_density(const Scene& scene);
 

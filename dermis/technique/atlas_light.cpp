@@ -39,7 +39,9 @@ const ParameterTable& atlas_parameters() {
     using P = AtlasParams;
     static const ParameterTable kTable =
         ParameterTableBuilder<P>()
-            .integer(&P::light_map_size, "light_map_size", "texels", 16, 4096, "side of the light map")
+            .integer(
+                &P::light_map_size, "light_map_size", "texels", 16, 4096,
+                "side of the light map; more where Dermis lays out the atlas, so that gaps take no texels")
             .choice(&P::cull, "cull", {"none", "frustum", "back_face", "both"},
                     "leave out texels outside the view, or that face away; changes no pixel")
             .number(&P::kernel_growth, "kernel_growth", "", 0, 10,
@@ -57,12 +59,20 @@ AtlasParams coarse_light_map(AtlasParams params, float scale) {
     return params;
 }
 
-AtlasLightSettings atlas_light_settings(const AtlasParams& params) {
+int light_map_side(const AtlasParams& params, const FrameContext& frame) {
+    constexpr int kMostTexels = 4096, kTile = 8;
+    if (!(frame.light_map_scale > 1)) return params.light_map_size;
+    const int tiles = int(std::ceil(float(params.light_map_size) * frame.light_map_scale / kTile));
+    return std::min(kTile * tiles, kMostTexels);
+}
+
+AtlasLightSettings atlas_light_settings(const AtlasParams& params, const FrameContext& frame) {
     const AtlasCull cull = params.cull;
+    const int side = light_map_side(params, frame);
     return {.cull = {.frustum = cull == AtlasCull::frustum || cull == AtlasCull::both,
                      .back_face = cull == AtlasCull::back_face || cull == AtlasCull::both,
-                     .size = params.light_map_size},
-            .size = params.light_map_size,
+                     .size = side},
+            .size = side,
             .kernel_scale_mm = params.kernel_growth};
 }
 

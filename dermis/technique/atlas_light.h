@@ -19,13 +19,16 @@ enum class AtlasCull : int32_t { none, frustum, back_face, both };
 /// The parameters of every technique that lights the skin in its atlas: a part of the technique's own, with
 /// the rows of atlas_parameters().
 struct AtlasParams {
-    int32_t light_map_size = 512;
+    int32_t light_map_size = 512;  ///< texels: light_map_side()
     AtlasCull cull = AtlasCull::both;
     float kernel_growth = 0.5f;
     Transmission transmission = Transmission::shadow_map;
     Gain gain = Gain::curvature;
 };
 [[nodiscard]] const ParameterTable& atlas_parameters();
+
+/// Texels of the light map's side: light_map_size, or more where the atlas has gaps.
+[[nodiscard]] int light_map_side(const AtlasParams& params, const FrameContext& frame);
 
 /// `params` with a smaller light map, for Technique::coarse: `scale` times as large, but not under 256.
 [[nodiscard]] AtlasParams coarse_light_map(AtlasParams params, float scale);
@@ -42,8 +45,8 @@ struct AtlasLightSettings {
     float kernel_scale_mm = 0, kernel_bias_mm = 1, longest_texels = 16;
 };
 
-/// Values that follow from the parameters alone.
-[[nodiscard]] AtlasLightSettings atlas_light_settings(const AtlasParams& params);
+/// Values that follow from the parameters and the size of the atlas's gaps.
+[[nodiscard]] AtlasLightSettings atlas_light_settings(const AtlasParams& params, const FrameContext& frame);
 
 /// In texels of the light map, the farthest that `length_mm` reaches on nearly all of the skin (99 % of its
 /// area); longer steps are cut to it, so that culls know how far light is carried.

@@ -36,6 +36,8 @@ struct FrameContext {
     float densest_uv_per_mm = 0.004f;
     /// The median by area of the mean step over all directions.
     float typical_uv_per_mm = 0.003f;
+    /// Sides of light maps over light_map_size: more than 1 where Dermis laid out the atlas, which has gaps.
+    float light_map_scale = 1;
     /// Why no map can be baked over the skin's UV atlas, and what to change; empty: one can.
     std::string atlas_fault;
     bool has_skin_outside_atlas = true;  ///< some of the skin has UVs in other tiles than 0..1

@@ -127,7 +127,7 @@ float taps_share(Blur blur) {
 
 BlurPlan blur_plan(const Params& params, const FrameContext& frame) {
     if (params.blur == Blur::profile) {
-        const double texel_mm = typical_texel_mm(params.atlas.light_map_size, frame);
+        const double texel_mm = typical_texel_mm(light_map_side(params.atlas, frame), frame);
         return {.passes = texture_space::fit_blur(frame.skin_gaussians,
                                                   {.passes = params.blur_passes, .texel_mm = texel_mm}),
                 .fitted_texel_mm = float(texel_mm)};
@@ -154,7 +154,7 @@ void set_reach(AtlasCullSettings& cull, const BlurPlan& plan, const Params& para
 
 AtlasLightSettings atlas_settings(const Params& params, const BlurPlan& plan, const FrameContext& frame,
                                   bool whole) {
-    AtlasLightSettings settings = atlas_light_settings(params.atlas);
+    AtlasLightSettings settings = atlas_light_settings(params.atlas, frame);
     settings.in_mm = settings.cull.across_seams = plan.in_mm;
     settings.specular = params.specular;
     settings.shadow = {
@@ -219,7 +219,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const bool kept = far && is_far(frame.previous_camera_distance_mm);
 
     const BlurPlan plan = blur_plan(params, frame);
-    const int side = params.atlas.light_map_size;
+    const int side = light_map_side(params.atlas, frame);
     const std::string result = source_of(plan, plan.passes.size());
     PassList list;
     for (const std::string name : {"light_map_a", "light_map_b", "light_map_c"}) {

@@ -105,8 +105,8 @@ struct Blur {
 Blur blur_of(const Params& params, const FrameContext& frame) {
     GaussianSum sum = widened(frame.skin_gaussians, params.width);
     if (params.gaussians == Gaussians::fitted)
-        sum = texture_space_gaussians::shared_gaussians(sum,
-                                                        typical_texel_mm(params.atlas.light_map_size, frame));
+        sum = texture_space_gaussians::shared_gaussians(
+            sum, typical_texel_mm(light_map_side(params.atlas, frame), frame));
     Blur blur = {.steps = steps_of(std::move(sum.terms))};
     if (!blur.steps.empty() && blur.steps[0].sigma_mm <= 0) {
         blur.unblurred = blur.steps[0].share;
@@ -117,7 +117,7 @@ Blur blur_of(const Params& params, const FrameContext& frame) {
 
 AtlasLightSettings atlas_settings(const Params& params, const std::vector<Step>& steps,
                                   const FrameContext& frame) {
-    AtlasLightSettings settings = atlas_light_settings(params.atlas);
+    AtlasLightSettings settings = atlas_light_settings(params.atlas, frame);
     settings.cull.across_seams = settings.carry_seams = params.carry_seams;
     settings.in_mm = true;
     settings.pre_scatter = params.pre_scatter;
@@ -172,7 +172,8 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     const Params params = values.as<Params>();
     const Blur blur = blur_of(params, frame);
     const AtlasLightSettings atlas = atlas_settings(params, blur.steps, frame);
-    const ImageSize size = {params.atlas.light_map_size, params.atlas.light_map_size};
+    const int side = light_map_side(params.atlas, frame);
+    const ImageSize size = {side, side};
     PassList list;
     for (const char* name : {"light_map_a", "light_map_b"})
         list.images.push_back({.name = name, .format = ImageFormat::rgba16f, .size = size});

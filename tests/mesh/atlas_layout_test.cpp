@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "dermis/mesh/pack_rectangles.h"
+#include "dermis/mesh/pack_charts.h"
 #include "dermis/mesh/primitives.h"
 #include "dermis/mesh/uv_report.h"
 
@@ -193,27 +193,55 @@ TEST(AtlasLayout, a_small_part_that_covers_its_chart_gets_texels_of_its_own) {
     EXPECT_LT(overlap_of(square), 1e-4);
 }
 
-TEST(PackRectangles, stay_apart_and_fill_most_of_the_square) {
-    std::vector<Vec2> sides;
-    for (int i = 1; i <= 60; ++i) sides.push_back({1 + float(i * 7 % 13), 1 + float(i * 5 % 11)});
-    constexpr float kGap = 0.01f;
-    const Packing packing = pack_rectangles(sides, kGap);
-    ASSERT_EQ(packing.rectangles.size(), sides.size());
-    std::vector<std::pair<Vec2, Vec2>> boxes;
-    float area = 0;
-    for (size_t i = 0; i < sides.size(); ++i) {
-        Vec2 side = sides[i] * packing.scale;
-        if (packing.rectangles[i].is_turned) std::swap(side.x, side.y);
-        area += side.x * side.y;
-        boxes.push_back({packing.rectangles[i].corner, packing.rectangles[i].corner + side});
-        EXPECT_GE(boxes.back().first.x, kGap / 2 - 1e-5f);
-        EXPECT_LE(boxes.back().second.y, 1 - kGap / 2 + 1e-5f);
+namespace {
+
+// An L of two arms, each `arm` wide, of side `side`.
+std::vector<std::array<Vec2, 3>> angle(float side, float arm) {
+    std::vector<std::array<Vec2, 3>> triangles;
+    for (const Vec2 size : {Vec2{side, arm}, {arm, side}}) {
+        triangles.push_back({Vec2{}, {size.x, 0}, size});
+        triangles.push_back({Vec2{}, size, {0, size.y}});
     }
-    for (size_t i = 0; i < boxes.size(); ++i)
-        for (size_t k = 0; k < i; ++k) {
-            const auto& [a, b] = std::tie(boxes[i], boxes[k]);
-            EXPECT_TRUE(a.second.x + kGap <= b.first.x + 1e-4f || b.second.x + kGap <= a.first.x + 1e-4f ||
-                        a.second.y + kGap <= b.first.y + 1e-4f || b.second.y + kGap <= a.first.y + 1e-4f);
-        }
-    EXPECT_GT(area, 0.6f);
+    return triangles;
+}
+
+double distance(Vec2 p, Vec2 a, Vec2 b) {
+    const Vec2 along = b - a;
+    const float t = std::clamp(dot(p - a, along) / std::max(dot(along, along), 1e-12f), 0.0f, 1.0f);
+    return double(length(p - a - along * t));
+}
+
+}  // namespace
+
+TEST(PackCharts, lie_in_each_others_hollows_and_stay_apart) {
+    constexpr float kGap = 0.02f;
+    std::vector<std::vector<std::array<Vec2, 3>>> charts;
+    for (int i = 0; i < 16; ++i) charts.push_back(angle(float(6 + i % 5), 2));
+    const std::vector<PackedChart> packed = pack_charts(charts, kGap);
+    ASSERT_EQ(packed.size(), charts.size());
+    double area = 0, least = 1;
+    for (size_t i = 0; i < charts.size(); ++i) {
+        const float side = float(6 + i % 5), scale = length(packed[i].x_axis);
+        EXPECT_NEAR(scale, length(packed[0].x_axis), 1e-6);
+        EXPECT_GT(cross(packed[i].x_axis, packed[i].y_axis), 0) << "mirrored";
+        area += double(scale * scale * (4 * side - 4));
+        for (const std::array<Vec2, 3>& triangle : charts[i])
+            for (const Vec2 corner : triangle) {
+                const Vec2 at = packed[i].at(corner);
+                least = std::min({least, double(at.x), double(at.y), 1 - double(at.x), 1 - double(at.y)});
+                for (size_t k = 0; k < charts.size(); ++k)
+                    for (const std::array<Vec2, 3>& other : charts[k])
+                        for (size_t c = 0; k != i && c < 3; ++c)
+                            least = std::min(
+                                least,
+                                distance(at, packed[k].at(other[c]), packed[k].at(other[(c + 1) % 3])) / 2);
+            }
+    }
+    EXPECT_GE(least, 0.9 * double(kGap) / 2);
+    EXPECT_GT(area, 0.45);  // boxes that touched would leave 0.43
+}
+
+TEST(PackCharts, fit_however_many_there_are) {
+    const std::vector<std::vector<std::array<Vec2, 3>>> charts(5000, angle(3, 1));
+    EXPECT_EQ(pack_charts(charts, 0.01f).size(), charts.size());
 }

@@ -1,0 +1,25 @@
+#pragma once
+// Packs charts of an atlas into the unit square by their outlines, so that one can lie in the hollows of
+// others.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dermis/base/vec.h"
+
+namespace dermis::inline mesh {
+
+/// Where the square has a chart: turned by quarters of a circle, never mirrored.
+struct PackedChart {
+    Vec2 origin, x_axis, y_axis;
+    [[nodiscard]] Vec2 at(Vec2 p) const { return origin + x_axis * p.x + y_axis * p.y; }
+};
+
+/// Triangles of charts, in one unit, as PackedCharts of one scale, the largest that was found. At least about
+/// `gap` of the square's side lies between charts, and half of it to the border; less where thousands of
+/// charts leave no room for it. Cost: 20 ms for 100 charts, 1 s for 10,000.
+[[nodiscard]] std::vector<PackedChart> pack_charts(std::span<const std::vector<std::array<Vec2, 3>>> charts,
+                                                   float gap);
+
+}  // namespace dermis::inline mesh
