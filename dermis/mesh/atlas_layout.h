@@ -30,7 +30,6 @@ struct AtlasLayout {
 /// Share of its texels that a layer may have under more than one triangle; exporters round.
 inline constexpr double kOverlapOfLayer = 0.01;
 
-/// Cost: 30 ms for 20,000 triangles, without UVs 100 ms.
 [[nodiscard]] AtlasLayout lay_out_atlas(std::span<const AtlasPart> parts);
 
 }  // namespace dermis::inline mesh
