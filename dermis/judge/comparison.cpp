@@ -22,13 +22,14 @@ Result<void> check_grid(const ComparisonSettings& settings) {
                  std::to_string(kMaxImageSide) + "; take fewer, or a smaller picture"};
 }
 
-EffectReferenceSettings reference_settings(const ComparisonSettings& settings) {
+EffectReferenceSettings reference_settings(const ComparisonSettings& settings, Integrator integrator) {
     EffectReferenceSettings wanted{
         .reference = settings.reference, .noise = settings.noise, .samples = settings.samples};
     wanted.reference.width = settings.width;
     wanted.reference.height = settings.height;
     wanted.reference.grid = settings.grid;
-    wanted.reference.probes = settings.probes;
+    wanted.reference.integrator = integrator;
+    wanted.reference.probes = integrator == Integrator::walk ? settings.walks : settings.probes;
     return wanted;
 }
 
@@ -117,8 +118,7 @@ void report_shares(const Comparison& comparison, Integrator integrator, const Ef
 Result<void> make_reference(const Scene& scene, const ComparisonSettings& settings,
                             const ComparisonHooks& hooks, const ReferencePart& part,
                             const Comparison& comparison, EffectReference& reference) {
-    EffectReferenceSettings wanted = reference_settings(settings);
-    wanted.reference.integrator = part.integrator;
+    EffectReferenceSettings wanted = reference_settings(settings, part.integrator);
     if (part.first_samples) wanted.samples = 2 * settings.grid * settings.grid;
     EffectReferenceHooks reference_hooks{.stop = hooks.stop};
     const std::string name = "reference " + std::string(judge_name(part.integrator));

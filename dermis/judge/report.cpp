@@ -181,6 +181,7 @@ Json facts_of(const Scene& scene, const Comparison& comparison, const Comparison
             {"ambient", traced ? "traced" : "as the renderer approximates it, on both sides"},
             {"grid", settings.grid},
             {"probes", settings.probes},
+            {"walks", settings.walks},
             {"judges", judges_of(comparison)},
             {"reference_rmse", comparison.reference_rmse},
             {"camera", camera_text(scene.camera)},

@@ -46,7 +46,9 @@ Moments returned_light(const ScatteringMedium& medium, const Boundary& boundary,
         for (size_t i = begin; i < end; ++i) {
             Pcg32 random(seed, uint32_t(i));
             const Vec3 up = {0, 0, 1}, start = sample_entry_direction(up, prepared.eta, random);
-            values[i] = guided_walk(prepared, guide, boundary, {}, up, start, int(i % 3), random).throughput;
+            values[i] =
+                guided_walk(prepared, guide, boundary, {}, up, start, golden_1d(seed, uint32_t(i)), random)
+                    .throughput;
         }
     });
     return moments(values);

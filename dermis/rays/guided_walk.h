@@ -5,10 +5,11 @@
 // length in mean free paths. Collisions choose the cosine w to the outward normal with density 1 / (nu - w),
 // free paths the extinction (1 - w / nu) sigma_t: Krivanek, d'Eon 2014, A Zero-variance-based Sampling Scheme
 // for Monte Carlo Subsurface Scattering (Dwivedi 1982). Each step of a guided walk does so with a fixed
-// chance, else it follows the medium. A part of the walks is plain. The channels lead the walks in turn, and
-// a walk is weighted by the mean density of all channels, guided and plain (Wilkie et al. 2014; Veach 1997,
-// balance heuristic). So no weight is larger than a plain walk's over kPlainWalks: in a ball, an ear or a
-// wrinkle guided steps alone leave much light to a few walks. The mean is that of random_walk (tested).
+// chance, else it follows the medium. A part of the walks is plain. One channel leads a walk, most often the
+// one whose light spreads farthest, and a walk is weighted by the mean density of all channels, guided and
+// plain (Wilkie et al. 2014; Veach 1997, balance heuristic). So no weight is larger than a plain walk's over
+// kPlainWalks: in a ball, an ear or a wrinkle guided steps alone leave much light to a few walks. The mean is
+// that of random_walk (tested).
 
 #include "dermis/rays/random_walk.h"
 
@@ -17,6 +18,7 @@ namespace dermis::inline rays {
 struct WalkGuide {
     Vec3 diffusion_length;  ///< nu of each channel, in mean free paths, > 1
     Vec3 log_ratio;         ///< log((nu + 1) / (nu - 1)): the integral of 1 / (nu - w)
+    Vec3 leads;             ///< chance of each channel to lead a walk; they sum to 1
     float chance = 0;       ///< of a step to be guided, below 1
 };
 [[nodiscard]] WalkGuide walk_guide(const ScatteringMedium& medium);
@@ -25,76 +27,98 @@ struct WalkGuide {
 /// of albedo alpha, 0..1; kept within 1.01..100, where the walk needs no exact one.
 [[nodiscard]] double diffusion_length_in_paths(double albedo);
 
-/// A step of the walk: where to, and whether its direction was free to choose (after a collision) or given.
-struct GuidedStep {
-    Vec3 direction;
-    float distance_mm = 0;
-    float phase = 0;  ///< phase function of the direction over 1 / 4 pi; 0 when it was given
-};
-/// `turned`: a collision turns the path now, else `direction` stays.
-[[nodiscard]] GuidedStep sample_guided_step(const WalkMedium& medium, const WalkGuide& guide, int hero,
-                                            Vec3 n_out, Vec3 direction, bool turned, Pcg32& random);
-
 /// The part of the walks that is plain from beginning to end.
 inline constexpr float kPlainWalks = 0.2f;
 
-/// Throughput of a walk, and the relative densities with which each channel would have led it here by a
-/// guided and by a plain walk; they sum to 1.
-struct GuidedWeight {
-    Vec3 throughput = {1, 1, 1};
-    Vec3 led_by = Vec3{1, 1, 1} * ((1 - kPlainWalks) / 3);
-    Vec3 plain_by = Vec3{1, 1, 1} * (kPlainWalks / 3);
+/// A walk, step by step. Copies go on by the same random numbers. Medium and guide must outlive it.
+class GuidedWalk {
+  public:
+    /// n_out: outward normal where the walk starts; lead: chooses the channel that leads it, in [0, 1), even
+    /// over all walks.
+    GuidedWalk(const WalkMedium& medium, const WalkGuide& guide, Vec3 p_mm, Vec3 n_out, Vec3 direction,
+               float lead, Pcg32 random);
+
+    /// Draws the next step: direction() and distance_mm() from p_mm().
+    void draw();
+    /// Takes it; `hit`: where it meets the boundary. False when the walk has ended.
+    bool take(const std::optional<BoundaryHit>& hit);
+
+    [[nodiscard]] Vec3 p_mm() const { return path_.p_mm; }
+    [[nodiscard]] Vec3 direction() const { return path_.direction; }
+    [[nodiscard]] float distance_mm() const { return distance_mm_; }
+    /// Of a walk that has ended.
+    [[nodiscard]] const WalkEnd& end() const { return path_; }
+
+    /// Of the step that is drawn.
+    template <class Boundary>
+    [[nodiscard]] std::optional<BoundaryHit> meets(Boundary&& boundary) const {
+        return boundary(path_.p_mm, path_.direction, distance_mm_);
+    }
+    /// To the end, from a step that is drawn and meets the boundary in `hit`.
+    template <class Boundary>
+    [[nodiscard]] WalkEnd finish(Boundary&& boundary, std::optional<BoundaryHit> hit) {
+        while (take(hit)) {
+            draw();
+            hit = meets(boundary);
+        }
+        return path_;
+    }
+
+  private:
+    void weigh(float distance_mm, bool collides);
+    bool ends(const WalkEnd& with) {
+        path_ = with;
+        return false;
+    }
+
+    const WalkMedium& medium_;
+    const WalkGuide& guide_;
+    Pcg32 random_;
+    Vec3 n_out_;
+    int hero_;
+    WalkEnd path_;
+    /// The relative densities with which each channel would have led the walk here by guided and by plain
+    /// steps; they sum to 1.
+    Vec3 led_by_, plain_by_;
+    float draw_chance_, guided_chance_;  ///< of a step of this walk, of a guided walk to be guided
+    float distance_mm_ = 0;
+    float phase_ = 0;  ///< phase function of the direction over 1 / 4 pi; 0 when the direction was given
+    bool turned_ = false;
 };
-/// After a step: the throughput times what the step carries over the density with which it is drawn.
-/// `collides`: it ends in the medium, after `distance_mm`; else it reached the boundary there.
-[[nodiscard]] GuidedWeight after_step(const WalkMedium& medium, const WalkGuide& guide,
-                                      const GuidedWeight& weight, const GuidedStep& step, float cosine_out,
-                                      float distance_mm, bool collides);
 
-/// Collisions after which a walk is no longer guided: the weights of every guided step multiply, and those of
-/// hundreds (a medium that hardly absorbs) would leave the light to a few rare paths.
-inline constexpr int kGuidedCollisions = 64;
-
-/// As random_walk; n_out: outward normal where the walk starts; hero: the channel that leads it, 0..2, each a
-/// third of all walks.
+/// As random_walk.
 template <class Boundary>
 [[nodiscard]] WalkEnd guided_walk(const WalkMedium& medium, const WalkGuide& guide, Boundary&& boundary,
-                                  Vec3 p_mm, Vec3 n_out, Vec3 direction, int hero, Pcg32& random) {
-    WalkEnd path{.p_mm = p_mm, .direction = direction};
-    GuidedWeight weight;
-    const WalkEnd absorbed{};
-    const bool plain = random.next_1d() < kPlainWalks;
-    // `now` draws the steps, `other` is what a guided walk would draw.
-    WalkGuide now = guide, other = guide;
-    if (plain) now.chance = 0;
-    bool turned = false;
-    while (path.collisions < kMostCollisions) {
-        const GuidedStep step = sample_guided_step(medium, now, hero, n_out, path.direction, turned, random);
-        path.direction = step.direction;
-        const std::optional<BoundaryHit> hit = boundary(path.p_mm, path.direction, step.distance_mm);
-        if (hit && dot(hit->n_out, path.direction) <= 0) return {.lost = true};
-        const float distance_mm = hit ? hit->distance_mm : step.distance_mm;
-        weight = after_step(medium, other, weight, step, dot(path.direction, n_out), distance_mm,
-                            !hit.has_value());
-        path.p_mm += path.direction * distance_mm;
-        turned = !hit.has_value();
-        if (turned) {
-            if (++path.collisions == kGuidedCollisions) now.chance = other.chance = 0;
-            if (!survives_roulette(weight.throughput, random)) return absorbed;
-            continue;
-        }
-        const auto reflected = reflected_at(*hit, path.direction, medium.eta, random);
-        if (!reflected) {
-            path.throughput = weight.throughput;
-            return path;
-        }
-        path.direction = *reflected;
-    }
-    return absorbed;
+                                  Vec3 p_mm, Vec3 n_out, Vec3 direction, float lead, Pcg32 random) {
+    GuidedWalk walk(medium, guide, p_mm, n_out, direction, lead, random);
+    walk.draw();
+    return walk.finish(boundary, walk.meets(boundary));
 }
 
-/// As half_space_albedo under diffuse light, with a seventh to a half of the variance; walks: a multiple
-/// of 3.
+/// Two walks by the same random numbers: they are one until the first of them leaves. Their difference has
+/// little of the noise of absorption.
+struct WalkPair {
+    WalkEnd end;
+    WalkEnd flat;  ///< in the half-space behind the tangent plane of the start
+};
+template <class Boundary>
+[[nodiscard]] WalkPair guided_walk_and_flat(const WalkMedium& medium, const WalkGuide& guide,
+                                            Boundary&& boundary, Vec3 p_mm, Vec3 n_out, Vec3 direction,
+                                            float lead, Pcg32 random) {
+    const PlaneBoundary plane{p_mm, n_out};
+    GuidedWalk walk(medium, guide, p_mm, n_out, direction, lead, random);
+    for (;;) {
+        walk.draw();
+        const auto hit = walk.meets(boundary), flat_hit = walk.meets(plane);
+        if (hit || flat_hit) {
+            GuidedWalk flat = walk;
+            return {walk.finish(boundary, hit), flat.finish(plane, flat_hit)};
+        }
+        if (!walk.take(std::nullopt)) return {walk.end(), walk.end()};
+    }
+}
+
+/// As half_space_albedo under diffuse light, with a seventh to a half of the variance.
 [[nodiscard]] HalfSpaceAlbedo guided_half_space_albedo(const ScatteringMedium& medium, int walks,
                                                        uint32_t seed);
 

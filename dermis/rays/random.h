@@ -28,6 +28,12 @@ namespace dermis::inline rays {
     return float(bits >> 8) * 0x1p-24f;
 }
 
+/// Fills [0, 1) evenly over successive indices, from a start by chance: steps of the golden ratio (Weyl
+/// 1916).
+[[nodiscard]] constexpr float golden_1d(uint32_t start, uint32_t index) {
+    return unit_float(start + index * 0x9e3779b9u);
+}
+
 /// PCG-XSH-RR 64/32 (O'Neill 2014). Period 2^64; different streams do not overlap.
 class Pcg32 {
   public:

@@ -109,6 +109,18 @@ struct HalfSpace {
     }
 };
 
+/// The medium lies behind the plane through p_mm with the outward unit normal n_out.
+struct PlaneBoundary {
+    Vec3 plane_mm, n_out;
+    std::optional<BoundaryHit> operator()(Vec3 p_mm, Vec3 direction, float max_mm) const {
+        const float along = dot(direction, n_out);
+        if (along <= 0) return std::nullopt;
+        const float distance_mm = std::max(0.0f, dot(plane_mm - p_mm, n_out)) / along;
+        if (distance_mm > max_mm) return std::nullopt;
+        return BoundaryHit{distance_mm, n_out};
+    }
+};
+
 struct HalfSpaceAlbedo {
     Vec3 mean, standard_error;
 };

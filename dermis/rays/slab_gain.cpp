@@ -52,7 +52,8 @@ double walked_slab_passes(const Profile& profile, int channel, double thickness_
             Pcg32 random(seed, uint32_t(i));
             const Vec3 up = {0, 0, 1}, start = sample_entry_direction(up, prepared.eta, random);
             const auto walked = [&](const auto& boundary) {
-                return guided_walk(prepared, guide, boundary, {}, up, start, int(i % 3), random);
+                return guided_walk(prepared, guide, boundary, {}, up, start, golden_1d(seed, uint32_t(i)),
+                                   random);
             };
             const WalkEnd slab = walked(SlabBoundary{float(thickness_mm)});
             if (slab.p_mm.z < -0.5f * float(thickness_mm)) through[i] = channel_of(slab.throughput, channel);

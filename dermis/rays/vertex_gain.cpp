@@ -25,18 +25,6 @@ constexpr int kFlatWalks = 3 << 17;
 constexpr size_t kTrianglesPerTask = 64;
 constexpr double kMostWalksPerTriangle = 1 << 20;
 
-// The medium lies behind the plane through p_mm.
-struct PlaneBoundary {
-    Vec3 p_mm, n_out;
-    std::optional<BoundaryHit> operator()(Vec3 from_mm, Vec3 direction, float max_mm) const {
-        const float cosine = dot(direction, n_out);
-        if (cosine <= 0) return std::nullopt;
-        const float distance_mm = std::max(0.0f, dot(p_mm - from_mm, n_out)) / cosine;
-        if (distance_mm > max_mm) return std::nullopt;
-        return BoundaryHit{distance_mm, n_out};
-    }
-};
-
 struct WalkTask {
     const RayScene* rays;
     WalkMedium medium;
@@ -142,14 +130,10 @@ void walk_triangle(const WalkTask& task, size_t t, uint32_t seed, ObjectWalks& o
         const auto weights = uniform_weights(random.next_2d());
         const Vec3 p_mm = a * weights[0] + b * weights[1] + c * weights[2];
         const Vec3 start = sample_entry_direction(n, task.medium.eta, random);
-        // Flat skin is the control variate: the same random numbers, so that both walks are one until the
-        // first of them leaves.
-        const int hero = int((first + i) % 3);
-        Pcg32 same = random;
-        const PlaneBoundary plane{p_mm, n};
-        const WalkEnd flat = guided_walk(task.medium, task.guide, plane, p_mm, n, start, hero, same);
+        // Flat skin is the control variate.
         FleshBoundary boundary(*task.rays);
-        WalkEnd end = guided_walk(task.medium, task.guide, boundary, p_mm, n, start, hero, random);
+        auto [end, flat] = guided_walk_and_flat(task.medium, task.guide, boundary, p_mm, n, start,
+                                                golden_1d(first, i), random);
         if (end.throughput != Vec3{})
             end.throughput = end.throughput * light_at_end(task, boundary.last(),
                                                            light_at(occlusion, *object.mesh, t, weights));

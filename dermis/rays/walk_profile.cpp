@@ -56,7 +56,8 @@ Light walk_block(const WalkMedium& medium, const WalkGuide& guide, const Rings& 
     for (size_t i = first; i < first + kWalksOfBlock; ++i) {
         Pcg32 random(seed, uint32_t(i));
         const Vec3 start = sample_entry_direction(n, medium.eta, random);
-        const WalkEnd end = guided_walk(medium, guide, HalfSpace{}, {}, n, start, int(i % 3), random);
+        const WalkEnd end =
+            guided_walk(medium, guide, HalfSpace{}, {}, n, start, golden_1d(seed, uint32_t(i)), random);
         const size_t ring = rings.of(std::hypot(end.p_mm.x, end.p_mm.y));
         const float carried[3] = {end.throughput.x, end.throughput.y, end.throughput.z};
         for (size_t c = 0; c < 3; ++c) {

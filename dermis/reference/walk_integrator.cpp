@@ -1,34 +1,49 @@
 #include "dermis/reference/walk_integrator.h"
 
-#include "dermis/rays/flesh_boundary.h"
-#include "dermis/rays/sampling.h"
+#include "dermis/rays/random.h"
 
 namespace dermis::inline reference {
 
-WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, uint32_t seed) const {
-    Result result;
-    Vec3 sum;
-    // The channels lead in turn, the first by chance: each leads any walk as often.
-    const uint32_t first_hero = hash_u32(seed, uint32_t(settings_.walks)) % 3;
+Vec3 WalkIntegrator::entering(const FleshBoundary& boundary, const DiffusePoint& point,
+                              const LightingRandom& uniform) const {
+    SurfaceAttributes surface = rays_.surface_at(boundary.last());
+    surface.footprint = point.footprint;
+    return lighting_.irradiance(lighting_.skin_receiver(surface, boundary.last()), uniform);
+}
+
+WalkIntegrator::Effect WalkIntegrator::effect(const DiffusePoint& point, const Receiver& receiver,
+                                              uint32_t seed) const {
+    Effect result;
+    const uint32_t first = hash_u32(seed, uint32_t(settings_.walks));
     for (int i = 0; i < settings_.walks; ++i) {
-        FleshBoundary boundary(rays_);
         Pcg32 random(seed, uint32_t(i));
-        const auto hero = int((first_hero + uint32_t(i)) % 3);
         const Vec3 direction = sample_entry_direction(point.n_face, medium_.eta, random);
-        const WalkEnd end =
-            guided_walk(medium_, guide_, boundary, point.p_mm, point.n_face, direction, hero, random);
+        FleshBoundary boundary(rays_);
+        const float lead = golden_1d(first, uint32_t(i));
+        const auto [end, flat] = settings_.normalisation == Normalisation::by_area
+                                     ? guided_walk_and_flat(medium_, guide_, boundary, point.p_mm,
+                                                            point.n_face, direction, lead, random)
+                                     : WalkPair{guided_walk(medium_, guide_, boundary, point.p_mm,
+                                                            point.n_face, direction, lead, random),
+                                                {}};
         result.lost += end.lost;
-        if (end.lost || end.throughput == Vec3{}) continue;
-        SurfaceAttributes surface = rays_.surface_at(boundary.last());
-        surface.footprint = point.footprint;
-        const Receiver receiver = lighting_.skin_receiver(surface, boundary.last());
-        const LightingRandom uniform{random.next_2d(), random.next_2d(), random.next_1d()};
-        sum += end.throughput * lighting_.irradiance(receiver, uniform);
+        // Both ends under the same point of the lights.
+        OwenSequence points(hash_u32(seed, 2), uint32_t(i));
+        const Vec2 penumbra = points.next_2d(), environment = points.next_2d();
+        const LightingRandom uniform{penumbra, environment, points.next_1d()};
+        if (end.throughput != Vec3{}) result.sum += end.throughput * entering(boundary, point, uniform);
+        if (flat.throughput != Vec3{})
+            result.sum -= flat.throughput * lighting_.irradiance(receiver, uniform);
     }
-    const Vec3 n = settings_.normalisation;
-    const float share = 1.0f / float(settings_.walks);
-    result.exitance = {sum.x * share / n.x, sum.y * share / n.y, sum.z * share / n.z};
     return result;
+}
+
+WalkIntegrator::Result WalkIntegrator::exitance(const DiffusePoint& point, const Receiver& receiver,
+                                                Vec3 irradiance, uint32_t seed) const {
+    const Effect walked = effect(point, receiver, seed);
+    const Vec3 mean = walked.sum * (1.0f / float(settings_.walks)), a = settings_.albedo;
+    if (settings_.normalisation == Normalisation::none) return {mean, walked.lost};
+    return {irradiance + Vec3{mean.x / a.x, mean.y / a.y, mean.z / a.z}, walked.lost};
 }
 
 }  // namespace dermis::inline reference

@@ -24,10 +24,10 @@ class WalkEffect : public RenderTest {
         return settings;
     }
 
-    static ComparisonSettings comparison_by_walk(int side, int probes, int samples) {
+    static ComparisonSettings comparison_by_walk(int side, int walks, int samples) {
         ComparisonSettings settings = comparison_settings(side, side);
         settings.grid = kWalkGrid;
-        settings.probes = probes;
+        settings.walks = walks;
         settings.samples = samples;
         settings.noise = 0.1;
         settings.frames = 0;
