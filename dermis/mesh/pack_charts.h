@@ -1,6 +1,6 @@
 #pragma once
-// Packs charts of an atlas into the unit square by their outlines, so that one can lie in the hollows of
-// others.
+// Packs charts of an atlas into the unit square by their outlines: a chart may fill a concave part of
+// another.
 
 #include <array>
 #include <span>

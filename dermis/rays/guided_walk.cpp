@@ -13,15 +13,14 @@ namespace {
 // Chosen among 0.5, 0.75, 0.9 and 0.97 on a half-space and the head scan, jensen_skin1: 0.9 takes a quarter
 // less time to one noise in green and blue than 0.75 and as long in red; beyond it red gets worse.
 constexpr float kGuidedChance = 0.9f;
-// Its walks reach where the other channels' do: of 1/3, .6, .8, .9 and .95 in balls of 6 to 40 mm, .9 has a
-// half to a third of the variance of 1/3 in red, green and blue, for OpenPBR's skins III and VI and
-// jensen_skin1.
+// Chosen among 1/3, .6, .8, .9 and .95 in balls of 6 to 40 mm, for OpenPBR's skins III and VI, gpu_gems_3 and
+// jensen_skin1: beyond it little is left to gain, and the other channels have ever fewer walks of their own.
 constexpr float kWidestLeads = 0.9f;
 constexpr double kMostAlbedo = 0.99;
 constexpr float Vec3::*kChannels[3] = {&Vec3::x, &Vec3::y, &Vec3::z};
 constexpr double kLeastLength = 1.01, kMostLength = 100;
-// Collisions after which a walk is no longer guided: the weights of every guided step multiply, and those of
-// hundreds (a medium that hardly absorbs) would leave the light to a few rare paths.
+// A walk is guided up to this many collisions. In a medium that hardly absorbs, the weights of hundreds of
+// guided steps would multiply and leave the light to a few rare paths.
 constexpr int kGuidedCollisions = 64;
 
 }  // namespace
@@ -37,9 +36,8 @@ double diffusion_length_in_paths(double albedo) {
 
 WalkGuide walk_guide(const ScatteringMedium& medium) {
     // Directions that the phase function hardly ever takes would waste the step.
-    WalkGuide guide{.chance = kGuidedChance * float(1 - std::abs(medium.g))};
-    int widest = 0;
-    double longest_mm = 0;
+    WalkGuide guide{.leads = Vec3{1, 1, 1} * (1.0f / 3),
+                    .chance = kGuidedChance * float(1 - std::abs(medium.g))};
     for (int c = 0; c < 3; ++c) {
         // Over hundreds of collisions the weights of the steps multiply, so that a few paths would have most
         // of the light.
@@ -50,14 +48,22 @@ WalkGuide walk_guide(const ScatteringMedium& medium) {
                                        sigma_t_per_mm(medium, c) / reduced_sigma_t_per_mm(medium, c));
         guide.diffusion_length.*kChannels[c] = float(nu);
         guide.log_ratio.*kChannels[c] = float(std::log((nu + 1) / (nu - 1)));
-        const double length_mm = nu / sigma_t_per_mm(medium, c);
-        if (length_mm > longest_mm) widest = c;
-        longest_mm = std::max(longest_mm, length_mm);
     }
-    // Over hundreds of collisions the densities of the channels part: then each leads as often.
-    const float leads = guide.chance > 0 ? kWidestLeads : 1.0f / 3;
-    guide.leads = Vec3{1, 1, 1} * ((1 - leads) / 2);
-    guide.leads.*kChannels[widest] = leads;
+    return guide;
+}
+
+WalkGuide walk_guide_of_pairs(const ScatteringMedium& medium) {
+    WalkGuide guide = walk_guide(medium);
+    // Unguided walks have hundreds of collisions, over which the densities of the channels drift apart.
+    if (guide.chance == 0) return guide;
+    const auto length_mm = [&](int c) {
+        return double(guide.diffusion_length.*kChannels[c]) / sigma_t_per_mm(medium, c);
+    };
+    int widest = 0;
+    for (int c = 1; c < 3; ++c)
+        if (length_mm(c) > length_mm(widest)) widest = c;
+    guide.leads = Vec3{1, 1, 1} * ((1 - kWidestLeads) / 2);
+    guide.leads.*kChannels[widest] = kWidestLeads;
     return guide;
 }
 

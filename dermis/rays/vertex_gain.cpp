@@ -220,7 +220,7 @@ Result<VertexGains> walk(std::span<const SceneObject> objects, const Curvatures&
     const auto inverse = [](float x) { return x > 0 ? 1 / x : 0.0f; };
     const WalkTask task = {.rays = &rays,
                            .medium = walk_medium(medium),
-                           .guide = walk_guide(medium),
+                           .guide = walk_guide_of_pairs(medium),
                            .per_flat = {inverse(flat.x), inverse(flat.y), inverse(flat.z)},
                            .occlusion = occlusion};
     size_t total = 0;

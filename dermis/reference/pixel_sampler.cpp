@@ -96,10 +96,13 @@ void PixelSampler::use_profile(const Profile& profile) {
 }
 
 void PixelSampler::use_medium(const ScatteringMedium& medium) {
-    Vec3 albedo;
-    if (settings_.normalisation == Normalisation::by_area) albedo = albedo_of(medium);
-    for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) albedo.*c = std::max(albedo.*c, 1e-6f);
-    const WalkIntegratorSettings walk{settings_.probes, albedo, settings_.normalisation};
+    WalkIntegratorSettings walk{.walks = settings_.probes};
+    if (settings_.normalisation == Normalisation::by_area) {
+        walk.normalisation = albedo_of(medium);
+        for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z})
+            walk.normalisation.*c = std::max(walk.normalisation.*c, 1e-6f);
+    }
+    walk.subtracts_flat = subtracts_flat();
     walk_.emplace_back(rays_, lighting_, medium, walk);
 }
 
@@ -183,14 +186,14 @@ Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footpr
     if (point.material_class != MaterialClass::skin) return lighting_.irradiance(receiver_of(point), random);
     const float scatter = surface_.empty() && walk_.empty() ? 0 : point.scatter;
     const Receiver receiver = receiver_of(point);
-    const bool walks = !walk_.empty() && scatter > 0;
     Vec3 unscattered;
-    if (scatter < 1 || walks) unscattered = unscattered_exitance(receiver, seed);
+    if (scatter < 1 || (!walk_.empty() && subtracts_flat()))
+        unscattered = unscattered_exitance(receiver, seed);
     if (scatter == 0) return unscattered;
     const Vec3 sum = unscattered * (1 - scatter);
     const DiffusePoint diffuse{point.p_mm, point.n_geometry, point.n_face, footprint};
     const size_t profile = profile_index(scene_, profiles_, scene_.objects[point.object], point.material);
-    if (!walks) return sum + surface_[profile].exitance(diffuse, seed) * scatter;
+    if (!surface_.empty()) return sum + surface_[profile].exitance(diffuse, seed) * scatter;
     const WalkIntegrator::Result walked = walk_[profile].exitance(diffuse, receiver, unscattered, seed);
     sample.walks += settings_.probes;
     sample.lost_walks += walked.lost;

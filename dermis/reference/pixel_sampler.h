@@ -45,6 +45,11 @@ class PixelSampler {
     [[nodiscard]] float opacity_at(const RayHit& hit) const;
     [[nodiscard]] float add_translucent(Seen seen, float through, uint32_t& seed, PixelSample& sample) const;
     MaterialClass add_surface(const Seen& seen, Vec3 weight, uint32_t seed, PixelSample& sample) const;
+    /// Where the environment is traced, a point's light has more noise than its walks.
+    [[nodiscard]] bool subtracts_flat() const {
+        return settings_.normalisation == Normalisation::by_area &&
+               lighting_.settings().ambient == AmbientModel::renderer;
+    }
     /// By one set of samples without scattering.
     [[nodiscard]] Vec3 unscattered_exitance(const Receiver& receiver, uint32_t seed) const;
     [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const UvFootprint& footprint,

@@ -55,7 +55,7 @@ std::optional<Sphere> fit_sphere(const std::vector<Vec3>& points_mm) {
     return Sphere{{float(x[0]), float(x[1]), float(x[2])}, float(std::sqrt(squared))};
 }
 
-// Of the sclera: each round leaves out what lies off the sphere before.
+// Fits the sclera: each round leaves out the points that are off the previous round's sphere.
 std::optional<Sphere> eyeball_of(const std::vector<Vec3>& points_mm) {
     constexpr int kRounds = 6;
     constexpr float kOff = 0.02f;
