@@ -71,7 +71,8 @@ Result<DiffusedNormals> normals_of(const Scene& scene, const GaussianSum& gaussi
 
 }  // namespace
 
-Result<ExportedHead> export_head(const SceneChoice& choice, const std::string& profile_name) {
+Result<ExportedHead> export_head(const SceneChoice& choice, const std::string& profile_name,
+                                 const std::string& engine) {
     DERMIS_TRY_ASSIGN(Scene scene, choice.load());
     if (!profile_name.empty()) scene.skin.profile = profile_name;
     ExportedHead made = {.profile = scene.skin.profile, .inputs = files_of(scene)};
@@ -86,7 +87,8 @@ Result<ExportedHead> export_head(const SceneChoice& choice, const std::string& p
     DERMIS_TRY_ASSIGN(made.head, make_head({.scene = scene,
                                             .normals = std::move(normals),
                                             .thickness_mm = std::move(thickness_mm),
-                                            .occlusion_weights = weights}));
+                                            .occlusion_weights = weights,
+                                            .map_files = has_map_files(engine)}));
     made.head.warnings.insert(made.head.warnings.begin(), warnings.begin(), warnings.end());
     return made;
 }

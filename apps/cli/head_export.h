@@ -18,6 +18,7 @@ struct ExportedHead {
     std::map<std::string, std::string> settings;  ///< of preintegrated in the scene
 };
 /// Loads the scene, bakes normals and thickness (cached, with progress), and makes the files.
-[[nodiscard]] Result<ExportedHead> export_head(const SceneChoice& choice, const std::string& profile);
+[[nodiscard]] Result<ExportedHead> export_head(const SceneChoice& choice, const std::string& profile,
+                                               const std::string& engine);
 
 }  // namespace dermis::cli

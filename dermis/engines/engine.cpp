@@ -53,6 +53,22 @@ Result<void> add_meta_files(const PackageInput& input, std::vector<PackageFile>&
     return {};
 }
 
+// Godot: import settings beside each picture and mesh of a head, from the texts of engines/godot_import.
+Result<void> add_import_files(const PackageInput& input, std::vector<PackageFile>& files) {
+    const size_t count = files.size();
+    for (size_t i = 0; i < count; ++i) {
+        const std::string path = files[i].path;
+        if (!path.starts_with("addons/dermis_skin/head/")) continue;
+        const std::string kind = path.substr(path.rfind('.') + 1);
+        const auto found = std::ranges::find(input.templates, "engines/godot_import/" + kind + ".import",
+                                             &PackageTemplate::path);
+        if (found == input.templates.end()) continue;
+        DERMIS_TRY_ASSIGN(const std::string text, filled(*found, {{"path", path}}));
+        files.push_back({path + ".import", to_bytes(text)});
+    }
+    return {};
+}
+
 }  // namespace
 
 const std::vector<Engine>& all_engines() {
@@ -75,8 +91,11 @@ const std::vector<Engine>& all_engines() {
         {.name = "godot",
          .texts = {{"addons/dermis_skin/skin.gdshaderinc", shading::Language::gdshader}},
          .license_path = "addons/dermis_skin/LICENSE",
+         .head_path = "addons/dermis_skin/head/",
+         .head_map_files = true,
          .table_path = "addons/dermis_skin/skin_table.exr",
-         .v_origin = VOrigin::top},
+         .v_origin = VOrigin::top,
+         .add_files = add_import_files},
         // three.js has the last row of an EXR picture at v = 0.
         {.name = "three",
          .texts = {{"skin.js", shading::Language::essl, "glslText"},

@@ -26,6 +26,7 @@ struct Engine {
     std::string_view license_path = "LICENSE";
     std::string_view picture_path = "picture.png";
     std::string_view head_path = {};      ///< the folder of a head, with '/' behind it; empty: takes none
+    bool head_map_files = false;          ///< HeadInput::map_files
     bool takes_scripts = false;           ///< the JavaScript of engines/common
     std::string_view table_path = {};     ///< the diffuse table, .exr or .dds; empty: none
     VOrigin v_origin = VOrigin::top;      ///< where the engine has v = 0 in a picture

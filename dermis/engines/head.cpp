@@ -120,6 +120,28 @@ constexpr std::string_view class_name(MaterialClass material_class) {
                                                     : "translucent";
 }
 
+// The maps as files for an engine whose importer would lose some, and the values that go with them.
+Result<void> add_map_files(const Material& material, const Maps& maps, const std::string& prefix, json& made,
+                           std::vector<PackageFile>& files) {
+    made["albedo_linear"] = to_json(material.base_color_linear);
+    made["roughness"] = to_json(material.roughness);
+    made["normal_scale"] = to_json(material.normal_scale);
+    made["object_space_normals"] = material.normal_space == NormalSpace::object;
+    made["maps"] = json::object();
+    const bool has_surface = !maps.occlusion.empty() || !maps.roughness.empty() || !maps.specular.empty();
+    const Image surface =
+        has_surface ? web::packed({maps.occlusion, maps.roughness, maps.specular}) : Image();
+    for (const auto& [name, image] :
+         {std::pair("albedo", &maps.albedo), {"normal", &maps.normal}, {"surface", &surface}}) {
+        if (image->empty()) continue;
+        const std::string path = prefix + "_" + name + ".png";
+        DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".png", web::three_channels(*image)));
+        files.push_back({path, std::move(bytes)});
+        made["maps"][name] = path;
+    }
+    return {};
+}
+
 // What a skin material needs beyond glTF. Adds its object-space normal map.
 Result<json> head_material_json(const SceneObject& object, size_t number, const Maps& maps,
                                 const std::string& prefix, std::vector<PackageFile>& files) {
@@ -140,15 +162,18 @@ Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) 
     json materials = json::array();
     for (size_t i = 0; i < mesh.materials.size(); ++i) {
         DERMIS_TRY_ASSIGN(const Maps maps, load_maps(input, object, i));
-        DERMIS_TRY_ASSIGN(mesh.materials[i], gltf_material(object, i, maps));
+        const bool map_files = input.map_files && object.classes[i] == MaterialClass::skin;
+        DERMIS_TRY_ASSIGN(mesh.materials[i], gltf_material(object, i, map_files ? Maps() : maps));
         if (object.classes[i] == MaterialClass::skin)
             mesh.materials[i].base_color_linear =
                 mesh.materials[i].base_color_linear * input.scene.skin.albedo_tint_linear;
         if (object.classes[i] == MaterialClass::translucent)
             head.warnings.push_back("material '" + mesh.materials[i].name +
                                     "' is translucent; the engine draws it as glTF has it");
+        const std::string prefix = fmt::format("{}_{}", index, i);
         DERMIS_TRY_ASSIGN(json made,
-                          head_material_json(object, i, maps, fmt::format("{}_{}", index, i), head.files));
+                          head_material_json(object, i, map_files ? Maps() : maps, prefix, head.files));
+        if (map_files) DERMIS_TRY(add_map_files(mesh.materials[i], maps, prefix, made, head.files));
         materials.push_back(std::move(made));
     }
     mesh.atlas_uvs = atlas_uvs_of(mesh);
@@ -227,8 +252,12 @@ Result<json> add_panorama(const Environment& environment, Head& head) {
     DERMIS_TRY_ASSIGN(const Image panorama, load_panorama(environment));
     DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".hdr", panorama));
     head.files.push_back({"environment.hdr", std::move(bytes)});
+    DERMIS_TRY_ASSIGN(const EnvironmentLight light, prepare_environment(environment));
+    json harmonics = json::array();
+    for (const Vec3& one : light.radiance_sh) harmonics.push_back(to_json(one));
     return json{{"file", "environment.hdr"},
                 {"intensity", to_json(environment.intensity)},
+                {"radiance_sh", harmonics},
                 {"yaw_rad", to_json(environment.yaw_rad)}};
 }
 

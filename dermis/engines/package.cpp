@@ -238,6 +238,11 @@ Result<void> check_engine_takes_head(std::string_view name) {
                  " take one"};
 }
 
+bool has_map_files(std::string_view engine) {
+    const auto found = find_engine(engine);
+    return found && (*found)->head_map_files;
+}
+
 Result<std::vector<PackageFile>> make_package(std::string_view name, const PackageInput& input) {
     DERMIS_TRY_ASSIGN(const Engine* found, find_engine(name));
     const Engine& engine = *found;

@@ -70,6 +70,9 @@ struct PackageInput {
 /// Success when the engine's package takes a head.
 [[nodiscard]] Result<void> check_engine_takes_head(std::string_view name);
 
+/// HeadInput::map_files of its head.
+[[nodiscard]] bool has_map_files(std::string_view engine);
+
 /// All files in the order of their paths. Errors: an unknown engine, a profile that cannot be pre-integrated.
 [[nodiscard]] Result<std::vector<PackageFile>> make_package(std::string_view engine,
                                                             const PackageInput& input);

