@@ -29,6 +29,10 @@ Result<BakeMapSettings> MapChoice::settings_for(const std::string& scene_profile
     return chosen;
 }
 
+Result<LayoutOfMap> MapChoice::lay_out(Scene& scene) const {
+    return lay_out_map(scene, uvs.empty() && !material.empty() ? "file" : uvs);
+}
+
 Result<MapRequest> MapChoice::request() const {
     SceneOptions options = {.subjects = built_in_catalog().subjects};
     if (unit_mm != 0) {
@@ -40,8 +44,7 @@ Result<MapRequest> MapChoice::request() const {
     DERMIS_TRY_ASSIGN(options.words, pose.words());
     DERMIS_TRY_ASSIGN(Scene scene, load_scene(mesh, options));
     DERMIS_TRY_ASSIGN(BakeMapSettings chosen, settings_for(scene.skin.profile));
-    DERMIS_TRY_ASSIGN(LayoutOfMap layout,
-                      lay_out_map(scene, uvs.empty() && !material.empty() ? "file" : uvs));
+    DERMIS_TRY_ASSIGN(LayoutOfMap layout, lay_out(scene));
     chosen.uvs = layout.uvs;
     return MapRequest{std::move(scene), std::move(chosen), std::move(layout)};
 }

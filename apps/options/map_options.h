@@ -27,6 +27,8 @@ struct MapChoice {
 
     /// The scene that `mesh` names, and the settings with their profile.
     [[nodiscard]] Result<MapRequest> request() const;
+    /// The layout of the map; with a material the UVs of the file.
+    [[nodiscard]] Result<LayoutOfMap> lay_out(Scene& scene) const;
     /// The settings for a scene that is there already.
     [[nodiscard]] Result<BakeMapSettings> settings_for(const std::string& scene_profile) const;
 };

@@ -2,7 +2,10 @@
 
 #include "arrays.h"
 #include "dermis/base/stop.h"
+#include "dermis/mesh/write_mesh.h"
 #include "dermis/rays/map_file.h"
+#include "dermis/scene/skin_atlas.h"
+#include "map_layout.h"
 #include "map_options.h"
 #include "mesh_object.h"
 #include "module.h"
@@ -13,6 +16,8 @@ namespace {
 struct MadeMap {
     BakedMap map;
     MapOrigin origin;
+    cli::LayoutOfMap layout;
+    MeshObject atlas;  // where the map is laid out by one
 };
 
 MapKind kind_of(const std::string& name) {
@@ -24,7 +29,7 @@ MapKind kind_of(const std::string& name) {
 cli::MapChoice choice_of(const std::string& kind, const py::dict& options) {
     cli::MapChoice choice;
     BakeMapSettings& s = choice.settings = cli::usual_map_settings(kind_of(kind));
-    choice.uvs = "file";
+    take(choice.uvs, options, "uvs");
     take(choice.profile, options, "profile");
     take(choice.material, options, "material");
     take(choice.unit_mm, options, "unit_mm");
@@ -39,15 +44,16 @@ cli::MapChoice choice_of(const std::string& kind, const py::dict& options) {
     return choice;
 }
 
-MadeMap made_of(std::span<const SceneObject> objects, const BakeMapSettings& settings,
-                const std::string& mesh, const py::object& progress) {
+MadeMap made_of(const cli::MapRequest& request, const std::string& mesh, const py::object& progress) {
     BakedMap map = watched(progress, [&](Watch& watch) {
-        return bake_map(objects, settings, [&](double done) {
+        return bake_map(request.scene.objects, request.settings, [&](double done) {
             watch.report(done);
             leave_if_stopped();
         });
     });
-    return {std::move(map), {.mesh = mesh, .settings = settings}};
+    MadeMap made{std::move(map), {.mesh = mesh, .settings = request.settings}, request.layout, {}};
+    if (made.layout.is_atlas()) made.atlas = {mesh, skin_with_atlas(request.scene), {}};
+    return made;
 }
 
 MadeMap bake_of_scene(const std::string& kind, const std::string& mesh, const py::dict& options,
@@ -55,19 +61,29 @@ MadeMap bake_of_scene(const std::string& kind, const std::string& mesh, const py
     cli::MapChoice choice = choice_of(kind, options);
     choice.mesh = mesh;
     const cli::MapRequest request = watched(py::none(), [&](Watch&) { return choice.request(); });
-    return made_of(request.scene.objects, request.settings, mesh, progress);
+    return made_of(request, mesh, progress);
 }
 
 MadeMap bake_of_mesh(const std::string& kind, const MeshObject& mesh, const py::dict& options,
                      const py::object& progress) {
     const cli::MapChoice choice = choice_of(kind, options);
     if (choice.unit_mm != 0) throw Failure({"unit_mm: a Mesh is in mm already; give it to load_mesh()"});
-    const SceneObject object = scene_object(mesh);
-    return made_of(std::span(&object, 1), value_of(choice.settings_for(Skin{}.profile)), mesh.name, progress);
+    cli::MapRequest request{
+        .scene = {}, .settings = value_of(choice.settings_for(Skin{}.profile)), .layout = {}};
+    request.scene.objects.push_back(scene_object(mesh));
+    request.layout = value_of(choice.lay_out(request.scene));
+    request.settings.uvs = request.layout.uvs;
+    return made_of(request, mesh.name, progress);
 }
 
 void write_map_file(const MadeMap& made, const std::string& path) {
-    check(unlocked([&] { return write_map(path, made.map, made.origin); }));
+    check(unlocked([&]() -> Result<void> {
+        MapOrigin origin = made.origin;
+        origin.uv_file = cli::atlas_mesh_name(made.layout, path);
+        DERMIS_TRY(write_map(path, made.map, origin));
+        return made.layout.is_atlas() ? write_glb(cli::atlas_mesh_path(path), made.atlas.mesh)
+                                      : Result<void>{};
+    }));
 }
 
 }  // namespace
@@ -80,6 +96,11 @@ void add_maps(py::module_& module) {
         .def_property_readonly(
             "coverage",
             [](const py::object& self) { return view_of(self.cast<const MadeMap&>().map.coverage, self); })
+        .def_property_readonly("atlas_mesh",
+                               [](const MadeMap& made) -> py::object {
+                                   if (!made.layout.is_atlas()) return py::none();
+                                   return py::cast(made.atlas);
+                               })
         .def_property_readonly("unit", [](const MadeMap& made) { return made.map.unit; })
         .def_property_readonly("min", [](const MadeMap& made) { return made.map.min; })
         .def_property_readonly("max", [](const MadeMap& made) { return made.map.max; })

@@ -91,6 +91,7 @@ py::object attribute(const py::object& self, const std::string& what) {
     if (what == "normals") return rows(mesh.normals, self);
     if (what == "tangents") return rows(mesh.tangents, self);
     if (what == "uvs") return rows(mesh.uvs, self);
+    if (what == "atlas_uvs") return rows(mesh.atlas_uvs, self);
     return view_of(mesh.indices.data(), {py::ssize_t(mesh.triangle_count()), 3}, self);
 }
 

@@ -143,6 +143,21 @@ class Maps(TestCase):
         self.assertEqual(made.unit, "mm")
         self.assertEqual(told[-1], 1)
 
+    def test_a_mesh_without_uvs_is_baked_over_an_atlas(self):
+        positions, triangles, uvs = sphere(10, 24)
+        self.assertIsNone(dermis.bake_stretch(dermis.Mesh(positions, triangles, uvs=uvs), size=64).atlas_mesh)
+        plain = self.folder / "plain.obj"
+        dermis.Mesh(positions, triangles).save(plain)
+        files = ("map.exr", "map_atlas.glb")
+        run_program("bake", "curvature", plain, "--size", 64, "-o", self.folder / files[0])
+        by_command = [(self.folder / name).read_bytes() for name in files]
+        dermis.bake_curvature(plain, size=64).save(self.folder / files[0])
+        for name, content in zip(files, by_command):
+            self.assertEqual((self.folder / name).read_bytes(), content, name)
+        atlas = dermis.bake_curvature(dermis.Mesh(positions, triangles), size=64).atlas_mesh
+        self.assertEqual(atlas.atlas_uvs.shape, (len(atlas.positions_mm), 2))
+        self.assertTrue(0 <= atlas.atlas_uvs.min() and atlas.atlas_uvs.max() <= 1)
+
     def test_errors_are_the_command_lines(self):
         out = ("-o", self.folder / "x.exr")
         for words, call in ((("--size", 3), lambda: dermis.bake_curvature("spheres", size=3)),
@@ -152,7 +167,7 @@ class Maps(TestCase):
             self.assert_error(self.program_error("bake", "curvature", "spheres", *words, *out), call)
         positions, triangles, _ = sphere(10, 6)
         with self.assertRaisesRegex(dermis.Error, "UV"):
-            dermis.bake_curvature(dermis.Mesh(positions, triangles), size=32)
+            dermis.bake_curvature(dermis.Mesh(positions, triangles), size=32, uvs="file")
         with self.assertRaises(TypeError):
             dermis.bake_curvature(dermis.Mesh(positions, triangles), size=2.5)
 

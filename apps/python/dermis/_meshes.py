@@ -68,6 +68,11 @@ class Mesh:
         return _dermis.mesh_attribute(self._mesh, "uvs")
 
     @property
+    def atlas_uvs(self) -> NDArray[numpy.float32] | None:
+        """Of Map.atlas_mesh: the UVs of the map, float32, V x 2, origin top-left. A read-only view, no copy."""
+        return _dermis.mesh_attribute(self._mesh, "atlas_uvs")
+
+    @property
     def indices(self) -> NDArray[numpy.uint32]:
         """Three vertices a triangle, uint32, T x 3. A read-only view, no copy."""
         return _dermis.mesh_attribute(self._mesh, "indices")
@@ -123,6 +128,12 @@ class Map:
         return self._map.coverage
 
     @property
+    def atlas_mesh(self) -> Mesh | None:
+        """The skin with the UVs of the map as atlas_uvs; None where the map is over the mesh's own UVs."""
+        handle = self._map.atlas_mesh
+        return None if handle is None else Mesh._of(handle)
+
+    @property
     def unit(self) -> str:
         """"1/mm", "mm", or "1" for ratios."""
         return self._map.unit
@@ -143,7 +154,7 @@ class Map:
         return self._map.warnings
 
     def save(self, path: Path) -> None:
-        """Writes the files of `dermis bake ... -o PATH`: PATH (.exr, half), PATH.json and a preview."""
+        """Writes the files of `dermis bake ... -o PATH`: PATH (.exr, half), PATH.json, a preview, the atlas's mesh."""
         _dermis.write_map(self._map, text_path(path))
 
 
@@ -155,43 +166,46 @@ def _bake(kind, mesh, progress, **options):
 
 
 def bake_curvature(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
-                   unit_mm: float | None=None, smoothing_mm: float=1.8,
+                   uvs: str | None=None, unit_mm: float | None=None, smoothing_mm: float=1.8,
                    progress: Callable[[float], object] | None=None) -> Map:
     """Curvature in 1/mm, positive where convex, as `dermis bake curvature`: mean; half of that along the tangent
     less that along the bitangent; twist. mesh: a Mesh, a mesh file or a scene.
 
     size: texels a side. gutter: texels around UV islands. unit_mm: of a mesh file. smoothing_mm: averages
-    features narrower than about twice this.
+    features narrower than about twice this. uvs: "file", "atlas", or None: the file's if no two places of the
+    skin share texels.
     """
-    return _bake("curvature", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+    return _bake("curvature", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm,
                  smoothing_mm=smoothing_mm)
 
 
 def bake_thickness(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
-                   unit_mm: float | None=None, rays: int=32, ray_size: int=1024, max_mm: float=200.0,
+                   uvs: str | None=None, unit_mm: float | None=None,
+                   rays: int=32, ray_size: int=1024, max_mm: float=200.0,
                    cone_rad: float=0.7853982, progress: Callable[[float], object] | None=None) -> Map:
     """Thickness of the body behind the surface in mm, as `dermis bake thickness`.
 
     rays: a texel. ray_size: largest side of the grid that rays are traced on. max_mm: thickness where no ray
     finds the far side. cone_rad: half angle of the cone of inward rays.
     """
-    return _bake("thickness", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+    return _bake("thickness", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm,
                  rays=rays, ray_size=ray_size, max_mm=max_mm, cone_rad=cone_rad)
 
 
 def bake_kernel_size(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
-                     unit_mm: float | None=None, rays: int=32, ray_size: int=1024, max_mm: float=200.0,
+                     uvs: str | None=None, unit_mm: float | None=None,
+                     rays: int=32, ray_size: int=1024, max_mm: float=200.0,
                      cone_rad: float=0.7853982, profile: str | None=None,
                      progress: Callable[[float], object] | None=None) -> Map:
     """Kernel size for texture_space, 0 to 0.996, as `dermis bake kernel-size`. profile: a name (None: the scene's)."""
     if isinstance(profile, Profile):
         raise TypeError("profile: give its name, or a CSV file of it")
-    return _bake("kernel-size", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+    return _bake("kernel-size", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm,
                  rays=rays, ray_size=ray_size, max_mm=max_mm, cone_rad=cone_rad, profile=profile)
 
 
 def bake_gain(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
-              unit_mm: float | None=None, walks_per_mm2: float=32.0, profile: str | None=None,
+              uvs: str | None=None, unit_mm: float | None=None, walks_per_mm2: float=32.0, profile: str | None=None,
               progress: Callable[[float], object] | None=None) -> Map:
     """Uniform light that each place returns, over flat skin, of each channel, as `dermis bake gain`.
 
@@ -199,19 +213,21 @@ def bake_gain(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: st
     """
     if isinstance(profile, Profile):
         raise TypeError("profile: give its name, or a CSV file of it")
-    return _bake("gain", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+    return _bake("gain", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm,
                  walks_per_mm2=walks_per_mm2, profile=profile)
 
 
 def bake_stretch(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
-                 unit_mm: float | None=None, progress: Callable[[float], object] | None=None) -> Map:
+                 uvs: str | None=None, unit_mm: float | None=None,
+                 progress: Callable[[float], object] | None=None) -> Map:
     """Stretch: mm per unit of u, mm per unit of v, cosine between both directions, as `dermis bake stretch`."""
-    return _bake("stretch", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm)
+    return _bake("stretch", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm)
 
 
 def bake_occlusion(mesh: Mesh | Path, *, size: int=2048, gutter: int=16, material: str | None=None,
-                   unit_mm: float | None=None, rays: int=32, ray_size: int=1024, max_mm: float=0.0,
+                   uvs: str | None=None, unit_mm: float | None=None,
+                   rays: int=32, ray_size: int=1024, max_mm: float=0.0,
                    progress: Callable[[float], object] | None=None) -> Map:
     """Ambient visibility, 0 to 1, as `dermis bake occlusion`. max_mm: how far it looks in mm, 0 for no limit."""
-    return _bake("occlusion", mesh, progress, size=size, gutter=gutter, material=material, unit_mm=unit_mm,
+    return _bake("occlusion", mesh, progress, size=size, gutter=gutter, material=material, uvs=uvs, unit_mm=unit_mm,
                  rays=rays, ray_size=ray_size, max_mm=max_mm)
