@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dermis/base/text.h"
+#include "dermis/judge/scoreboard_heads.h"
 
 namespace dermis::inline judge {
 namespace {
@@ -13,15 +13,16 @@ namespace {
 constexpr std::string_view kSettings =
     "preintegrated[gain=none],"
     "texture_space_gaussians[gain=none],"
+    "preintegrated[gain=map],"
+    "texture_space_gaussians[gain=map],"
+    "preintegrated[diffuse=walk],"
     "preintegrated[shadow=scattered],"
     "preintegrated[shadow=plain],"
     "preintegrated[normals=blended],"
     "preintegrated[diffuse=closed_form,shadow=plain],"
     "preintegrated[diffuse=curve_2015,ambient=curve_2015],"
-    "preintegrated[diffuse=curve_2015,ambient=curve_2015,shadow=plain],"
     "preintegrated[diffuse=half_ring,shadow=plain],"
     "preintegrated[normals=sharp,shadow=plain],"
-    "texture_space[light_map_size=2048],"
     "texture_space[preset=source],"
     "wrap[width=source],"
     "screen_space_separable[follow=none]";
@@ -64,16 +65,6 @@ std::string set_of(const std::vector<ScoreRow>& rows, const std::string& scene) 
     return exact ? set : "";
 }
 
-std::string memory_text(size_t bytes) {
-    if (bytes == 0) return "0";
-    return bytes >= 1u << 20 ? figures(double(bytes) / (1 << 20), "%.1f MiB")
-                             : figures(double(bytes) / 1024, "%.0f KiB");
-}
-
-std::string share_text(const CapturedShare& share) {
-    return share.known() ? figures(share.share, "%.2f") : "noise";
-}
-
 std::string share_and_error_text(const CapturedShare& share) {
     return share_text(share) + (share.known() ? " ± " + figures(share.error, "%.2f") : "");
 }
@@ -84,10 +75,8 @@ std::string ratio_text(std::optional<double> ratio) {
 
 std::string markdown_row(const ScoreRow& row) {
     const Captured& captured = headline(row);
-    std::string settings = row.settings.empty() ? "" : " " + row.settings;
-    for (size_t at = 0; (at = settings.find(',', at)) != std::string::npos; at += 2)
-        settings.insert(at + 1, " ");
-    std::string text = "| `" + row.technique + "`" + settings + " | " + share_and_error_text(captured.all);
+    std::string text =
+        "| " + technique_cell(row.technique, row.settings) + " | " + share_and_error_text(captured.all);
     for (const CapturedShare& channel : captured.channels) text += " | " + share_text(channel);
     if (row.walk && row.surface) text += " | " + share_and_error_text(row.surface->all);
     return text + " | " + figures(row.time_ratio, "%.2f") + " | " + ratio_text(row.model_ratio) + " | " +
@@ -150,21 +139,43 @@ std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& s
            set_table(rows, set, &ScoreRow::surface, "surface");
 }
 
-PlotPanel plot_panel(const std::string& scene, const std::vector<ScoreRow>& own) {
-    PlotPanel panel{.title = scene,
-                    .x = {.label = "frame time over lambert's", .scale = PlotScale::logarithmic},
-                    .y = {.label = "captured share", .min = kLowestPlotted, .max = 1.0}};
-    for (const ScoreRow& row : own) {
-        if (!headline(row).all.known()) continue;
-        auto series = std::ranges::find(panel.series, row.technique, &PlotSeries::name);
-        if (series == panel.series.end()) {
-            panel.series.push_back({.name = row.technique, .mark = PlotMark::points, .width_px = 3});
-            series = std::prev(panel.series.end());
-        }
-        series->x.push_back(row.time_ratio);
-        series->y.push_back(std::max(headline(row).all.share, kLowestPlotted));
-    }
-    std::ranges::sort(panel.series, {}, &PlotSeries::name);
+// Several skins of one scene, which is no set.
+std::vector<ScoreRow> rows_of_heads(const std::vector<ScoreRow>& rows) {
+    std::vector<ScoreRow> heads;
+    std::ranges::copy_if(rows, std::back_inserter(heads), [&](const ScoreRow& row) {
+        const std::string start = head_of(row.scene) + "/";
+        return set_of(rows, start).empty() && std::ranges::any_of(rows, [&](const ScoreRow& other) {
+                   return other.scene.starts_with(start);
+               });
+    });
+    return heads;
+}
+
+// The other rows.
+std::vector<ScoreRow> rows_without(std::vector<ScoreRow> rows, const std::vector<ScoreRow>& heads) {
+    const std::vector<std::string> scenes = scenes_of(heads);
+    std::erase_if(rows,
+                  [&](const ScoreRow& row) { return std::ranges::find(scenes, row.scene) != scenes.end(); });
+    return rows;
+}
+
+std::string scene_markdown(const std::string& scene, const std::vector<ScoreRow>& own) {
+    const bool both = own.front().walk && own.front().surface;
+    std::string text = "## " + scene + "\n\n" + effects_text(own.front()) + "\n\n| technique | of `" +
+                       std::string(own.front().walk ? "walk" : "surface") + "` | R | G | B |" +
+                       (both ? " of `surface` |" : "") + " × lambert measured | modelled | memory |\n" +
+                       "|---|---|---|---|---|---|---|---|" + (both ? "---|" : "") + "\n";
+    for (const ScoreRow& row : own) text += markdown_row(row);
+    return text + "\n";
+}
+
+PlotPanel scene_panel(const std::string& scene, const std::vector<ScoreRow>& own) {
+    const bool modelled =
+        std::ranges::all_of(own, [](const ScoreRow& row) { return row.model_ratio.has_value(); });
+    PlotPanel panel = share_panel(scene, modelled);
+    for (const ScoreRow& row : own)
+        if (const CapturedShare& all = headline(row).all; all.known())
+            add_share(panel, row.technique, modelled ? *row.model_ratio : row.time_ratio, all.share);
     return panel;
 }
 
@@ -186,33 +197,30 @@ std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<Score
     return kept;
 }
 
-std::string scoreboard_markdown(const std::vector<ScoreRow>& rows) {
-    std::string text;
+std::string scoreboard_markdown(const std::vector<ScoreRow>& all) {
+    const std::vector<ScoreRow> heads = rows_of_heads(all), rows = rows_without(all, heads);
+    std::string text = heads_markdown(heads);
     std::vector<std::string> sets;
     for (const std::string& scene : scenes_of(rows)) {
-        if (const std::string set = set_of(rows, scene); !set.empty()) {
-            if (std::ranges::find(sets, set) == sets.end()) text += set_markdown(rows, set);
+        const std::string set = set_of(rows, scene);
+        if (set.empty())
+            text += scene_markdown(scene, rows_of(rows, scene));
+        else if (std::ranges::find(sets, set) == sets.end()) {
+            text += set_markdown(rows, set);
             sets.push_back(set);
-            continue;
         }
-        const std::vector<ScoreRow> own = rows_of(rows, scene);
-        const bool both = own.front().walk && own.front().surface;
-        text += "## " + scene + "\n\n" + effects_text(own.front()) + "\n\n| technique | of `" +
-                std::string(own.front().walk ? "walk" : "surface") + "` | R | G | B |" +
-                (both ? " of `surface` |" : "") + " × lambert measured | modelled | memory |\n" +
-                "|---|---|---|---|---|---|---|---|" + (both ? "---|" : "") + "\n";
-        for (const ScoreRow& row : own) text += markdown_row(row);
-        text += "\n";
     }
     return text;
 }
 
-Plot scoreboard_plot(const std::vector<ScoreRow>& rows) {
+Plot scoreboard_plot(const std::vector<ScoreRow>& all) {
+    const std::vector<ScoreRow> heads = rows_of_heads(all), rows = rows_without(all, heads);
     Plot plot{
         .title = "Captured share over cost",
-        .caption = "1: all that scattering does to the picture, 0: none of it; below -0.5 drawn at -0.5"};
+        .caption = "1: all that scattering does to the picture, 0: none of it; below -0.5 drawn at -0.5",
+        .panels = heads_panels(heads)};
     for (const std::string& scene : scenes_of(rows))
-        if (set_of(rows, scene).empty()) plot.panels.push_back(plot_panel(scene, rows_of(rows, scene)));
+        if (set_of(rows, scene).empty()) plot.panels.push_back(scene_panel(scene, rows_of(rows, scene)));
     return plot;
 }
 

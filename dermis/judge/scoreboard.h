@@ -15,13 +15,13 @@ namespace dermis::inline judge {
 /// Rows of scenes that `made` holds are replaced, all others stay.
 [[nodiscard]] std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<ScoreRow>& made);
 
-/// A table a scene, sorted by captured share; rows whose share is not known come last, by error. A set of
-/// test scenes ("unit/sphere", "unit/strip" ...) is one table.
+/// Heads in several skins (scoreboard_heads.h), then a table a scene, sorted by captured share; rows whose
+/// share is not known come last, by error. A set of test scenes ("unit/sphere", "unit/strip" ...) is one
+/// table.
 [[nodiscard]] std::string scoreboard_markdown(const std::vector<ScoreRow>& rows);
 
-/// Captured share over cost, a panel a scene that is not of a set; shares below kLowestPlotted are drawn
-/// there.
-inline constexpr double kLowestPlotted = -0.5;
+/// Captured share over modelled cost, or over measured cost where the model was not computed: two panels for
+/// the heads, one for each scene that is not of a set.
 [[nodiscard]] Plot scoreboard_plot(const std::vector<ScoreRow>& rows);
 
 }  // namespace dermis::inline judge

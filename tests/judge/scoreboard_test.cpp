@@ -144,6 +144,26 @@ TEST(Scoreboard, a_set_of_test_scenes_is_one_table_and_no_panel) {
     EXPECT_EQ(scoreboard_plot(rows).panels.size(), 1u);
 }
 
+TEST(Scoreboard, heads_in_several_skins_are_means_and_columns) {
+    std::vector<ScoreRow> rows = {row("bust", "wrap", 0.25), row("bust/dark", "wrap", 0.75),
+                                  row("bust", "lambert", 0), row("bust/dark", "lambert", 0),
+                                  row("ear", "wrap", 0.125)};
+    for (ScoreRow& r : rows) r.walk = r.surface;
+    rows[1].walk->all.share = 0.5;
+    rows[0].model_ratio = 2;
+    rows[1].model_ratio = 3;
+    const std::string text = scoreboard_markdown(rows);
+    EXPECT_THAT(text, HasSubstr("Means over 2 scenes: bust, bust/dark."));
+    EXPECT_THAT(text, HasSubstr("| `wrap` | 0.38 | 0.25 | 0.00 | 0.00 | 0.00 | 0.50 | 1.25 | 2.50 | 0 |"));
+    EXPECT_THAT(text, HasSubstr("| `wrap` | 0.25 | 0.50 |"));
+    EXPECT_THAT(text, HasSubstr("| `wrap` | 0.25 | 0.75 |"));
+    EXPECT_THAT(text, HasSubstr("## ear"));
+    EXPECT_EQ(scoreboard_plot(rows).panels.size(), 3u);
+
+    rows[1].walk->all.error = 1;
+    EXPECT_THAT(scoreboard_markdown(rows), HasSubstr("| `wrap` | 0.25 (1) | 0.25 |"));
+}
+
 TEST(Scoreboard, all_it_lists_can_be_set) {
     EXPECT_GT(scoreboard_contestants(built_in_catalog().techniques).size(),
               built_in_catalog().techniques.size());
