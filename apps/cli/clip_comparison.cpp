@@ -11,6 +11,7 @@
 #include "compare_text.h"
 #include "comparison_progress.h"
 #include "dermis/base/file.h"
+#include "dermis/judge/clip_motion.h"
 #include "dermis/judge/report.h"
 #include "stop_on_signals.h"
 
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 // What is kept of all frames.
 struct ClipResults {
     std::vector<ClipFrame> frames;
+    std::optional<ClipEffects> before;  // of the last frame
     std::vector<std::string> links;
     std::string regions, credit;
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -61,6 +63,9 @@ Result<void> compare_frame(gpu::Device& device, const ClipWork& work, const Subj
     const std::string regions = regions_csv(one.name, *made);
     results.regions += results.regions.empty() ? regions : regions.substr(regions.find('\n') + 1);
     results.frames.push_back({.time_s = time_s, .rows = score_rows(one.name, *made)});
+    ClipEffects effects = clip_effects(*made);
+    if (results.before) DERMIS_TRY(set_motion_shares(*results.before, effects, results.frames.back().rows));
+    results.before = std::move(effects);
     results.credit = one.scene.credit;
     nlohmann::ordered_json frame = {{"time_s", time_s}};
     frame.update(to_json((work.directory / folder).string(), one, *made));

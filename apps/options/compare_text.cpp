@@ -159,7 +159,7 @@ void print_clip_table(const std::vector<ClipFrame>& frames) {
             const std::optional<ClipShare> share = clip_share(frames, row, integrator);
             if (!share) continue;
             if (!std::exchange(headed, true)) {
-                std::printf("captured share of %s\n  mean   +-  worst",
+                std::printf("captured share of %s\n  mean   +-  worst motion   +-",
                             std::string(judge_name(integrator)).c_str());
                 for (const ClipFrame& frame : frames)
                     if (short_clip) std::printf(" %4.2f s", frame.time_s);
@@ -170,6 +170,10 @@ void print_clip_table(const std::vector<ClipFrame>& frames) {
                 std::printf("%5.2f ", share->worst);
             else
                 std::printf("noise ");
+            if (share->motion)
+                std::printf("%6.2f %.2f", *share->motion, share->motion_error);
+            else
+                std::printf("%11s", "");
             for (const ClipFrame& frame : frames)
                 if (const ScoreRow* found = row_of(frame, row); short_clip && found)
                     std::printf(" %6s", short_text(captured_by(integrator, *found)->all).c_str());
@@ -194,6 +198,9 @@ nlohmann::ordered_json clip_json(const std::string& clip, const std::vector<Clip
                 {"mean_error", share->error},
                 {"worst", std::isfinite(share->worst) ? nlohmann::ordered_json(share->worst) : nullptr},
                 {"worst_time_s", share->worst_time_s}};
+            if (share->motion)
+                entry[std::string(judge_name(integrator))].update(
+                    {{"motion", *share->motion}, {"motion_error", share->motion_error}});
             if (share->change)
                 entry[std::string(judge_name(integrator))].update({{"change", share->change->change},
                                                                    {"change_error", share->change->error},

@@ -34,6 +34,26 @@ std::optional<ShareChange> change_by(Integrator integrator, const ScoreRow& row,
     return change || !rest ? change : std::optional(ShareChange{});
 }
 
+// The sums behind the captured shares of pairs of frames: |T - S|^2 and |S|^2 with the noise taken out.
+void set_motion(std::span<const ClipFrame> frames, const ClipRow& row, Integrator integrator,
+                ClipShare& share) {
+    double left = 0, effect = 0, error_squares = 0;
+    for (const ClipFrame& frame : frames) {
+        const ScoreRow* found = row_of(frame, row);
+        if (!found || !motion_by(integrator, *found)) continue;
+        const CapturedShare& one = motion_by(integrator, *found)->all;
+        if (!std::isfinite(one.share) || !std::isfinite(one.error)) continue;
+        const double weight = one.effect_rms * one.effect_rms, rest = 1 - one.share;
+        left += rest * rest * weight;
+        effect += weight;
+        error_squares += std::pow(rest * weight * one.error, 2);
+    }
+    if (!(effect > 0)) return;
+    const double rest = std::sqrt(left / effect);
+    share.motion = 1 - rest;
+    share.motion_error = rest > 0 ? std::sqrt(error_squares) / (effect * rest) : 0;
+}
+
 std::string clip_number(double value) {
     char text[32] = "";
     if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.4f", value);
@@ -73,7 +93,9 @@ std::string html_row(std::span<const ClipFrame> frames, const ClipRow& row, cons
                      Integrator integrator) {
     std::string text = "<tr><th>" + as_markup(row.name()) + "</th><td>" + clip_number(share.mean) +
                        "</td><td>" + clip_number(share.error) + "</td><td>" + clip_number(share.worst) +
-                       "</td><td>" + (share.change ? clip_number(share.change->change) : "") + "</td><td>" +
+                       "</td><td>" + (share.motion ? clip_number(*share.motion) : "") + "</td><td>" +
+                       (share.motion ? clip_number(share.motion_error) : "") + "</td><td>" +
+                       (share.change ? clip_number(share.change->change) : "") + "</td><td>" +
                        (share.change ? clip_number(share.change->error) : "") + "</td>";
     for (const ClipFrame& frame : frames) {
         const ScoreRow* found = row_of(frame, row);
@@ -90,9 +112,11 @@ std::string html_table(std::span<const ClipFrame> frames, std::span<const std::s
         if (const std::optional<ClipShare> share = clip_share(frames, row, integrator))
             body += html_row(frames, row, *share, integrator);
     if (body.empty()) return "";
-    std::string head = "<tr><th>captured share of " + std::string(judge_name(integrator)) +
-                       "</th><th>mean</th><th>&plusmn;</th><th>worst</th><th>change by bakes of rest</th>"
-                       "<th>&plusmn;</th>";
+    std::string head =
+        "<tr><th>captured share of " + std::string(judge_name(integrator)) +
+        "</th><th>mean</th><th>&plusmn;</th><th>worst</th><th>of the motion</th><th>&plusmn;</th>"
+        "<th>change by bakes of rest</th>"
+        "<th>&plusmn;</th>";
     for (size_t i = 0; i < frames.size(); ++i)
         head += "<th><a href=\"" + as_markup(links[i]) + "\">" + seconds(frames[i].time_s) + "</a></th>";
     return "<table>\n" + head + "</tr>\n" + body + "</table>\n";
@@ -102,6 +126,10 @@ std::string html_table(std::span<const ClipFrame> frames, std::span<const std::s
 
 const std::optional<Captured>& captured_by(Integrator integrator, const ScoreRow& row) {
     return integrator == Integrator::walk ? row.walk : row.surface;
+}
+
+const std::optional<Captured>& motion_by(Integrator integrator, const ScoreRow& row) {
+    return integrator == Integrator::walk ? row.walk_motion : row.surface_motion;
 }
 
 std::string ClipRow::name() const {
@@ -150,13 +178,14 @@ std::optional<ClipShare> clip_share(std::span<const ClipFrame> frames, const Cli
     share.error = std::sqrt(squares) / count;
     if (!std::isfinite(share.worst)) share.worst = std::nan("");
     if (rest) share.change = ShareChange{change.change / count, std::sqrt(change_squares) / count};
+    set_motion(frames, row, integrator, share);
     return share;
 }
 
 std::string clip_csv(std::span<const ClipFrame> frames) {
     std::string text =
         "technique,settings,reference,frames,mean,mean_error,worst,worst_time_s,change,change_error,"
-        "worst_change\n";
+        "worst_change,motion,motion_error\n";
     for (const Integrator integrator : kClipJudges)
         for (const ClipRow& row : clip_rows(frames)) {
             const std::optional<ClipShare> share = clip_share(frames, row, integrator);
@@ -167,7 +196,9 @@ std::string clip_csv(std::span<const ClipFrame> frames) {
                     clip_number(share->error) + "," + clip_number(share->worst) + "," +
                     clip_number(share->worst_time_s) + "," + (change ? clip_number(change->change) : "") +
                     "," + (change ? clip_number(change->error) : "") + "," +
-                    (change ? clip_number(share->worst_change) : "") + "\n";
+                    (change ? clip_number(share->worst_change) : "") + "," +
+                    (share->motion ? clip_number(*share->motion) : "") + "," +
+                    (share->motion ? clip_number(share->motion_error) : "") + "\n";
         }
     return text;
 }
@@ -188,7 +219,9 @@ std::string clip_html(const std::string& title, const std::string& credit, std::
            "th, td { padding: 4px 8px; border-bottom: 1px solid #ccc; text-align: right; }\n"
            "th:first-child { text-align: left; }\n</style></head>\n<body>\n<h1>" +
            as_markup(title) +
-           "</h1>\n<p>Of each technique, how much of what scattering does it has: 1 is all, 0 none. "
+           "</h1>\n<p>Of each technique, how much of what scattering does it has: 1 is all, 0 none. Of the "
+           "motion: "
+           "the share of what scattering changes from frame to frame; below 0 it flickers. "
            "A time links to the report of that frame.</p>\n" +
            plot_svg(plot) + tables + (credit.empty() ? "" : "<p>" + as_markup(credit) + "</p>\n") +
            "</body></html>\n";

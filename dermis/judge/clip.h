@@ -26,6 +26,9 @@ struct ClipShare {
     /// that loses most.
     std::optional<ShareChange> change = {};
     double worst_change = 0;  ///< the least; read it only with `change`
+    /// Share of the motion over all pairs of frames together (clip_motion.h), and half of its 95 % interval.
+    std::optional<double> motion = {};
+    double motion_error = 0;
 };
 /// Technique and settings of a row.
 struct ClipRow {
@@ -39,6 +42,7 @@ struct ClipRow {
 inline constexpr Integrator kClipJudges[] = {Integrator::walk, Integrator::surface};
 /// Missing where the row was not judged by that reference.
 [[nodiscard]] const std::optional<Captured>& captured_by(Integrator integrator, const ScoreRow& row);
+[[nodiscard]] const std::optional<Captured>& motion_by(Integrator integrator, const ScoreRow& row);
 
 /// Those of all frames, in the order of their first frame.
 [[nodiscard]] std::vector<ClipRow> clip_rows(std::span<const ClipFrame> frames);
@@ -51,8 +55,9 @@ inline constexpr Integrator kClipJudges[] = {Integrator::walk, Integrator::surfa
 [[nodiscard]] std::optional<ClipShare> clip_share(std::span<const ClipFrame> frames, const ClipRow& row,
                                                   Integrator integrator);
 
-/// technique,settings,reference,frames,mean,mean_error,worst,worst_time_s,change,change_error,worst_change: a
-/// line for each row and reference. `change` is empty for rows with all bakes of the pose.
+/// technique,settings,reference,frames,mean,mean_error,worst,worst_time_s,change,change_error,worst_change,
+/// motion,motion_error: a line for each row and reference. `change` is empty for rows with all bakes of the
+/// pose, `motion` where no pair of frames has any that is more than noise.
 [[nodiscard]] std::string clip_csv(std::span<const ClipFrame> frames);
 
 /// A page with a plot of the shares over time, their table, and a link to each frame's report

@@ -369,6 +369,11 @@ const Judgement* judgement_by(Integrator integrator, const Comparison& compariso
     return comparison.second_integrator == integrator && row.second ? &*row.second : nullptr;
 }
 
+const Image* judged_effect(Integrator integrator, const Comparison& comparison, const Compared& row) {
+    if (comparison.integrator == integrator) return &row.effect;
+    return comparison.second_integrator == integrator ? &second_effect_of(row) : nullptr;
+}
+
 std::string_view judge_name(Integrator integrator) {
     return integrator == Integrator::walk ? "walk" : "surface";
 }

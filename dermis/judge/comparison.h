@@ -124,6 +124,10 @@ struct ComparisonHooks {
 [[nodiscard]] const Judgement* judgement_by(Integrator integrator, const Comparison& comparison,
                                             const Compared& row);
 
+/// The effect that `integrator` judges; null if that reference was not made.
+[[nodiscard]] const Image* judged_effect(Integrator integrator, const Comparison& comparison,
+                                         const Compared& row);
+
 /// "walk", "surface".
 [[nodiscard]] std::string_view judge_name(Integrator integrator);
 

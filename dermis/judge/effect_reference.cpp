@@ -7,6 +7,7 @@
 #include "dermis/base/cache.h"
 #include "dermis/base/hash.h"
 #include "dermis/base/parallel.h"
+#include "dermis/judge/cuts.h"
 #include "dermis/judge/reference_cache.h"
 #include "dermis/optics/gaussian_fit.h"
 #include "dermis/optics/presets.h"
@@ -26,6 +27,7 @@ struct State {
     int passes = 0;  // a half
     uint32_t batches = 0;
     EffectReference reference;
+    Image away;  // from cuts
 
     explicit State(const ReferenceSettings& s) {
         reference.effect = {Image(s.width, s.height, 3), Image(s.width, s.height, 3)};
@@ -67,6 +69,9 @@ Result<void> add_batch(const Scene& scene, ReferenceSettings settings, int half,
                  difference(skin->diffuse, none.diffuse), share);
     add_weighted(state.reference.halves[size_t(half)], skin->radiance, share);
     state.reference.skin = skin->skin;
+    if (!state.away.empty())
+        for (size_t i = 0; i < state.away.pixel_count(); ++i)
+            state.reference.skin.floats()[i] *= state.away.floats()[i];
     state.reference.time_ms += skin->time_ms + none.time_ms;
     ++state.batches;
     for (const std::string& warning : skin->warnings)
@@ -125,7 +130,9 @@ Result<void> refine(const Scene& scene, const ReferenceSettings& reference,
     next.reference.samples = 2 * next.passes;
     const Image mask = whole_skin(next.reference.skin);
     if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
-        return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
+        return Error{
+            "no pixel shows skin away from the mesh's borders: nothing to compare (see the scene's materials "
+            "and camera)"};
     next.reference.noise = effect_noise(next.reference.effect, mask);
     state = std::move(next);
     return {};
@@ -155,6 +162,7 @@ Result<EffectReference> make_effect_reference(const Scene& scene, const EffectRe
         state.reference.noise = effect_noise(state.reference.effect, whole_skin(state.reference.skin));
     else
         state = State(reference);
+    DERMIS_TRY_ASSIGN(state.away, away_from_cuts(scene, reference.width, reference.height));
     state.reference.samples = 2 * state.passes;
     state.reference.from_cache = true;
     while (!fine_enough(state, settings)) {

@@ -24,7 +24,7 @@ struct EffectReferenceSettings {
 struct EffectReference {
     EffectHalves effect;
     std::array<Image, 2> halves;  ///< linear radiance, RGBA, of the skin as it is; alpha is coverage
-    Image skin;                   ///< the share of the pixel that is skin
+    Image skin;                   ///< the share of the pixel that is skin; 0 beside a cut (cuts.h)
     int samples = 0;              ///< a pixel, of both halves together
     EffectNoise noise;            ///< over whole pixels of skin
     bool reached = false;         ///< the noise that was asked for

@@ -64,6 +64,9 @@ struct ScoreRow {
     std::optional<double> model_ratio;
     /// Of a row with bakes of the rest pose: from the row with bakes of the pose. Not in scores.csv.
     std::optional<ShareChange> walk_change = {}, surface_change = {};
+    /// Of a frame of a clip: the share of the motion since the frame before (clip_motion.h). Not in
+    /// scores.csv.
+    std::optional<Captured> walk_motion = {}, surface_motion = {};
 };
 
 /// The share that decides: against `walk` where it was made, else against `surface`.

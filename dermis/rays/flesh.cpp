@@ -234,8 +234,8 @@ void finish(const Mesh& mesh, const Triangles& triangles, Flesh& flesh) {
     }
     if (loops.empty() || flesh.hidden_triangles > 0) return;
     // Below 0 where the cap of a saddle lies in front of it.
-    if (enclosed_mm3(mesh, skin, flesh.caps) < kSheetMm * flesh.skin_area_mm2)
-        set_back(loops, front_of(mesh, skin), flesh.caps);
+    flesh.is_sheet = enclosed_mm3(mesh, skin, flesh.caps) < kSheetMm * flesh.skin_area_mm2;
+    if (flesh.is_sheet) set_back(loops, front_of(mesh, skin), flesh.caps);
 }
 
 // Hides what cannot be seen from outside: the steps of flesh.h, in their order.
@@ -301,7 +301,7 @@ Result<std::vector<Flesh>> find_flesh(std::span<const SceneObject> objects, Cavi
                 [&] { return make_flesh(object, cavities); },
                 [](auto& f) {
                     return std::tie(f.faces, f.caps, f.cavity_caps, f.hidden_triangles, f.hidden_area_mm2,
-                                    f.skin_area_mm2, f.mesh_openings);
+                                    f.skin_area_mm2, f.mesh_openings, f.is_sheet);
                 }));
         all.push_back(std::move(flesh));
     }

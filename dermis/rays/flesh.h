@@ -32,6 +32,7 @@ struct Flesh {
     size_t hidden_triangles = 0;
     double hidden_area_mm2 = 0, skin_area_mm2 = 0;  ///< the second with the hidden part
     size_t mesh_openings = 0;                       ///< closed borders of the skin as the mesh has it
+    bool is_sheet = false;                          ///< encloses almost nothing: its caps lie behind it
 };
 
 /// Treatment of cavities: flesh, or open as in the mesh, with their inner faces counted as skin.

@@ -1,6 +1,6 @@
 // Shares over the frames of a clip.
 
-#include "dermis/judge/clip.h"
+#include "dermis/judge/clip_motion.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -65,6 +65,40 @@ TEST(Clip, has_no_worst_frame_where_all_are_noise) {
     ASSERT_TRUE(share);
     EXPECT_TRUE(std::isnan(share->worst));
     EXPECT_THAT(clip_csv(frames), HasSubstr("wrap,\"gain=map\",walk,2,0.5000,0.7071,,"));
+}
+
+TEST(Clip, share_of_the_motion_is_that_of_the_differences_between_frames) {
+    const auto picture = [](float first, float second) {
+        Image image(2, 1, 3);
+        for (int c = 0; c < 3; ++c) image.floats()[c] = first, image.floats()[3 + c] = second;
+        return image;
+    };
+    const auto frame = [&](float reference, float technique) {
+        ClipEffects effects{.references = {EffectHalves{picture(reference, 9), picture(reference, 9)}, {}},
+                            .skin = Image(2, 1, 1)};
+        effects.skin.floats()[0] = 1;
+        effects.rows = {{{"wrap", ""}, {picture(technique, 5), {}}}, {{"lambert", ""}, {picture(0, 0), {}}}};
+        return effects;
+    };
+    // Off by 3 in both frames, it moves as the reference does; then it moves half as far.
+    std::vector<ScoreRow> rows(2);
+    ASSERT_TRUE(set_motion_shares(frame(1, 4), frame(2, 5), rows));
+    EXPECT_DOUBLE_EQ(rows[0].walk_motion->all.share, 1);
+    EXPECT_DOUBLE_EQ(rows[1].walk_motion->all.share, 0);
+    EXPECT_FALSE(rows[0].surface_motion);
+    std::vector<ScoreRow> half(2);
+    ASSERT_TRUE(set_motion_shares(frame(2, 5), frame(4, 6), half));
+    EXPECT_DOUBLE_EQ(half[0].walk_motion->all.share, 0.5);
+
+    std::vector<ClipFrame> frames = {
+        {0, {clip_row("", 0.5)}}, {1, {clip_row("", 0.5)}}, {2, {clip_row("", 0.5)}}};
+    EXPECT_FALSE(clip_share(frames, {"wrap", ""}, Integrator::walk)->motion);
+    frames[1].rows[0].walk_motion = rows[0].walk_motion;
+    frames[2].rows[0].walk_motion = half[0].walk_motion;
+    const auto share = clip_share(frames, {"wrap", ""}, Integrator::walk);
+    ASSERT_TRUE(share && share->motion);
+    // |T - S|^2 of both pairs is 0 and 1, |S|^2 1 and 4.
+    EXPECT_NEAR(*share->motion, 1 - std::sqrt(1.0 / 5), 1e-6);
 }
 
 TEST(Clip, page_links_each_frame_and_escapes_text) {

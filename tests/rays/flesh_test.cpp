@@ -126,6 +126,7 @@ TEST(Flesh, a_sheet_is_the_front_of_a_body) {
     EXPECT_NEAR(volume_mm3, 100 * kSheetDepthMm, 1) << "caps face out and leave no hole";
     EXPECT_NEAR(lowest_mm, -kSheetDepthMm, 1e-4);
     EXPECT_EQ(flesh.mesh_openings, 1u);
+    EXPECT_TRUE(flesh.is_sheet);
 }
 
 TEST(Flesh, other_objects_and_translucent_surfaces_hide_nothing) {
