@@ -1,6 +1,7 @@
 #include "dermis/judge/cuts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "dermis/base/parallel.h"
@@ -40,16 +41,18 @@ Result<Image> away_from_cuts(const Scene& scene, int width, int height) {
     DERMIS_TRY_ASSIGN(const RayScene rays, RayScene::build(scene.objects));
     const Mat4 inverse = camera_matrices(scene.camera, float(width) / float(height)).inverse_view_projection;
     Image away(width, height, 1);
+    std::atomic<bool> any_away = false;
     parallel_for(size_t(height), 4, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y)
             for (size_t x = 0; x < size_t(width); ++x) {
                 const Ray ray = camera_ray(inverse, float(x) + 0.5f, float(y) + 0.5f, width, height);
                 const auto hit = rays.closest_hit(RaySet::opaque, ray);
                 const bool near = hit && cuts.any_near(ray.origin_mm + ray.direction * hit->distance_mm);
+                if (hit && !near) any_away = true;
                 away.floats()[y * size_t(width) + x] = near ? 0 : 1;
             }
     });
-    return away;
+    return any_away ? std::move(away) : Image();
 }
 
 }  // namespace dermis::inline judge

@@ -12,8 +12,8 @@ namespace dermis::inline judge {
 inline constexpr float kCutMm = 20;
 
 /// One channel: 0 where the pixel's middle shows a point within kCutMm of a cut, else 1. Empty: the scene has
-/// no cut. The borders of a sheet (flesh.h) are none: its body continues by definition. Errors: the ray
-/// library fails.
+/// no cut, or shows nothing that is farther from one. The borders of a sheet (flesh.h) are none: its body
+/// continues by definition. Errors: the ray library fails.
 [[nodiscard]] Result<Image> away_from_cuts(const Scene& scene, int width, int height);
 
 }  // namespace dermis::inline judge

@@ -130,9 +130,7 @@ Result<void> refine(const Scene& scene, const ReferenceSettings& reference,
     next.reference.samples = 2 * next.passes;
     const Image mask = whole_skin(next.reference.skin);
     if (std::ranges::none_of(mask.floats(), [](float v) { return v > 0; }))
-        return Error{
-            "no pixel shows skin away from the mesh's borders: nothing to compare (see the scene's materials "
-            "and camera)"};
+        return Error{"no pixel shows skin: nothing to compare (see the scene's materials and camera)"};
     next.reference.noise = effect_noise(next.reference.effect, mask);
     state = std::move(next);
     return {};

@@ -51,6 +51,12 @@ TEST(Cuts, pixels_beside_the_border_of_a_body_do_not_count) {
     EXPECT_EQ(at(40), 1);
 }
 
+TEST(Cuts, all_counts_where_nothing_is_farther_away) {
+    const auto away = away_from_cuts(seen_from_the_front(cut_sphere(57)), kPixels, kPixels);
+    ASSERT_TRUE(away) << away.error().message;
+    EXPECT_TRUE(away->empty());
+}
+
 TEST(Cuts, closed_bodies_and_sheets_have_none) {
     for (Mesh mesh : {make_sphere(kBallMm), make_plane(100, 100)}) {
         const auto away = away_from_cuts(seen_from_the_front(std::move(mesh)), kPixels, kPixels);
