@@ -31,6 +31,7 @@ Mesh cut_sphere(float lowest_mm) {
             kept.insert(kept.end(), {mesh.indices[3 * t], mesh.indices[3 * t + 1], mesh.indices[3 * t + 2]});
     }
     mesh.indices = kept;
+    mesh.submeshes.clear();
     return mesh;
 }
 
