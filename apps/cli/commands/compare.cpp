@@ -141,7 +141,7 @@ void print_results(const CompareOptions& options, const ComparedScenes& scenes,
         std::printf("%s\n", credit.c_str());
 }
 
-Result<int> run(const CompareOptions& options) {
+Result<int> compare_scenes(const CompareOptions& options) {
     if (options.choice.frames > 0) return run_clip_comparison(options.choice, options.output, options.json);
     DERMIS_TRY_ASSIGN(const ComparisonSettings settings, options.choice.settings());
     DERMIS_TRY_ASSIGN(const std::vector<Contestant> contestants, options.choice.contestants());
@@ -153,6 +153,14 @@ Result<int> run(const CompareOptions& options) {
     DERMIS_TRY(write_tables(options, scenes, comparisons));
     print_results(options, scenes, comparisons);
     return stop_requested() ? stopped_exit_code() : 0;
+}
+
+// Stopped before the first samples there is nothing to report.
+Result<int> run(const CompareOptions& options) {
+    Result<int> code = compare_scenes(options);
+    if (code || !stop_requested()) return code;
+    print_message(code.error().message);
+    return stopped_exit_code();
 }
 
 // Each frame of a clip, in the content of a job.
