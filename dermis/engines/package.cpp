@@ -129,29 +129,34 @@ std::string components(const Rgb& rgb) {
     return fmt::format("{:.6f}, {:.6f}, {:.6f}", rgb[0], rgb[1], rgb[2]);
 }
 
+Words gain_words(const PackageGain& gain) {
+    return {{"gain_slope_mm", components(gain.of_curvature.slope_mm)},
+            {"gain_length_mm", components(gain.of_curvature.length_mm)},
+            {"gain_bend_mm", components(gain.of_curvature.bend_mm)},
+            {"gain_of_slabs", components(gain.of_slabs)}};
+}
+
 Words common_words(const PackageInput& input) {
     const Profile& profile = input.profile;
     const std::string tool = tool_version();
-    return {{"profile", printable_line(profile.name)},
-            {"shadow_places", shadow_places_text(input.shadow_places.all)},
-            {"first_shadow_places", std::to_string(input.shadow_places.first)},
-            {"shadow_taps", std::to_string(kShadowTaps)},
-            {"shadow_concavity", to_text(kShadowConcavity)},
-            {"shadow_facet_lift", to_text(kShadowFacetLift)},
-            {"shadow_max_slope", decimal(kShadowMaxSlope)},
-            {"golden_angle", to_text(kGoldenAngle)},
-            {"gain_slope_mm", components(input.gain.of_curvature.slope_mm)},
-            {"gain_length_mm", components(input.gain.of_curvature.length_mm)},
-            {"gain_bend_mm", components(input.gain.of_curvature.bend_mm)},
-            {"gain_of_slabs", components(input.gain.of_slabs)},
-            {"source", printable_line(profile.source)},
-            {"version", tool.substr(tool.find(' ') + 1)},
-            {"table_width", std::to_string(kTableWidth)},
-            {"table_height", std::to_string(kTableHeight)},
-            {"max_curvature_per_mm", decimal(kTableMaxCurvaturePerMm)}};
+    Words words = {{"profile", printable_line(profile.name)},
+                   {"shadow_places", shadow_places_text(input.shadow_places.all)},
+                   {"first_shadow_places", std::to_string(input.shadow_places.first)},
+                   {"shadow_taps", std::to_string(kShadowTaps)},
+                   {"shadow_concavity", to_text(kShadowConcavity)},
+                   {"shadow_facet_lift", to_text(kShadowFacetLift)},
+                   {"shadow_max_slope", decimal(kShadowMaxSlope)},
+                   {"golden_angle", to_text(kGoldenAngle)},
+                   {"source", printable_line(profile.source)},
+                   {"version", tool.substr(tool.find(' ') + 1)},
+                   {"table_width", std::to_string(kTableWidth)},
+                   {"table_height", std::to_string(kTableHeight)},
+                   {"max_curvature_per_mm", decimal(kTableMaxCurvaturePerMm)}};
+    words.merge(gain_words(input.gain));
+    return words;
 }
 
-constexpr std::string_view kCommonFolder = "engines/common/";
+constexpr std::string_view kCommonFolder = "engines/common/", kGainFile = "engines/common/gain.glsl";
 
 // engines/common/*.glsl: functions for the packages alone, which are printed with the skin's.
 Result<std::vector<shading::Source>> printed_functions(const PackageInput& input) {
@@ -241,6 +246,13 @@ Result<void> check_engine_takes_head(std::string_view name) {
 bool has_map_files(std::string_view engine) {
     const auto found = find_engine(engine);
     return found && (*found)->head_map_files;
+}
+
+Result<shading::Source> gain_source(std::span<const PackageTemplate> templates, const PackageGain& gain) {
+    const auto file = std::ranges::find(templates, kGainFile, &PackageTemplate::path);
+    if (file == templates.end()) return Error{"no template " + std::string(kGainFile)};
+    DERMIS_TRY_ASSIGN(std::string text, filled(*file, gain_words(gain)));
+    return shading::Source{file->path, std::move(text)};
 }
 
 Result<std::vector<PackageFile>> make_package(std::string_view name, const PackageInput& input) {

@@ -73,6 +73,10 @@ struct PackageInput {
 /// HeadInput::map_files of its head.
 [[nodiscard]] bool has_map_files(std::string_view engine);
 
+/// The functions of engines/common/gain.glsl with this skin's gain, for shading::skin_text().
+[[nodiscard]] Result<shading::Source> gain_source(std::span<const PackageTemplate> templates,
+                                                  const PackageGain& gain);
+
 /// All files in the order of their paths. Errors: an unknown engine, a profile that cannot be pre-integrated.
 [[nodiscard]] Result<std::vector<PackageFile>> make_package(std::string_view engine,
                                                             const PackageInput& input);

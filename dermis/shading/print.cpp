@@ -1,6 +1,7 @@
 // A tree to text in one dialect. Expressions hold marks where a line may be broken; wrap() uses them.
 
 #include <algorithm>
+#include <cctype>
 
 #include "dermis/shading/dialect.h"
 
@@ -153,10 +154,30 @@ std::string expression_text(const Expression& expression, const Dialect& dialect
     return ExpressionPrinter(dialect).print(expression, depth);
 }
 
-std::string comment_text(const std::vector<std::string>& lines, size_t indent) {
+// Types and built-in functions as the language calls them: "vec3(0.0)", "mix(a, b, x)".
+std::string comment_line(const std::string& line, const Dialect& dialect) {
+    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    std::string text;
+    for (size_t i = 0; i < line.size();) {
+        size_t end = i;
+        while (end < line.size() && is_word(line[end])) ++end;
+        const std::string word = line.substr(i, std::max<size_t>(end - i, 1));
+        const std::optional<Type> type = find_type(word);
+        const Function* function =
+            dialect.renamed && end < line.size() && line[end] == '(' ? find_function(word) : nullptr;
+        if (type && is_vector(*type))
+            text += dialect.types[size_t(*type)];
+        else
+            text += function && !(function->*dialect.renamed).empty() ? function->*dialect.renamed : word;
+        i += word.size();
+    }
+    return text;
+}
+
+std::string comment_text(const std::vector<std::string>& lines, size_t indent, const Dialect& dialect) {
     std::string text;
     for (const std::string& line : lines)
-        text += std::string(indent, ' ') + (line.empty() ? "//" : "// " + line) + "\n";
+        text += std::string(indent, ' ') + (line.empty() ? "//" : "// " + comment_line(line, dialect)) + "\n";
     return text;
 }
 
@@ -165,7 +186,7 @@ class StatementPrinter {
     explicit StatementPrinter(const Dialect& dialect) : dialect_(dialect) {}
 
     std::string item(const Item& item) {
-        text_ = comment_text(item.comments.before, 0);
+        text_ = comment_text(item.comments.before, 0, dialect_);
         if (item.name.empty())
             declaration(item.constants[0], 0, true, item.comments.behind);
         else
@@ -181,7 +202,7 @@ class StatementPrinter {
         text_ += wrap(marked, indent);
         if (behind.empty()) return;
         text_.pop_back();
-        text_ += "  // " + behind + "\n";
+        text_ += "  // " + comment_line(behind, dialect_) + "\n";
     }
 
     void function(const Item& item) {
@@ -202,7 +223,7 @@ class StatementPrinter {
     void block(const std::vector<Statement>& body, size_t indent) {
         for (const Statement& statement : body) {
             if (statement.comments.blank_line_before && &statement != &body.front()) text_ += "\n";
-            text_ += comment_text(statement.comments.before, indent);
+            text_ += comment_text(statement.comments.before, indent, dialect_);
             print(statement, indent);
         }
     }
@@ -301,13 +322,32 @@ class StatementPrinter {
 
 }  // namespace
 
+std::vector<std::string> call_lines(std::span<const Unit> units, Language language,
+                                    std::span<const std::string> names) {
+    const Dialect& dialect = dialect_of(language);
+    std::vector<std::string> lines;
+    for (const std::string& name : names)
+        for (const Unit& unit : units)
+            for (const Item& item : unit.items) {
+                if (item.name != name) continue;
+                std::string arguments;
+                for (const Parameter& parameter : item.parameters)
+                    arguments += (arguments.empty() ? "" : ", ") + parameter.name;
+                const std::string_view type =
+                    dialect.names_before_types ? "let" : dialect.types[size_t(item.type)];
+                lines.push_back(std::string(type) + " " + name.substr(name.find('_') + 1) + " = " + name +
+                                "(" + arguments + ");");
+            }
+    return lines;
+}
+
 std::string print(std::span<const Unit> units, Language language, std::span<const std::string> heading) {
     const Dialect& dialect = dialect_of(language);
-    std::string text = comment_text({heading.begin(), heading.end()}, 0);
+    std::string text = comment_text({heading.begin(), heading.end()}, 0, dialect);
     text += dialect.opening;
     if (language == Language::cpp) text += cpp_prelude();
     for (const Unit& unit : units) {
-        if (!unit.header.empty()) text += "\n" + comment_text(unit.header, 0);
+        if (!unit.header.empty()) text += "\n" + comment_text(unit.header, 0, dialect);
         bool constant_before = false;
         for (const Item& item : unit.items) {
             const bool constant = item.name.empty();

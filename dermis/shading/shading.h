@@ -46,4 +46,11 @@ struct Source {
 /// without namespaces. `units` as read_sources() returns them.
 void prefix_names(std::vector<Unit>& units);
 
+/// Leaves these functions and what they need. Errors: an unknown name proposes the closest.
+[[nodiscard]] Result<void> keep_functions(std::vector<Unit>& units, std::span<const std::string> names);
+
+/// A line of code for each of these functions that is there: "float3 diffuse = skin_diffuse(n_dot_l, ...);".
+[[nodiscard]] std::vector<std::string> call_lines(std::span<const Unit> units, Language language,
+                                                  std::span<const std::string> names);
+
 }  // namespace dermis::shading

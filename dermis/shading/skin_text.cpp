@@ -266,6 +266,11 @@ std::string wrap_function(const WrapReach& reach) {
            "}\n";
 }
 
+// What a shader of skin calls first.
+const std::string kMainFunctions[] = {"skin_diffuse",        "skin_gain",           "skin_shadow_edge",
+                                      "skin_ambient_band_1", "skin_ambient_band_2", "skin_far_share",
+                                      "skin_thin_light"};
+
 }  // namespace
 
 Result<Source> profile_source(const Profile& profile) {
@@ -284,20 +289,27 @@ Result<Source> profile_source(const Profile& profile) {
     return Source{"profile " + printable_line(profile.name), text};
 }
 
-Result<std::string> skin_text(const Profile& profile, std::span<const Source> functions, Language language) {
+Result<std::string> skin_text(const Profile& profile, std::span<const Source> functions, Language language,
+                              std::span<const std::string> names) {
     DERMIS_TRY_ASSIGN(Source own, profile_source(profile));
     std::vector<Source> sources(functions.begin(), functions.end());
     sources.push_back(std::move(own));
     DERMIS_TRY_ASSIGN(std::vector<Unit> units, read_sources(sources));
     prefix_names(units);
-    const std::vector<std::string> heading = {
+    if (!names.empty()) DERMIS_TRY(keep_functions(units, names));
+    std::vector<std::string> heading = {
         "Shading functions for skin: " + printable_line(profile.name) +
             ". Printed by `dermis export`; change its source, not this file.",
-        "SPDX-License-Identifier: MIT, Copyright (c) 2026 The Dermis authors", "",
+        "SPDX-License-Identifier: MIT, Copyright (c) 2026 The Dermis authors",
+        "",
         "Units: lengths in mm, curvature in 1/mm, colours linear. Directions are normalised and point away "
         "from the surface.",
         "Pure functions: fetch textures and derivatives yourself and pass them. Needs 32-bit floats "
-        "(highp)."};
+        "(highp).",
+        "",
+        "How to call it:"};
+    for (const std::string& line : call_lines(units, language, names.empty() ? kMainFunctions : names))
+        heading.push_back("    " + line);
     return print(units, language, heading);
 }
 

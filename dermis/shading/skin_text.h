@@ -16,8 +16,10 @@ namespace dermis::shading {
 [[nodiscard]] Result<Source> profile_source(const Profile& profile);
 
 /// `functions` and profile_source() in one language, every name with the prefix skin_ or kSkin; the heading
-/// states units and conventions. The same input gives the same bytes.
+/// states units and conventions and has a call of the main functions. With `names` ("skin_diffuse") the text
+/// has these and what they need, and the heading a call of each. The same input gives the same bytes.
+/// Errors: those of profile_source(), an unknown name.
 [[nodiscard]] Result<std::string> skin_text(const Profile& profile, std::span<const Source> functions,
-                                            Language language);
+                                            Language language, std::span<const std::string> names = {});
 
 }  // namespace dermis::shading

@@ -1,5 +1,5 @@
-// The gain of this skin: how much of uniform light a curved place returns, over flat skin, and how much more passes a thin part
-// than by the profile (docs/transport.md).
+// How much of uniform light a curved place of this skin returns, over flat skin, and how much more passes a thin part than by
+// the profile.
 #ifndef DERMIS_PACKAGE_GAIN_GLSL
 #define DERMIS_PACKAGE_GAIN_GLSL
 

@@ -102,6 +102,8 @@ TEST_F(BadInput, comparisons_that_cannot_be_made_leave_nothing) {
                  "--timed-frames: 0 is not in its range, 1 to 1000");
     expect_error("compare builtin:spheres --frames 0" + to, "--frames: 0 is not in its range, 1 to 1000");
     expect_error("compare builtin:spheres --frames 5" + to, "--clip NAME --frames 8");
+    expect_error("export --engine three --functions skin_gain" + to,
+                 "--functions chooses what --language writes");
     expect_error("compare builtin:spheres --fps 24" + to, "--clip NAME --frames 8 --fps 24");
     expect_error("compare builtin:spheres --rest-bakes normal" + to, "did you mean 'normals'?");
     expect_error("compare builtin:spheres --rest-bakes all" + to, "does not move");

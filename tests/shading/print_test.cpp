@@ -123,6 +123,30 @@ TEST(Print, every_name_of_the_skin_begins_with_skin) {
         EXPECT_FALSE(std::regex_search(own, std::regex("\\b" + std::string(old) + "\\b"))) << old;
 }
 
+TEST(Print, chosen_functions_come_with_what_they_need_alone) {
+    const std::string chosen[] = {"skin_thin_light", "skin_baked_skin"};
+    const auto text = skin_text(*find_profile("gpu_gems_3"), shading::skin_sources(), Language::hlsl, chosen);
+    ASSERT_TRUE(text) << text.error().message;
+    for (const char* needed :
+         {"float3 skin_thin_light(", "float3 skin_gain_through(", "kSkinLeastDirection = ",
+          "//     float3 thin_light = skin_thin_light(here, behind, share_behind, gain_of_place, "
+          "gain_of_slabs);"})
+        EXPECT_THAT(*text, HasSubstr(needed));
+    for (const char* other : {"skin_ggx", "skin_gain_of_curvature", "skin_baked_red(float3", "vec3"})
+        EXPECT_THAT(*text, Not(HasSubstr(other)));
+    const std::string misspelt[] = {"skin_thin_ligth"};
+    EXPECT_THAT(skin_text(*find_profile("gpu_gems_3"), shading::skin_sources(), Language::hlsl, misspelt)
+                    .error()
+                    .message,
+                HasSubstr("unknown function 'skin_thin_ligth'; did you mean 'skin_thin_light'?"));
+}
+
+TEST(Print, comments_name_types_and_functions_as_the_language_does) {
+    const char* source = "// mix(a, vec3(0.0), x); a mix of light\nvec3 f(vec3 a) {\n    return a;\n}\n";
+    EXPECT_THAT(printed(source, Language::hlsl), HasSubstr("// lerp(a, float3(0.0), x); a mix of light\n"));
+    EXPECT_THAT(printed(source, Language::glsl), HasSubstr("// mix(a, vec3(0.0), x); a mix of light\n"));
+}
+
 // What is handed over: every language, a measured and an OpenPBR skin.
 TEST(Print, the_skin_is_printed_in_every_language_the_same_every_time) {
     for (const char* name : {"gpu_gems_3", "openpbr_skin_5", "jensen_skin1"}) {

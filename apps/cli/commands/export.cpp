@@ -22,7 +22,7 @@ namespace {
 constexpr const char *kDefaultPage = "bust", *kDefaultProfile = "gpu_gems_3";
 
 struct ExportOptions {
-    std::string language, engine, profile, output;
+    std::string language, engine, profile, output, functions;
     SceneChoice scene;
     bool web = false;
 
@@ -65,9 +65,17 @@ std::filesystem::path text_path(const ExportOptions& options, shading::Language 
 
 Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
     DERMIS_TRY_ASSIGN(const std::vector<shading::Language> languages, chosen_languages(options.language));
+    std::vector<std::string> names;
+    for (const std::string_view name : split(options.functions, ','))
+        if (const std::string_view word = trim(name); !word.empty()) names.emplace_back(word);
+    DERMIS_TRY_ASSIGN(const PackageGain gain, package_gain(profile, {}));
+    DERMIS_TRY_ASSIGN(shading::Source own_gain, gain_source(built_in_package_templates(), gain));
+    const std::span<const shading::Source> common = shading::skin_sources();
+    std::vector<shading::Source> sources(common.begin(), common.end());
+    sources.push_back(std::move(own_gain));
     std::vector<std::string> texts;
     for (const shading::Language language : languages) {
-        DERMIS_TRY_ASSIGN(std::string text, skin_text(profile, shading::skin_sources(), language));
+        DERMIS_TRY_ASSIGN(std::string text, skin_text(profile, sources, language, names));
         texts.push_back(std::move(text));
     }
     std::vector<FileContent> files;
@@ -121,6 +129,8 @@ Result<FileUse> files_of(const ExportOptions& options) {
     if (int(!options.language.empty()) + int(!options.engine.empty()) + int(options.web) != 1)
         return Error{
             "give one of --language for a file of functions, --engine for a folder, --web for a page"};
+    if (!options.functions.empty() && options.language.empty())
+        return Error{"--functions chooses what --language writes"};
     FileUse files = {.outputs = {}, .inputs = {options.profile, options.scene.name}};
     const std::filesystem::path output = options.output;
     if (options.web) {
@@ -162,6 +172,9 @@ void add_export_command(CommandLine& line) {
         "  dermis export --language hlsl --profile openpbr_skin_5 -o skin.hlsl");
     command->add_option("--language", options->language,
                         join(shading::language_names(), ", ") + ", or all: a file of each in a folder");
+    command->add_option("--functions", options->functions,
+                        "with --language: these functions and what they need, separated by commas, such as "
+                        "skin_diffuse,skin_gain (default: all)");
     command->add_option(
         "--engine", options->engine,
         "a folder with shader, table, import settings and an example, with a SCENE its head too: " +

@@ -1,5 +1,5 @@
 // Baked normals: for each channel the mean of the normals around a point, weighted by the profile
-// (dermis/rays/ diffused_normals.h; after Ma et al. 2007). Three texels of maps over the skin's atlas
+// (dermis/rays/diffused_normals.h; after Ma et al. 2007). Three texels of maps over the skin's atlas
 // hold them: the direction of red's mean times 0.5 plus 0.5; what green's direction is apart from it,
 // as signed square roots; and the spread of red's normals: red and green how it differs by direction,
 // times 0.5 plus 0.5, blue the square root of 1 less the mean's length.

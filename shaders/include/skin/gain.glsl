@@ -17,7 +17,7 @@ vec3 gain_of_curvature(float curvature_per_mm, vec3 slope_mm, vec3 length_mm, ve
 vec3 gain_through(vec3 gain_of_place, vec3 gain_of_slabs) { return max(gain_of_place, gain_of_slabs); }
 
 // Diffuse light of a thin part: what has entered here and on its far side, each 0 to 1, and the share of the
-// latter (far_share()).
+// latter (skin_far_share()).
 vec3 thin_light(vec3 here, vec3 behind, vec3 share_behind, vec3 gain_of_place, vec3 gain_of_slabs) {
     return here * (1.0 - share_behind) * gain_of_place +
            behind * share_behind * gain_through(gain_of_place, gain_of_slabs);
