@@ -8,6 +8,7 @@
 #include "command.h"
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
+#include "dermis/engines/native.h"
 #include "dermis/engines/package.h"
 #include "dermis/optics/presets.h"
 #include "dermis/shading/skin_text.h"
@@ -24,7 +25,7 @@ constexpr const char *kDefaultPage = "bust", *kDefaultProfile = "gpu_gems_3";
 struct ExportOptions {
     std::string language, engine, profile, output, functions;
     SceneChoice scene;
-    bool web = false;
+    bool web = false, native = false;
 
     [[nodiscard]] bool has_scene() const {
         return !scene.name.empty() || !scene.words.empty() || !scene.camera.empty() || !scene.light.empty() ||
@@ -84,13 +85,24 @@ Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
     return deliver_files(files, {options.profile});
 }
 
-Result<int> write_package(const ExportOptions& options, const PackageInput& input,
-                          std::vector<std::filesystem::path> inputs) {
+Result<int> write_folder(const ExportOptions& options, const std::vector<PackageFile>& package,
+                         std::vector<std::filesystem::path> inputs) {
     const std::filesystem::path folder = options.output;
-    DERMIS_TRY_ASSIGN(const std::vector<PackageFile> package, make_package(options.engine, input));
     std::vector<FileContent> files;
     for (const PackageFile& file : package) files.push_back({folder / file.path, file.bytes});
     return deliver_files(files, std::move(inputs));
+}
+
+Result<int> write_package(const ExportOptions& options, const PackageInput& input,
+                          std::vector<std::filesystem::path> inputs) {
+    DERMIS_TRY_ASSIGN(const std::vector<PackageFile> package, make_package(options.engine, input));
+    return write_folder(options, package, std::move(inputs));
+}
+
+Result<int> export_native(const ExportOptions& options, const Profile& profile) {
+    DERMIS_TRY_ASSIGN(const std::vector<PackageFile> files,
+                      make_native_profile(options.engine, profile, built_in_package_templates()));
+    return write_folder(options, files, {options.profile});
 }
 
 Result<int> export_package(const ExportOptions& options) {
@@ -131,6 +143,9 @@ Result<FileUse> files_of(const ExportOptions& options) {
             "give one of --language for a file of functions, --engine for a folder, --web for a page"};
     if (!options.functions.empty() && options.language.empty())
         return Error{"--functions chooses what --language writes"};
+    if (options.native && (options.engine.empty() || options.has_scene()))
+        return Error{
+            "--native needs --engine and takes no scene: it writes the profile of the engine's own skin"};
     FileUse files = {.outputs = {}, .inputs = {options.profile, options.scene.name}};
     const std::filesystem::path output = options.output;
     if (options.web) {
@@ -140,7 +155,7 @@ Result<FileUse> files_of(const ExportOptions& options) {
     if (!options.language.empty() && options.has_scene())
         return Error{"a scene and --scene, --camera, --light are for --engine and --web"};
     if (!options.engine.empty()) {
-        DERMIS_TRY(check_engine(options.engine));
+        DERMIS_TRY(options.native ? check_native_engine(options.engine) : check_engine(options.engine));
         if (options.has_scene() && options.scene.name.empty())
             return Error{"--scene, --camera and --light need a SCENE"};
         if (options.has_scene()) DERMIS_TRY(check_engine_takes_head(options.engine));
@@ -154,10 +169,10 @@ Result<FileUse> files_of(const ExportOptions& options) {
 
 Result<int> run(const ExportOptions& options) {
     if (options.web) return export_web(options);
-    if (!options.engine.empty()) return export_package(options);
+    if (!options.engine.empty() && !options.native) return export_package(options);
     DERMIS_TRY_ASSIGN(const Profile profile,
                       find_profile(options.profile.empty() ? kDefaultProfile : options.profile));
-    return export_texts(options, profile);
+    return options.native ? export_native(options, profile) : export_texts(options, profile);
 }
 
 }  // namespace
@@ -179,6 +194,11 @@ void add_export_command(CommandLine& line) {
         "--engine", options->engine,
         "a folder with shader, table, import settings and an example, with a SCENE its head too: " +
             join(engine_names(), ", "));
+    command->add_flag(
+        "--native", options->native,
+        "with --engine: the profile of the engine's own skin instead, as an asset or script and "
+        "numbers to type in: " +
+            join(native_engine_names(), ", "));
     command->add_flag("--web", options->web,
                       "a folder for any web server: a page that shows a scene's skin (default: bust)");
     command->add_option(
