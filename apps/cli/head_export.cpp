@@ -88,7 +88,7 @@ Result<ExportedHead> export_head(const SceneChoice& choice, const std::string& p
                                             .normals = std::move(normals),
                                             .thickness_mm = std::move(thickness_mm),
                                             .occlusion_weights = weights,
-                                            .map_files = has_map_files(engine)}));
+                                            .format = head_format(engine)}));
     made.head.warnings.insert(made.head.warnings.begin(), warnings.begin(), warnings.end());
     return made;
 }

@@ -1,5 +1,7 @@
 #include "dermis/engines/engine.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 
@@ -11,15 +13,41 @@ namespace {
 
 // Unity: a package with a .meta file beside each file and folder, from the texts of engines/unity_meta. A
 // GUID is a hash of the path, so that a later version of the package replaces an earlier one in place.
-constexpr std::string_view kTable = "Runtime/SkinTable.exr";
+constexpr std::string_view kTable = "Runtime/SkinTable.exr", kUnityHead = "Head/";
 
 std::string guid_of(std::string_view path) {
     return Hasher().add("com.dermis.skin/").add(path).hex();
 }
 
-void add_guids(Words& words) {
+void add_unity_words(const PackageInput& input, Words& words) {
     words["guid_of_shader"] = guid_of("Runtime/Skin.shader");
     words["guid_of_table"] = guid_of(kTable);
+    // The first version whose reader keeps exactly eight sets of texture coordinates; a head has six.
+    words["dependencies"] = input.head.empty() ? "" : "\"com.unity.cloud.gltfast\": \"6.14.1\"";
+    std::string offsets, weights;
+    for (const ShadowPlace& place : input.shadow_places.all) {
+        const Vec3 &at = place.offset_mm, &weight = place.weight;
+        const std::string_view separator = offsets.empty() ? "" : ",\n    ";
+        offsets += fmt::format("{}float4({:.5g}, {:.5g}, {:.5g}, {:.5g})", separator, at.x, at.y, at.z,
+                               place.penumbra);
+        weights += fmt::format("{}float3({:.5g}, {:.5g}, {:.5g})", separator, weight.x, weight.y, weight.z);
+    }
+    words["shadow_place_offsets"] = offsets;
+    words["shadow_place_weights"] = weights;
+    words["shadow_place_count"] = std::to_string(input.shadow_places.all.size());
+}
+
+// The importer's settings are of the kind of file; scene.json is a text, package.json is not.
+std::string meta_kind(const std::string& path) {
+    const std::string kind = path.substr(path.rfind('.') + 1);
+    return kind == "json" && path.starts_with(kUnityHead) ? "md" : kind;
+}
+
+// Of a head's pictures only the albedo is a colour; what lies over the atlas is clamped.
+Words meta_words(const std::string& path) {
+    const bool is_albedo = path.ends_with("_albedo.png");
+    const bool over_atlas = path.ends_with("thickness.png") || path.find("/normals_") != std::string::npos;
+    return {{"guid", guid_of(path)}, {"srgb", is_albedo ? "1" : "0"}, {"wrap", over_atlas ? "1" : "0"}};
 }
 
 // Unity does not import what is in a folder whose name ends in '~'; what is in Samples~ is copied with its
@@ -38,8 +66,7 @@ std::set<std::string> folders_of(const std::vector<PackageFile>& files) {
 
 Result<void> add_meta_files(const PackageInput& input, std::vector<PackageFile>& files) {
     std::vector<std::pair<std::string, std::string>> targets;  // path, kind
-    for (const PackageFile& file : files)
-        targets.emplace_back(file.path, file.path.substr(file.path.rfind('.') + 1));
+    for (const PackageFile& file : files) targets.emplace_back(file.path, meta_kind(file.path));
     for (const std::string& folder : folders_of(files)) targets.emplace_back(folder, "folder");
     for (const auto& [path, kind] : targets) {
         if (!has_meta(path)) continue;
@@ -47,7 +74,7 @@ Result<void> add_meta_files(const PackageInput& input, std::vector<PackageFile>&
                                              &PackageTemplate::path);
         if (found == input.templates.end())
             return Error{"engines/unity_meta has no " + kind + ".meta, which " + path + " needs"};
-        DERMIS_TRY_ASSIGN(const std::string text, filled(*found, {{"guid", guid_of(path)}}));
+        DERMIS_TRY_ASSIGN(const std::string text, filled(*found, meta_words(path)));
         files.push_back({path + ".meta", to_bytes(text)});
     }
     return {};
@@ -77,9 +104,11 @@ const std::vector<Engine>& all_engines() {
          .texts = {{"Runtime/Skin.hlsl", shading::Language::hlsl}},
          .license_path = "LICENSE.md",
          .picture_path = "Documentation~/picture.png",
+         .head_path = kUnityHead,
+         .head_format = {.map_files = true, .ambient_probe = true},
          .table_path = kTable,
          .v_origin = VOrigin::bottom,
-         .add_words = add_guids,
+         .add_words = add_unity_words,
          .add_files = add_meta_files},
         // Unreal Engine 5 keeps import settings in binary assets; a Python script of the plugin sets them.
         {.name = "unreal",
@@ -92,7 +121,7 @@ const std::vector<Engine>& all_engines() {
          .texts = {{"addons/dermis_skin/skin.gdshaderinc", shading::Language::gdshader}},
          .license_path = "addons/dermis_skin/LICENSE",
          .head_path = "addons/dermis_skin/head/",
-         .head_map_files = true,
+         .head_format = {.map_files = true},
          .table_path = "addons/dermis_skin/skin_table.exr",
          .v_origin = VOrigin::top,
          .add_files = add_import_files},

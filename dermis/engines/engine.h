@@ -25,12 +25,12 @@ struct Engine {
 
     std::string_view license_path = "LICENSE";
     std::string_view picture_path = "picture.png";
-    std::string_view head_path = {};      ///< the folder of a head, with '/' behind it; empty: takes none
-    bool head_map_files = false;          ///< HeadInput::map_files
-    bool takes_scripts = false;           ///< the JavaScript of engines/common
-    std::string_view table_path = {};     ///< the diffuse table, .exr or .dds; empty: none
-    VOrigin v_origin = VOrigin::top;      ///< where the engine has v = 0 in a picture
-    void (*add_words)(Words&) = nullptr;  ///< beyond the common ones
+    std::string_view head_path = {};  ///< the folder of a head, with '/' behind it; empty: takes none
+    HeadFormat head_format = {};
+    bool takes_scripts = false;        ///< the JavaScript of engines/common
+    std::string_view table_path = {};  ///< the diffuse table, .exr or .dds; empty: none
+    VOrigin v_origin = VOrigin::top;   ///< where the engine has v = 0 in a picture
+    void (*add_words)(const PackageInput&, Words&) = nullptr;  ///< beyond the common ones
     /// Files that are made from the other files, such as Unity's .meta.
     Result<void> (*add_files)(const PackageInput&, std::vector<PackageFile>&) = nullptr;
 };

@@ -162,7 +162,7 @@ Result<json> head_object_json(const HeadInput& input, size_t index, Head& head) 
     json materials = json::array();
     for (size_t i = 0; i < mesh.materials.size(); ++i) {
         DERMIS_TRY_ASSIGN(const Maps maps, load_maps(input, object, i));
-        const bool map_files = input.map_files && object.classes[i] == MaterialClass::skin;
+        const bool map_files = input.format.map_files && object.classes[i] == MaterialClass::skin;
         DERMIS_TRY_ASSIGN(mesh.materials[i], gltf_material(object, i, map_files ? Maps() : maps));
         if (object.classes[i] == MaterialClass::skin)
             mesh.materials[i].base_color_linear =
@@ -247,7 +247,40 @@ Result<json> add_thickness(const Image& thickness_mm, Head& head) {
     return json{{"file", "thickness.png"}, {"max_mm", kThicknessMaxMm}};
 }
 
-Result<json> add_panorama(const Environment& environment, Head& head) {
+// The polynomial that Unity's SampleSH() evaluates: 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2. Lambert's
+// bands over pi are 1, 2/3 and 1/4 (Ramamoorthi, Hanrahan 2001); the second one is turned as a quadratic
+// form.
+json ambient_probe(const EnvironmentLight& light, const Environment& environment) {
+    constexpr float kBand[] = {0.282095f, 2 * 0.488603f / 3};
+    constexpr float kMixed = 1.092548f / 4, kZ = 0.315392f / 4, kDifference = 0.546274f / 4;
+    const float c = std::cos(environment.yaw_rad), s = std::sin(environment.yaw_rad);
+    json numbers = json::array();
+    std::array<Vec3, 9> probe;
+    const auto& l = light.radiance_sh;
+    // The environment's x and z of Unity's: x' = -c x - s z, z' = -s x + c z.
+    probe[0] = l[0] * kBand[0];
+    probe[1] = l[1] * kBand[1];
+    probe[2] = (l[2] * c - l[3] * s) * kBand[1];
+    probe[3] = (l[3] * -c - l[2] * s) * kBand[1];
+    const Vec3 xy = l[4] * kMixed, yz = l[5] * kMixed, xz = l[7] * kMixed, zz = l[6] * kZ,
+               difference = l[8] * kDifference;
+    // Diagonal and mixed elements of the form, then of the turned one.
+    const Vec3 m_xx = difference - zz, m_yy = difference * -1 - zz, m_zz = zz * 2;
+    const Vec3 t_xx = m_xx * (c * c) + m_zz * (s * s) + xz * (c * s);
+    const Vec3 t_zz = m_xx * (s * s) + m_zz * (c * c) - xz * (c * s);
+    const Vec3 t_xz = (m_xx - m_zz) * (2 * c * s) - xz * (c * c - s * s);
+    probe[4] = xy * -c - yz * s;
+    probe[5] = yz * c - xy * s;
+    probe[6] = t_zz * 0.5f;
+    probe[7] = t_xz;
+    probe[8] = (t_xx - m_yy) * 0.5f;
+    for (const Vec3& one : probe)
+        for (const float number : {one.x, one.y, one.z})
+            numbers.push_back(to_json(number * environment.intensity));
+    return numbers;
+}
+
+Result<json> add_panorama(const Environment& environment, bool with_probe, Head& head) {
     if (environment.kind == EnvironmentKind::none) return json();
     DERMIS_TRY_ASSIGN(const Image panorama, load_panorama(environment));
     DERMIS_TRY_ASSIGN(std::vector<std::byte> bytes, encode_image(".hdr", panorama));
@@ -255,10 +288,12 @@ Result<json> add_panorama(const Environment& environment, Head& head) {
     DERMIS_TRY_ASSIGN(const EnvironmentLight light, prepare_environment(environment));
     json harmonics = json::array();
     for (const Vec3& one : light.radiance_sh) harmonics.push_back(to_json(one));
-    return json{{"file", "environment.hdr"},
-                {"intensity", to_json(environment.intensity)},
-                {"radiance_sh", harmonics},
-                {"yaw_rad", to_json(environment.yaw_rad)}};
+    json made = {{"file", "environment.hdr"},
+                 {"intensity", to_json(environment.intensity)},
+                 {"radiance_sh", harmonics},
+                 {"yaw_rad", to_json(environment.yaw_rad)}};
+    if (with_probe) made["ambient_probe"] = ambient_probe(light, environment);
+    return made;
 }
 
 json head_camera_json(const Camera& camera) {
@@ -294,7 +329,7 @@ Result<Head> make_head(const HeadInput& input) {
         {"penumbra_mm", to_json(DrawSettings{}.penumbra_mm)},
         {"lights", head_lights_json(scene)},
         {"objects", objects}};
-    DERMIS_TRY_ASSIGN(made["environment"], add_panorama(scene.environment, head));
+    DERMIS_TRY_ASSIGN(made["environment"], add_panorama(scene.environment, input.format.ambient_probe, head));
     if (input.normals.size > 0) {
         DERMIS_TRY_ASSIGN(made["baked_normals"], add_normals(input.normals, head));
     }

@@ -16,8 +16,13 @@
 // thickness.png over the atlas: kThicknessMaxMm for a value of 1
 // N_M_normal.png an object-space normal map, which glTF cannot hold
 // N_M_albedo.png, N_M_normal.png, N_M_surface.png
-//              with map_files, of the material M: surface has occlusion, roughness, factor on the reflectance
+//              with HeadFormat::map_files, of the material M: surface has occlusion, roughness, factor on the
+//              reflectance
 // environment.hdr latitude-longitude, linear
+//
+// With ambient_probe, environment.ambient_probe of scene.json has 27 numbers: nine coefficients of Unity's
+// SphericalHarmonicsL2, of each red, green and blue, of the irradiance over pi in a world whose x is
+// mirrored.
 
 #include <array>
 #include <string>
@@ -39,8 +44,8 @@ struct HeadInput {
     Image thickness_mm;  ///< over the atlas, one channel; empty: no light comes through
     /// Weights of the vertices' three blurred occlusions, of each channel.
     std::array<Vec3, 3> occlusion_weights;
-    int map_side = 4096;     ///< larger maps are made smaller
-    bool map_files = false;  ///< the maps of skin are files of their own, not in the GLB
+    int map_side = 4096;  ///< larger maps are made smaller
+    HeadFormat format = {};
 };
 
 struct Head {

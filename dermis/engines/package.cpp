@@ -184,7 +184,7 @@ std::string template_path(const Engine& engine, const PackageInput& input, std::
 
 Result<void> add_templates(const Engine& engine, const PackageInput& input, std::vector<PackageFile>& files) {
     Words words = common_words(input);
-    if (engine.add_words) engine.add_words(words);
+    if (engine.add_words) engine.add_words(input, words);
     for (const PackageTemplate& file : input.templates) {
         const std::string path = template_path(engine, input, file.path);
         if (path.empty()) continue;
@@ -243,9 +243,9 @@ Result<void> check_engine_takes_head(std::string_view name) {
                  " take one"};
 }
 
-bool has_map_files(std::string_view engine) {
+HeadFormat head_format(std::string_view engine) {
     const auto found = find_engine(engine);
-    return found && (*found)->head_map_files;
+    return found ? (*found)->head_format : HeadFormat{};
 }
 
 Result<shading::Source> gain_source(std::span<const PackageTemplate> templates, const PackageGain& gain) {

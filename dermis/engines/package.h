@@ -51,6 +51,12 @@ struct PackageGain {
     Rgb of_slabs = {1, 1, 1};  ///< on light through thin parts
 };
 
+/// What an engine needs of a head beyond what every head holds.
+struct HeadFormat {
+    bool map_files = false;      ///< the maps of skin are files of their own, not in the GLB
+    bool ambient_probe = false;  ///< scene.json has Unity's numbers for light from all around
+};
+
 struct PackageInput {
     Profile profile;
     std::span<const shading::Source> functions;  ///< shaders/include/skin
@@ -70,8 +76,8 @@ struct PackageInput {
 /// Success when the engine's package takes a head.
 [[nodiscard]] Result<void> check_engine_takes_head(std::string_view name);
 
-/// HeadInput::map_files of its head.
-[[nodiscard]] bool has_map_files(std::string_view engine);
+/// What its head holds beyond what every head does.
+[[nodiscard]] HeadFormat head_format(std::string_view engine);
 
 /// The functions of engines/common/gain.glsl with this skin's gain, for shading::skin_text().
 [[nodiscard]] Result<shading::Source> gain_source(std::span<const PackageTemplate> templates,

@@ -17,7 +17,10 @@ namespace fs = std::filesystem;
 
 // The package as files, in folders as the engine has them.
 void write_package(const std::string& engine, const fs::path& folder) {
-    for (const auto& [path, text] : package_of(engine, "openpbr_skin_5"))
+    const std::vector<PackageFile> head = {{"scene.json", {}}};
+    const bool takes_head = engine == "unity";
+    for (const auto& [path, text] :
+         package_of(engine, "openpbr_skin_5", {}, takes_head ? head : std::span(head).first(0)))
         ASSERT_TRUE(write_text_file(folder / path, text)) << path;
 }
 
@@ -38,6 +41,8 @@ std::string hlsl_errors(const fs::path& folder, const fs::path& include, const s
                                         folder.string(),
                                         "-I",
                                         include.string(),
+                                        "-I",
+                                        (folder / "Head").string(),
                                         source.string(),
                                         "-o",
                                         (folder / "pass.spv").string()};
@@ -48,6 +53,16 @@ std::string hlsl_errors(const fs::path& folder, const fs::path& include, const s
 
 struct Pass {
     std::string file, stage, entry, defines;  // with spaces between
+};
+
+// Of a package with a head.
+const std::vector<Pass> kUnityHeadPasses = {
+    {"SkinHeadForward.hlsl", "vertex", "SkinHeadVertex", ""},
+    {"SkinHeadForward.hlsl", "fragment", "SkinHeadFragment", ""},
+    {"SkinHeadForward.hlsl", "fragment", "SkinHeadFragment", "_MAIN_LIGHT_SHADOWS _ADDITIONAL_LIGHTS"},
+    {"SkinHeadForward.hlsl", "fragment", "SkinHeadFragment", "_MAIN_LIGHT_SHADOWS_CASCADE _FORWARD_PLUS"},
+    {"SkinHeadForward.hlsl", "fragment", "SkinHeadFragment",
+     "_MAIN_LIGHT_SHADOWS_SCREEN _CLUSTER_LIGHT_LOOP"},
 };
 
 const std::vector<Pass> kUnityPasses = {
@@ -90,6 +105,8 @@ class UnityShaders : public testing::Test {
 TEST_F(UnityShaders, compile_in_every_pass_and_path) {
     for (const Pass& pass : kUnityPasses)
         EXPECT_EQ(errors("#include \"" + pass.file + "\"\n", pass), "") << pass.entry << " " << pass.defines;
+    for (const Pass& pass : kUnityHeadPasses)
+        EXPECT_EQ(errors("#include \"" + pass.file + "\"\n", pass), "") << pass.entry << " " << pass.defines;
 }
 
 TEST_F(UnityShaders, of_the_graph_nodes_compile) {
@@ -111,12 +128,15 @@ TEST_F(UnityShaders, with_a_mistake_do_not_compile) {
 
 // Every pass of the shader names functions and files that the package has.
 TEST_F(UnityShaders, name_their_passes_functions) {
-    const auto shader = read_text_file(directory_.path / "Runtime/Skin.shader");
-    ASSERT_TRUE(shader);
-    for (const Pass& pass : kUnityPasses) {
-        const std::string word = pass.stage == "vertex" ? "#pragma vertex " : "#pragma fragment ";
-        EXPECT_NE(shader->find(word + pass.entry + "\n"), std::string::npos) << pass.entry;
-        EXPECT_NE(shader->find("#include \"" + pass.file + "\"\n"), std::string::npos) << pass.file;
+    for (const auto& [path, passes] :
+         {std::pair("Runtime/Skin.shader", kUnityPasses), {"Head/SkinHead.shader", kUnityHeadPasses}}) {
+        const auto shader = read_text_file(directory_.path / path);
+        ASSERT_TRUE(shader);
+        for (const Pass& pass : passes) {
+            const std::string word = pass.stage == "vertex" ? "#pragma vertex " : "#pragma fragment ";
+            EXPECT_NE(shader->find(word + pass.entry + "\n"), std::string::npos) << pass.entry;
+            EXPECT_NE(shader->find("#include \"" + pass.file + "\"\n"), std::string::npos) << pass.file;
+        }
     }
 }
 

@@ -14,9 +14,10 @@
 
 namespace dermis {
 
-/// Content by path. `gain_of_slabs` replaces the skin's.
+/// Content by path. `gain_of_slabs` replaces the skin's; `head` are the files of a head.
 inline std::map<std::string, std::string> package_of(const std::string& engine, const std::string& profile,
-                                                     std::optional<Rgb> gain_of_slabs = {}) {
+                                                     std::optional<Rgb> gain_of_slabs = {},
+                                                     std::span<const PackageFile> head = {}) {
     std::map<std::string, std::string> files;
     const auto skin = find_profile(profile);
     EXPECT_TRUE(skin);
@@ -28,8 +29,8 @@ inline std::map<std::string, std::string> package_of(const std::string& engine, 
     EXPECT_TRUE(gain) << gain.error().message;
     if (!gain) return files;
     if (gain_of_slabs) gain->of_slabs = *gain_of_slabs;
-    const auto package =
-        make_package(engine, {*skin, shading::skin_sources(), built_in_package_templates(), *places, *gain});
+    const auto package = make_package(
+        engine, {*skin, shading::skin_sources(), built_in_package_templates(), *places, *gain, head});
     EXPECT_TRUE(package) << package.error().message;
     if (!package) return files;
     for (const PackageFile& file : *package)

@@ -9,6 +9,7 @@ Shader "Dermis/Skin"
         [MainColor] _BaseColor("Tint of the albedo", Color) = (0.72, 0.47, 0.36, 1)
         [Normal] _BumpMap("Normal map", 2D) = "bump" {}
         _BumpScale("Strength of the normal map", Range(0, 2)) = 1
+        [NoScaleOffset] _SurfaceMap("Occlusion, roughness, factor on the reflectance: linear", 2D) = "white" {}
         _Roughness("Perceptual roughness", Range(0.1, 1)) = 0.45
         _F0("Reflectance at normal incidence", Range(0, 0.08)) = 0.028
         _MmPerUnit("Millimetres in a unit of the scene", Float) = 1000

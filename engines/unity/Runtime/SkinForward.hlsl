@@ -13,6 +13,8 @@ TEXTURE2D(_BaseMap);
 SAMPLER(sampler_BaseMap);
 TEXTURE2D(_BumpMap);
 SAMPLER(sampler_BumpMap);
+TEXTURE2D(_SurfaceMap);
+SAMPLER(sampler_SurfaceMap);
 TEXTURE2D(_ThicknessMap);
 SAMPLER(sampler_ThicknessMap);
 TEXTURE2D(_SkinTable);
@@ -52,7 +54,7 @@ SkinVaryings SkinVertex(SkinAttributes input) {
 
 struct SkinSurface {
     float3 albedo, n, v;  // linear, with the gain of the place; world space, normalised
-    float curvature_per_mm;
+    float curvature_per_mm, roughness, f0;
 #if defined(_SKIN_THIN)
     float3 n_geometry, far_share, albedo_through;
     float past_far_wall;  // towards a light, to where the shadow of what comes through is looked up, in units
@@ -71,8 +73,8 @@ float3 SkinLight(SkinSurface s, Light light) {
 #endif
     if (n_dot_l > 0.0) {
         float3 h = normalize(light.direction + s.v);
-        float lobes = skin_two_lobe_ggx(saturate(dot(s.n, h)), n_dot_l, max(dot(s.n, s.v), 1e-3), _Roughness);
-        radiance += kSkinPi * lobes * skin_fresnel_schlick(_F0, saturate(dot(h, s.v)));
+        float lobes = skin_two_lobe_ggx(saturate(dot(s.n, h)), n_dot_l, max(dot(s.n, s.v), 1e-3), s.roughness);
+        radiance += kSkinPi * lobes * skin_fresnel_schlick(s.f0, saturate(dot(h, s.v)));
     }
     return radiance * irradiance;
 }
@@ -143,6 +145,9 @@ float4 SkinFragment(SkinVaryings input) : SV_Target {
     s.albedo = _BaseColor.rgb * SAMPLE_TEXTURE2D(_BaseMap, sampler_BaseMap, input.uv).rgb;
     s.n = normalize(bump.x * input.tangentWS.xyz + bump.y * bitangent + bump.z * n_geometry);
     s.v = GetWorldSpaceNormalizeViewDir(input.positionWS);
+    float3 surface = SAMPLE_TEXTURE2D(_SurfaceMap, sampler_SurfaceMap, input.uv).rgb;
+    s.roughness = max(_Roughness * surface.g, 0.03);
+    s.f0 = _F0 * surface.b;
     // Of the mesh: a bump of the map is smaller than what scatters.
     s.curvature_per_mm = min(_CurvatureGain * skin_curvature_from_derivatives(fwidth(n_geometry),
                                                                          fwidth(input.positionWS) * _MmPerUnit),
@@ -158,7 +163,7 @@ float4 SkinFragment(SkinVaryings input) : SV_Target {
     s.past_far_wall = skin_past_far_wall_mm(thickness_mm) / _MmPerUnit;
 #endif
     s.albedo *= gain;
-    float3 radiance = SkinLights(s, input) + s.albedo * SampleSH(s.n);
+    float3 radiance = SkinLights(s, input) + s.albedo * surface.r * SampleSH(s.n);
     return float4(MixFog(radiance, input.fog), 1.0);
 }
 

@@ -1,25 +1,29 @@
-// What the package's shaders take from URP's Lighting.hlsl, as declarations with the same types: for a compiler alone.
+// What the package's shaders take from URP's Lighting.hlsl; the main light is a directional one. Core.hlsl says what for.
 #ifndef STUB_LIGHTING
 #define STUB_LIGHTING
 #include "Core.hlsl"
+#include "Shadows.hlsl"
 #define URP_FP_DIRECTIONAL_LIGHTS_COUNT 2u
 #define MAX_VISIBLE_LIGHTS 256u
 #define LIGHT_LOOP_BEGIN(count) for (uint lightIndex = 0u; lightIndex < count + (uint)(0.0 * inputData.positionWS.x); ++lightIndex) {
 #define LIGHT_LOOP_END }
 struct Light { half3 direction; half3 color; float distanceAttenuation; half shadowAttenuation; uint layerMask; };
 struct InputData { float3 positionWS; float2 normalizedScreenSpaceUV; };
-Light stub_light() {
+cbuffer StubLight { float4 stub_light_direction, stub_light_color; }
+Light GetMainLight(float4 shadowCoord, float3 positionWS, half4 shadowMask) {
     Light light;
-    light.direction = half3(0, 0, 1);
-    light.color = (half3)1;
-    light.distanceAttenuation = 1;
-    light.shadowAttenuation = 1;
+    light.direction = stub_light_direction.xyz;
+    light.color = stub_light_color.rgb;
+    light.distanceAttenuation = 1.0;
+    light.shadowAttenuation = 1.0;
+#if defined(_MAIN_LIGHT_SHADOWS)
+    if (!BEYOND_SHADOW_FAR(shadowCoord))
+        light.shadowAttenuation = SAMPLE_TEXTURE2D_SHADOW(_MainLightShadowmapTexture, sampler_LinearClampCompare, shadowCoord.xyz);
+#endif
     light.layerMask = 1u;
     return light;
 }
-float4 TransformWorldToShadowCoord(float3 p) { return float4(p, 1.0); }
-Light GetMainLight(float4 shadowCoord, float3 positionWS, half4 shadowMask) { return stub_light(); }
-Light GetAdditionalLight(uint i, float3 positionWS, half4 shadowMask) { return stub_light(); }
+Light GetAdditionalLight(uint i, float3 positionWS, half4 shadowMask) { return GetMainLight(float4(0, 0, 0, 0), positionWS, shadowMask); }
 uint GetAdditionalLightsCount() { return 3u; }
-half3 SampleSH(half3 n) { return n; }
+half3 SampleSH(half3 n) { return float3(unity_SHAr.w, unity_SHAg.w, unity_SHAb.w); }
 #endif
