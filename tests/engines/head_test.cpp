@@ -1,11 +1,14 @@
 // A scene's head in three.js and Babylon.js, in headless Chromium on WebGL 2 and WebGPU, held against the
-// reference beside Dermis' own picture; in Godot's web build against Dermis' picture. Needs chromium, node,
-// `npm ci` in tools/checks, for Godot what compile_test.cpp names; passed over without them.
+// reference beside Dermis' own picture; in Godot's web build, and for Unity by unity_head, against Dermis'
+// picture. Needs chromium, node, `npm ci` in tools/checks, for Godot what compile_test.cpp names; passed over
+// without them. Unity needs none of these.
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -99,9 +102,23 @@ class HeadPackage : public testing::TestWithParam<const char*> {
 
 class BrowserHead : public HeadPackage {};
 class GodotHead : public HeadPackage {};
+
+// Unity cannot run here: unity_head draws with the package's own shaders.
+class UnityHead : public HeadPackage {
+  protected:
+    void SetUp() override {
+        const ProgramResult made = shell(DERMIS_PROGRAM " export --engine unity bust -o " + path("package"));
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+    }
+    ProgramResult draw_one(const std::string& name, const std::string& options) {
+        return shell(DERMIS_UNITY_HEAD " " + path("package") + " " + path(name + ".exr") +
+                     " --side 48 --points 3 " + options);
+    }
+};
 const auto kName = [](const auto& one) { return std::string(one.param); };
 INSTANTIATE_TEST_SUITE_P(, BrowserHead, testing::Values("three", "babylon"), kName);
 INSTANTIATE_TEST_SUITE_P(, GodotHead, testing::Values("godot"), kName);
+INSTANTIATE_TEST_SUITE_P(, UnityHead, testing::Values("unity"), kName);
 
 const std::string kPreintegrated = "--technique preintegrated --set gain=";
 
@@ -182,4 +199,74 @@ TEST_P(GodotHead, has_the_renderers_effect_and_a_mistake_loses_it) {
         EXPECT_GT(error_of(mistake), error + 0.1) << mistake;
     const Image gain = change(rendered(kPreintegrated + "curvature " + plain), none);
     EXPECT_LT(distance(change(read("gain"), read("scattering")), gain), 0.2 * distance(gain, nothing));
+}
+
+TEST_P(UnityHead, has_the_renderers_effect_and_a_mistake_loses_it) {
+    for (const auto& [name, options] : {std::pair("lambert", "--lambert"),
+                                        {"scattering", ""},
+                                        {"gain", "--gain"},
+                                        {"normals", "--mistake normals"},
+                                        {"curvature", "--mistake curvature"},
+                                        {"srgb", "--mistake srgb"}}) {
+        const ProgramResult drawn = draw_one(name, options);
+        ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    }
+    const Image lambert = read("lambert"), nothing(48, 48, 3), none = rendered(kPreintegrated + "none");
+    const Image effect = change(none, rendered("--technique lambert"));
+    const auto error_of = [&](const char* name) {
+        const double error = distance(change(read(name), lambert), effect) / distance(effect, nothing);
+        RecordProperty(name, std::to_string(error));
+        return error;
+    };
+    const double error = error_of("scattering");
+    EXPECT_LT(error, 0.25);
+    for (const char* mistake : {"normals", "curvature", "srgb"})
+        EXPECT_GT(error_of(mistake), error + 0.1) << mistake;
+    const Image gain = change(rendered(kPreintegrated + "curvature"), none);
+    EXPECT_LT(distance(change(read("gain"), read("scattering")), gain), 0.2 * distance(gain, nothing));
+}
+
+// A map that the component does not bind is not bound here either.
+TEST_P(UnityHead, shows_a_map_that_the_script_leaves_out) {
+    ASSERT_EQ(draw_one("bound", "--lambert").exit_code, 0);
+    ASSERT_EQ(shell("sed -i '/Bind(skin, \"_BaseMap\"/d' " + path("package/Head/SkinHead.cs")).exit_code, 0);
+    ASSERT_EQ(draw_one("unbound", "--lambert").exit_code, 0);
+    EXPECT_GT(distance(read("unbound"), read("bound")), 0.3 * distance(read("bound"), Image(48, 48, 3)));
+}
+
+// Irradiance over pi of a turned environment, by the bands of Ramamoorthi and Hanrahan, against Unity's
+// polynomial.
+TEST(UnityProbe, is_the_environment_turned_and_mirrored) {
+    const TemporaryDirectory directory;
+    const std::string folder = directory.path.string();
+    std::ofstream(folder + "/turned.toml")
+        << "name = \"turned\"\n[[mesh]]\nfile = \"builtin:spheres\"\n[skin]\nprofile = \"openpbr_skin_5\"\n"
+           "[environment]\nkind = \"studio\"\nintensity = 0.9\nyaw_deg = 40\n";
+    const ProgramResult made = run_shell(
+        DERMIS_PROGRAM " export --engine unity " + folder + "/turned.toml -o " + folder + "/package", folder);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    std::ifstream file(folder + "/package/Head/scene.json");
+    const auto sky = nlohmann::json::parse(file)["environment"];
+    const double yaw = sky["yaw_rad"], c = std::cos(yaw), s = std::sin(yaw);
+    for (const auto& [X, Y, Z] : {std::array{0.48, 0.6, 0.64}, {-0.8, 0.0, 0.6}, {0.36, -0.8, -0.48}}) {
+        const double x = -c * X - s * Z, y = Y, z = -s * X + c * Z;
+        const double bands[] = {0.282095,
+                                0.325735 * y,
+                                0.325735 * z,
+                                0.325735 * x,
+                                0.273137 * x * y,
+                                0.273137 * y * z,
+                                0.078848 * (3 * z * z - 1),
+                                0.273137 * x * z,
+                                0.1365685 * (x * x - y * y)};
+        const double unity[] = {1, Y, Z, X, X * Y, Y * Z, 3 * Z * Z - 1, X * Z, X * X - Y * Y};
+        for (size_t channel = 0; channel < 3; ++channel) {
+            double expected = 0, got = 0;
+            for (size_t i = 0; i < 9; ++i) {
+                expected += 0.9 * bands[i] * double(sky["radiance_sh"][i][channel]);
+                got += unity[i] * double(sky["ambient_probe"][3 * i + channel]);
+            }
+            EXPECT_NEAR(got, expected, 1e-5);
+        }
+    }
 }

@@ -1,0 +1,180 @@
+#include "engines/unity_head/package.h"
+
+#include <array>
+#include <cstring>
+#include <regex>
+
+#include "dermis/base/file.h"
+#include "dermis/base/text.h"
+#include "dermis/image/colour.h"
+#include "dermis/image/io.h"
+#include "dermis/image/resample.h"
+
+namespace dermis::unity_head {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+// The JSON and the bytes of a GLB.
+struct Glb {
+    json document;
+    std::span<const std::byte> bytes;
+};
+
+template <class T>
+std::vector<T> numbers_of(const Glb& glb, size_t accessor_index, size_t each) {
+    const json& accessor = glb.document["accessors"][accessor_index];
+    const json& view = glb.document["bufferViews"][size_t(accessor["bufferView"])];
+    const size_t start = view.value("byteOffset", size_t(0)) + accessor.value("byteOffset", size_t(0));
+    const size_t stride = view.value("byteStride", each * sizeof(T)), count = accessor["count"];
+    std::vector<T> numbers(count * each);
+    for (size_t i = 0; i < count; ++i)
+        std::memcpy(&numbers[i * each], glb.bytes.data() + start + i * stride, each * sizeof(T));
+    return numbers;
+}
+
+int numbers_in(const std::string& attribute) {
+    if (attribute.starts_with("TEXCOORD_")) return 2;
+    if (attribute == "TANGENT") return 4;
+    return attribute == "POSITION" || attribute == "NORMAL" ? 3 : 0;
+}
+
+// glTFast: another handedness by x, and the origin of textures at the bottom. A position has a fourth number,
+// as shaders read it.
+void as_unity(Primitive& to, const std::string& name, const std::vector<float>& values) {
+    const bool is_pair = name.starts_with("TEXCOORD_");
+    const std::string semantic = is_pair ? "TEXCOORD" + name.substr(9) : name;
+    std::vector<float>& made = to.attributes[semantic];
+    const bool is_tangent = name == "TANGENT";
+    for (size_t i = 0; i < values.size(); i += is_pair ? 2 : is_tangent ? 4 : 3) {
+        if (is_pair)
+            made.insert(made.end(), {values[i], 1 - values[i + 1]});
+        else
+            made.insert(made.end(), {-values[i], values[i + 1], values[i + 2]});
+        if (name == "POSITION" || is_tangent) made.push_back(1);
+    }
+    to.components[semantic] = is_pair ? 2 : name == "POSITION" || is_tangent ? 4 : 3;
+}
+
+Result<std::string> meta_value(const std::string& meta, const std::string& name) {
+    std::smatch found;
+    if (std::regex_search(meta, found, std::regex("\\n *" + name + ": (\\S+)"))) return found[1].str();
+    return Error{"the .meta has no " + name};
+}
+
+// Where an expression of SkinHead.cs leads in scene.json: "one.maps?.normal", "settings.baked_normals[0]",
+// "1".
+json evaluated(std::string expression, const json& settings, const json& surface) {
+    std::smatch found;
+    if (std::regex_match(expression, found, std::regex("FromLinear\\(Numbers\\((.*)\\)\\)")))
+        expression = found[1];
+    if (std::regex_match(expression, found, std::regex("(.*) \\? 1 : 0")))
+        return json(evaluated(found[1], settings, surface) == json(true) ? 1.0 : 0.0);
+    if (std::regex_match(expression, std::regex("[0-9.]+"))) return json(std::stod(expression));
+    expression = std::regex_replace(expression, std::regex("\\?"), "");
+    const bool of_surface = expression.starts_with("one.");
+    if (!of_surface && !expression.starts_with("settings.")) return json();
+    const json* at = of_surface ? &surface : &settings;
+    const std::regex step("\\.(\\w+)|\\[(\\d)\\]");
+    for (std::sregex_iterator i(expression.begin(), expression.end(), step), end; i != end; ++i) {
+        const std::string name = (*i)[1], index = (*i)[2];
+        if (!name.empty() ? !at->contains(name) : at->size() <= size_t(std::stoi(index))) return json();
+        at = name.empty() ? &(*at)[size_t(std::stoi(index))] : &(*at)[name];
+    }
+    return *at;
+}
+
+// The properties' own values: Name("...", Type) = value.
+void read_properties(const std::string& shader, Material& material) {
+    const std::regex property(R"re((_\w+)\("[^"]*", (\w+)[^)]*\)?\) = ("\w+"|\([^)]*\)|[-0-9.]+))re");
+    for (std::sregex_iterator i(shader.begin(), shader.end(), property), end; i != end; ++i) {
+        const std::string name = (*i)[1], type = (*i)[2], value = (*i)[3];
+        if (type == "2D") {
+            material.standard_pictures[name] = value.substr(1, value.size() - 2);
+        } else if (type == "Color") {
+            for (const std::string_view part :
+                 split(std::string_view(value).substr(1, value.size() - 2), ','))
+                material.values[name].push_back(std::stof(std::string(part)));
+            for (size_t c = 0; c < 3; ++c) material.values[name][c] = srgb_decode(material.values[name][c]);
+        } else {
+            material.values[name] = {std::stof(value)};
+        }
+    }
+}
+
+}  // namespace
+
+Result<std::vector<Primitive>> import_glb(const fs::path& path) {
+    DERMIS_TRY_ASSIGN(const std::vector<std::byte> bytes, read_file(path));
+    uint32_t length = 0;
+    if (bytes.size() < 28) return Error{path.string() + ": no GLB"};
+    std::memcpy(&length, bytes.data() + 12, 4);
+    const char* text = reinterpret_cast<const char*>(bytes.data() + 20);
+    const Glb glb = {json::parse(text, text + length), std::span(bytes).subspan(20 + length + 8)};
+    std::vector<Primitive> primitives;
+    for (const json& mesh : glb.document["meshes"])
+        for (const json& one : mesh["primitives"]) {
+            Primitive made;
+            for (const auto& [name, accessor] : one["attributes"].items())
+                if (const int each = numbers_in(name); each > 0)
+                    as_unity(made, name, numbers_of<float>(glb, accessor, size_t(each)));
+            made.indices = numbers_of<uint32_t>(glb, one["indices"], 1);
+            made.material = glb.document["materials"][size_t(one["material"])]["name"];
+            primitives.push_back(std::move(made));
+        }
+    return primitives;
+}
+
+Result<gpu::TextureData> import_picture(const fs::path& path) {
+    DERMIS_TRY_ASSIGN(const std::string meta, read_text_file(path.string() + ".meta"));
+    DERMIS_TRY_ASSIGN(const std::string srgb, meta_value(meta, "sRGBTexture"));
+    DERMIS_TRY_ASSIGN(const std::string has_mips, meta_value(meta, "enableMipMap"));
+    DERMIS_TRY_ASSIGN(const LoadedImage loaded, read_image(path, dermis::ImageUse::data));
+    const Image& image = loaded.image;
+    const bool is_float = path.extension() == ".exr";
+    gpu::TextureData data = {.name = path.filename().string(),
+                             .format = is_float ? ImageFormat::rgba16f : ImageFormat::rgba8,
+                             .srgb = !is_float && srgb == "1",
+                             .width = image.width,
+                             .height = image.height};
+    Image turned(image.width, image.height, 4, is_float ? PixelFormat::f16 : PixelFormat::u8);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 4; ++c)
+                turned.set(x, image.height - 1 - y, c, c < image.channels ? image.at(x, y, c) : 1);
+    // As an importer on the CPU: levels that a device draws from each other round at every step.
+    turned.encoding = data.srgb ? Encoding::srgb : Encoding::linear;
+    const std::vector<Image> levels = has_mips == "1" ? mip_chain(turned) : std::vector{turned};
+    data.mips = int(levels.size());
+    for (const Image& level : levels)
+        data.bytes.insert(data.bytes.end(), level.bytes.begin(), level.bytes.end());
+    return data;
+}
+
+Result<Material> make_material(const fs::path& package, const json& settings, const json& surface) {
+    DERMIS_TRY_ASSIGN(const std::string shader, read_text_file(package / "Head/SkinHead.shader"));
+    DERMIS_TRY_ASSIGN(const std::string script, read_text_file(package / "Head/SkinHead.cs"));
+    Material material;
+    read_properties(shader, material);
+    const std::regex call(R"re((Bind\(skin, |skin\.Set\w+\()"(_\w+)", (.*)\);)re");
+    for (std::sregex_iterator i(script.begin(), script.end(), call), end; i != end; ++i) {
+        const std::string function = (*i)[1], name = (*i)[2], expression = (*i)[3];
+        if (function == "skin.SetTexture(") {
+            material.pictures[name] = package / "Runtime/SkinTable.exr";
+            continue;
+        }
+        const json value = evaluated(expression, settings, surface);
+        if (value.is_null()) continue;
+        if (function.starts_with("Bind"))
+            material.pictures[name] = package / "Head" / std::string(value);
+        else if (value.is_array())
+            material.values[name] = {value[0], value[1], value[2], 1};
+        else
+            material.values[name] = {float(value)};
+    }
+    return material;
+}
+
+}  // namespace dermis::unity_head
