@@ -1,6 +1,7 @@
 #include "dermis/judge/scoreboard_heads.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -8,7 +9,8 @@ namespace dermis::inline judge {
 namespace {
 
 void add(MeanShare& mean, const CapturedShare& share) {
-    if (!share.known()) return;
+    ++mean.judged;
+    if (!share.known() || !std::isfinite(share.share)) return;
     mean.lowest = mean.count == 0 ? share.share : std::min(mean.lowest, share.share);
     mean.mean += (share.share - mean.mean) / ++mean.count;
 }
@@ -43,7 +45,7 @@ HeadRow mean_of(const std::vector<const ScoreRow*>& rows) {
 
 // A mean of fewer scenes than all says of how many.
 std::string mean_text(const MeanShare& share, size_t all) {
-    if (share.count == 0) return "noise";
+    if (share.count == 0) return share.judged > 0 ? "noise" : "";
     const std::string text = fmt::format("{:.2f}", share.mean);
     return size_t(share.count) == all ? text : fmt::format("{} ({})", text, share.count);
 }
@@ -67,9 +69,12 @@ std::string means_table(const std::vector<HeadRow>& means, size_t scenes) {
 
 using Share = std::optional<Captured> ScoreRow::*;
 
-std::string by_scene_table(std::span<const ScoreRow> rows, const std::vector<HeadRow>& means, Share which) {
+std::string by_scene_table(std::span<const ScoreRow> rows, const std::vector<HeadRow>& means, Share which,
+                           std::string_view judge) {
     const std::vector<std::string> scenes = scenes_of(rows);
-    std::string text = "| technique |", rule = "|---|";
+    if (std::ranges::none_of(rows, [&](const ScoreRow& row) { return (row.*which).has_value(); })) return "";
+    std::string text = fmt::format("Captured share of `{}` by scene.\n\n| technique |", judge),
+                rule = "|---|";
     for (const std::string& scene : scenes) {
         text += " " + scene + " |";
         rule += "---|";
@@ -81,7 +86,7 @@ std::string by_scene_table(std::span<const ScoreRow> rows, const std::vector<Hea
             const auto row = std::ranges::find_if(rows, [&](const ScoreRow& r) {
                 return r.scene == scene && r.technique == mean.technique && r.settings == mean.settings;
             });
-            const std::optional<Captured>& share = (*row).*which;
+            const std::optional<Captured> share = row == rows.end() ? std::nullopt : (*row).*which;
             text += share ? " " + share_text(share->all) + " |" : " |";
         }
         text += "\n";
@@ -124,9 +129,8 @@ std::string heads_markdown(std::span<const ScoreRow> rows) {
                "## Heads\n\nMeans over {} scenes: {}. A number in brackets: of how many scenes, where the "
                "reference of the others is too\nnoisy for it.\n\n",
                scenes.size(), fmt::join(scenes, ", ")) +
-           means_table(means, scenes.size()) + "Captured share of `walk` by scene.\n\n" +
-           by_scene_table(rows, means, &ScoreRow::walk) + "Captured share of `surface` by scene.\n\n" +
-           by_scene_table(rows, means, &ScoreRow::surface);
+           means_table(means, scenes.size()) + by_scene_table(rows, means, &ScoreRow::walk, "walk") +
+           by_scene_table(rows, means, &ScoreRow::surface, "surface");
 }
 
 std::vector<PlotPanel> heads_panels(std::span<const ScoreRow> rows) {

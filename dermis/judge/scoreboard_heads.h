@@ -11,10 +11,10 @@
 
 namespace dermis::inline judge {
 
-/// Over the scenes where the reference is fine enough; `count` of them, `lowest` their worst.
+/// Over the scenes where the reference is fine enough: `count` of the `judged` ones; `lowest` is their worst.
 struct MeanShare {
     double mean = 0, lowest = 0;
-    int count = 0;
+    int count = 0, judged = 0;
 };
 
 /// A technique with its settings over all heads and skins. Costs are means of the ratios to the baseline.

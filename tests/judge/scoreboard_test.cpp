@@ -160,6 +160,11 @@ TEST(Scoreboard, heads_in_several_skins_are_means_and_columns) {
     EXPECT_THAT(text, HasSubstr("## ear"));
     EXPECT_EQ(scoreboard_plot(rows).panels.size(), 3u);
 
+    // A file may have a technique twice in one scene and not in another.
+    std::vector<ScoreRow> uneven = {row("bust", "wrap", 0.25), row("bust", "wrap", 0.5),
+                                    row("bust/dark", "lambert", 0)};
+    EXPECT_THAT(scoreboard_markdown(uneven), HasSubstr("| `wrap` | 0.25 | |"));
+
     rows[1].walk->all.error = 1;
     EXPECT_THAT(scoreboard_markdown(rows), HasSubstr("| `wrap` | 0.25 (1) | 0.25 |"));
 }
