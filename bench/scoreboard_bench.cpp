@@ -251,6 +251,7 @@ Result<void> make_board(gpu::Device& device, const std::filesystem::path& direct
     size_t made = 0;
     for (size_t i = 0; i < jobs.size(); ++i) {
         ComparisonSettings own = settings;
+        const bool with_cost = shows_cost(jobs[i]);  // scene_of() makes it
         if (jobs[i].made) own.width = own.height = std::min(size, kCaseSize);
         const Clock::time_point start = Clock::now();
         const Result<SubjectCase> one = scene_of(jobs[i]);
@@ -262,7 +263,7 @@ Result<void> make_board(gpu::Device& device, const std::filesystem::path& direct
         own.exact = one->exact;
         Result<MadeRows> now = rows_of(device, one->name, one->scene, contestants, own);
         if (!now) return Error{one->name + ": " + now.error().message};
-        if (shows_cost(jobs[i]) && gpu::null_driver_installed())
+        if (with_cost && gpu::null_driver_installed())
             if (Result<void> set = set_models(device, one->scene, now->rows); !set)
                 return set.error().within(one->name);
         rows = merged(std::move(*rows), now->rows);
