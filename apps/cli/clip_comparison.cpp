@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // What is kept of all frames.
 struct ClipResults {
     std::vector<ClipFrame> frames;
-    std::optional<ClipEffects> before;  // of the last frame
+    std::optional<ClipEffects> before;  // effects of the frame that was compared last
     std::vector<std::string> links;
     std::string regions, credit;
     nlohmann::ordered_json json = nlohmann::ordered_json::array();

@@ -1,7 +1,7 @@
 #pragma once
 // Where a mesh is cut, as at a neck, the flesh behind the cut is not in the file. Walks are reflected by the
-// cap, so that they find a wedge of flesh there; beside the cut of the shoulders of ICT's face model the
-// effect is ten times that of the face. Such pixels say nothing about a technique and do not count.
+// cap, so that they find a wedge of flesh there, which returns far more light than a face. Such pixels say
+// nothing about a technique and do not count.
 
 #include "dermis/image/image.h"
 #include "dermis/scene/scene.h"

@@ -33,13 +33,6 @@ std::string figures(double value, const char* format = "%.4g") {
     return text;
 }
 
-std::vector<std::string> scenes_of(const std::vector<ScoreRow>& rows) {
-    std::vector<std::string> scenes;
-    for (const ScoreRow& row : rows)
-        if (std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
-    return scenes;
-}
-
 bool better(const ScoreRow& a, const ScoreRow& b) {
     const CapturedShare &x = headline(a).all, &y = headline(b).all;
     if (x.known() != y.known()) return x.known();
@@ -139,7 +132,7 @@ std::string set_markdown(const std::vector<ScoreRow>& rows, const std::string& s
            set_table(rows, set, &ScoreRow::surface, "surface");
 }
 
-// Several skins of one scene, which is no set.
+// Rows of scenes that have several skins.
 std::vector<ScoreRow> rows_of_heads(const std::vector<ScoreRow>& rows) {
     std::vector<ScoreRow> heads;
     std::ranges::copy_if(rows, std::back_inserter(heads), [&](const ScoreRow& row) {

@@ -15,10 +15,9 @@ void add(MeanShare& mean, const CapturedShare& share) {
     mean.mean += (share.share - mean.mean) / ++mean.count;
 }
 
-std::vector<std::string> scenes_of(std::span<const ScoreRow> rows) {
-    std::vector<std::string> scenes;
-    for (const ScoreRow& row : rows)
-        if (std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
+// Skins of a head beside each other.
+std::vector<std::string> sorted_scenes_of(std::span<const ScoreRow> rows) {
+    std::vector<std::string> scenes = scenes_of(rows);
     std::ranges::sort(scenes);
     return scenes;
 }
@@ -71,7 +70,7 @@ using Share = std::optional<Captured> ScoreRow::*;
 
 std::string by_scene_table(std::span<const ScoreRow> rows, const std::vector<HeadRow>& means, Share which,
                            std::string_view judge) {
-    const std::vector<std::string> scenes = scenes_of(rows);
+    const std::vector<std::string> scenes = sorted_scenes_of(rows);
     if (std::ranges::none_of(rows, [&](const ScoreRow& row) { return (row.*which).has_value(); })) return "";
     std::string text = fmt::format("Captured share of `{}` by scene.\n\n| technique |", judge),
                 rule = "|---|";
@@ -95,6 +94,13 @@ std::string by_scene_table(std::span<const ScoreRow> rows, const std::vector<Hea
 }
 
 }  // namespace
+
+std::vector<std::string> scenes_of(std::span<const ScoreRow> rows) {
+    std::vector<std::string> scenes;
+    for (const ScoreRow& row : rows)
+        if (std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
+    return scenes;
+}
 
 std::string head_of(const std::string& scene) {
     return scene.substr(0, scene.find('/'));
@@ -123,7 +129,7 @@ std::vector<HeadRow> head_rows(std::span<const ScoreRow> rows) {
 
 std::string heads_markdown(std::span<const ScoreRow> rows) {
     if (rows.empty()) return "";
-    const std::vector<std::string> scenes = scenes_of(rows);
+    const std::vector<std::string> scenes = sorted_scenes_of(rows);
     const std::vector<HeadRow> means = head_rows(rows);
     return fmt::format(
                "## Heads\n\nMeans over {} scenes: {}. A number in brackets: of how many scenes, where the "

@@ -27,6 +27,9 @@ struct HeadRow {
     size_t bytes = 0;  ///< the largest
 };
 
+/// Names in the order of their first rows.
+[[nodiscard]] std::vector<std::string> scenes_of(std::span<const ScoreRow> rows);
+
 /// The part of a scene's name before the slash.
 [[nodiscard]] std::string head_of(const std::string& scene);
 

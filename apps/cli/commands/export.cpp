@@ -93,12 +93,6 @@ Result<int> write_folder(const ExportOptions& options, const std::vector<Package
     return deliver_files(files, std::move(inputs));
 }
 
-Result<int> write_package(const ExportOptions& options, const PackageInput& input,
-                          std::vector<std::filesystem::path> inputs) {
-    DERMIS_TRY_ASSIGN(const std::vector<PackageFile> package, make_package(options.engine, input));
-    return write_folder(options, package, std::move(inputs));
-}
-
 Result<int> export_native(const ExportOptions& options, const Profile& profile) {
     DERMIS_TRY_ASSIGN(const std::vector<PackageFile> files,
                       make_native_profile(options.engine, profile, built_in_package_templates()));
@@ -115,14 +109,14 @@ Result<int> export_package(const ExportOptions& options) {
     DERMIS_TRY_ASSIGN(const ShadowPlaces places, package_shadow_places(profile));
     DERMIS_TRY_ASSIGN(const PackageGain gain, package_gain(profile, head.settings));
     head.inputs.emplace_back(options.profile);
-    return write_package(options,
-                         {.profile = profile,
-                          .functions = shading::skin_sources(),
-                          .templates = built_in_package_templates(),
-                          .shadow_places = places,
-                          .gain = gain,
-                          .head = head.head.files},
-                         head.inputs);
+    DERMIS_TRY_ASSIGN(const std::vector<PackageFile> package,
+                      make_package(options.engine, {.profile = profile,
+                                                    .functions = shading::skin_sources(),
+                                                    .templates = built_in_package_templates(),
+                                                    .shadow_places = places,
+                                                    .gain = gain,
+                                                    .head = head.head.files}));
+    return write_folder(options, package, head.inputs);
 }
 
 Result<int> export_web(const ExportOptions& options) {
