@@ -11,6 +11,7 @@
 #include <string>
 
 #include "catalog/catalog.h"
+#include "dermis/mesh/tension.h"
 #include "dermis/render/complete_scene.h"
 #include "dermis/render/renderer.h"
 #include "dermis/scene/load_scene.h"
@@ -38,7 +39,7 @@ double median(std::vector<double> values) {
 
 Result<void> run(const std::string& mesh, int frames, int side) {
     Scene scene;
-    std::vector<double> load, still, pose, upload, moving;
+    std::vector<double> load, still, pose, tension, upload, moving;
     time_ms(load, [&]() -> Result<void> {
         DERMIS_TRY_ASSIGN(scene, load_scene(mesh, {}));
         return complete_scene(scene);
@@ -56,19 +57,28 @@ Result<void> run(const std::string& mesh, int frames, int side) {
         return drawn ? Result<void>() : drawn.error();
     };
     DERMIS_TRY_ASSIGN(const ScenePoser poser, ScenePoser::create(scene));
+    const Mesh& moved = scene.objects[0].mesh;
+    const RestAreas areas = rest_areas(moved);
     DERMIS_TRY(draw());
     for (int frame = 0; frame < frames; ++frame) {
         const double time_s = clip.length_s * (frame + 1) / frames;
         time_ms(still, draw);
         time_ms(pose, [&] { return poser.pose({.clip = clip.name, .time_s = time_s}, scene); });
+        time_ms(tension, [&]() -> Result<void> {
+            const auto tensions = compute_tensions(areas, moved.positions_mm, moved.indices);
+            return tensions == moved.tensions ? Result<void>() : Error{"the pose has another tension"};
+        });
         time_ms(upload, [&] { return renderer.vertices_moved(); });
         time_ms(moving, draw);
     }
     const double posed_ms = median(pose) + median(upload);
     std::printf("%s, clip %s, %d x %d, %s, %zu vertices\n", mesh.c_str(), clip.name.c_str(), side, side,
                 device.info().name.c_str(), scene.objects[0].mesh.positions_mm.size());
-    std::printf("load %.0f ms, drawing %.1f ms, pose %.1f ms, upload %.1f ms, drawing after it %.1f ms\n",
-                load[0], median(still), median(pose), median(upload), median(moving));
+    std::printf(
+        "load %.0f ms, drawing %.1f ms, pose %.1f ms (of it tension %.2f ms), upload %.1f ms, drawing after "
+        "it "
+        "%.1f ms\n",
+        load[0], median(still), median(pose), median(tension), median(upload), median(moving));
     std::printf("moving / still: %.2f\n", (posed_ms + median(moving)) / median(still));
     return {};
 }

@@ -19,7 +19,7 @@ void RenderOptions::add_to(Command& command) {
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     command
         .add_option("--view", view,
-                    "what is shown: final, diffuse, specular, normal, albedo, curvature, shadow, ...")
+                    "what is shown: final, diffuse, specular, normal, albedo, curvature, tension, ...")
         ->capture_default_str();
     command.add_option("--samples", samples, {1, 4}, "samples per pixel: 1 or 4")->capture_default_str();
     command.add_option("--device", device, "use the Vulkan device with this text in its name");

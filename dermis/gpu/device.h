@@ -119,8 +119,8 @@ class Geometry {
     [[nodiscard]] static Result<Geometry> streamed(std::string_view name,
                                                    std::span<const VertexStream> streams,
                                                    std::span<const uint32_t> indices);
-    /// New values of a stream that upload() got. Waits until frames that read the old ones are done.
-    [[nodiscard]] Result<void> replace(Device& device, const VertexStream& stream);
+    /// New values of a stream, or one more stream. Waits until frames that read the old ones are done.
+    [[nodiscard]] Result<void> put(Device& device, const VertexStream& stream);
     [[nodiscard]] uint32_t vertex_count() const;
     ~Geometry();
     Geometry(Geometry&&) noexcept;

@@ -97,15 +97,17 @@ Result<Geometry> Geometry::streamed(std::string_view name, std::span<const Verte
     return Geometry(std::move(state));
 }
 
-Result<void> Geometry::replace(Device& device, const VertexStream& stream) {
+Result<void> Geometry::put(Device& device, const VertexStream& stream) {
     const auto found = state_->streams.find(stream.name);
-    if (found == state_->streams.end() || found->second.components != stream.components ||
-        stream.values.size() != size_t(stream.components) * state_->vertex_count)
-        return geometry_error(state_->name, "has no stream '" + stream.name + "' of this size to replace");
+    const bool is_other = found != state_->streams.end() && found->second.components != stream.components;
+    if (is_other || stream.values.size() != size_t(stream.components) * state_->vertex_count)
+        return geometry_error(state_->name, "stream '" + stream.name + "' does not fit its vertices");
     DERMIS_TRY_ASSIGN(Buffer buffer,
                       upload_buffer(device.state(), state_->name + " " + stream.name,
                                     VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, std::as_bytes(stream.values)));
-    found->second.data.buffer = std::move(buffer);
+    State::Stream& kept = state_->streams[stream.name];
+    kept.components = stream.components;
+    kept.data.buffer = std::move(buffer);
     return {};
 }
 

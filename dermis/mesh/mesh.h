@@ -61,6 +61,7 @@ struct Mesh {
     std::vector<Vec4> colors_linear;  ///< multiply base colour and opacity
     std::vector<CurvatureTensor> curvatures_per_mm;
     std::vector<float> occlusions;  ///< ambient visibility, 0 closed in, 1 open
+    std::vector<float> tensions;    ///< of a mesh in a pose (tension.h); empty at rest
     /// Vertex of the mesh file, counted before any was dropped or split. Only of files that have clips or
     /// morph targets; empty where subdivision or displacement has made other vertices.
     std::vector<uint32_t> file_vertices;

@@ -53,6 +53,7 @@ void gather_vertices(Mesh& mesh, std::span<const uint32_t> from) {
     gather(mesh.curvatures_per_mm, from);
     gather(mesh.occlusions, from);
     gather(mesh.colors_linear, from);
+    gather(mesh.tensions, from);
     gather(mesh.file_vertices, from);
 }
 

@@ -17,7 +17,8 @@ struct Scale {
     double full;  // at the ends of the bar
     const char* unit;
 };
-const Scale kScales[] = {{"curvature", kFullCurvaturePerMm, "1/mm"}, {"n_dot_l", 1, "N·L"}};
+const Scale kScales[] = {
+    {"curvature", kFullCurvaturePerMm, "1/mm"}, {"n_dot_l", 1, "N·L"}, {"tension", kFullTension, "ln A/A0"}};
 
 const Scale* scale_of(std::string_view view) {
     for (const Scale& scale : kScales)

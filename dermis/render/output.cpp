@@ -19,7 +19,9 @@ Image channels_of(const Image& image, int first, int count) {
 // Which channels of which G-buffer image make a layer, and an EXR of that view
 // (shaders/renderer/gbuffer.frag).
 struct GbufferLayer {
-    const char *layer, *view, *image;
+    const char* layer;
+    std::string_view view;
+    const char* image;
     int first, count;
 };
 constexpr GbufferLayer kGbufferLayers[] = {
@@ -27,6 +29,7 @@ constexpr GbufferLayer kGbufferLayers[] = {
     {"distance_mm", "depth", "gbuffer_position", 3, 1},
     {"normal_world", "normal", "gbuffer_normal", 0, 3},
     {"curvature_per_mm", "curvature", "gbuffer_normal", 3, 1},
+    {"tension", "tension", "gbuffer_normal", 3, 1},
     {"geometry_normal_world", "geometry_normal", "gbuffer_geometry", 0, 3},
     {"occlusion", "occlusion", "gbuffer_geometry", 3, 1},
     {"albedo_linear", "albedo", "gbuffer_albedo", 0, 3},
@@ -50,10 +53,17 @@ Result<std::vector<ImageLayer>> collect_layers(Renderer& renderer, const Techniq
         const bool beauty = draw.view == "final";
         DERMIS_TRY(add(beauty ? "" : view, renderer.radiance()));
     }
-    for (const GbufferLayer& layer : kGbufferLayers) {
+    const auto add_gbuffer = [&](const GbufferLayer& layer) -> Result<void> {
         DERMIS_TRY_ASSIGN(const Image image, renderer.read(layer.image));
         layers.push_back({layer.layer, channels_of(image, layer.first, layer.count)});
-    }
+        return {};
+    };
+    for (const GbufferLayer& layer : kGbufferLayers)
+        if (layer.view != kTensionView) DERMIS_TRY(add_gbuffer(layer));
+    if (!renderer.has_tension()) return layers;
+    draw.view = kTensionView;
+    DERMIS_TRY(renderer.draw(technique, values, draw));
+    DERMIS_TRY(add_gbuffer(*std::ranges::find(kGbufferLayers, kTensionView, &GbufferLayer::view)));
     return layers;
 }
 
@@ -61,7 +71,7 @@ Result<std::vector<ImageLayer>> collect_layers(Renderer& renderer, const Techniq
 
 Result<Image> linear_picture(Renderer& renderer, const std::string& view) {
     // Views of the G-buffer have no radiance: their numbers are what is written.
-    const auto layer = std::ranges::find(kGbufferLayers, std::string_view(view), &GbufferLayer::view);
+    const auto layer = std::ranges::find(kGbufferLayers, view, &GbufferLayer::view);
     if (layer == std::end(kGbufferLayers)) return renderer.radiance();
     DERMIS_TRY_ASSIGN(const Image image, renderer.read(layer->image));
     Image part = channels_of(image, layer->first, layer->count);

@@ -423,7 +423,8 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
                                        .has_blended = uploaded_->has(gpu::DrawClass::blended),
                                        .has_translucent = uploaded_->has(gpu::DrawClass::translucent),
                                        .has_cut_outs = uploaded_->has_cut_outs(),
-                                       .gbuffer = settings.gbuffer};
+                                       .gbuffer = settings.gbuffer,
+                                       .has_tension = uploaded_->has_tension()};
     DERMIS_TRY_ASSIGN(const PassList own, passes_of_profiles(technique, values, frame));
     list_ = frame_passes(own, shared);
     list_.constants = uploaded_->map_constants();

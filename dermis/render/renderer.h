@@ -81,6 +81,9 @@ class Renderer {
     [[nodiscard]] Result<Image> display();
     [[nodiscard]] Result<Image> read(std::string_view image);
 
+    /// Whether the scene's meshes are in a pose, so that their vertices have a tension.
+    [[nodiscard]] bool has_tension() const { return uploaded_->has_tension(); }
+
     /// Warnings about wrong pictures, found when a technique first asked for it; one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 

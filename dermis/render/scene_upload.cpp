@@ -212,14 +212,26 @@ Result<void> SceneOnDevice::upload_objects(gpu::Device& device, const Scene& sce
     return {};
 }
 
+// Scenes at rest have no such stream.
+Result<void> SceneOnDevice::upload_tensions(gpu::Device& device, const Scene& scene) {
+    has_tension_ = std::ranges::any_of(
+        scene.objects, [](const SceneObject& object) { return !object.mesh.tensions.empty(); });
+    for (size_t i = 0; has_tension_ && i < geometries_.size(); ++i) {
+        const Mesh& mesh = scene.objects[i].mesh;
+        const auto tensions = filled(mesh.tensions, mesh.positions_mm.size(), 0.0f);
+        DERMIS_TRY(geometries_[i]->put(device, {"tension", 1, tensions}));
+    }
+    return {};
+}
+
 Result<void> SceneOnDevice::replace_vertices(gpu::Device& device, const Scene& scene) {
     for (size_t i = 0; i < geometries_.size(); ++i) {
         if (scene.objects[i].motion.empty()) continue;
         const MovingStreams moving(scene.objects[i].mesh, rest_mesh(scene, i), scene.rest_bakes);
         for (const gpu::VertexStream& stream : moving.streams)
-            DERMIS_TRY(geometries_[i]->replace(device, stream));
+            DERMIS_TRY(geometries_[i]->put(device, stream));
     }
-    return {};
+    return upload_tensions(device, scene);
 }
 
 // The geometries stay where the draws point to them.
@@ -237,12 +249,12 @@ Result<void> SceneOnDevice::replace_objects(gpu::Device& device, const Scene& sc
     }
     uv_density_ = dermis::uv_density(scene);
     gains_key.clear();
-    return {};
+    return upload_tensions(device, scene);
 }
 
 Result<void> SceneOnDevice::replace_gains(gpu::Device& device, std::span<const std::vector<Vec3>> gains) {
     for (size_t i = 0; i < gains.size(); ++i)
-        DERMIS_TRY(geometries_[i]->replace(device, {"walked_gain", 3, floats_of(gains[i])}));
+        DERMIS_TRY(geometries_[i]->put(device, {"walked_gain", 3, floats_of(gains[i])}));
     return {};
 }
 
@@ -263,6 +275,7 @@ Result<SceneOnDevice> SceneOnDevice::upload(gpu::Device& device, const Scene& sc
     uploaded.uv_density_ = dermis::uv_density(scene);
     DERMIS_TRY(uploaded.upload_maps(device, scene));
     DERMIS_TRY(uploaded.upload_objects(device, scene));
+    DERMIS_TRY(uploaded.upload_tensions(device, scene));
     DERMIS_TRY(uploaded.upload_environment(device, scene));
     return uploaded;
 }

@@ -36,6 +36,8 @@ class SceneOnDevice {
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     /// Whether alpha cuts any of what is drawn (cutoff_of_map).
     [[nodiscard]] bool has_cut_outs() const { return has_cut_outs_; }
+    /// Whether the geometries have the stream "tension": some object was in a pose when it was uploaded.
+    [[nodiscard]] bool has_tension() const { return has_tension_; }
     /// Specialisation constants "has_TEXTURE": whether any material has that map.
     [[nodiscard]] const std::vector<std::pair<std::string, int32_t>>& map_constants() const {
         return map_constants_;
@@ -52,6 +54,7 @@ class SceneOnDevice {
   private:
     Result<void> upload_maps(gpu::Device& device, const Scene& scene);
     Result<void> upload_objects(gpu::Device& device, const Scene& scene);
+    Result<void> upload_tensions(gpu::Device& device, const Scene& scene);
     Result<void> upload_environment(gpu::Device& device, const Scene& scene);
 
     // Pointers stay valid when the whole moves: textures and geometries live in node-based containers.
@@ -62,7 +65,7 @@ class SceneOnDevice {
     UvDensity uv_density_;
     std::array<Vec3, 9> environment_sh_ = {};
     std::vector<gpu::Draw> draws_;
-    bool has_cut_outs_ = false;
+    bool has_cut_outs_ = false, has_tension_ = false;
     std::vector<std::pair<std::string, int32_t>> map_constants_;
     std::vector<std::string> warnings_;
 };

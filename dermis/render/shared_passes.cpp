@@ -121,14 +121,15 @@ std::vector<Pass> translucent_passes(const SharedPassSettings& settings) {
     return {tint, gloss};
 }
 
-Pass gbuffer_pass(bool has_cut_outs) {
+Pass gbuffer_pass(const SharedPassSettings& settings) {
     Pass pass = {.name = "gbuffer",
                  .kind = PassKind::geometry_screen,
                  .shader = "renderer/gbuffer.frag",
                  .reads = {"shadow_map"},
                  .depth = DepthTarget{.image = "gbuffer_depth"},
                  .geometry = GeometryFilter::opaque,
-                 .constants = {{"has_cut_outs", int32_t(has_cut_outs)}}};
+                 .constants = {{"has_cut_outs", int32_t(settings.has_cut_outs)},
+                               {"shows_tension", int32_t(settings.view == kTensionView)}}};
     for (const std::string& image : gbuffer_images()) pass.colors.push_back({.image = image});
     return pass;
 }
@@ -155,6 +156,16 @@ Pass view_pass(int32_t view) {
     return pass;
 }
 
+// Passes of the kinds' own vertex shaders get those that read the stream "tension".
+void read_tension(PassList& list) {
+    for (Pass& pass : list.passes) {
+        if (!pass.vertex_shader.empty()) continue;
+        if (pass.kind == PassKind::geometry_screen) pass.vertex_shader = "renderer/mesh_screen_tension.vert";
+        if (pass.kind == PassKind::geometry_uv_atlas)
+            pass.vertex_shader = "renderer/mesh_uv_atlas_tension.vert";
+    }
+}
+
 }  // namespace
 
 const std::vector<std::string>& gbuffer_images() {
@@ -177,6 +188,7 @@ const std::vector<std::string>& gbuffer_views() {
         names[kShownDepth] = "depth";
         names[kShownUv] = "uv";
         names[kShownPosition] = "position";
+        names[kShownTension] = kTensionView;
         return names;
     }();
     return kNames;
@@ -197,7 +209,9 @@ std::vector<std::string> shared_inputs() {
     return {"environment_cube", "environment_brdf", "no_image"};
 }
 
-PassList frame_passes(const PassList& technique, const SharedPassSettings& settings) {
+namespace {
+
+PassList passes_at_rest(const PassList& technique, const SharedPassSettings& settings) {
     const auto view = std::ranges::find(gbuffer_views(), settings.view);
     const bool shows_gbuffer = view != gbuffer_views().end();
     const ImageFormat radiance_format = settings.deep ? ImageFormat::rgba32f : ImageFormat::rgba16f;
@@ -213,7 +227,7 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
         for (const std::string& image : gbuffer_images())
             list.images.push_back({.name = image, .format = ImageFormat::rgba32f});
         list.images.push_back({.name = "gbuffer_depth", .format = ImageFormat::depth32f});
-        list.passes.push_back(gbuffer_pass(settings.has_cut_outs));
+        list.passes.push_back(gbuffer_pass(settings));
     }
     if (shows_gbuffer) {
         list.passes.push_back(view_pass(int32_t(view - gbuffer_views().begin())));
@@ -236,6 +250,14 @@ PassList frame_passes(const PassList& technique, const SharedPassSettings& setti
                                .colors = {{.image = "radiance_resolved", .load = LoadOp::discard}}});
     }
     if (!shows_gbuffer) list.passes.push_back(tone_map_pass(settings));
+    return list;
+}
+
+}  // namespace
+
+PassList frame_passes(const PassList& technique, const SharedPassSettings& settings) {
+    PassList list = passes_at_rest(technique, settings);
+    if (settings.has_tension) read_tension(list);
     return list;
 }
 

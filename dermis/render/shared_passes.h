@@ -17,11 +17,15 @@ struct SharedPassSettings {
     bool has_other = false, has_blended = false, has_translucent = false;
     bool has_cut_outs = false;  ///< alpha maps cut some of `other` out
     bool gbuffer = false;
+    bool has_tension = false;  ///< the geometries have a stream "tension"
 };
 
 /// Names of the G-buffer's images: gbuffer_position, gbuffer_normal, gbuffer_geometry, gbuffer_albedo,
 /// gbuffer_light.
 [[nodiscard]] const std::vector<std::string>& gbuffer_images();
+
+/// The view of the tension, which takes the place of the curvature in gbuffer_normal.
+inline constexpr std::string_view kTensionView = "tension";
 
 /// Debug views that every technique has: what the G-buffer holds.
 [[nodiscard]] const std::vector<std::string>& gbuffer_views();

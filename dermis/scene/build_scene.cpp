@@ -39,13 +39,14 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
         return made;
     }
     DERMIS_TRY_ASSIGN(const fs::path path, resolve_file(description, mesh.file));
-    Result<LoadedMesh> loaded =
-        read_mesh(path, {.unit_mm = mesh.unit_mm,
-                         .scale_after = mesh.scale,
-                         .guess_unit = description.is_bare_mesh,
-                         .subdivision_level = mesh.subdivision,
-                         .ignore_missing_materials = description.maps.files.contains("albedo"),
-                         .pose = description.motion.pose()});
+    const MeshOptions options = {.unit_mm = mesh.unit_mm,
+                                 .scale_after = mesh.scale,
+                                 .guess_unit = description.is_bare_mesh,
+                                 .subdivision_level = mesh.subdivision,
+                                 .ignore_missing_materials = description.maps.files.contains("albedo"),
+                                 .pose = description.motion.pose()};
+    Result<LoadedMesh> loaded = read_mesh(path, options);
+    if (loaded && !options.pose.empty()) DERMIS_TRY(measure_tension(path, options, *loaded));
     if (!loaded) return error_at(description, mesh.file, loaded.error().message);
     scene.warnings.insert(scene.warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
     scene.files.insert(scene.files.end(), loaded->files.begin(), loaded->files.end());

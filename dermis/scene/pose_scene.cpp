@@ -62,6 +62,15 @@ Result<PosedVertices> vertices_of(const SceneObject& object, std::span<const std
     return PosedVertices{std::move(mesh.positions_mm), std::move(mesh.normals)};
 }
 
+// Of the object's triangles in the rest pose, whatever pose the object is in.
+Result<RestAreas> areas_at_rest(const SceneObject& object, std::span<const std::byte> file) {
+    DERMIS_TRY_ASSIGN(const PosedVertices vertices, vertices_of(object, file, {}));
+    Mesh rest{.indices = object.mesh.indices};
+    for (const uint32_t from : object.mesh.file_vertices)
+        rest.positions_mm.push_back(vertices.positions_mm[from]);
+    return rest_areas(rest);
+}
+
 }  // namespace
 
 Result<void> check_motion(std::span<const SceneObject> objects, const MotionDescription& motion) {
@@ -92,9 +101,26 @@ Result<RestBakes> parse_rest_bakes(const MotionDescription& motion) {
     return bakes ? bakes : bakes.error().within("animation.rest_bakes");
 }
 
+Result<void> measure_tension(const std::filesystem::path& file, MeshOptions options, LoadedMesh& posed) {
+    if (posed.motion.empty()) return {};
+    options.pose = {};
+    options.unit_mm = posed.unit_mm;
+    DERMIS_TRY_ASSIGN(const LoadedMesh rest, read_mesh(file, options));
+    Mesh& mesh = posed.mesh;
+    if (rest.mesh.indices == mesh.indices && rest.mesh.positions_mm.size() == mesh.positions_mm.size())
+        mesh.tensions = compute_tensions(rest_areas(rest.mesh), mesh.positions_mm, mesh.indices);
+    else
+        posed.warnings.push_back(file.string() +
+                                 ": has other triangles at rest, so that its tension is not known");
+    return {};
+}
+
 void pose_subject(SceneObject& object, const Pose& pose) {
     if (!object.posed_vertices || pose.empty()) return;
-    move_vertices(object.mesh, object.posed_vertices(pose), at_rest(object.mesh));
+    Mesh& mesh = object.mesh;
+    const RestAreas areas = rest_areas(mesh);
+    move_vertices(mesh, object.posed_vertices(pose), at_rest(mesh));
+    mesh.tensions = compute_tensions(areas, mesh.positions_mm, mesh.indices);
 }
 
 bool ScenePoser::can_pose(const SceneObject& object) {
@@ -111,7 +137,9 @@ Result<ScenePoser> ScenePoser::create(const Scene& scene) {
         if (!object.posed_vertices) {
             DERMIS_TRY_ASSIGN(file, read_file(object.file));
         }
-        poser.all_.push_back({.object = i, .file = std::move(file), .rest = at_rest(object.mesh)});
+        DERMIS_TRY_ASSIGN(RestAreas areas, areas_at_rest(object, file));
+        poser.all_.push_back(
+            {.object = i, .file = std::move(file), .rest = at_rest(object.mesh), .areas = std::move(areas)});
     }
     return poser;
 }
@@ -120,7 +148,9 @@ Result<void> ScenePoser::pose(const Pose& pose, Scene& scene) const {
     for (const Posed& posed : all_) {
         SceneObject& object = scene.objects[posed.object];
         DERMIS_TRY_ASSIGN(const PosedVertices vertices, vertices_of(object, posed.file, pose));
-        move_vertices(object.mesh, vertices, posed.rest);
+        Mesh& mesh = object.mesh;
+        move_vertices(mesh, vertices, posed.rest);
+        mesh.tensions = compute_tensions(posed.areas, mesh.positions_mm, mesh.indices);
     }
     return {};
 }

@@ -2,10 +2,13 @@
 // A loaded scene in another pose, without what loading costs: for pictures while a head moves.
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <vector>
 
 #include "dermis/base/result.h"
+#include "dermis/mesh/read_mesh.h"
+#include "dermis/mesh/tension.h"
 #include "dermis/scene/rest_bakes.h"
 #include "dermis/scene/scene.h"
 
@@ -21,8 +24,13 @@ namespace dermis::inline scene {
 /// Of animation.rest_bakes; none where the key is not given. Errors: those of parse_rest_bakes(text).
 [[nodiscard]] Result<RestBakes> parse_rest_bakes(const MotionDescription& motion);
 
+/// Fills the tensions of a mesh that was read in the pose of `options`, which is not empty: reads the file
+/// once more, at rest. A mesh whose triangles differ there gets a warning instead. Errors: the file.
+[[nodiscard]] Result<void> measure_tension(const std::filesystem::path& file, MeshOptions options,
+                                           LoadedMesh& posed);
+
 /// Poses an object that code made (SceneObject::posed_vertices), which is at rest; others and an empty pose
-/// change nothing. Tangents turn with the surface.
+/// change nothing. Tangents turn with the surface; tensions are measured.
 void pose_subject(SceneObject& object, const Pose& pose);
 
 /// The directions and tensors of an object's vertices in one pose; they turn when the surface turns.
@@ -44,8 +52,9 @@ class ScenePoser {
 
     /// Moves the vertices of `scene`, whose meshes must be those of create(). Positions and normals are those
     /// that loading in the pose gives. Tangents and curvature tensors turn with the surface (dP/du and
-    /// normal) from the shape that create() saw; occlusion and bounds stay. Errors: a file that does not fit
-    /// any more. Cost: dominated by reading the mesh (docs/figures.md#moving-heads).
+    /// normal) from the shape that create() saw; tensions are against the rest pose;
+    /// occlusion and bounds stay. Errors: a file that does not fit any more. Cost: dominated by reading the
+    /// mesh (docs/figures.md#moving-heads).
     [[nodiscard]] Result<void> pose(const Pose& pose, Scene& scene) const;
 
   private:
@@ -53,6 +62,7 @@ class ScenePoser {
         size_t object = 0;
         std::vector<std::byte> file;  ///< empty for subjects
         SurfaceAtRest rest;
+        RestAreas areas;
     };
     std::vector<Posed> all_;
 };

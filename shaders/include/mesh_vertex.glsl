@@ -13,6 +13,11 @@ layout(location = 7) in vec3 occlusion_blurred;
 layout(location = 8) in vec4 color_linear;
 layout(location = 9) in vec2 atlas_uv;
 layout(location = 10) in vec3 walked_gain;
+#ifdef DERMIS_TENSION
+layout(location = 13) in float tension;  // dermis/mesh/tension.h
+#else
+const float tension = 0.0;  // of a mesh at rest, which has no such stream
+#endif
 
 layout(location = 0) out vec3 p_world_mm_out;
 layout(location = 1) out vec3 n_world_out;
@@ -25,6 +30,7 @@ layout(location = 7) out vec3 occlusion_blurred_out;
 layout(location = 8) out vec4 color_linear_out;
 layout(location = 9) out vec2 atlas_uv_out;
 layout(location = 10) out vec3 walked_gain_out;
+layout(location = 13) out float tension_out;
 
 void write_varyings() {
     p_world_mm_out = position_mm;
@@ -38,4 +44,5 @@ void write_varyings() {
     color_linear_out = color_linear;
     atlas_uv_out = atlas_uv;
     walked_gain_out = walked_gain;
+    tension_out = tension;
 }

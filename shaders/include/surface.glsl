@@ -15,6 +15,7 @@ layout(location = 7) in vec3 occlusion_blurred_in;
 layout(location = 8) in vec4 color_linear_in;
 layout(location = 9) in vec2 atlas_uv_in;
 layout(location = 10) in vec3 walked_gain_in;  // dermis/rays/vertex_gain.h
+layout(location = 13) in float tension_in;     // dermis/mesh/tension.h; 0 of meshes at rest
 
 layout(scalar) uniform Material {
     vec3 albedo_linear;

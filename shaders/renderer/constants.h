@@ -15,10 +15,12 @@ const int kBlendedNot = 0, kBlendedCore = 1, kBlendedRim = 2;
 // Specialisation constant shown: attribute of the G-buffer.
 const int kShownNormal = 0, kShownGeometryNormal = 1, kShownAlbedo = 2, kShownRoughness = 3,
           kShownCurvature = 4, kShownOcclusion = 5, kShownShadow = 6, kShownNDotL = 7, kShownDepth = 8,
-          kShownUv = 9, kShownPosition = 10, kShownCount = 11;
+          kShownUv = 9, kShownPosition = 10, kShownTension = 11, kShownCount = 12;
 
 // Curvature of full colour.
 const float kFullCurvaturePerMm = 0.125;
+// Tension of full colour: ln(area / area at rest).
+const float kFullTension = 0.5;
 // The colour bar of the legend, in its pixels.
 const int kLegendBarLeft = 24, kLegendBarRight = 264, kLegendBarTop = 4, kLegendBarBottom = 18;
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The G-buffer made visible. Signed curvature: blue concave, grey flat, red convex; the legend at the bottom says so,
-// with ticks and unit.
+// The G-buffer made visible. Signed numbers: blue concave or compressed, grey flat, red convex or stretched; the legend
+// at the bottom says so, with ticks and unit.
 #include "shaders/include/frame.glsl"
 #include "shaders/renderer/constants.h"
 #include "shaders/renderer/tone_map.glsl"
@@ -32,6 +32,7 @@ vec3 view_color(vec4 position, vec4 light) {
         case kShownAlbedo: return srgb_encode(fetch(gbuffer_albedo).rgb);
         case kShownRoughness: return vec3(fetch(gbuffer_albedo).a);
         case kShownCurvature: return signed_color(fetch(gbuffer_normal).a / kFullCurvaturePerMm);
+        case kShownTension: return signed_color(fetch(gbuffer_normal).a / kFullTension);
         case kShownOcclusion: return vec3(fetch(gbuffer_geometry).a);
         case kShownShadow: return vec3(light.a);
         case kShownNDotL: return signed_color(light.b);
@@ -60,6 +61,6 @@ vec3 with_legend(vec3 color) {
 void main() {
     vec4 position = fetch(gbuffer_position);
     vec3 color = position.w > 0.0 ? view_color(position, fetch(gbuffer_light)) : vec3(0.12);
-    if (shown == kShownCurvature || shown == kShownNDotL) color = with_legend(color);
+    if (shown == kShownCurvature || shown == kShownNDotL || shown == kShownTension) color = with_legend(color);
     display_out = vec4(color, 1.0);
 }

@@ -68,6 +68,9 @@ TEST_F(Moving, what_a_mesh_has_is_listed_and_what_it_lacks_is_named) {
     const std::string mesh = path("weights_linear.glb");
     EXPECT_THAT(run("info " + mesh).out, HasSubstr("clip move: 2 s, 1 channel\n"));
     EXPECT_THAT(run("info " + mesh).out, HasSubstr("3 morph targets: shape0 shape1 shape2\n"));
+    EXPECT_THAT(run("info " + mesh + " --clip move --time 1").out,
+                testing::ContainsRegex("tension -?[0-9.]+ to "));
+    EXPECT_THAT(run("info " + mesh).out, testing::Not(HasSubstr("tension")));
     EXPECT_THAT(run("info " + mesh + " --clip walk").err, HasSubstr("unknown clip 'walk'"));
     EXPECT_THAT(run("info " + mesh + " --morph shape9=1").err, HasSubstr("unknown morph target 'shape9'"));
     EXPECT_THAT(run("info " + mesh + " --morph shape1").err, HasSubstr("'shape1': write TARGET=WEIGHT"));

@@ -60,7 +60,7 @@ void main() { gl_Position = vec4(uv * 2 - 1, 0, 1); })";
             }
 }
 
-TEST_F(RasterTest, a_replaced_stream_is_drawn) {
+TEST_F(RasterTest, a_stream_that_is_put_is_drawn) {
     const std::string vertex = kHead + R"(
 layout(location = 0) in vec2 uv;
 void main() { gl_Position = vec4(uv * 2 - 1, 0, 1); })";
@@ -79,12 +79,12 @@ void main() { gl_Position = vec4(uv * 2 - 1, 0, 1); })";
         return read(executor, "out").at(1, 1, 0);
     };
     EXPECT_EQ(drawn(), 0.f);
-    ASSERT_TRUE(mesh->replace(device(), {"uv", 2, everywhere}));
+    ASSERT_TRUE(mesh->put(device(), {"uv", 2, everywhere}));
     EXPECT_EQ(drawn(), 1.f);
-    EXPECT_EQ(mesh->replace(device(), {"uv", 3, everywhere}).error().message,
-              "geometry 'atlas': has no stream 'uv' of this size to replace");
-    EXPECT_FALSE(mesh->replace(device(), {"normal", 2, everywhere}));
-    EXPECT_FALSE(mesh->replace(device(), {"uv", 2, std::span(nowhere).first(4)}));
+    EXPECT_EQ(mesh->put(device(), {"uv", 3, everywhere}).error().message,
+              "geometry 'atlas': stream 'uv' does not fit its vertices");
+    EXPECT_TRUE(mesh->put(device(), {"normal", 2, everywhere})) << "one that upload() did not get";
+    EXPECT_FALSE(mesh->put(device(), {"uv", 2, std::span(nowhere).first(4)}));
 }
 
 TEST_F(RasterTest, counter_clockwise_on_screen_is_the_front) {

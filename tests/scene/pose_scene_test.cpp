@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "dermis/base/file.h"
 #include "dermis/mesh/curvature.h"
 #include "dermis/scene/load_scene.h"
@@ -71,6 +73,36 @@ TEST_F(PoseScene, tangents_and_curvature_turn_with_the_surface) {
         const CurvatureTensor &s = mesh.curvatures_per_mm[i], &r = expected.curvatures_per_mm[i];
         EXPECT_LT(length(s.diagonal - r.diagonal) + length(s.mixed - r.mixed), 1e-5f) << i;
     }
+}
+
+TEST_F(PoseScene, tension_is_that_of_a_scene_loaded_in_the_pose_and_0_in_rigid_motion) {
+    Scene scene = loaded(this->scene());
+    const Mesh& mesh = scene.objects[0].mesh;
+    EXPECT_TRUE(mesh.tensions.empty()) << "at rest";
+    const std::vector<float> expected = loaded(this->scene(), kMoment).objects[0].mesh.tensions;
+    ASSERT_EQ(expected.size(), mesh.positions_mm.size());
+    EXPECT_GT(std::ranges::max(expected), 0.05f) << "the target stretches the sheet";
+    // The one of a scene that was loaded in the pose, too, is against the rest pose.
+    Scene posed = loaded(this->scene(), kMoment);
+    for (Scene* one : {&scene, &posed}) {
+        const Result<ScenePoser> poser = ScenePoser::create(*one);
+        ASSERT_TRUE(poser) << poser.error().message;
+        ASSERT_TRUE(poser->pose({.clip = "nod", .time_s = 1.5}, *one));
+        for (size_t i = 0; i < expected.size(); ++i)
+            EXPECT_NEAR(one->objects[0].mesh.tensions[i], expected[i], 1e-4f) << i;
+        ASSERT_TRUE(poser->pose({.clip = "nod", .time_s = 1.5, .morph = {{"lift", 0.0f}}}, *one));
+        for (const float tension : one->objects[0].mesh.tensions) EXPECT_NEAR(tension, 0, 1e-4f);
+    }
+}
+
+TEST_F(PoseScene, subdivided_meshes_have_a_tension) {
+    std::vector<SceneWord> words = kMoment;
+    words.push_back({"mesh.subdivision", "1"});
+    const Result<Scene> fine = load_scene(file(), {.words = words});
+    if (!fine) GTEST_SKIP() << fine.error().message;
+    const Mesh& mesh = fine->objects[0].mesh;
+    ASSERT_EQ(mesh.tensions.size(), mesh.positions_mm.size());
+    EXPECT_GT(std::ranges::max(mesh.tensions), 0.05f);
 }
 
 TEST_F(PoseScene, a_mesh_that_is_subdivided_or_does_not_move_is_not_posed) {

@@ -124,6 +124,10 @@ Json to_json(const NamedMesh& named) {
     for (uint32_t i = 0; i < mesh.materials.size(); ++i)
         json["materials"].push_back(material_json(named.object, i));
     if (!named.object.motion.empty()) json["motion"] = motion_json(named.object.motion);
+    if (!mesh.tensions.empty()) {
+        const auto [least, most] = std::ranges::minmax(mesh.tensions);
+        json["tension"] = {least, most};
+    }
     return json;
 }
 
@@ -203,6 +207,11 @@ void print_text(const std::string& path, const NamedMesh& named) {
         size.x, size.y, size.z, low.x, low.y, low.z, high.x, high.y, high.z);
     print_flesh(named.flesh);
     print_motion(named.object.motion);
+    if (!mesh.tensions.empty()) {
+        const auto [least, most] = std::ranges::minmax(mesh.tensions);
+        fmt::print("  tension {:.2f} to {:.2f} in this pose: ln of a vertex's area over that at rest\n",
+                   least, most);
+    }
     for (uint32_t i = 0; i < mesh.materials.size(); ++i) print_material(named.object, i);
     for (const std::string& warning : named.warnings) fmt::print("  warning: {}\n", printable_line(warning));
 }
