@@ -39,13 +39,20 @@ bool is_blended(const Material& material) {
 }
 
 std::vector<NamedMap> maps_of(const Material& m) {
-    std::vector<NamedMap> maps = {
-        {"base color", &m.base_color_map}, {"emission", &m.emission_map},
-        {"normal", &m.normal_map},         {"metallic roughness", &m.metallic_roughness_map},
-        {"roughness", &m.roughness_map},   {"specular", &m.specular_map},
-        {"occlusion", &m.occlusion_map},   {"displacement", &m.displacement_map},
-        {"thickness", &m.thickness_map},   {"scatter", &m.scatter_map},
-        {"opacity", &m.opacity_map},       {"transmission", &m.transmission_map}};
+    std::vector<NamedMap> maps = {{"base color", &m.base_color_map},
+                                  {"emission", &m.emission_map},
+                                  {"normal", &m.normal_map},
+                                  {"wrinkle stretch", &m.wrinkle_stretch_map},
+                                  {"wrinkle compress", &m.wrinkle_compress_map},
+                                  {"metallic roughness", &m.metallic_roughness_map},
+                                  {"roughness", &m.roughness_map},
+                                  {"specular", &m.specular_map},
+                                  {"occlusion", &m.occlusion_map},
+                                  {"displacement", &m.displacement_map},
+                                  {"thickness", &m.thickness_map},
+                                  {"scatter", &m.scatter_map},
+                                  {"opacity", &m.opacity_map},
+                                  {"transmission", &m.transmission_map}};
     std::erase_if(maps, [](const NamedMap& map) { return !map.image->present(); });
     return maps;
 }

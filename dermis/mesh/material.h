@@ -57,24 +57,28 @@ struct Material {
 
     ImageSource base_color_map;  ///< sRGB; A multiplies opacity unless the mode is opaque
     ImageSource melanin_map, blood_map,
-        residue_map;                     ///< `dermis bake pigments`; a scene paints base_color_map
-    ImageSource pigment_mask;            ///< R: where the scene's scales of melanin and blood act
-    ImageSource alpha_map;               ///< A, or else R: replaces the A of base_color_map
-    ImageSource emission_map;            ///< sRGB
-    ImageSource normal_map;              ///< data
-    ImageSource metallic_roughness_map;  ///< roughness in G, metallic in B
-    ImageSource specular_map;            ///< factor in A when from glTF, in R otherwise
-    ImageSource occlusion_map;           ///< R
-    ImageSource displacement_map;        ///< R, mid and amplitude stated by the scene
-    ImageSource thickness_map;           ///< G
-    ImageSource opacity_map;             ///< coloured transmittance of translucent objects
-    ImageSource transmission_map;        ///< A
-    ImageSource roughness_map;           ///< perceptual, R; when present it replaces metallic_roughness_map's
-    ImageSource metallic_map;            ///< R; when present it replaces metallic_roughness_map's
-    ImageSource kernel_size_map;         ///< R: 0 on thick skin, up to 1 where blurs widen because it is thin
-    ImageSource scatter_map;             ///< R
-    ImageSource curvature_map;  ///< (value - curvature_mid) * curvature_scale_per_mm; as bake_map has
-                                ///< it, or one channel: mean curvature
+        residue_map;           ///< `dermis bake pigments`; a scene paints base_color_map
+    ImageSource pigment_mask;  ///< R: where the scene's scales of melanin and blood act
+    ImageSource alpha_map;     ///< A, or else R: replaces the A of base_color_map
+    ImageSource emission_map;  ///< sRGB
+    ImageSource normal_map;    ///< data
+    ImageSource wrinkle_stretch_map, wrinkle_compress_map;  ///< data: normals over normal_map, by tension
+    ImageSource metallic_roughness_map;                     ///< roughness in G, metallic in B
+    ImageSource specular_map;                               ///< factor in A when from glTF, in R otherwise
+    ImageSource occlusion_map;                              ///< R
+    ImageSource displacement_map;                           ///< R, mid and amplitude stated by the scene
+    ImageSource thickness_map;                              ///< G
+    ImageSource opacity_map;                                ///< coloured transmittance of translucent objects
+    ImageSource transmission_map;                           ///< A
+    ImageSource roughness_map;    ///< perceptual, R; when present it replaces metallic_roughness_map's
+    ImageSource metallic_map;     ///< R; when present it replaces metallic_roughness_map's
+    ImageSource kernel_size_map;  ///< R: 0 on thick skin, up to 1 where blurs widen because it is thin
+    ImageSource scatter_map;      ///< R
+    ImageSource curvature_map;    ///< (value - curvature_mid) * curvature_scale_per_mm; as bake_map has
+                                  ///< it, or one channel: mean curvature
+
+    /// Sizes of a tension (mesh/tension.h) at which the wrinkle maps begin and at which they are all.
+    float wrinkle_from = 0.05f, wrinkle_full = 0.4f;
 
     float thickness_scale_mm = 1;         ///< thickness of a map value of 1
     float curvature_scale_per_mm = 1;     ///< curvature of a map value of 1

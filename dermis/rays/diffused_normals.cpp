@@ -17,6 +17,7 @@
 #include "dermis/rays/diffused_normals_texel.h"
 #include "dermis/rays/skin_points.h"
 #include "dermis/scene/scene_hash.h"
+#include "dermis/scene/wrinkles.h"
 
 namespace dermis::inline rays {
 namespace {
@@ -368,6 +369,7 @@ Result<std::string> content_hash(const Scene& scene, const GaussianSum& profile,
             hasher.add(material.normal_space).add(material.normal_scale).add(material.dilate_texels);
             DERMIS_TRY(add_image(hasher, material.normal_map));
         }
+        DERMIS_TRY(add_wrinkles(hasher, object.mesh));
     }
     return hasher.hex();
 }

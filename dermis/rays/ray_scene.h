@@ -66,6 +66,7 @@ struct SurfaceAttributes {
     Vec2 uv;
     Vec4 color_linear = {1, 1, 1, 1};  ///< the vertices' own
     uint32_t material = 0;
+    float tension = 0;  ///< mesh/tension.h
     /// p_world_mm lifted onto the smooth surface that the vertex normals describe, so that a shadow ray does
     /// not meet the facets beside it: Hanika 2021, Hacking the Shadow Terminator, Ray Tracing Gems II,
     /// chapter 4.

@@ -16,6 +16,7 @@ SurfaceAttributes RayScene::surface_at(const RayHit& hit) const {
     for (int i = 0; i < 3; ++i) {
         surface.p_world_mm += mesh.positions_mm[corner[i]] * weight[i];
         if (!mesh.normals.empty()) normal += mesh.normals[corner[i]] * weight[i];
+        if (!mesh.tensions.empty()) surface.tension += mesh.tensions[corner[i]] * weight[i];
         if (!mesh.uvs.empty()) surface.uv = surface.uv + mesh.uvs[corner[i]] * weight[i];
         if (!mesh.colors_linear.empty()) {
             const Vec4 c = mesh.colors_linear[corner[i]];

@@ -6,6 +6,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/image/dilate.h"
 #include "dermis/rays/flesh.h"
+#include "dermis/rays/mapped_normal.h"
 #include "dermis/rays/texture.h"
 #include "dermis/rays/uv_raster.h"
 #include "dermis/scene/image_source.h"
@@ -169,11 +170,10 @@ void SkinPoints::for_each_cube(const SkinPoints& others, float reach_mm, size_t 
 namespace {
 
 // As mean_normal_world() of shaders/include/surface.glsl.
-Vec3 mean_normal(const Material& material, const Texture& map, const SurfaceAttributes& at) {
+Vec3 mean_normal(const Material& material, const NormalMaps& maps, const SurfaceAttributes& at) {
     const Vec3 n = at.n_geometry_world;
-    if (map.empty()) return n;
-    const Vec4 texel = map.sample(at.uv, at.footprint);
-    const Vec3 mapped = Vec3{texel.x, texel.y, texel.z} * 2.0f - Vec3{1, 1, 1};
+    if (maps.normal->empty()) return n;
+    const Vec3 mapped = mapped_normal(material, maps, at);
     if (material.normal_space == NormalSpace::object) return n + (mapped - n) * material.normal_scale;
     const Vec3 along{at.tangent_world.x, at.tangent_world.y, at.tangent_world.z};
     const Vec3 t = normalize(along - n * dot(n, along));
@@ -192,6 +192,15 @@ void make_unit(Image& image) {
         const Vec3 n = normalize(Vec3{texel[0], texel[1], texel[2]} * 2.0f - Vec3{1, 1, 1});
         texel[0] = n.x * 0.5f + 0.5f, texel[1] = n.y * 0.5f + 0.5f, texel[2] = n.z * 0.5f + 0.5f;
     }
+}
+
+Result<Texture> normals_of(const Mesh& mesh, const Material& material, const ImageSource& source) {
+    if (!source.present()) return Texture();
+    DERMIS_TRY_ASSIGN(Image image, load_image_source(source, ImageUse::data));
+    if (material.dilate_texels > 0)
+        dilate(image, atlas_mask(mesh, image.width, image.height), material.dilate_texels);
+    make_unit(image);
+    return Texture(image, source.wrap_u, source.wrap_v);
 }
 
 // Square millimetres of a triangle over its area in UV.
@@ -224,10 +233,13 @@ UvFootprint texel_footprint(const Mesh& mesh, uint32_t triangle, int size) {
 }  // namespace
 
 struct SkinTexelReader::Impl {
+    struct Normals {
+        Texture normal, stretch, compress;  // empty: the material has none
+    };
     const Scene* scene;
     std::vector<Flesh> flesh;
     RayScene rays;
-    std::vector<std::vector<Texture>> normal_maps;  // of each object and material; empty: none
+    std::vector<std::vector<Normals>> normal_maps;  // of each object and material
 };
 
 SkinTexelReader::SkinTexelReader(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -237,17 +249,18 @@ SkinTexelReader::SkinTexelReader(SkinTexelReader&&) noexcept = default;
 Result<SkinTexelReader> SkinTexelReader::create(const Scene& scene) {
     DERMIS_TRY_ASSIGN(std::vector<Flesh> flesh, find_flesh(scene.objects));
     DERMIS_TRY_ASSIGN(RayScene rays, RayScene::build(scene.objects));
-    std::vector<std::vector<Texture>> maps;
+    std::vector<std::vector<Impl::Normals>> maps;
     for (const SceneObject& object : scene.objects) {
         auto& of_object = maps.emplace_back(object.mesh.materials.size());
         for (size_t i = 0; i < of_object.size(); ++i) {
             const Material& material = object.mesh.materials[i];
-            if (object.classes[i] != MaterialClass::skin || !material.normal_map.present()) continue;
-            DERMIS_TRY_ASSIGN(Image image, load_image_source(material.normal_map, ImageUse::data));
-            if (material.dilate_texels > 0)
-                dilate(image, atlas_mask(object.mesh, image.width, image.height), material.dilate_texels);
-            make_unit(image);
-            of_object[i] = Texture(image, material.normal_map.wrap_u, material.normal_map.wrap_v);
+            if (object.classes[i] != MaterialClass::skin) continue;
+            DERMIS_TRY_ASSIGN(of_object[i].normal, normals_of(object.mesh, material, material.normal_map));
+            if (object.mesh.tensions.empty()) continue;
+            DERMIS_TRY_ASSIGN(of_object[i].stretch,
+                              normals_of(object.mesh, material, material.wrinkle_stretch_map));
+            DERMIS_TRY_ASSIGN(of_object[i].compress,
+                              normals_of(object.mesh, material, material.wrinkle_compress_map));
         }
     }
     return SkinTexelReader(
@@ -267,8 +280,10 @@ SkinTexels SkinTexelReader::read(int size) const {
             at.footprint = texel_footprint(mesh, place.triangle, size);
             texel.p_mm = at.p_world_mm;
             texel.n_geometry = at.n_geometry_world;
-            texel.n =
-                mean_normal(mesh.materials[at.material], impl_->normal_maps[place.object][at.material], at);
+            const Impl::Normals& maps = impl_->normal_maps[place.object][at.material];
+            texel.n = mean_normal(
+                mesh.materials[at.material],
+                {.normal = &maps.normal, .stretch = &maps.stretch, .compress = &maps.compress}, at);
             const bool seen = impl_->flesh[place.object].faces[place.triangle] == SkinFace::visible;
             texel.area_mm2 = seen ? mm2_per_uv2(mesh, place.triangle) / (float(size) * float(size)) : 0;
         }

@@ -5,6 +5,7 @@
 #include "dermis/base/hash.h"
 #include "dermis/image/dilate.h"
 #include "dermis/optics/fresnel.h"
+#include "dermis/rays/mapped_normal.h"
 #include "dermis/rays/uv_raster.h"
 #include "dermis/scene/image_source.h"
 
@@ -69,6 +70,8 @@ Result<MaterialSet> MaterialSet::load(const Scene& scene) {
     static const Slot kSlots[] = {
         {&Material::base_color_map, &Maps::base_color, ImageUse::color},
         {&Material::normal_map, &Maps::normal, ImageUse::data},
+        {&Material::wrinkle_stretch_map, &Maps::wrinkle_stretch, ImageUse::data},
+        {&Material::wrinkle_compress_map, &Maps::wrinkle_compress, ImageUse::data},
         {&Material::specular_map, &Maps::specular, ImageUse::data},
         {&Material::roughness_map, &Maps::roughness, ImageUse::data},
         {&Material::metallic_map, &Maps::metallic, ImageUse::data},
@@ -103,7 +106,10 @@ Vec3 MaterialSet::normal_at(const SurfaceAttributes& surface, uint32_t object) c
     const Entry& e = entry(surface, object);
     const Vec3 n = surface.n_geometry_world;
     if (!e.maps.normal) return n;
-    Vec3 mapped = rgb(e.maps.normal->sample(surface.uv, surface.footprint)) * 2.0f - Vec3{1, 1, 1};
+    Vec3 mapped = mapped_normal(
+        *e.material,
+        {.normal = e.maps.normal, .stretch = e.maps.wrinkle_stretch, .compress = e.maps.wrinkle_compress},
+        surface);
     const float scale = e.material->normal_scale;
     if (e.material->normal_space == NormalSpace::object) return normalize(n + (mapped - n) * scale);
     mapped.x *= scale;

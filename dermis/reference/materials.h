@@ -58,6 +58,8 @@ class MaterialSet {
     struct Maps {
         const Texture* base_color = nullptr;
         const Texture* normal = nullptr;
+        const Texture* wrinkle_stretch = nullptr;
+        const Texture* wrinkle_compress = nullptr;
         const Texture* specular = nullptr;
         const Texture* roughness = nullptr;
         const Texture* metallic = nullptr;

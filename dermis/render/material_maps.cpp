@@ -6,6 +6,7 @@
 
 #include "dermis/base/vec.h"
 #include "dermis/image/dilate.h"
+#include "dermis/image/resample.h"
 #include "dermis/scene/image_source.h"
 
 namespace dermis::inline render {
@@ -86,7 +87,15 @@ Image curvature_channels(Image image, float mid, std::string& warning, const std
 const std::vector<MaterialMap>& material_maps() {
     static const std::vector<MaterialMap> kMaps = {
         {.texture = "albedo_map", .source = &Material::base_color_map, .is_color = true},
-        {.texture = "normal_map", .source = &Material::normal_map, .neutral = {128, 128, 255, 255}},
+        {.texture = "normal_map",
+         .source = &Material::normal_map,
+         .is_normals = true,
+         .neutral = {128, 128, 255, 255}},
+        {.texture = "wrinkle_maps",
+         .source = &Material::wrinkle_stretch_map,
+         .is_normals = true,
+         .second_layer = &Material::wrinkle_compress_map,
+         .neutral = {128, 128, 255, 255}},
         {.texture = "specular_map",
          .source = &Material::specular_map,
          .is_single = true,
@@ -124,7 +133,8 @@ const std::vector<MaterialMap>& material_maps() {
 const ImageSource* map_source(const MaterialMap& map, const Material& material) {
     if (map.source == &Material::alpha_map && cutoff_of_map(material) == 0) return nullptr;
     if ((material.*map.source).present()) return &(material.*map.source);
-    if (map.packed && (material.*map.packed).present()) return &(material.*map.packed);
+    for (const auto other : {map.packed, map.second_layer})
+        if (other && (material.*other).present()) return &(material.*other);
     return nullptr;
 }
 
@@ -147,11 +157,54 @@ gpu::TextureData neutral_map(const MaterialMap& map) {
     gpu::TextureData data = {.name = map.texture + " (neutral)",
                              .format = map.is_single ? ImageFormat::r8 : ImageFormat::rgba8,
                              .srgb = map.is_color};
-    for (size_t i = 0; i < bytes_per_texel(data.format); ++i) data.bytes.push_back(std::byte{map.neutral[i]});
+    data.layers = map.second_layer ? 2 : 1;
+    for (int layer = 0; layer < data.layers; ++layer)
+        for (size_t i = 0; i < bytes_per_texel(data.format); ++i)
+            data.bytes.push_back(std::byte{map.neutral[i]});
     return data;
 }
 
+namespace {
+
+// A layer that is absent is black, as nothing reads it.
+Result<LoadedMap> load_layers(const MaterialMap& map, const Material& material, const Mesh& mesh) {
+    const ImageSource& source = *map_source(map, material);
+    LoadedMap loaded;
+    Image layers[2];
+    int width = 1, height = 1;
+    for (const int layer : {0, 1}) {
+        const ImageSource& of_layer = material.*(layer == 0 ? map.source : map.second_layer);
+        if (!of_layer.present()) continue;
+        DERMIS_TRY_ASSIGN(Image image, load_image_source(of_layer, ImageUse::data));
+        if (image.channels < 3) return Error{of_layer.name + ": a normal map has red, green and blue"};
+        if (const auto doubt = doubt_of_normal_map(image, material.normal_space))
+            loaded.warning = of_layer.name + ": given as a normal map, but " + *doubt;
+        if (material.dilate_texels > 0)
+            dilate(image, atlas_mask(mesh, image.width, image.height), material.dilate_texels);
+        layers[layer] = to_normals(to_linear_float(image));
+        width = std::max(width, image.width), height = std::max(height, image.height);
+    }
+    loaded.texture = {.name = source.name,
+                      .format = ImageFormat::rgba16,
+                      .width = width,
+                      .height = height,
+                      .layers = 2,
+                      .generate_mips = true,
+                      .address_u = address_mode(source.wrap_u),
+                      .address_v = address_mode(source.wrap_v)};
+    for (Image& layer : layers) {
+        if (layer.empty()) layer = Image(width, height, 4, PixelFormat::u16);
+        if (layer.width != width || layer.height != height)
+            layer = resize(layer, width, height, Texels::unit_vectors);
+        loaded.texture.bytes.insert(loaded.texture.bytes.end(), layer.bytes.begin(), layer.bytes.end());
+    }
+    return loaded;
+}
+
+}  // namespace
+
 Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& material, const Mesh& mesh) {
+    if (map.second_layer) return load_layers(map, material, mesh);
     const ImageSource& source = *map_source(map, material);
     const int channel = &source == &(material.*map.source) ? map.preferred_channel : map.packed_channel;
     DERMIS_TRY_ASSIGN(Image decoded,
@@ -160,7 +213,7 @@ Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& mate
                           : load_image_source(source, map.is_color ? ImageUse::color : ImageUse::data));
     Image& image = decoded;
     std::string warning;
-    if (map.source == &Material::normal_map)
+    if (map.is_normals)
         if (const auto doubt = doubt_of_normal_map(image, material.normal_space))
             warning = source.name + ": given as a normal map, but " + *doubt;
     if (map.source == &Material::curvature_map)
@@ -174,7 +227,7 @@ Result<LoadedMap> load_material_map(const MaterialMap& map, const Material& mate
         const Image single = single_channel(image, channel < image.channels ? channel : 0);
         data.format = single.format == PixelFormat::u8 ? ImageFormat::r8 : ImageFormat::r16f;
         data.bytes = single.format == PixelFormat::u8 ? single.bytes : to_half_image(single, 1).bytes;
-    } else if (map.source == &Material::normal_map && image.channels >= 3) {
+    } else if (map.is_normals && image.channels >= 3) {
         data.format = ImageFormat::rgba16;
         data.bytes = to_normals(to_linear_float(image)).bytes;
     } else if (image.format == PixelFormat::u8) {

@@ -17,8 +17,10 @@ namespace dermis::inline render {
 struct MaterialMap {
     std::string texture;  ///< the shader's name
     ImageSource Material::*source;
-    bool is_color = false;                    ///< sRGB colour with four channels; otherwise data
-    bool is_single = false;                   ///< one channel is taken
+    bool is_color = false;                          ///< sRGB colour with four channels; otherwise data
+    bool is_normals = false;                        ///< unit vectors
+    ImageSource Material::*second_layer = nullptr;  ///< of an array texture of normals; either may be absent
+    bool is_single = false;                         ///< one channel is taken
     int preferred_channel = 0;                ///< where it lies, if the image has that many channels; else 0
     ImageSource Material::*packed = nullptr;  ///< taken when `source` is absent: a map that holds several
     int packed_channel = 0;

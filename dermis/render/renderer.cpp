@@ -19,6 +19,7 @@
 #include "dermis/render/profile_passes.h"
 #include "dermis/render/seam_textures.h"
 #include "dermis/scene/skin_profiles.h"
+#include "dermis/scene/wrinkles.h"
 #include "dermis/technique/gain.h"
 #include "shaders/include/constants.h"
 
@@ -429,6 +430,7 @@ Result<void> Renderer::prepare(const Technique& technique, const ParameterValues
     list_ = frame_passes(own, shared);
     list_.constants = uploaded_->map_constants();
     list_.constants.emplace_back("has_scatter", has_scatter_weights(*scene_));
+    list_.constants.emplace_back("has_wrinkles", uploaded_->has_tension() && has_wrinkles(*scene_));
     list_.constants.emplace_back("one_light", scene_->lights.size() == 1);
     list_.constants.emplace_back("one_sample", settings.samples == 1);
     list_.constants.emplace_back("all_directional",

@@ -22,8 +22,9 @@ std::string texture_key(const MaterialMap& map, const Material& material) {
     const ImageSource* source = map_source(map, material);
     if (!source) return map.texture;
     Hasher hasher;
-    hasher.add(source->name).add(source->encoded).add(map.texture).add(material.dilate_texels);
-    hasher.add(source->wrap_u).add(source->wrap_v);
+    hasher.add(map.texture).add(material.dilate_texels);
+    for (const ImageSource* one : {source, map.second_layer ? &(material.*map.second_layer) : nullptr})
+        if (one) hasher.add(one->name).add(one->encoded).add(one->wrap_u).add(one->wrap_v);
     return hasher.hex();
 }
 
@@ -98,6 +99,11 @@ Result<gpu::Geometry> upload_mesh(gpu::Device& device, std::string_view name, co
     return gpu::Geometry::upload(device, name, streams, mesh.indices);
 }
 
+int32_t has_wrinkle_map(const Material& material) {
+    return (material.wrinkle_stretch_map.present() ? kWrinkleStretch : 0) |
+           (material.wrinkle_compress_map.present() ? kWrinkleCompress : 0);
+}
+
 float dielectric_f0(float ior) {
     const float r = (ior - 1) / (ior + 1);
     return r * r;
@@ -125,6 +131,9 @@ gpu::Values material_values(const Material& material, MaterialClass material_cla
             {"normal_scale", material.normal_scale},
             {"opacity_from_map", int32_t(material.opacity_map.present())},
             {"scatter", material.scatter},
+            {"has_wrinkle_map", has_wrinkle_map(material)},
+            {"wrinkle_from", material.wrinkle_from},
+            {"wrinkle_full", material.wrinkle_full},
             {"curvature_scale_per_mm", material.curvature_scale_per_mm},
             {"curvature_mid", material.curvature_mid}};
 }
@@ -230,6 +239,9 @@ Result<void> SceneOnDevice::replace_vertices(gpu::Device& device, const Scene& s
         const MovingStreams moving(scene.objects[i].mesh, rest_mesh(scene, i), scene.rest_bakes);
         for (const gpu::VertexStream& stream : moving.streams)
             DERMIS_TRY(geometries_[i]->put(device, stream));
+        const Mesh& mesh = scene.objects[i].mesh;
+        if (scene.skin.blood_by_tension == 0 || mesh.colors_linear.empty()) continue;
+        DERMIS_TRY(geometries_[i]->put(device, {"color_linear", 4, floats_of(mesh.colors_linear)}));
     }
     return upload_tensions(device, scene);
 }

@@ -12,6 +12,7 @@
 #include "dermis/base/warnings.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/optics/presets.h"
+#include "dermis/scene/blood_tint.h"
 #include "dermis/scene/corneas.h"
 #include "dermis/scene/find_parts.h"
 #include "dermis/scene/object_checks.h"
@@ -26,6 +27,7 @@
 #include "dermis/scene/skin_pigments.h"
 #include "dermis/scene/skin_profiles.h"
 #include "dermis/scene/skin_tone.h"
+#include "dermis/scene/wrinkles.h"
 
 namespace dermis::inline scene {
 namespace fs = std::filesystem;
@@ -169,6 +171,9 @@ Result<void> set_up_materials(const SceneDescription& description, const MeshDes
         DERMIS_TRY(apply_material(description,
                                   found == description.materials.end() ? nullptr : &found->second,
                                   object.classes[i], material));
+        if (const Result<void> checked = check_wrinkles(material); !checked)
+            return description.file.empty() ? checked.error()
+                                            : checked.error().within(description.file.string());
     }
     return {};
 }
@@ -316,7 +321,10 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
     DERMIS_TRY(apply_pigment_maps(scene));
     DERMIS_TRY(apply_pigments(scene));
     DERMIS_TRY(apply_tone(scene));
+    if (const Result<void> tinted = apply_blood_by_tension(scene); !tinted)
+        return description.file.empty() ? tinted.error() : tinted.error().within(description.file.string());
     std::ranges::move(skin_warnings(scene), std::back_inserter(scene.warnings));
+    std::ranges::move(tension_warnings(scene), std::back_inserter(scene.warnings));
     tidy_warnings(scene.warnings);  // of one file that many [[mesh]] name, for one
     scene.motion = description.motion;
     scene.credit = head.credit;

@@ -130,6 +130,7 @@ bool ScenePoser::can_pose(const SceneObject& object) {
 
 Result<ScenePoser> ScenePoser::create(const Scene& scene) {
     ScenePoser poser;
+    DERMIS_TRY_ASSIGN(poser.tint_, BloodTint::of(scene.skin));
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];
         if (!can_pose(object)) continue;
@@ -139,7 +140,11 @@ Result<ScenePoser> ScenePoser::create(const Scene& scene) {
         }
         DERMIS_TRY_ASSIGN(RestAreas areas, areas_at_rest(object, file));
         poser.all_.push_back(
-            {.object = i, .file = std::move(file), .rest = at_rest(object.mesh), .areas = std::move(areas)});
+            {.object = i,
+             .file = std::move(file),
+             .rest = at_rest(object.mesh),
+             .areas = std::move(areas),
+             .untinted = poser.tint_ ? untinted_colors(object, *poser.tint_) : std::vector<Vec4>()});
     }
     return poser;
 }
@@ -151,6 +156,7 @@ Result<void> ScenePoser::pose(const Pose& pose, Scene& scene) const {
         Mesh& mesh = object.mesh;
         move_vertices(mesh, vertices, posed.rest);
         mesh.tensions = compute_tensions(posed.areas, mesh.positions_mm, mesh.indices);
+        if (tint_) tint_by_tension(object, *tint_, posed.untinted);
     }
     return {};
 }

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "dermis/base/result.h"
 #include "dermis/mesh/read_mesh.h"
 #include "dermis/mesh/tension.h"
+#include "dermis/scene/blood_tint.h"
 #include "dermis/scene/rest_bakes.h"
 #include "dermis/scene/scene.h"
 
@@ -52,7 +54,7 @@ class ScenePoser {
 
     /// Moves the vertices of `scene`, whose meshes must be those of create(). Positions and normals are those
     /// that loading in the pose gives. Tangents and curvature tensors turn with the surface (dP/du and
-    /// normal) from the shape that create() saw; tensions are against the rest pose;
+    /// normal) from the shape that create() saw; tensions are against the rest pose, and colours follow them;
     /// occlusion and bounds stay. Errors: a file that does not fit any more. Cost: dominated by reading the
     /// mesh (docs/figures.md#moving-heads).
     [[nodiscard]] Result<void> pose(const Pose& pose, Scene& scene) const;
@@ -63,8 +65,10 @@ class ScenePoser {
         std::vector<std::byte> file;  ///< empty for subjects
         SurfaceAtRest rest;
         RestAreas areas;
+        std::vector<Vec4> untinted;
     };
     std::vector<Posed> all_;
+    std::optional<BloodTint> tint_;
 };
 
 }  // namespace dermis::inline scene

@@ -77,6 +77,7 @@ struct Skin {
     /// A skin from its pigments (optics/tissue/skin_model.h), applied on loading like a tone.
     std::optional<float> melanin, blood, oxygen, pheomelanin, epidermis_mm;
     float melanin_scale = 1, blood_scale = 1;  ///< of maps of pigments, applied on loading
+    float blood_by_tension = 0;                ///< scene/blood_tint.h
     float ior = 1.4f;
     float roughness = 0.45f;              ///< perceptual
     float specular = 1;                   ///< scales F0

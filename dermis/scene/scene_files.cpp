@@ -12,11 +12,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr ImageSource Material::*kMaps[] = {
-    &Material::base_color_map,         &Material::emission_map,    &Material::normal_map,
-    &Material::metallic_roughness_map, &Material::specular_map,    &Material::occlusion_map,
-    &Material::displacement_map,       &Material::thickness_map,   &Material::opacity_map,
-    &Material::transmission_map,       &Material::roughness_map,   &Material::metallic_map,
-    &Material::curvature_map,          &Material::kernel_size_map, &Material::alpha_map};
+    &Material::base_color_map,         &Material::emission_map,        &Material::normal_map,
+    &Material::metallic_roughness_map, &Material::specular_map,        &Material::occlusion_map,
+    &Material::displacement_map,       &Material::thickness_map,       &Material::opacity_map,
+    &Material::transmission_map,       &Material::roughness_map,       &Material::metallic_map,
+    &Material::curvature_map,          &Material::kernel_size_map,     &Material::alpha_map,
+    &Material::wrinkle_stretch_map,    &Material::wrinkle_compress_map};
 
 bool is_on_disk(const ImageSource& source) {
     return !source.name.empty() && source.encoded.empty() && source.pixels.empty();

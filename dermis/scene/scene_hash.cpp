@@ -5,6 +5,7 @@
 #include "dermis/base/file.h"
 #include "dermis/optics/presets.h"
 #include "dermis/scene/skin_profiles.h"
+#include "dermis/scene/wrinkles.h"
 
 namespace dermis::inline scene {
 namespace {
@@ -35,7 +36,7 @@ Result<void> add(Hasher& hasher, const SceneObject& object) {
     add_shape(hasher, object);
     hasher.add(mesh.tangents).add(mesh.uvs).add(mesh.occlusions).add(mesh.colors_linear);
     for (const Material& material : mesh.materials) DERMIS_TRY(add(hasher, material));
-    return {};
+    return add_wrinkles(hasher, mesh);
 }
 
 void add(Hasher& hasher, const Light& light) {

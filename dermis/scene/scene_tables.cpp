@@ -157,6 +157,22 @@ const KeyTable<MapsDescription>& maps_keys() {
                                                    .doc = "scales the slope; tangent space only",
                                                    .max = 10,
                                                    .needs = &Material::normal_map})
+            .map(&Material::wrinkle_stretch_map,
+                 {.name = "wrinkle_stretch",
+                  .doc = "normals in tangent space that take the place of the normal map where a pose "
+                         "stretches the skin (moving.md)"})
+            .map(&Material::wrinkle_compress_map,
+                 {.name = "wrinkle_compress", .doc = "the same where a pose compresses it"})
+            .of_material(
+                &Material::wrinkle_from,
+                {.name = "wrinkle_from",
+                 .doc = "tension, ln of the area over that at rest, at which the wrinkle maps begin; "
+                        "with either sign",
+                 .max = 3.9})
+            .of_material(&Material::wrinkle_full,
+                         {.name = "wrinkle_full",
+                          .doc = "tension from which on the wrinkle maps alone count",
+                          .max = 4})
             .map(&Material::specular_map,
                  {.name = "specular", .doc = "scales the reflectance at normal incidence; red channel"})
             .map(&Material::roughness_map, {.name = "roughness", .doc = "perceptual roughness; red channel"})
@@ -282,6 +298,11 @@ const KeyTable<Skin>& skin_keys() {
             .number(
                 &Skin::blood_scale,
                 {.name = "blood_scale", .doc = "multiplies maps.blood within maps.pigment_mask", .max = 10})
+            .number(&Skin::blood_by_tension,
+                    {.name = "blood_by_tension",
+                     .doc = "in a pose the blood of skin of pigments is multiplied by exp(-this * tension) "
+                            "(moving.md): stretched skin pales; 1 keeps the amount below each piece of skin",
+                     .max = 4})
             .text(&Skin::diffuse_table,
                   {.name = "diffuse_table",
                    .doc = "path of a table of `dermis bake lut` over curvature, read instead of baking one"})

@@ -12,6 +12,9 @@ const int kLightDirectional = 0, kLightPoint = 1, kLightSpot = 2;
 // Material::normal_space; absent: no normal map.
 const int kNormalSpaceTangent = 0, kNormalSpaceObject = 1, kNormalSpaceAbsent = 2;
 
+// has_wrinkle_map.
+const int kWrinkleStretch = 1, kWrinkleCompress = 2;
+
 // Lights with a shadow map, at most; the first is the key light's. A fourth would need more textures than the
 // 32 that some drivers have for a shader.
 const int kMaxShadowMaps = 3;

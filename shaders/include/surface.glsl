@@ -3,6 +3,7 @@
 #define DERMIS_SURFACE_GLSL
 
 #include "shaders/include/frame.glsl"
+#include "shaders/include/wrinkles.h"
 
 layout(location = 0) in vec3 p_world_mm_in;
 layout(location = 1) in vec3 n_world_in;
@@ -33,6 +34,8 @@ layout(scalar) uniform Material {
     float alpha_cutoff;            // 0: nothing is cut out
     int emission_from_map;
     float scatter;                 // share of the skin's diffuse light that scatters
+    int has_wrinkle_map;           // bits: kWrinkleStretch, kWrinkleCompress
+    float wrinkle_from, wrinkle_full;  // tensions
 };
 
 // Whether any material of the scene has the map; without one, the value 1 is a constant.
@@ -44,9 +47,11 @@ layout(constant_id = 54) const int has_occlusion_map = 1;
 
 layout(constant_id = 57) const int has_scatter = 0;  // some skin of the scene scatters less than all
 layout(constant_id = 58) const int has_scatter_map = 0;
+layout(constant_id = 59) const int has_wrinkles = 0;  // some mesh is in a pose, and some material has a wrinkle map
 
 uniform sampler2D albedo_map;
 uniform sampler2D normal_map;
+uniform sampler2DArray wrinkle_maps;  // stretched, compressed
 uniform sampler2D specular_map;
 uniform sampler2D roughness_map;
 uniform sampler2D occlusion_map;
@@ -80,9 +85,18 @@ float magnification_levels(sampler2D map, vec2 uv) {
 }
 
 // The mean of the normals that a read of the map covers, a positive bias covering more (Penner 2011), in the map's space:
-// shorter than 1 where they differ.
+// shorter than 1 where they differ. A wrinkle map takes the normal map's place by its share; dermis/rays/mapped_normal.h
+// has the same.
 vec3 mean_of_normal_map(vec2 uv, float lod_bias) {
-    return texture(normal_map, uv, lod_bias).xyz * 2.0 - 1.0;
+    vec3 n = texture(normal_map, uv, lod_bias).xyz;
+    if (has_wrinkles != 0) {
+        bool is_stretched = tension_in > 0.0;
+        vec3 wrinkles = texture(wrinkle_maps, vec3(uv, is_stretched ? 0.0 : 1.0), lod_bias).xyz;
+        int map = is_stretched ? kWrinkleStretch : kWrinkleCompress;
+        float share = (has_wrinkle_map & map) != 0 ? wrinkle_share(tension_in, wrinkle_from, wrinkle_full) : 0.0;
+        n = mix(n, wrinkles, share);
+    }
+    return n * 2.0 - 1.0;
 }
 
 // Tangent and bitangent of the maps, at right angles to n.

@@ -1,4 +1,4 @@
-// The tension of a posed mesh in pictures: its debug view and its layer.
+// The tension of a posed mesh in pictures: its debug view, and the wrinkle maps that it blends.
 
 #include "dermis/mesh/tension.h"
 
@@ -85,6 +85,95 @@ TEST_F(TensionPicture, layers_have_it_beside_the_curvature_in_a_pose_alone) {
         EXPECT_NE(file->find("curvature_per_mm"), std::string::npos);
         EXPECT_EQ(file->find("tension") != std::string::npos, posed);
     }
+}
+
+// Stripes that lean by `lean` to the left and to the right, as unit vectors.
+ImageSource stripes_of_normals(const std::string& name, double lean, int width_texels) {
+    ImageSource map{.name = name, .width = 64, .height = 64, .channels = 3};
+    for (int i = 0; i < 64 * 64; ++i) {
+        const double x = (i / width_texels) % 2 ? lean : -lean;
+        for (const double value : {x, 0.0, std::sqrt(1 - x * x)})
+            map.pixels.push_back(std::byte(std::lround(255 * (0.5 + 0.5 * value))));
+    }
+    return map;
+}
+
+// Lit from the left at 45 degrees, as a normal map shows nothing in even light.
+Scene evenly_tense_grid(float tension) {
+    Scene scene = tense_grid();
+    scene.objects[0].mesh.tensions.assign(scene.objects[0].mesh.positions_mm.size(), tension);
+    scene.objects[0].mesh.materials[0].normal_map = stripes_of_normals("rest", 0.3, 4);
+    scene.lights[0].to_light_world = normalize(Vec3{-1, 0, 1});
+    return scene;
+}
+
+void add_wrinkle_maps(Scene& scene) {
+    Material& material = scene.objects[0].mesh.materials[0];
+    material.wrinkle_stretch_map = stripes_of_normals("stretch", 0.5, 8);
+    material.wrinkle_compress_map = stripes_of_normals("compress", 0.7, 2);
+}
+
+class WrinklePicture : public TensionPicture {
+  protected:
+    // Of every technique but those whose normals are baked in the atlas, which the grid does not have.
+    static std::vector<std::byte> drawn(const Scene& scene, const std::string& technique = "lambert") {
+        Renderer renderer = make_renderer(scene);
+        const Technique& drawn_by = built_in_technique(technique);
+        ParameterValues values = small_map_values(drawn_by);
+        if (technique == "preintegrated") EXPECT_TRUE(values.set("normals", "blended"));
+        return radiance(renderer, drawn_by, values, {.width = kGrid, .height = kGrid, .deep = true}).bytes;
+    }
+};
+
+TEST_F(WrinklePicture, below_the_least_tension_is_that_without_maps_to_the_byte) {
+    for (const float tension : {0.0f, 0.04f, -0.04f}) {
+        Scene scene = evenly_tense_grid(tension);
+        const auto without = drawn(scene);
+        add_wrinkle_maps(scene);
+        EXPECT_EQ(drawn(scene), without) << tension;
+    }
+    Scene rest = evenly_tense_grid(0);
+    rest.objects[0].mesh.tensions.clear();
+    const auto without = drawn(rest);
+    add_wrinkle_maps(rest);
+    EXPECT_EQ(drawn(rest), without) << "no stream of tensions";
+}
+
+TEST_F(WrinklePicture, above_the_full_tension_is_that_of_the_wrinkle_map_as_normal_map) {
+    for (const std::string technique :
+         {"lambert", "preintegrated", "texture_space", "screen_space_separable"})
+        for (const float tension : {0.5f, -0.5f}) {
+            Scene scene = evenly_tense_grid(tension);
+            const auto rest = drawn(scene, technique);
+            Material& material = scene.objects[0].mesh.materials[0];
+            add_wrinkle_maps(scene);
+            const auto wrinkled = drawn(scene, technique);
+            material.normal_map = tension > 0 ? material.wrinkle_stretch_map : material.wrinkle_compress_map;
+            material.wrinkle_stretch_map = material.wrinkle_compress_map = {};
+            EXPECT_EQ(wrinkled, drawn(scene, technique)) << technique << " " << tension;
+            EXPECT_NE(wrinkled, rest) << technique << " " << tension;
+        }
+}
+
+TEST_F(WrinklePicture, of_one_map_ignores_the_other_sign) {
+    for (const float tension : {0.5f, -0.5f}) {
+        Scene scene = evenly_tense_grid(tension);
+        const auto without = drawn(scene);
+        add_wrinkle_maps(scene);
+        Material& material = scene.objects[0].mesh.materials[0];
+        (tension > 0 ? material.wrinkle_stretch_map : material.wrinkle_compress_map) = {};
+        EXPECT_EQ(drawn(scene), without) << tension;
+    }
+}
+
+TEST_F(WrinklePicture, of_a_grey_map_is_refused_in_one_line) {
+    Scene scene = evenly_tense_grid(0.5f);
+    scene.objects[0].mesh.materials[0].wrinkle_compress_map = {
+        .name = "grey.png", .width = 1, .height = 1, .channels = 1, .pixels = {std::byte{128}}};
+    const auto renderer =
+        Renderer::create(device(), gpu::embedded_shaders(built_in_catalog().shaders), scene);
+    ASSERT_FALSE(renderer);
+    EXPECT_EQ(renderer.error().message, "grey.png: a normal map has red, green and blue");
 }
 
 }  // namespace
