@@ -1,9 +1,10 @@
 // The model of `dermis cost` beside times measured on a device: a Markdown table. Run it by
 // tools/gpu_figures.
 //
-//     build/bench/gpu_figures_bench [SCENE] [WIDTHxHEIGHT] [FRAMES] [CHIP] [DEVICE]
+//     build/bench/gpu_figures_bench [SCENE] [WIDTHxHEIGHT] [FRAMES] [CHIP or none] [DEVICE]
 //
-// Model over measured is stated only for a GPU: a rasteriser on the CPU says nothing of a card.
+// `none` leaves the model out: it needs Mesa's RADV. Model over measured is stated only for a GPU: a
+// rasteriser on the CPU says nothing of a card.
 
 #include <cstdio>
 #include <cstdlib>
@@ -43,13 +44,16 @@ Result<Options> options_of(const std::vector<std::string>& words) {
     return options;
 }
 
-void print_heading(const Options& options, const Card& card, const gpu::DeviceInfo& device,
-                   const std::string& credit) {
-    std::printf(
-        "`%s`, %d x %d, median of %d frames after the first, measured on %s (%s); the model is of a "
-        "%s (%s).\n",
-        options.scene.c_str(), options.width, options.height, options.frames, device.name.c_str(),
-        device.driver.c_str(), std::string(card.name).c_str(), std::string(card.chip).c_str());
+void print_measured_on(const Options& options, const gpu::DeviceInfo& device, const std::string& credit) {
+    std::printf("`%s`, %d x %d, median of %d frames after the first, measured on %s (%s).\n",
+                options.scene.c_str(), options.width, options.height, options.frames, device.name.c_str(),
+                device.driver.c_str());
+    if (!credit.empty()) std::printf("Scene: %s\n", credit.c_str());
+}
+
+void print_model_of(const Card& card, const gpu::DeviceInfo& device) {
+    std::printf("The model is of a %s (%s).\n", std::string(card.name).c_str(),
+                std::string(card.chip).c_str());
     if (device.is_cpu)
         std::printf(
             "The device is a rasteriser on the CPU: its times are those of no card, so that model over "
@@ -58,24 +62,52 @@ void print_heading(const Options& options, const Card& card, const gpu::DeviceIn
         std::printf(
             "The model is of another card than the device: model over measured holds for this pair "
             "alone.\n");
-    if (!credit.empty()) std::printf("Scene: %s\n", credit.c_str());
     std::printf(
         "\n| technique | model, ms | measured, ms | model / measured | model, x lambert | measured, x "
         "lambert |\n|---|---|---|---|---|---|\n");
 }
 
+using Costs = std::vector<TechniqueCost>;
+
+void print_measured(const std::vector<Contestant>& contestants, const Costs& measured) {
+    std::printf("\n| technique | measured, ms | measured, x lambert |\n|---|---|---|\n");
+    for (size_t i = 0; i < contestants.size(); ++i)
+        std::printf("| `%s` | %.3f | %.2f |\n", contestants[i].name().c_str(), measured[i].time_ms,
+                    measured[i].time_ratio);
+}
+
+void print_with_models(const std::vector<Contestant>& contestants, const Costs& measured,
+                       const std::vector<double>& models, bool is_cpu) {
+    for (size_t i = 0; i < contestants.size(); ++i) {
+        char over[16] = "";
+        if (!is_cpu) std::snprintf(over, sizeof over, "%.2f", models[i] / measured[i].time_ms);
+        // lambert comes first (default_contestants).
+        std::printf("| `%s` | %.3f | %.3f | %s | %.2f | %.2f |\n", contestants[i].name().c_str(), models[i],
+                    measured[i].time_ms, over, models[i] / models[0], measured[i].time_ratio);
+    }
+}
+
 Result<void> print_figures(const Options& options) {
-    const Result<const Card*> card = find_card(options.chip);
-    if (!card) return card.error();
+    const bool has_model = options.chip != "none";
+    const Card* card = nullptr;
+    if (has_model) {
+        const Result<const Card*> found = find_card(options.chip);
+        if (!found) return found.error();
+        card = *found;
+    }
     Result<Scene> scene = load_scene(options.scene, {.subjects = built_in_catalog().subjects});
     if (!scene) return scene.error();
     if (Result<void> complete = complete_scene(*scene); !complete) return complete;
     Result<gpu::Device> device = gpu::Device::create({.name_contains = options.device});
     if (!device) return device.error();
     const std::vector<Contestant> contestants = default_contestants(built_in_catalog().techniques);
-    const Result<std::vector<double>> models = model_times_ms(
-        *device, built_in_catalog(), *scene, contestants, options.width, options.height, **card);
-    if (!models) return models.error();
+    std::vector<double> models;
+    if (has_model) {
+        Result<std::vector<double>> modelled = model_times_ms(
+            *device, built_in_catalog(), *scene, contestants, options.width, options.height, *card);
+        if (!modelled) return modelled.error();
+        models = std::move(*modelled);
+    }
     Result<Renderer> renderer =
         Renderer::create(*device, gpu::embedded_shaders(built_in_catalog().shaders), *scene);
     if (!renderer) return renderer.error();
@@ -83,15 +115,13 @@ Result<void> print_figures(const Options& options) {
         measure_costs(*renderer, *scene, contestants, options.width, options.height, options.frames);
     if (!measured) return measured.error();
 
-    print_heading(options, **card, device->info(), scene->credit);
-    for (size_t i = 0; i < contestants.size(); ++i) {
-        const double model_ms = (*models)[i], time_ms = (*measured)[i].time_ms;
-        char over[16] = "";
-        if (!device->info().is_cpu) std::snprintf(over, sizeof over, "%.2f", model_ms / time_ms);
-        // lambert comes first (default_contestants).
-        std::printf("| `%s` | %.3f | %.3f | %s | %.2f | %.2f |\n", contestants[i].name().c_str(), model_ms,
-                    time_ms, over, model_ms / (*models)[0], (*measured)[i].time_ratio);
+    print_measured_on(options, device->info(), scene->credit);
+    if (!has_model) {
+        print_measured(contestants, *measured);
+        return {};
     }
+    print_model_of(*card, device->info());
+    print_with_models(contestants, *measured, models, device->info().is_cpu);
     return {};
 }
 

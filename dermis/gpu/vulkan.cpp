@@ -14,7 +14,9 @@ std::string result_text(VkResult result) {
         {VK_ERROR_LAYER_NOT_PRESENT, "a layer is not installed"},
         {VK_ERROR_EXTENSION_NOT_PRESENT, "an extension is missing"},
         {VK_ERROR_FEATURE_NOT_PRESENT, "a feature is missing"},
-        {VK_ERROR_INCOMPATIBLE_DRIVER, "no Vulkan driver is installed (Debian: mesa-vulkan-drivers)"},
+        {VK_ERROR_INCOMPATIBLE_DRIVER,
+         "no Vulkan driver works; install one (Debian: mesa-vulkan-drivers), or see "
+         "with VK_LOADER_DEBUG=error why yours does not"},
         {VK_ERROR_FORMAT_NOT_SUPPORTED, "the format is not supported"},
         {VK_ERROR_SURFACE_LOST_KHR, "the window's surface was lost"}};
     for (const auto& [code, text] : kTexts)
