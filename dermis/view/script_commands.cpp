@@ -1,8 +1,9 @@
 #include "dermis/view/script_commands.h"
 
-#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "dermis/base/file.h"
 #include "dermis/base/text.h"
@@ -15,10 +16,11 @@
 namespace dermis::view {
 namespace {
 
-// The peak memory of the process.
-long peak_memory_mb() {
-    rusage usage = {};
-    return getrusage(RUSAGE_SELF, &usage) == 0 ? usage.ru_maxrss / 1024 : 0;
+// The resident memory of the process; 0 where /proc does not tell.
+long memory_mb() {
+    long pages = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> pages >> resident;
+    return resident * sysconf(_SC_PAGESIZE) / (1024 * 1024);
 }
 
 std::string environment_text(const Environment& environment) {
@@ -61,7 +63,7 @@ std::string state_text(Parts& p) {
     text += "window_images " + std::to_string(held.images) + "\n";
     text += "frame " + std::to_string(p.clock.frames()) + "\n";
     text += "device_objects " + std::to_string(p.device.created_objects()) + "\n";
-    text += "peak_memory_mb " + std::to_string(peak_memory_mb()) + "\n";
+    text += "memory_mb " + std::to_string(memory_mb()) + "\n";
     text += "clipboard " + p.window.clipboard() + "\n";
     for (const std::string& warning : model.warnings.unread()) text += "warning " + warning + "\n";
     for (const Notice& notice : model.notices.all()) text += "notice " + notice.text + "\n";

@@ -88,6 +88,25 @@ TEST_F(Commands, compare_writes_a_page_and_a_table_and_makes_the_reference_once)
                 HasSubstr("\nbuiltin:spheres,preintegrated,diffuse=closed_form,"));
 }
 
+TEST_F(Commands, compare_that_is_stopped_ends_by_the_signal) {
+    const auto stopped = [&](const std::string& scene, const std::string& seconds) {
+        return dermis("compare " + scene + " -t wrap --samples 65536 --noise 0.0001 --timed-frames 1 -o " +
+                      path("stopped") + " & worker=$!; sleep " + seconds +
+                      "; kill -TERM $worker; wait $worker");
+    };
+    // Before the first samples there is nothing to report.
+    for (const std::string clip : {"", " --clip greet --frames 20"}) {
+        const ProgramResult early = stopped("bust --size 2048" + clip, "1.5");
+        EXPECT_EQ(early.exit_code, 128 + 15) << clip << early.err;
+        EXPECT_THAT(early.err, HasSubstr("there is no picture yet"));
+        EXPECT_FALSE(std::filesystem::exists(path("stopped"))) << clip;
+    }
+    const ProgramResult late = stopped("spheres --size 16", "6");
+    EXPECT_EQ(late.exit_code, 128 + 15) << late.err;
+    EXPECT_THAT(late.err, HasSubstr("was stopped with a noise of"));
+    EXPECT_THAT(slurp(path("stopped/scores.csv")), HasSubstr("\nspheres,wrap,"));
+}
+
 TEST_F(Commands, compare_of_a_scene_without_light_prints_no_nan) {
     const ProgramResult result = dermis(
         "compare spheres --scene light.key.intensity=0 --scene environment.kind=none -t lambert,wrap --size "

@@ -17,6 +17,7 @@ struct Case {
     Made made = Made::together;
     enum { quick, slow, draws } kind = quick;  ///< by Vulkan, a driver may crash on a failing allocation
     const char* prepare = nullptr;             ///< shell before it, in which nothing fails
+    bool takes_seconds = false;                ///< only with DERMIS_FAULTS=all
 };
 
 inline void PrintTo(const Case& one, std::ostream* out) {
@@ -67,14 +68,22 @@ constexpr Case kCases[] = {
     {"merge_check", "merge --check a.exr b.exr", Made::together, Case::quick, kParts},
     {"jobs_list", "jobs commands.txt --folder out/jobs"},
     {"jobs_local", "jobs commands.txt --folder out/jobs --runner local", Made::varies},
-    {"export", "export --language hlsl -o out/a.hlsl"},
-    {"export_all", "export --language all -o out/all"},
-    {"export_engine", "export --engine unity -o out/unity"},
+    {"export", "export --language hlsl -o out/a.hlsl", Made::together, Case::slow},
+    {"export_all", "export --language all -o out/all", Made::together, Case::slow},
+    {"export_engine", "export --engine unity -o out/unity", Made::together, Case::slow},
+    {"export_functions", "export --language hlsl --functions skin_diffuse -o out/a.hlsl"},
+    {"export_native", "export --engine unity_hdrp --native -o out/native"},
+    {"export_scene", "export --engine three scene.toml -o out/three", Made::together, Case::draws, nullptr,
+     true},
     {"export_obj", "export-mesh builtin:bust -o out/a.obj", Made::together, Case::slow},
+    {"export_pose", "export-mesh sheet.gltf --clip nod --time 0.5 -o out/a.obj"},
+    {"info_clips", "info sheet.gltf"},
     {"passes", "passes lambert"},
     {"report", "report", Made::together, Case::draws},
     {"export_web", "export --web scene.toml -o out/page", Made::each, Case::draws},
     {"cost", "cost lambert --fragments-of scene.toml --size 16x16", Made::together, Case::draws},
+    {"render_clip", "render sheet.gltf --clip nod --fps 2 --frames 2 --size 16x16 -o out/%02d.png",
+     Made::each, Case::draws},
     {"figures", "figures preintegrated --only table --size 32 -o out", Made::each, Case::draws},
     {"render", "render scene.toml --size 16x16 -o out/a.png", Made::together, Case::draws},
     {"turntable", "view scene.toml --turntable 2 --size 16x16 -o out/%04d.png", Made::each, Case::draws},

@@ -15,6 +15,7 @@
 #include "cli/run_program.h"
 #include "dermis/base/file.h"
 #include "faults/cases.h"
+#include "support/moving_sheet.h"
 #include "support/temporary_directory.h"
 #include "view/display.h"
 
@@ -66,6 +67,7 @@ class Faults : public testing::TestWithParam<Case> {
         fs::create_directories(start);
         std::ofstream(start / "cube.obj") << kCube;
         std::ofstream(start / "scene.toml") << "[[mesh]]\nfile = \"cube.obj\"\nunit_mm = 1\n";
+        std::ofstream(start / "sheet.gltf") << test::moving_sheet();
         std::ofstream(start / "commands.txt")
             << "reference scene.toml --size 8x8 --samples 16 --probes 2 -o out/picture.exr\n";
         if (!GetParam().prepare) return;
@@ -148,6 +150,13 @@ bool all_of_them() {
     return text && std::string(text) == "all";
 }
 
+std::vector<Case> cases() {
+    std::vector<Case> chosen;
+    std::ranges::copy_if(kCases, std::back_inserter(chosen),
+                         [](const Case& one) { return !one.takes_seconds || all_of_them(); });
+    return chosen;
+}
+
 }  // namespace
 
 TEST_P(Faults, end_with_one_line_and_nothing_half_written) {
@@ -175,5 +184,5 @@ TEST_P(Faults, end_with_one_line_and_nothing_half_written) {
                     hangs_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Commands, Faults, testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Commands, Faults, testing::ValuesIn(cases()),
                          [](const auto& one) { return std::string(one.param.name); });
