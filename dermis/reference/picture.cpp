@@ -7,6 +7,7 @@
 #include "dermis/base/parallel.h"
 #include "dermis/optics/conversions.h"
 #include "dermis/optics/presets.h"
+#include "dermis/reference/facets.h"
 #include "dermis/reference/picture_sums.h"
 #include "dermis/reference/pixel_sampler.h"
 
@@ -142,6 +143,7 @@ Result<ReferencePicture> render_reference(const Scene& scene, const ReferenceSet
     if (settings.integrator == Integrator::walk && !settings.medium) {
         DERMIS_TRY_ASSIGN(const Profile profile, find_profile(scene.skin.profile));
         if (std::string note = walk_volume_note(profile); !note.empty()) picture.warnings.push_back(note);
+        if (std::string note = facets_note(scene); !note.empty()) picture.warnings.push_back(note);
     }
     picture.passes = pass;
     picture.reached_noise = !settings.noise || picture.relative_error <= *settings.noise;

@@ -76,7 +76,7 @@ TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_bust) {
 TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_head_scan) {
     if (!load_built_in_scene("head_scan"))
         GTEST_SKIP() << "the head scan is not on this machine: tools/get_head";
-    expect_same_in_12_views("head_scan", {});
+    expect_same_in_12_views("head_scan", {}, "texture_space", 0.75);
 }
 
 TEST_F(AtlasCull, changes_no_pixel_of_12_views_of_the_face) {
