@@ -36,7 +36,7 @@ float specular_occlusion(float n_dot_v, float occlusion, float roughness) {
 vec4 brdf_terms(int lobe, float roughness, float cosine) {
     float size = float(kBrdfTableSize);
     float row = clamp(roughness * size, 0.5, size - 0.5) + float(lobe) * size;
-    return textureLod(sampler2D(environment_brdf, linear_clamp), vec2(cosine, row / (size * float(kBrdfLobes))), 0.0);
+    return textureLod(sampler2D(environment_brdf, trilinear_clamp), vec2(cosine, row / (size * float(kBrdfLobes))), 0.0);
 }
 
 // The cube is prefiltered for GGX. Beckmann's lobe has shorter tails, as GGX has of another roughness.

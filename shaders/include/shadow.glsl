@@ -167,7 +167,7 @@ float disk_visibility(texture2D map, ShadowDisk disk) {
 vec3 disk_tint(texture2D map, ShadowDisk disk) {
     vec3 tint = vec3(0.0);
     for (int i = 0; i < kTintTaps; ++i)
-        tint += exp(-textureLod(sampler2D(map, linear_clamp), shadow_tap_position(disk, vogel_disk(i, kTintTaps)).xy, 0.0).rgb);
+        tint += exp(-textureLod(sampler2D(map, trilinear_clamp), shadow_tap_position(disk, vogel_disk(i, kTintTaps)).xy, 0.0).rgb);
     return tint / float(kTintTaps);
 }
 

@@ -14,19 +14,19 @@ uniform texture2D skin_beckmann;  // tenth root of the distribution over sqrt(1 
 
 vec4 read_row(int row, float x) {
     vec2 uv = vec2(texel_centres(x, float(kRowTexels)), (float(row) + 0.5) / float(kRowCount));
-    return textureLod(sampler2D(skin_rows, linear_clamp), uv, 0.0);
+    return textureLod(sampler2D(skin_rows, trilinear_clamp), uv, 0.0);
 }
 
 #ifdef DERMIS_BECKMANN_TABLE
 float beckmann_distribution(float n_dot_h, float alpha) {
     vec2 uv = beckmann_coordinate(n_dot_h, alpha);
-    return beckmann_from_root(textureLod(sampler2D(skin_beckmann, linear_clamp), uv, 0.0).r);
+    return beckmann_from_root(textureLod(sampler2D(skin_beckmann, trilinear_clamp), uv, 0.0).r);
 }
 #endif
 
 vec3 profile_falloff(float n_dot_l, float k) {
     vec2 uv = diffuse_coordinate(n_dot_l, k, kMaxCurvaturePerMm);
-    return textureLod(sampler2D(skin_lut, linear_clamp), uv, 0.0).rgb;
+    return textureLod(sampler2D(skin_lut, trilinear_clamp), uv, 0.0).rgb;
 }
 
 void profile_zonal(float k, out vec3 zh[3]) {

@@ -1,5 +1,6 @@
 // Descriptor sets from a pool draw the same bytes as pushed descriptors.
 
+#include "dermis/gpu/reflection.h"
 #include "render/render_test.h"
 
 namespace dermis {
@@ -20,6 +21,15 @@ Image display_of(Renderer& renderer, const Technique& technique, const Parameter
 }
 
 }  // namespace
+
+// Lavapipe, NVIDIA and AMD push 32.
+TEST(PushedBindings, of_every_shader_fit_into_32) {
+    for (const gpu::EmbeddedShader& shader : built_in_catalog().shaders) {
+        const Result<gpu::ShaderInterface> interface = gpu::reflect(shader.name, shader.words);
+        ASSERT_TRUE(interface) << shader.name << ": " << interface.error().message;
+        EXPECT_LE(interface->bindings.size(), 32u) << shader.name;
+    }
+}
 
 TEST_F(PooledPictures, are_those_of_pushed_descriptors_with_every_technique) {
     Result<gpu::Device> pushing = gpu::Device::create({.validation = true});
