@@ -20,7 +20,7 @@ std::vector<float> areas_around(std::span<const uint32_t> place, size_t places,
     return areas;
 }
 
-// Where there is no area at rest, nothing can be said.
+// 0 for a vertex whose triangles have no area at rest.
 float tension_of(float area, float at_rest) {
     if (!(at_rest > 0)) return 0;
     return std::clamp(std::log(area / at_rest), -kMostTension, kMostTension);

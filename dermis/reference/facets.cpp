@@ -49,8 +49,8 @@ std::string facets_note(const Scene& scene) {
     if (angle_deg <= kLargestFacetAngleDeg) return "";
     const int levels = int(std::ceil(std::log2(angle_deg / kLargestFacetAngleDeg)));
     return fmt::format(
-        "the mesh is coarse: its facets are {:.0f} degrees off the skin's normals, which walks see as edges; "
-        "--scene mesh.subdivision={} smooths them",
+        "the mesh is coarse: walks see the edges between its triangles, whose planes differ from the skin's "
+        "normals by {:.0f} degrees; --scene mesh.subdivision={} refines it",
         angle_deg, std::clamp(levels, 1, 4));
 }
 

@@ -62,7 +62,7 @@ Result<PosedVertices> vertices_of(const SceneObject& object, std::span<const std
     return PosedVertices{std::move(mesh.positions_mm), std::move(mesh.normals)};
 }
 
-// Of the object's triangles in the rest pose, whatever pose the object is in.
+// Areas at rest. The object itself may be in any pose.
 Result<RestAreas> areas_at_rest(const SceneObject& object, std::span<const std::byte> file) {
     DERMIS_TRY_ASSIGN(const PosedVertices vertices, vertices_of(object, file, {}));
     Mesh rest{.indices = object.mesh.indices};

@@ -64,7 +64,7 @@ class Wrinkles : public RenderTest {
 };
 
 struct Agreement {
-    double largest = 0;                              // of the differences of the normals
+    double largest = 0;                              // difference of two normals
     size_t pixels = 0, none = 0, part = 0, all = 0;  // by the share of the wrinkle map
 };
 

@@ -30,8 +30,8 @@ std::vector<std::string> warnings_of(Scene scene, Integrator integrator) {
 
 }  // namespace
 
-// A chord of a circle is half its angle off the circle's normal at its ends: in a triangle of a ball of
-// radius r, with corners at distance c from its middle, every corner has the angle asin(c / r).
+// The corners of a triangle lie on a sphere of radius r, at distance c from the middle of the triangle. The
+// normal of the sphere at each corner makes the angle asin(c / r) with the normal of the triangle.
 TEST(Facets, angle_of_an_icosahedron_is_exact_and_halves_with_each_level) {
     const double circumradius = std::sqrt(std::numbers::phi * std::sqrt(5.0)) / 2,  // of edges of length 1
         corner = 1 / std::sqrt(3.0);

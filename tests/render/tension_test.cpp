@@ -17,7 +17,7 @@ namespace {
 
 constexpr DrawSettings kTensionView = {.width = kGrid, .height = kGrid, .view = "tension"};
 
-// Of the column x of the grid's tiles.
+// Tensions that differ from column to column of the grid's tiles.
 float tension_of_column(int x) {
     return 0.8f * float(grid_cosine(x));
 }
