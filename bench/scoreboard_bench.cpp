@@ -4,11 +4,11 @@
 //
 //     build/bench/scoreboard_bench DIRECTORY [SIZE] [SCENE...] [--techniques LIST] [--models]
 //
-// --techniques takes a list as `dermis compare` does; a scene then has rows of these alone. --models keeps
-// all rows and computes their modelled costs again, in minutes; SIZE is then the one that the board was made
-// with. A missing scene is skipped with a message and its old rows are kept. The rows of a scene are cached
-// under a hash of this program, the scene and the settings: a run that was stopped continues with the scene
-// it was at, and with its reference.
+// --techniques takes a list as `dermis compare` does: only their rows are made again, lambert's too, which is
+// the unit of costs. --models keeps all rows and computes their modelled costs again, in minutes; SIZE is
+// then the one that the board was made with. A missing scene is skipped with a message and its old rows are
+// kept. The rows of a scene are cached under a hash of this program, the scene and the settings: a run that
+// was stopped continues with the scene it was at, and with its reference.
 
 #include <algorithm>
 #include <chrono>
@@ -240,7 +240,8 @@ void print_what_is_left(size_t left, size_t all, double made_s, size_t made) {
 }
 
 Result<void> make_board(gpu::Device& device, const std::filesystem::path& directory, int size,
-                        std::vector<Job> jobs, const std::vector<Contestant>& contestants) {
+                        std::vector<Job> jobs, const std::vector<Contestant>& contestants,
+                        MergedRows replaced) {
     Result<std::vector<ScoreRow>> rows = kept_rows(directory / "scoreboard.csv");
     if (!rows) return rows.error();
     ComparisonSettings settings = comparison_settings(size, size);
@@ -266,7 +267,7 @@ Result<void> make_board(gpu::Device& device, const std::filesystem::path& direct
         if (with_cost && gpu::null_driver_installed())
             if (Result<void> set = set_models(device, one->scene, now->rows); !set)
                 return set.error().within(one->name);
-        rows = merged(std::move(*rows), now->rows);
+        rows = merged(std::move(*rows), now->rows, replaced);
         if (Result<void> written = write(directory, *rows, device.info().name, size); !written)
             return written;
         if (!now->from_cache) {
@@ -305,12 +306,15 @@ int main(int argc, char** argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
     const bool models_only = std::erase(words, "--models") > 0;
     std::vector<Contestant> contestants = scoreboard_contestants(built_in_catalog().techniques);
+    MergedRows replaced = MergedRows::scenes;
     if (const auto flag = std::ranges::find(words, "--techniques"); flag != words.end()) {
         if (flag + 1 == words.end()) return fail("--techniques needs a list");
         Result<std::vector<Contestant>> list =
             parse_technique_list(built_in_catalog().techniques, *(flag + 1));
+        if (list) list = with_cost_base(std::move(*list), built_in_catalog().techniques);
         if (!list) return fail(list.error().message);
         contestants = std::move(*list);
+        replaced = MergedRows::techniques;
         words.erase(flag, flag + 2);
     }
     if (words.empty()) return fail("name the directory for scoreboard.csv, .md and .svg");
@@ -327,8 +331,8 @@ int main(int argc, char** argv) {
     if (!jobs) return fail(jobs.error().message);
     if (!gpu::null_driver_installed())
         std::fprintf(stderr, "scoreboard: Mesa's RADV is not installed: no modelled costs\n");
-    const Result<void> done = models_only
-                                  ? model_board(*device, words[0], size, std::move(*jobs))
-                                  : make_board(*device, words[0], size, std::move(*jobs), contestants);
+    const Result<void> done =
+        models_only ? model_board(*device, words[0], size, std::move(*jobs))
+                    : make_board(*device, words[0], size, std::move(*jobs), contestants, replaced);
     return done ? 0 : fail(done.error().message);
 }

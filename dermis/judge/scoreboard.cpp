@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "dermis/judge/scoreboard_heads.h"
 
@@ -15,6 +16,7 @@ constexpr std::string_view kSettings =
     "texture_space_gaussians[gain=none],"
     "preintegrated[gain=map],"
     "texture_space_gaussians[gain=map],"
+    "texture_space_gaussians[gain=map,light_map_size=384],"
     "preintegrated[diffuse=walk],"
     "preintegrated[shadow=scattered],"
     "preintegrated[shadow=plain],"
@@ -182,12 +184,27 @@ std::vector<Contestant> scoreboard_contestants(std::span<const Technique> techni
     return list;
 }
 
-std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<ScoreRow>& made) {
+std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<ScoreRow>& made,
+                             MergedRows replaced) {
     const std::vector<std::string> scenes = scenes_of(made);
-    std::erase_if(kept,
-                  [&](const ScoreRow& row) { return std::ranges::find(scenes, row.scene) != scenes.end(); });
-    kept.insert(kept.end(), made.begin(), made.end());
-    return kept;
+    const auto made_again = [&](const ScoreRow& row) {
+        return replaced == MergedRows::scenes || std::ranges::any_of(made, [&](const ScoreRow& r) {
+                   return r.scene == row.scene && r.technique == row.technique && r.settings == row.settings;
+               });
+    };
+    std::vector<ScoreRow> rows, of_scenes;
+    for (ScoreRow& row : kept)
+        if (std::ranges::find(scenes, row.scene) == scenes.end())
+            rows.push_back(std::move(row));
+        else if (!made_again(row))
+            of_scenes.push_back(std::move(row));
+    for (const std::string& scene : scenes) {
+        std::ranges::copy_if(of_scenes, std::back_inserter(rows),
+                             [&](const ScoreRow& r) { return r.scene == scene; });
+        std::ranges::copy_if(made, std::back_inserter(rows),
+                             [&](const ScoreRow& r) { return r.scene == scene; });
+    }
+    return rows;
 }
 
 std::string scoreboard_markdown(const std::vector<ScoreRow>& all) {

@@ -12,8 +12,12 @@ namespace dermis::inline judge {
 /// Every technique with its defaults, and the settings whose difference is worth knowing; the baseline first.
 [[nodiscard]] std::vector<Contestant> scoreboard_contestants(std::span<const Technique> techniques);
 
-/// Rows of scenes that `made` holds are replaced, all others stay.
-[[nodiscard]] std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<ScoreRow>& made);
+enum class MergedRows { scenes, techniques };
+
+/// Rows of scenes that `made` holds are replaced, all others stay; or only rows of the same scene, technique
+/// and settings.
+[[nodiscard]] std::vector<ScoreRow> merged(std::vector<ScoreRow> kept, const std::vector<ScoreRow>& made,
+                                           MergedRows replaced = MergedRows::scenes);
 
 /// Heads in several skins (scoreboard_heads.h), then a table a scene, sorted by captured share; rows whose
 /// share is not known come last, by error. A set of test scenes ("unit/sphere", "unit/strip" ...) is one

@@ -4,7 +4,17 @@
 #include "shaders/atlas/final.glsl"
 
 layout(scalar) uniform Params { float pre_scatter; };
-uniform texture2D light_map_lit;  // before the blur
+layout(push_constant, scalar) uniform PassValues { vec3 widest_share_of_gain; };
+uniform texture2D light_map_lit;     // before the blur
+uniform texture2D light_map_widest;  // blurred by the widest Gaussian
+
+// The light that the gain adds or takes comes from farther away than that of the profile (gain_spread.h).
+vec3 with_gain(vec3 exitance, vec3 gain_of_place, Surface s) {
+    if (gain == kGainNone) return exitance;
+    vec3 widest;
+    if (!read_light_map(light_map_widest, s, kTexelsPremultiplied, widest)) widest = exitance;
+    return max(exitance + (gain_of_place - 1.0) * mix(exitance, widest, widest_share_of_gain), vec3(0.0));
+}
 
 void main() {
     Surface s;
@@ -14,7 +24,7 @@ void main() {
                              light.specular + light.key_specular * shadow_factor(key_light, light.key_passing);
     // The base colour where light enters is taken to be that where it leaves.
     vec3 gain_of_place = gain_at(mean_curvature_per_mm(s));
-    exitance = gain_of_place * exitance +
+    exitance = with_gain(exitance, gain_of_place, s) +
                transmitted_gain(gain_of_place) * pow(s.albedo_linear, vec3(pre_scatter)) * light.transmitted;
     if (has_scatter != 0) {
         vec3 unscattered = unblurred_exitance(s, light.direct).of_normal * pow(s.albedo_linear, vec3(pre_scatter));

@@ -13,6 +13,7 @@
 
 #include "dermis/technique/atlas_light.h"
 #include "dermis/technique/forward.h"
+#include "techniques/texture_space_gaussians/gain_spread.h"
 #include "techniques/texture_space_gaussians/shared_gaussians.h"
 
 namespace dermis {
@@ -99,11 +100,13 @@ GaussianSum widened(GaussianSum sum, float width) {
 
 struct Blur {
     std::vector<Step> steps;
-    Vec3 unblurred = {0, 0, 0};  // share of the light before the blur
+    Vec3 unblurred = {0, 0, 0};     // share of the light before the blur
+    Vec3 widest_share = {0, 0, 0};  // of the last step in the light of the gain
 };
 
 Blur blur_of(const Params& params, const FrameContext& frame) {
-    GaussianSum sum = widened(frame.skin_gaussians, params.width);
+    const GaussianSum profile = widened(frame.skin_gaussians, params.width);
+    GaussianSum sum = profile;
     if (params.gaussians == Gaussians::fitted)
         sum = texture_space_gaussians::shared_gaussians(
             sum, typical_texel_mm(light_map_side(params.atlas, frame), frame));
@@ -112,6 +115,9 @@ Blur blur_of(const Params& params, const FrameContext& frame) {
         blur.unblurred = blur.steps[0].share;
         blur.steps.erase(blur.steps.begin());
     }
+    if (!blur.steps.empty())
+        blur.widest_share =
+            texture_space_gaussians::widest_share_of_gain(profile, blur.steps.back().variance_mm2);
     return blur;
 }
 
@@ -186,7 +192,9 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
 
     Pass skin = forward_skin_pass("texture_space_gaussians/final.frag", params.specular, frame, kOwnView);
     skin.reads = {{"light_map", blur.steps.empty() ? "light_map_a" : "light_sum"},
-                  {"light_map_lit", "light_map_a"}};
+                  {"light_map_lit", "light_map_a"},
+                  {"light_map_widest", blur.steps.empty() ? "light_map_a" : "light_map_c"}};
+    skin.values.emplace_back("widest_share_of_gain", blur.widest_share);
     skin.constants.emplace_back("detail", int32_t(params.detail));
     read_shadow_channels(skin, atlas.shadow, frame);
     read_transmission(skin, params.atlas.transmission, frame);

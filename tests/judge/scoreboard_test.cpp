@@ -83,6 +83,16 @@ TEST(Scoreboard, survives_its_own_file_and_keeps_the_rows_of_other_scenes) {
     EXPECT_EQ(both[1].surface->all.share, 0.125);
 }
 
+TEST(Scoreboard, techniques_made_again_replace_their_own_rows_and_stay_with_their_scene) {
+    const std::vector<ScoreRow> kept = {row("bust", "lambert", 0), row("bust", "wrap", 0.5),
+                                        row("spheres", "lambert", 0)};
+    const auto rows = merged(kept, {row("bust", "wrap", 0.25)}, MergedRows::techniques);
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].scene, "spheres");
+    EXPECT_EQ(rows[1].technique, "lambert");
+    EXPECT_EQ(rows[2].surface->all.share, 0.25);
+}
+
 TEST(Scoreboard, every_prefix_is_read_or_refused_in_one_line) {
     const std::string text = scores_csv({row("a", "lambert", 0), row("a, \"b\"", "wrap", 0.5)});
     for (size_t length = 0; length < text.size(); ++length) {
