@@ -2,8 +2,8 @@
 // Analysis of a table from another tool: what it is, and of a pre-integrated diffuse table the convention
 // that explains it best, its error against the exact function, and what to change.
 //
-// Beckmann, zonal and shadow tables are told by marks that no diffuse table has: grey; two or three rows;
-// light at p and 1 - p that sums to 1. They are then fitted with an even axis, or none is named.
+// Beckmann, zonal and shadow tables are recognised by marks that no diffuse table has: grey; two or three
+// rows; light at p and 1 - p that sums to 1. They are then fitted with an even axis, or none is named.
 //
 // The search compares every candidate model (construction x profile, and the published taps) with a sample of
 // the texels, for each orientation and encoding of the picture; the radius of each row is free at first,

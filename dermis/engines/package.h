@@ -70,7 +70,7 @@ struct PackageInput {
 /// "godot", ...
 [[nodiscard]] std::vector<std::string> engine_names();
 
-/// Success when there is such an engine. Error: an unknown name proposes the closest.
+/// Success when there is such an engine. Error: an unknown name; the message has the closest known one.
 [[nodiscard]] Result<void> check_engine(std::string_view name);
 
 /// Success when the engine's package takes a head.

@@ -18,8 +18,8 @@ struct Job {
     std::string hash;                  ///< of all that the results depend on
     std::vector<std::string> words;    ///< of the command line, without the program
     std::vector<std::string> results;  ///< files; the job is done when all are whole
-    /// The results are a part, which says itself whether it is whole. Otherwise a file in done/, named by the
-    /// hash, has their checksums: the results are of this content and as they were written.
+    /// The result is a part, whose header has a checksum. Otherwise the checksums of the results are in a
+    /// file of done/ that is named by the job's hash.
     bool is_part = false;
 };
 

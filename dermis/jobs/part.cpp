@@ -296,7 +296,7 @@ Result<void> check_same(const fs::path& first_file, const PartFacts& first, cons
                          wanted[i].second + "; merge only parts that differ in --sample-range"};
     if (wanted.size() == found.size()) return {};
     return Error{file.string() + " is a part of another picture than " + first_file.string() +
-                 ": it states other settings"};
+                 ": its header has other settings"};
 }
 
 Result<void> check_overlap(const std::vector<ReadPart>& parts, const fs::path& file, SampleRange range) {

@@ -44,7 +44,7 @@ struct ComparisonSettings {
     ReferenceSettings reference;
     /// Another integrator that judges too, with all else as in `reference`.
     std::optional<Integrator> second;
-    /// Given: the exact answer is a row too, after the techniques, so that the reference is held against it.
+    /// If set, the exact answer is a row after the techniques, which checks the reference.
     ExactExitance exact;
     /// Rows after the techniques; their cost is not known.
     std::vector<OwnPicture> pictures;

@@ -10,7 +10,7 @@
 
 namespace dermis::inline mesh {
 
-/// Where the square has a chart: turned by quarters of a circle, never mirrored.
+/// A chart's place in the unit square: rotated by a multiple of 90 degrees, never mirrored.
 struct PackedChart {
     Vec2 origin, x_axis, y_axis;
     [[nodiscard]] Vec2 at(Vec2 p) const { return origin + x_axis * p.x + y_axis * p.y; }

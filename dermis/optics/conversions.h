@@ -59,7 +59,7 @@ struct ToolSettings {
 
 [[nodiscard]] const std::vector<ToolConvention>& tool_conventions();
 [[nodiscard]] const ToolConvention& convention_of(ToolId tool);
-/// Errors: an unknown name proposes the closest.
+/// Errors: an unknown name; the message has the closest known one.
 [[nodiscard]] Result<ToolId> find_tool(std::string_view name);
 
 /// The tool's own defaults where it has some, else a plausible skin.
@@ -94,7 +94,7 @@ inline constexpr double kBlurAlbedo = 0.5;
 /// isotropic scattering of the same sigma_t' = sigma_t (1 - alpha g).
 [[nodiscard]] BurleyProfile with_anisotropy(BurleyProfile isotropic, double g);
 [[nodiscard]] BurleyProfile without_anisotropy(BurleyProfile burley);
-/// The other way, within 1e-4 in albedo (that of the inversion).
+/// The inverse conversion; its albedo is within 1e-4.
 [[nodiscard]] BurleyProfile burley_of(const ScatteringMedium& medium);
 
 }  // namespace dermis::inline optics

@@ -15,8 +15,8 @@ namespace dermis::inline optics {
 
 /// A preset's name, the path of a profile CSV (profile_file.h), a MaterialX document (mtlx.h) or a glTF file
 /// with skin (gltf_profile.h), "burley:R,G,B" with one or three lengths d in mm and albedo 1, or
-/// "skin:melanin=0.02,blood=0.015" (tissue/skin_model.h). Errors: an unknown name proposes the closest; files
-/// as the functions that read them.
+/// "skin:melanin=0.02,blood=0.015" (tissue/skin_model.h). Errors: an unknown name; the message has the
+/// closest known one; files as the functions that read them.
 [[nodiscard]] Result<Profile> find_profile(std::string_view name);
 
 /// Whether find_profile takes the name for a file's path.

@@ -147,7 +147,7 @@ std::vector<std::string> missing_map_warnings(const Scene& scene, std::string_vi
             if (object.classes[i] != MaterialClass::skin || map_source(*map, object.mesh.materials[i]))
                 continue;
             warnings.push_back("material '" + object.mesh.materials[i].name + "' has no " + key +
-                               " map, which these settings read: give one as " + key +
+                               " map, which these settings need; name one as " + key +
                                " under [maps] of a scene file, or choose another setting");
         }
     return warnings;

@@ -23,8 +23,8 @@ class SceneOnDevice {
 
     /// After the vertices of its objects have moved: what upload() made of them, but for the occlusion.
     [[nodiscard]] Result<void> replace_vertices(gpu::Device& device, const Scene& scene);
-    /// After other objects with the same submeshes and materials took the place of its objects; textures
-    /// stay. Gains are 1 again. After an error, upload the scene anew.
+    /// Uploads the scene's objects again after they were replaced by objects with the same submeshes and
+    /// materials. Textures stay, gains become 1. After an error, upload the whole scene.
     [[nodiscard]] Result<void> replace_objects(gpu::Device& device, const Scene& scene);
 
     /// Gains of the vertices (dermis/rays/vertex_gain.h), one array an object; 1 before.

@@ -43,7 +43,8 @@ class CellRenderer {
     CellRenderer(CellRenderer&&) noexcept;
     ~CellRenderer();
 
-    /// `figure` gives what the cell leaves open; not for differences. Errors name the cell.
+    /// Settings that the cell lacks are those of `figure`. Not for cells that show a difference. Errors name
+    /// the cell.
     [[nodiscard]] Result<CellPicture> draw(const Figure& figure, const FigureCell& cell, CellSize size);
 
   private:

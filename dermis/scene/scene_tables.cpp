@@ -159,19 +159,18 @@ const KeyTable<MapsDescription>& maps_keys() {
                                                    .needs = &Material::normal_map})
             .map(&Material::wrinkle_stretch_map,
                  {.name = "wrinkle_stretch",
-                  .doc = "normals in tangent space that take the place of the normal map where a pose "
-                         "stretches the skin (moving.md)"})
+                  .doc = "normal map in tangent space, used where a pose stretches the skin (moving.md)"})
             .map(&Material::wrinkle_compress_map,
                  {.name = "wrinkle_compress", .doc = "the same where a pose compresses it"})
             .of_material(
                 &Material::wrinkle_from,
                 {.name = "wrinkle_from",
-                 .doc = "tension, ln of the area over that at rest, at which the wrinkle maps begin; "
-                        "with either sign",
+                 .doc = "tension, positive or negative, at which the wrinkle maps begin to show: ln(area / "
+                        "area at rest)",
                  .max = 3.9})
             .of_material(&Material::wrinkle_full,
                          {.name = "wrinkle_full",
-                          .doc = "tension from which on the wrinkle maps alone count",
+                          .doc = "tension at which the wrinkle maps fully replace the normal map",
                           .max = 4})
             .map(&Material::specular_map,
                  {.name = "specular", .doc = "scales the reflectance at normal incidence; red channel"})

@@ -22,7 +22,7 @@ enum class Language { glsl, essl, hlsl, msl, wgsl, gdshader, cpp };
 
 /// "glsl", "essl", ...
 [[nodiscard]] std::vector<std::string> language_names();
-/// Errors: an unknown name proposes the closest.
+/// Errors: an unknown name; the message has the closest known one.
 [[nodiscard]] Result<Language> find_language(std::string_view name);
 [[nodiscard]] std::string_view language_name(Language language);
 /// With the dot: ".hlsl".
@@ -46,7 +46,8 @@ struct Source {
 /// without namespaces. `units` as read_sources() returns them.
 void prefix_names(std::vector<Unit>& units);
 
-/// Leaves these functions and what they need. Errors: an unknown name proposes the closest.
+/// Removes all functions but `names` and those that they call. Errors: an unknown name; the message has the
+/// closest known one.
 [[nodiscard]] Result<void> keep_functions(std::vector<Unit>& units, std::span<const std::string> names);
 
 /// A line of code for each of these functions that is there: "float3 diffuse = skin_diffuse(n_dot_l, ...);".

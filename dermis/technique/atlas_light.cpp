@@ -39,9 +39,8 @@ const ParameterTable& atlas_parameters() {
     using P = AtlasParams;
     static const ParameterTable kTable =
         ParameterTableBuilder<P>()
-            .integer(
-                &P::light_map_size, "light_map_size", "texels", 16, 4096,
-                "side of the light map; more where Dermis lays out the atlas, so that gaps take no texels")
+            .integer(&P::light_map_size, "light_map_size", "texels", 16, 4096,
+                     "side of the light map; up to twice as many where the atlas has gaps")
             .choice(&P::cull, "cull", {"none", "frustum", "back_face", "both"},
                     "leave out texels outside the view, or that face away; changes no pixel")
             .number(&P::kernel_growth, "kernel_growth", "", 0, 10,

@@ -154,8 +154,7 @@ struct PassList {
     std::vector<std::pair<std::string, int32_t>> constants;
     std::optional<SeamRequest> seams;
     std::optional<DiffusedNormalsRequest> diffused_normals;
-    /// Textures of material maps without which these settings show nothing; a skin material without one is a
-    /// warning.
+    /// Material maps that these settings need. A skin material without one of them gets a warning.
     std::vector<std::string> needed_maps;
     /// Warnings: what is drawn instead of a setting's best, as the scene lacks something.
     std::vector<std::string> notices;
@@ -171,7 +170,7 @@ struct PassList {
 /// missing shaders, no targets.
 [[nodiscard]] std::vector<std::string> problems(const PassList& list, const std::vector<std::string>& inputs);
 
-/// As text: one line an image, one a pass.
+/// As text: a line per image and per pass.
 [[nodiscard]] std::string describe(const PassList& list);
 
 }  // namespace dermis::inline technique

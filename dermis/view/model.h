@@ -57,9 +57,9 @@ class Warnings {
     /// Removes one of unread(); it does not come back before forget().
     void read(size_t index);
     void read_all();
-    /// Forgets those that are not read: the scene is read again.
+    /// Before the same scene is loaded again: drops warnings that the user has not read yet.
     void begin_again() { unread_.clear(); }
-    /// Forgets all: of another scene.
+    /// Before another scene is loaded: drops all warnings.
     void forget() { unread_.clear(), read_.clear(); }
     [[nodiscard]] const std::vector<std::string>& unread() const { return unread_; }
 

@@ -16,7 +16,7 @@ inline constexpr size_t kMostCompletions = 200;
 /// cannot be read.
 [[nodiscard]] std::vector<std::string> complete_path(std::string_view text);
 
-/// What all of them begin with; empty for none.
+/// The longest common prefix; empty without texts.
 [[nodiscard]] std::string common_start(const std::vector<std::string>& texts);
 
 }  // namespace dermis::view

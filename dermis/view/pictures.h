@@ -36,7 +36,7 @@ class Pictures {
     void refresh(Model& model, const gpu::Texture* reference, PictureSize size, double now_s);
     [[nodiscard]] ShownPictures shown(const Model& model, const gpu::Texture* reference) const;
 
-    /// They are as good as they get, and the last refresh drew none.
+    /// True if the pictures have their full quality and the last refresh drew nothing.
     [[nodiscard]] bool are_final(const Model& model, const gpu::Texture* reference) const;
     /// The next refresh is awaited before they count as final.
     void await_refresh() { drew_ = true; }

@@ -1,6 +1,6 @@
 #pragma once
-// The loaded scene on the device, and its pictures: one a side of the comparison, each drawn again only when
-// something it depends on has changed, or when a better one is due.
+// The loaded scene on the device, and a picture for each side of the comparison. A picture is drawn again
+// when its inputs change, or to improve its quality.
 
 #include <array>
 #include <memory>

@@ -25,7 +25,7 @@ vec3 passing(Surface s, int light, vec3 to_light_world) {
     return other.visibility * other.tint;
 }
 
-// What is left of the key light in full shadow is `occluded`.
+// `occluded` is the share of the key light that remains in full shadow.
 vec3 shadow_factor(int light, vec3 passing) { return light == key_light ? mix(vec3(occluded), vec3(1.0), passing) : passing; }
 
 // E = N.L times the light's irradiance. With the source's shadows it is saturated in each channel, as the source does:

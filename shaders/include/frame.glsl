@@ -56,7 +56,7 @@ layout(scalar) uniform Frame {
 layout(scalar) readonly buffer Lights { LightSource lights[]; };
 
 uniform sampler linear_clamp;
-uniform sampler trilinear_clamp;  // for images of one level too, where a shader is near the 32 bindings that drivers push
+uniform sampler trilinear_clamp;  // also for images of one level, to save a binding: drivers push 32 at most
 uniform samplerShadow shadow_compare;
 uniform sampler nearest_clamp;
 

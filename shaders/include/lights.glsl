@@ -4,8 +4,8 @@
 
 #include "shaders/include/frame.glsl"
 
-// 1 in a frame with one light. Loops over lights are marked [[unroll]]: then there is none, which a compiler would
-// otherwise keep around so long a body. A count that is not known is looped over as ever.
+// 1 in a frame with one light. Loops over lights are marked [[unroll]], so that a compiler removes the loop for one light
+// in spite of its long body. With an unknown count the loop stays.
 #extension GL_EXT_control_flow_attributes : require
 layout(constant_id = 35) const int one_light = 0;
 // 1 in a frame whose lights are all directional: their axes and maps are then the same for all pixels.

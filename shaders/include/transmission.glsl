@@ -35,7 +35,7 @@ const float kSharedStep = 0.1;
 const float kWidestRing = 0.7;  // of the reach
 // Profiles that reach farther than the table would end at an edge.
 const float kFadeStart = 0.7;
-// Of the reach. Dark skin with less before it is at the terminator, or the back of a mesh that is open.
+// The least thickness, over the reach. A thinner dark point is at the terminator, or on the back of an open mesh.
 const float kThinnest = 0.004;
 // Texels from the middle of one to the farthest point that reads it, and the steepest slope that this is done for. Past
 // the terminator there is skin before the point, unless the mesh is open there: the slope counts less.

@@ -25,7 +25,7 @@ layout(constant_id = 7) const int skin_outside_atlas = 1;
 struct DiffusedNormals {
     vec3 n[3];       // of each channel, normalised
     vec3 mean_length;
-    float k_per_mm;  // of the sphere that has red's length
+    float k_per_mm;  // curvature of the sphere whose mean normal is as long as red's
     vec3 band_2;     // what is left of the cosine lobe's second band
     vec2 uneven;     // the spread around n[0] is [[1 + x, y], [y, 1 - x]] in the frame of n[0]
 };

@@ -45,7 +45,7 @@ vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibi
     bool together = one_light != 0 && dot(right_mm, right_mm) + dot(down_mm, down_mm) < kGatherTogetherMm * kGatherTogetherMm;
     int lane = (int(gl_FragCoord.x) & 1) + 2 * (int(gl_FragCoord.y) & 1);
     int first = together ? lane : 0, stride = together ? 4 : 1;
-    vec4 lit = vec4(0.0);  // alpha: of the penumbra alone, whose weights have the mean 1
+    vec4 lit = vec4(0.0);  // alpha: lit share of the penumbra, by weights with mean 1
     vec3 all = vec3(0.0);
     for (int i = first; i < kShadowGatherTaps; i += stride) {
         if (i - first == kShadowFirstTaps) {

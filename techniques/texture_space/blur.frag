@@ -36,7 +36,7 @@ vec3 tap(int i) {
     return ring_tap(i, blur_filter == kFilterGaussian);
 }
 
-// Unwritten texels hold no light, so that a bilinear tap is premultiplied by the share of it that was written.
+// Unwritten texels are black, so a bilinear tap is its mean over written texels times their share.
 vec4 average_of_written(vec4 centre, vec2 radius_uv) {
     if (centre.a == kUnwritten) return vec4(vec3(0.0), kUnwritten);
     vec3 sum = centre.rgb * (1.0 - share);

@@ -13,7 +13,7 @@
 
 namespace dermis::inline mesh::gltf {
 
-/// What a clip changes of a node.
+/// The parts of a node's transformation that a clip sets.
 struct NodePose {
     std::optional<std::array<double, 3>> translation, scale;
     std::optional<std::array<double, 4>> rotation;  ///< x y z w

@@ -14,7 +14,7 @@ vec3 lobe_kappa(float curvature_per_mm, vec3 variance_mm2) {
 // What the Gaussian's weight is multiplied with, 0 to 1: the part of it that a closed sphere holds.
 vec3 lobe_part(vec3 kappa) { return 1.0 - exp(-2.0 * kappa); }
 
-// rho_1 and rho_2, 0 to 1; both differences of near numbers at small kappa, where their series take over (error 1e-5).
+// rho_1 and rho_2, 0 to 1. At small kappa the formulas cancel; series replace them (error 1e-5).
 vec3 lobe_band_1(vec3 kappa) {
     vec3 low = min(kappa, 0.5), high = max(kappa, 0.5);
     vec3 k2 = low * low, e = exp(-2.0 * high);
