@@ -3,8 +3,11 @@
 // The mesh through the camera: diffuse from the sum of blurred light maps, specular as every technique has it.
 #include "shaders/atlas/final.glsl"
 
-layout(scalar) uniform Params { float pre_scatter; };
-layout(push_constant, scalar) uniform PassValues { vec3 widest_share_of_gain; };
+// pre_scatter is a parameter. It stands here because a block of parameters would be the 33rd binding.
+layout(push_constant, scalar) uniform PassValues {
+    vec3 widest_share_of_gain;
+    float pre_scatter;
+};
 uniform texture2D light_map_lit;     // before the blur
 uniform texture2D light_map_widest;  // blurred by the widest Gaussian
 

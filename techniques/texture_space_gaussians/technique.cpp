@@ -194,7 +194,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     skin.reads = {{"light_map", blur.steps.empty() ? "light_map_a" : "light_sum"},
                   {"light_map_lit", "light_map_a"},
                   {"light_map_widest", blur.steps.empty() ? "light_map_a" : "light_map_c"}};
-    skin.values.emplace_back("widest_share_of_gain", blur.widest_share);
+    skin.values = {{"widest_share_of_gain", blur.widest_share}, {"pre_scatter", params.pre_scatter}};
     skin.constants.emplace_back("detail", int32_t(params.detail));
     read_shadow_channels(skin, atlas.shadow, frame);
     read_transmission(skin, params.atlas.transmission, frame);
