@@ -100,8 +100,8 @@ GaussianSum widened(GaussianSum sum, float width) {
 
 struct Blur {
     std::vector<Step> steps;
-    Vec3 unblurred = {0, 0, 0};     // share of the light before the blur
-    Vec3 widest_share = {0, 0, 0};  // of the last step in the light of the gain
+    Vec3 unblurred = {0, 0, 0};             // share of the light before the blur
+    Vec3 widest_share_of_gain = {0, 0, 0};  // of the light that gain - 1 multiplies: what the last step gives
 };
 
 Blur blur_of(const Params& params, const FrameContext& frame) {
@@ -116,7 +116,7 @@ Blur blur_of(const Params& params, const FrameContext& frame) {
         blur.steps.erase(blur.steps.begin());
     }
     if (!blur.steps.empty())
-        blur.widest_share =
+        blur.widest_share_of_gain =
             texture_space_gaussians::widest_share_of_gain(profile, blur.steps.back().variance_mm2);
     return blur;
 }
@@ -194,7 +194,7 @@ PassList build(const ParameterValues& values, const FrameContext& frame) {
     skin.reads = {{"light_map", blur.steps.empty() ? "light_map_a" : "light_sum"},
                   {"light_map_lit", "light_map_a"},
                   {"light_map_widest", blur.steps.empty() ? "light_map_a" : "light_map_c"}};
-    skin.values = {{"widest_share_of_gain", blur.widest_share}, {"pre_scatter", params.pre_scatter}};
+    skin.values = {{"widest_share_of_gain", blur.widest_share_of_gain}, {"pre_scatter", params.pre_scatter}};
     skin.constants.emplace_back("detail", int32_t(params.detail));
     read_shadow_channels(skin, atlas.shadow, frame);
     read_transmission(skin, params.atlas.transmission, frame);
