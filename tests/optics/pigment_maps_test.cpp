@@ -24,6 +24,17 @@ TEST(PigmentTable, is_the_model_between_its_nodes) {
         }
 }
 
+TEST(LayeredAlbedo, of_many_layers_is_that_of_each_pair) {
+    const tissue::TissueLayer uppers[] = {{4, 0.2}, {4, 3}}, lowers[] = {{2, 0.01}, {4, 0.1}, {5, 2}};
+    for (const double thickness_mm : {0.0, 0.06}) {
+        const auto all = tissue::layered_albedos(uppers, thickness_mm, lowers, 0.8, 1.4);
+        ASSERT_EQ(all.size(), 6u);
+        for (size_t i = 0; i < 6; ++i)
+            EXPECT_DOUBLE_EQ(all[i],
+                             tissue::layered_albedo(uppers[i % 2], thickness_mm, lowers[i / 2], 0.8, 1.4));
+    }
+}
+
 TEST(PigmentTable, finds_the_pigments_of_its_own_colours) {
     for (const double melanin : {0.005, 0.02, 0.08, 0.2, 0.4})
         for (const double blood : {0.002, 0.015, 0.05, 0.12}) {

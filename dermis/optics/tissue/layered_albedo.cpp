@@ -109,23 +109,46 @@ Matrix half_space_reflection(const Directions& d, const Medium& medium) {
     return slab.reflection;
 }
 
-}  // namespace
-
-double layered_albedo(const TissueLayer& upper, double thickness_mm, const TissueLayer& lower, double g,
-                      double eta) {
-    const Directions d = directions_of(eta);
-    Matrix r = half_space_reflection(d, medium_of(d, lower, g));
-    if (thickness_mm > 0) {
-        const Medium medium = medium_of(d, upper, g);
-        const Slab slab = slab_of(d, medium, thickness_mm * medium.sigma_t_per_mm);
-        r = slab.reflection + slab.transmission * r * between(slab, r);
-    }
+// Both layers as one, below the boundary: the share of diffuse light that leaves again.
+double leaving(const Directions& d, const Matrix& r) {
     // Diffuse light from outside fills the cone that the boundary passes.
     const Vector passed = Vector::Ones() - d.reflected;
     const Matrix inner = Matrix::Identity() - r * d.reflected.asDiagonal();
     const Vector up = inner.partialPivLu().solve(r * passed);
     const Vector flux = d.weight.cwiseProduct(d.cosine).cwiseProduct(passed);
     return flux.dot(up) / flux.sum();
+}
+
+Matrix on_top(const Slab& slab, const Matrix& below) {
+    return slab.reflection + slab.transmission * below * between(slab, below);
+}
+
+Slab upper_slab(const Directions& d, const TissueLayer& layer, double thickness_mm, double g) {
+    if (thickness_mm <= 0) return {.reflection = Matrix::Zero(), .transmission = Matrix::Identity()};
+    const Medium medium = medium_of(d, layer, g);
+    return slab_of(d, medium, thickness_mm * medium.sigma_t_per_mm);
+}
+
+}  // namespace
+
+double layered_albedo(const TissueLayer& upper, double thickness_mm, const TissueLayer& lower, double g,
+                      double eta) {
+    const Directions d = directions_of(eta);
+    const Matrix below = half_space_reflection(d, medium_of(d, lower, g));
+    return leaving(d, on_top(upper_slab(d, upper, thickness_mm, g), below));
+}
+
+std::vector<double> layered_albedos(std::span<const TissueLayer> uppers, double thickness_mm,
+                                    std::span<const TissueLayer> lowers, double g, double eta) {
+    const Directions d = directions_of(eta);
+    std::vector<Slab> slabs;
+    for (const TissueLayer& upper : uppers) slabs.push_back(upper_slab(d, upper, thickness_mm, g));
+    std::vector<double> albedos;
+    for (const TissueLayer& lower : lowers) {
+        const Matrix below = half_space_reflection(d, medium_of(d, lower, g));
+        for (const Slab& slab : slabs) albedos.push_back(leaving(d, on_top(slab, below)));
+    }
+    return albedos;
 }
 
 }  // namespace dermis::inline optics::tissue

@@ -1,6 +1,7 @@
 #include "dermis/optics/tissue/pigment_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "dermis/base/parallel.h"
@@ -23,17 +24,28 @@ double weighted_square(const Rgb& logs) {
 
 }  // namespace
 
+// Melanin is in the epidermis only and blood in the dermis only, so each layer has a node per row or column.
 PigmentTable::PigmentTable(const SkinModel& model) : logs_(size_t(kPigmentNodes * kPigmentNodes)) {
-    parallel_for(logs_.size(), 8, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            const double u = double(i % kPigmentNodes) / (kPigmentNodes - 1);
-            const double v = double(i / kPigmentNodes) / (kPigmentNodes - 1);
-            SkinModel node = model;
-            node.melanin = kMostMelanin * u * u, node.blood = kMostBlood * v * v;
-            const Rgb albedo = skin_albedo(node);
-            for (size_t c = 0; c < 3; ++c) logs_[i][c] = std::log(std::max(albedo[c], kDarkestAlbedo));
+    std::vector<SkinSpectrum> spectra(logs_.size());
+    parallel_for(tissue::kWavelengths, 1, [&](size_t begin, size_t end) {
+        for (size_t wave = begin; wave < end; ++wave) {
+            std::array<tissue::TissueLayer, kPigmentNodes> epidermis, dermis;
+            for (int i = 0; i < kPigmentNodes; ++i) {
+                const double root = double(i) / (kPigmentNodes - 1);
+                SkinModel node = model;
+                node.melanin = kMostMelanin * root * root, node.blood = kMostBlood * root * root;
+                const SkinLayers layers = skin_layers(node, int(wave));
+                epidermis[size_t(i)] = layers.epidermis, dermis[size_t(i)] = layers.dermis;
+            }
+            const std::vector<double> albedos =
+                tissue::layered_albedos(epidermis, model.epidermis_mm, dermis, model.g, model.eta);
+            for (size_t i = 0; i < albedos.size(); ++i) spectra[i][wave] = albedos[i];
         }
     });
+    for (size_t i = 0; i < logs_.size(); ++i) {
+        const Rgb albedo = linear_of_spectrum(spectra[i]);
+        for (size_t c = 0; c < 3; ++c) logs_[i][c] = std::log(std::max(albedo[c], kDarkestAlbedo));
+    }
 }
 
 // Catmull and Rom 1974 along both axes.
@@ -58,10 +70,14 @@ Rgb PigmentTable::log_albedo(double u, double v) const {
     return sum;
 }
 
-Rgb PigmentTable::albedo(const Pigments& pigments) const {
-    const auto root = [](double part, double most) { return std::sqrt(std::clamp(part / most, 0.0, 1.0)); };
-    const Rgb log = log_albedo(root(pigments.melanin, kMostMelanin), root(pigments.blood, kMostBlood));
+Rgb PigmentTable::albedo_of_texels(double melanin, double blood) const {
+    const Rgb log = log_albedo(melanin, blood);
     return {std::exp(log[0]), std::exp(log[1]), std::exp(log[2])};
+}
+
+Rgb PigmentTable::albedo(const Pigments& pigments) const {
+    return albedo_of_texels(pigment_texel(pigments.melanin, kMostMelanin),
+                            pigment_texel(pigments.blood, kMostBlood));
 }
 
 // The best of nine nodes, at strides of four, two and one.
@@ -123,7 +139,7 @@ Pigments PigmentTable::nearest(const Rgb& albedo_linear) const {
         }
         if (scale <= kLeastScale) break;
     }
-    return {kMostMelanin * root.u * root.u, kMostBlood * root.v * root.v};
+    return {pigment_fraction(root.u, kMostMelanin), pigment_fraction(root.v, kMostBlood)};
 }
 
 }  // namespace dermis::inline optics

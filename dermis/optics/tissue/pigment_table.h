@@ -6,6 +6,8 @@
 //     Rgb colour = table.albedo(pigments);                 // the nearest colour that the two pigments can
 //     make
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "dermis/optics/tissue/skin_model.h"
@@ -19,13 +21,23 @@ struct Pigments {
 /// Ends of the table. They cover all skins; blood of .2 is a bruise.
 inline constexpr double kMostMelanin = 0.5, kMostBlood = 0.2;
 
-/// A check()ed model. A second of one core to make; then pure.
+/// A fraction as the texel of a map, 0..1, and back. Roots leave 8 bits enough for light skin.
+[[nodiscard]] inline double pigment_texel(double fraction, double most) {
+    return std::sqrt(std::clamp(fraction / most, 0.0, 1.0));
+}
+[[nodiscard]] constexpr double pigment_fraction(double texel, double most) {
+    return most * texel * texel;
+}
+
+/// A check()ed model. Half a second of one core to make; then pure.
 class PigmentTable {
   public:
     explicit PigmentTable(const SkinModel& model);
 
     /// Pigments beyond the table are moved to its ends. Within 0.002 of skin_albedo() (tested).
     [[nodiscard]] Rgb albedo(const Pigments& pigments) const;
+    /// The same of texels of maps, moved to 0..1.
+    [[nodiscard]] Rgb albedo_of_texels(double melanin, double blood) const;
     /// Least squares of the logarithms, blue by half: shade scales a colour and hardly changes the pigments.
     /// albedo_linear may be 0. Half a microsecond.
     [[nodiscard]] Pigments nearest(const Rgb& albedo_linear) const;
