@@ -26,8 +26,6 @@ constexpr std::array<Vec3, 6> kTones = {{{78.0f, 11.0f, 11.0f},
                                          {48.5f, 14.0f, 19.0f},
                                          {28.4f, 11.5f, 13.0f}}};
 
-constexpr Vec3 kMelanin = {0.69f, 1, 1.70f}, kBlood = {0.10f, 1, 0.70f};
-
 // CIE 15: the inverse of L* = 116 f(Y) - 16, a* = 500 (f(X) - f(Y)), b* = 200 (f(Y) - f(Z)).
 Vec3 linear_from_lab(Vec3 lab) {
     constexpr Vec3 white = kWhiteXyz;
@@ -46,11 +44,6 @@ Vec3 skin_tone_albedo_linear(double tone) {
     const double at = std::clamp(tone, 1.0, 6.0) - 1;
     const size_t i = std::min(size_t(at), kTones.size() - 2);
     return linear_from_lab(kTones[i] + (kTones[i + 1] - kTones[i]) * float(at - double(i)));
-}
-
-Vec3 with_pigments(Vec3 c, float melanin, float blood) {
-    const Vec3 density = kMelanin * melanin + kBlood * blood;
-    return c * Vec3{std::exp(-density.x), std::exp(-density.y), std::exp(-density.z)};
 }
 
 }  // namespace dermis::inline image

@@ -77,11 +77,4 @@ inline constexpr Mat3 kLinearFromAcesCg = {{{1.7050510f, -0.6217921f, -0.0832589
 /// docs/bust.md has the table.
 [[nodiscard]] Vec3 skin_tone_albedo_linear(double tone);
 
-/// Adds melanin and blood (removes, if negative) to an albedo: each multiplies it by
-/// exp(-amount * absorption), a linear step in the logarithm (Tsumura et al. 2003, Image-based skin color and
-/// texture analysis/synthesis). Absorption is relative to green's: melanin's falls as wavelength^-3.33
-/// (Jacques 1998), blood's is that of haemoglobin, three quarters of it with oxygen; at 610, 545 and 465 nm.
-/// An amount of 0.1 removes 10 % of green.
-[[nodiscard]] Vec3 with_pigments(Vec3 albedo_linear, float melanin, float blood);
-
 }  // namespace dermis::inline image

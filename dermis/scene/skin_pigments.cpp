@@ -23,6 +23,17 @@ bool has_pigment_maps(const Material& material) {
     return material.melanin_map.present() || material.blood_map.present();
 }
 
+// A subject's own maps of pigments belong to its own colour: the colour is painted again only for what
+// changes the pigments, and never over another map.
+bool has_own_pigments(const Material& material) {
+    return !material.melanin_map.pixels.empty() && !material.blood_map.pixels.empty();
+}
+bool keeps_its_colour(const Material& material, const Skin& skin) {
+    const bool changed = skin.melanin_scale != 1 || skin.blood_scale != 1 || skin.blood_by_tension != 0;
+    return has_own_pigments(material) &&
+           (!changed || material.base_color_map.pixels.empty() || pigments_of(skin));
+}
+
 void remove_pigments(Skin& skin) {
     skin.melanin = skin.blood = skin.oxygen = {};
     skin.pheomelanin = skin.epidermis_mm = {};
@@ -49,6 +60,10 @@ struct PigmentPainter {
               std::pair{&material.residue_map, &maps.residue}, std::pair{&material.pigment_mask, &mask}}) {
             DERMIS_TRY_ASSIGN(Image loaded, pigment_map(*source));
             *image = std::move(loaded);
+        }
+        if (maps.residue.empty() && has_own_pigments(material)) {
+            DERMIS_TRY_ASSIGN(const Image own, load_image_source(material.base_color_map, ImageUse::color));
+            add_residue(maps, own, table);
         }
         if (!maps.residue.empty() && maps.residue.channels < 3)
             return Error{material.residue_map.name + ": a residue has red, green and blue"};
@@ -127,18 +142,21 @@ Result<void> apply_pigment_maps(Scene& scene) {
         for (size_t i = 0; i < object.mesh.materials.size(); ++i) {
             Material& material = object.mesh.materials[i];
             if (object.classes[i] != MaterialClass::skin || !has_pigment_maps(material)) continue;
+            if (keeps_its_colour(material, scene.skin)) continue;
             const SkinModel model = pigments_of(scene.skin).value_or(SkinModel{});
             if (!painter) painter.emplace(PigmentPainter{scene.skin, model, PigmentTable(model)});
             DERMIS_TRY_ASSIGN(const Pigments mean, painter->paint(material));
             for (const ImageSource* source :
                  {&material.melanin_map, &material.blood_map, &material.residue_map, &material.pigment_mask})
-                if (source->present()) scene.files.emplace_back(source->name);
+                if (source->present() && source->pixels.empty()) scene.files.emplace_back(source->name);
             sum.melanin += mean.melanin, sum.blood += mean.blood, ++count;
         }
     if (count == 0) {
         if (scene.skin.melanin_scale != 1 || scene.skin.blood_scale != 1)
             scene.warnings.emplace_back(
-                "skin.melanin_scale and blood_scale have no effect without maps.melanin or maps.blood");
+                "skin.melanin_scale and blood_scale have no effect without maps.melanin or maps.blood, and "
+                "on "
+                "the built-in head beside skin.melanin or skin.blood");
         return {};
     }
     SkinModel model = painter->model;

@@ -15,7 +15,7 @@ namespace {
 
 // Part of the cache's key: raise it when meshing, flattening or painting change. Changes of the shape and of
 // the skin are in the key already, by sampled values.
-constexpr uint32_t kGeneration = 5;
+constexpr uint32_t kGeneration = 6;
 
 Vec3 to_float(Point p) {
     return {float(p.x), float(p.y), float(p.z)};
@@ -74,7 +74,9 @@ Bust blank_bust() {
             .normal = Image(side, side, 3, PixelFormat::u8),
             .roughness = Image(side, side, 1, PixelFormat::u8),
             .specular = Image(side, side, 1, PixelFormat::u8),
-            .kernel_size = Image(side, side, 1, PixelFormat::u8)};
+            .kernel_size = Image(side, side, 1, PixelFormat::u8),
+            .melanin = Image(side, side, 1, PixelFormat::u8),
+            .blood = Image(side, side, 1, PixelFormat::u8)};
 }
 
 std::string cache_key(const BustParams& params) {
@@ -84,6 +86,7 @@ std::string cache_key(const BustParams& params) {
     values.put_all(params);
     for (const Parameter& row : bust_parameters().parameters)
         if (row.kind == ParameterKind::number) hasher.add(row.name).add(values.get(row)[0]);
+    for (const double channel : skin_albedo({})) hasher.add(channel);
     const BustField field(params);
     const Hairs hairs(uint32_t(params.seed));
     for (int i = 0; i < 600; ++i) {
@@ -93,7 +96,8 @@ std::string cache_key(const BustParams& params) {
                          110 * std::cos(a) * (0.4 + 0.6 * t)};
         hasher.add(float(field.distance_mm(p)));
         const SkinSample skin = skin_at(p, skin_zones(p), params, hairs);
-        hasher.add(skin.albedo_linear.x).add(skin.albedo_linear.y).add(skin.roughness).add(skin.height_mm);
+        hasher.add(skin.pigments.melanin).add(skin.pigments.blood).add(skin.residue.x).add(skin.residue.y);
+        hasher.add(skin.roughness).add(skin.height_mm);
         hasher.add(skin.kernel_size);
     }
     return hasher.hex();
@@ -111,7 +115,9 @@ Result<Bust> build_bust(const BustParams& params, int map_side) {
                 .normal = std::move(maps.normal),
                 .roughness = std::move(maps.roughness),
                 .specular = std::move(maps.specular),
-                .kernel_size = std::move(maps.kernel_size)};
+                .kernel_size = std::move(maps.kernel_size),
+                .melanin = std::move(maps.melanin),
+                .blood = std::move(maps.blood)};
 }
 
 Result<Bust> make_bust(const BustParams& params) {
@@ -121,7 +127,7 @@ Result<Bust> make_bust(const BustParams& params) {
         [](auto& b) {
             return std::tie(b.mesh.positions_mm, b.mesh.normals, b.mesh.tangents, b.mesh.uvs, b.mesh.indices,
                             b.albedo.bytes, b.normal.bytes, b.roughness.bytes, b.specular.bytes,
-                            b.kernel_size.bytes);
+                            b.kernel_size.bytes, b.melanin.bytes, b.blood.bytes);
         });
     if (bust) add_material(bust->mesh);
     return bust;

@@ -20,15 +20,16 @@ namespace dermis {
 struct Bust {
     Mesh
         mesh;  ///< mm, Y up, faces +Z, origin between the ears; normals are the field's; tangents with w = +1
-    Image albedo;       ///< RGB u8 sRGB
-    Image normal;       ///< RGB u8, tangent space (x along +u, y up the image, z out)
-    Image roughness;    ///< u8, perceptual
-    Image specular;     ///< u8, factor on the reflectance at normal incidence
-    Image kernel_size;  ///< u8: 0 on thick skin, more at ears, nostrils and lids, which are thin
+    Image albedo;          ///< RGB u8 sRGB
+    Image normal;          ///< RGB u8, tangent space (x along +u, y up the image, z out)
+    Image roughness;       ///< u8, perceptual
+    Image specular;        ///< u8, factor on the reflectance at normal incidence
+    Image kernel_size;     ///< u8: 0 on thick skin, more at ears, nostrils and lids, which are thin
+    Image melanin, blood;  ///< u8, as pigment maps (optics/tissue/pigment_maps.h)
 };
 inline constexpr int kBustMapSide = 2048;
 
-/// Loads it from the cache, or makes it (under 10 s on two cores) and stores it there (about 45 MB a set of
+/// Loads it from the cache, or makes it (under 10 s on two cores) and stores it there (about 53 MB a set of
 /// parameters). The same parameters give the same bytes on any number of cores. Errors: a parameter out of
 /// range.
 [[nodiscard]] Result<Bust> make_bust(const BustParams& params = {});

@@ -11,6 +11,7 @@
 #include "dermis/image/io.h"
 #include "dermis/mesh/write_mesh.h"
 #include "dermis/optics/gltf_profile.h"
+#include "dermis/optics/tissue/pigment_maps.h"
 
 namespace dermis {
 namespace {
@@ -113,8 +114,10 @@ Result<std::vector<MadeFile>> mesh_files(const std::filesystem::path& path, cons
 }
 
 Result<void> add_maps(std::vector<MadeFile>& files, const std::filesystem::path& folder, const Bust& bust) {
-    const Image* const images[] = {&bust.albedo, &bust.normal, &bust.roughness, &bust.specular,
-                                   &bust.kernel_size};
+    PigmentMaps pigments{.melanin = bust.melanin, .blood = bust.blood, .residue = {}};
+    add_residue(pigments, bust.albedo, PigmentTable(SkinModel{}));
+    const Image* const images[] = {&bust.albedo,      &bust.normal,  &bust.roughness, &bust.specular,
+                                   &bust.kernel_size, &bust.melanin, &bust.blood,     &pigments.residue};
     static_assert(std::size(images) == std::size(kBustMaps));
     for (size_t i = 0; i < std::size(kBustMaps); ++i) {
         Result<std::vector<std::byte>> png = encode_image(".png", *images[i]);

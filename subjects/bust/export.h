@@ -20,7 +20,8 @@ namespace dermis {
 /// Whether write_bust() knows the extension.
 [[nodiscard]] Result<void> check_bust_path(const std::filesystem::path& path);
 
-inline constexpr std::string_view kBustMaps[] = {"albedo.png", "normal.png", "roughness.png", "specular.png",
-                                                 "kernel_size.png"};
+inline constexpr std::string_view kBustMaps[] = {"albedo.png",   "normal.png",      "roughness.png",
+                                                 "specular.png", "kernel_size.png", "melanin.png",
+                                                 "blood.png",    "residue.png"};
 
 }  // namespace dermis

@@ -87,25 +87,33 @@ SkinZones blend(const SkinZones& a, const SkinZones& b, const SkinZones& c, cons
     return zones;
 }
 
-// The factor that makes the mean over the surface without stubble the tone: zones and noise add more pigment
-// than they remove.
+const PigmentTable& usual_table() {
+    static const PigmentTable table{SkinModel{}};
+    return table;
+}
+
+// The factor of bare skin that makes the mean over the surface without stubble the tone. It holds what the
+// model's skin of these pigments lacks of the tone, and what zones and noise have on average.
 Vec3 colour_balance(const Atlas& atlas, const std::vector<Point>& standard,
                     const std::vector<SkinZones>& zones, BustParams params, const Hairs& hairs) {
     params.stubble = 0;
-    std::vector<Vec3> albedo(standard.size());
+    std::vector<Vec3> bare(standard.size()), hair(standard.size());
     parallel_for(standard.size(), 1024, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i)
-            albedo[i] = skin_at(standard[i], zones[i], params, hairs).albedo_linear;
+        for (size_t i = begin; i < end; ++i) {
+            const SkinSample sample = skin_at(standard[i], zones[i], params, hairs);
+            bare[i] = bare_albedo_linear(sample, usual_table()), hair[i] = sample.hair_linear;
+        }
     });
-    Vec3 sum;
+    Vec3 sum, of_hair;
     float area = 0;
     for (const auto& t : atlas.mesh.triangles) {
         const Point a = atlas.mesh.points[t[0]];
         const float twice = float(length(cross(atlas.mesh.points[t[1]] - a, atlas.mesh.points[t[2]] - a)));
-        for (const int corner : t) sum += albedo[size_t(corner)] * twice;
+        for (const int corner : t)
+            sum += bare[size_t(corner)] * twice, of_hair += hair[size_t(corner)] * twice;
         area += 3 * twice;
     }
-    const Vec3 tone = skin_tone_albedo_linear(params.tone) * area;
+    const Vec3 tone = skin_tone_albedo_linear(params.tone) * area - of_hair;
     return {tone.x / sum.x, tone.y / sum.y, tone.z / sum.z};
 }
 
@@ -133,55 +141,10 @@ Point relief_normal(const Atlas& atlas, int triangle, double by_u, double by_v) 
     return unit({-slope_t, -slope_up, 1});
 }
 
-}  // namespace
-
-std::vector<int> rasterize(const Atlas& atlas, int side, int gutter) {
-    std::vector<int> owner(size_t(side) * side, -1);
-    const size_t bands = size_t(side + kBand - 1) / kBand;
-    parallel_for(bands, 1, [&](size_t begin, size_t end) {
-        for (size_t k = begin; k < end; ++k) fill_band(atlas, side, int(k) * kBand, owner);
-    });
-    for (int i = 0; i < gutter; ++i) grow(owner, side);
-    return owner;
-}
-
-SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams& params, int side) {
-    std::vector<Point> standard(atlas.mesh.points.size());
-    for (size_t i = 0; i < standard.size(); ++i) standard[i] = field.to_standard(atlas.mesh.points[i]);
-    const std::vector<SkinZones> zones = zones_by_vertex(standard);
-    const std::vector<int> owner = rasterize(atlas, side, kGutter * side / kAtlasSide + 1);
-
-    SkinMaps maps = {Image(side, side, 3, PixelFormat::u8, Encoding::srgb),
-                     Image(side, side, 3, PixelFormat::u8), Image(side, side, 1, PixelFormat::u8),
-                     Image(side, side, 1, PixelFormat::u8), Image(side, side, 1, PixelFormat::u8)};
-    const auto albedo = maps.albedo.values<uint8_t>(), normal = maps.normal.values<uint8_t>();
-    const auto roughness = maps.roughness.values<uint8_t>(), specular = maps.specular.values<uint8_t>();
-    const auto kernel = maps.kernel_size.values<uint8_t>();
-    std::vector<float> height(owner.size(), 0);
-    const Hairs hairs(uint32_t(params.seed));
-    const Vec3 plain = skin_tone_albedo_linear(params.tone);
-    const Vec3 balance = colour_balance(atlas, standard, zones, params, hairs);
-    Progress progress("painting the skin", size_t(side));
-    parallel_for(size_t(side), 8, [&](size_t begin, size_t end) {
-        for (size_t i = begin * side; i < end * side; ++i) {
-            SkinSample s = {.albedo_linear = plain};
-            if (owner[i] >= 0) {
-                const auto& t = atlas.mesh.triangles[size_t(owner[i])];
-                const Barycentric w =
-                    locate(atlas, owner[i], (double(i % side) + 0.5) / side, (double(i / side) + 0.5) / side);
-                const Point p = standard[t[0]] * w.a + standard[t[1]] * w.b + standard[t[2]] * w.c;
-                s = skin_at(p, blend(zones[t[0]], zones[t[1]], zones[t[2]], w), params, hairs);
-                s.albedo_linear = s.albedo_linear * balance;
-            }
-            const Vec3 c = srgb_encode(s.albedo_linear);
-            albedo[3 * i] = code(c.x), albedo[3 * i + 1] = code(c.y), albedo[3 * i + 2] = code(c.z);
-            roughness[i] = code(s.roughness);
-            specular[i] = code(s.specular);
-            kernel[i] = code(s.kernel_size);
-            height[i] = s.height_mm;
-        }
-        progress.advance(end - begin);
-    });
+Image normals_of(const Atlas& atlas, const std::vector<int>& owner, const std::vector<float>& height,
+                 int side) {
+    Image map(side, side, 3, PixelFormat::u8);
+    const auto normal = map.values<uint8_t>();
     parallel_for(size_t(side), 8, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y)
             for (int x = 0; x < side; ++x) {
@@ -202,6 +165,73 @@ SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams
                            normal[3 * i + 2] = code(float(0.5 + 0.5 * n.z));
             }
     });
+    return map;
+}
+
+SkinMaps blank_maps(int side) {
+    const auto grey = [side] { return Image(side, side, 1, PixelFormat::u8); };
+    return {.albedo = Image(side, side, 3, PixelFormat::u8, Encoding::srgb),
+            .normal = {},
+            .roughness = grey(),
+            .specular = grey(),
+            .kernel_size = grey(),
+            .melanin = grey(),
+            .blood = grey()};
+}
+
+void put(const SkinSample& s, Vec3 albedo_linear, size_t i, SkinMaps& maps) {
+    const Vec3 c = srgb_encode(albedo_linear);
+    const auto albedo = maps.albedo.values<uint8_t>();
+    albedo[3 * i] = code(c.x), albedo[3 * i + 1] = code(c.y), albedo[3 * i + 2] = code(c.z);
+    maps.roughness.values<uint8_t>()[i] = code(s.roughness);
+    maps.specular.values<uint8_t>()[i] = code(s.specular);
+    maps.kernel_size.values<uint8_t>()[i] = code(s.kernel_size);
+    maps.melanin.values<uint8_t>()[i] = code(s.pigments.melanin);
+    maps.blood.values<uint8_t>()[i] = code(s.pigments.blood);
+}
+
+}  // namespace
+
+std::vector<int> rasterize(const Atlas& atlas, int side, int gutter) {
+    std::vector<int> owner(size_t(side) * side, -1);
+    const size_t bands = size_t(side + kBand - 1) / kBand;
+    parallel_for(bands, 1, [&](size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k) fill_band(atlas, side, int(k) * kBand, owner);
+    });
+    for (int i = 0; i < gutter; ++i) grow(owner, side);
+    return owner;
+}
+
+SkinMaps paint_maps(const Atlas& atlas, const BustField& field, const BustParams& params, int side) {
+    std::vector<Point> standard(atlas.mesh.points.size());
+    for (size_t i = 0; i < standard.size(); ++i) standard[i] = field.to_standard(atlas.mesh.points[i]);
+    const std::vector<SkinZones> zones = zones_by_vertex(standard);
+    const std::vector<int> owner = rasterize(atlas, side, kGutter * side / kAtlasSide + 1);
+
+    SkinMaps maps = blank_maps(side);
+    std::vector<float> height(owner.size(), 0);
+    const Hairs hairs(uint32_t(params.seed));
+    const SkinSample plain = {.pigments = pigments_of_tone(params.tone)};
+    const Vec3 plain_linear = skin_tone_albedo_linear(params.tone);
+    const Vec3 balance = colour_balance(atlas, standard, zones, params, hairs);
+    Progress progress("painting the skin", size_t(side));
+    parallel_for(size_t(side), 8, [&](size_t begin, size_t end) {
+        for (size_t i = begin * side; i < end * side; ++i) {
+            if (owner[i] < 0) {
+                put(plain, plain_linear, i, maps);
+                continue;
+            }
+            const auto& t = atlas.mesh.triangles[size_t(owner[i])];
+            const Barycentric w =
+                locate(atlas, owner[i], (double(i % side) + 0.5) / side, (double(i / side) + 0.5) / side);
+            const Point p = standard[t[0]] * w.a + standard[t[1]] * w.b + standard[t[2]] * w.c;
+            const SkinSample s = skin_at(p, blend(zones[t[0]], zones[t[1]], zones[t[2]], w), params, hairs);
+            put(s, bare_albedo_linear(s, usual_table()) * balance + s.hair_linear, i, maps);
+            height[i] = s.height_mm;
+        }
+        progress.advance(end - begin);
+    });
+    maps.normal = normals_of(atlas, owner, height, side);
     return maps;
 }
 

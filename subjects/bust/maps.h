@@ -8,11 +8,12 @@
 namespace dermis::bust {
 
 struct SkinMaps {
-    Image albedo;       ///< RGB u8, sRGB
-    Image normal;       ///< RGB u8, tangent space: x along +u, y up the image, z out
-    Image roughness;    ///< one channel u8, perceptual
-    Image specular;     ///< one channel u8, factor on F0
-    Image kernel_size;  ///< one channel u8: 0 on thick skin, more where it is thin
+    Image albedo;          ///< RGB u8, sRGB
+    Image normal;          ///< RGB u8, tangent space: x along +u, y up the image, z out
+    Image roughness;       ///< one channel u8, perceptual
+    Image specular;        ///< one channel u8, factor on F0
+    Image kernel_size;     ///< one channel u8: 0 on thick skin, more where it is thin
+    Image melanin, blood;  ///< one channel u8, as `dermis bake pigments` has them
 };
 
 /// Square maps of `side` texels; every chart is continued kGutter texels (at 2048) past its edge. About 4 s

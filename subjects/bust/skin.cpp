@@ -1,10 +1,10 @@
 // Colour, gloss and relief of the skin from a few layers of noise. Zones give the amount of each; sharp
-// borders (vermilion, brows, lashes) are those of the shapes themselves. All colours are the tone with more
-// or less melanin and blood.
+// borders (vermilion, brows, lashes) are those of the shapes themselves. Colour is painted as melanin and
+// blood, in texels of pigment maps: equal steps of their square roots are about equal steps of the colour's
+// logarithm in fair and dark skin.
 
 #include "subjects/bust/skin.h"
 
-#include "dermis/image/colour.h"
 #include "subjects/bust/noise.h"
 #include "subjects/bust/parts.h"
 #include "subjects/bust/relief.h"
@@ -66,7 +66,7 @@ float freckle(Point p, const SkinZones& z, const Mottle& m, float density, uint3
     if (digit(7.31f) >= wanted) return 0;
     const bool mole = digit(53.7f) < 0.02f;
     const float radius = mole ? 0.22f + 0.12f * digit(3.3f) : 0.10f + 0.22f * spots.random * spots.random;
-    const float strength = mole ? 0.9f : 0.10f + 0.22f * spots.random;
+    const float strength = mole ? 0.29f : 0.05f + 0.10f * spots.random;
     return strength * (1 - step(radius * 0.5f, radius, spots.nearest));
 }
 
@@ -88,38 +88,55 @@ Stubble stubble(Point p, const SkinZones& z, const Mottle& m, float amount, uint
     return s;
 }
 
-// The difference of each pigment from the tone's mean.
-struct Pigments {
-    float melanin, blood;
-};
-Pigments pigments(const SkinZones& z, const Mottle& m, float depth) {
-    const float blood = 0.20f * z.cheek + 0.26f * z.nose + 0.28f * z.ear + 0.12f * z.knob +
-                        0.12f * z.eye_ring + 0.14f * z.lid + 0.30f * z.nostril - 0.02f * z.perioral +
-                        0.04f * z.forehead - 0.02f * z.neck +
-                        (0.05f * m.broad + 0.07f * m.blotch + 0.05f * m.middle) *
+// What the zones and the noise add to the texels of the pigment maps.
+PigmentTexel details(const SkinZones& z, const Mottle& m, float depth) {
+    const float blood = 0.12f * z.cheek + 0.155f * z.nose + 0.15f * z.ear + 0.06f * z.knob +
+                        0.06f * z.eye_ring + 0.07f * z.lid + 0.17f * z.nostril - 0.01f * z.perioral +
+                        0.02f * z.forehead - 0.01f * z.neck +
+                        (0.024f * m.broad + 0.034f * m.blotch + 0.024f * m.middle) *
                             (0.6f + z.cheek + 0.8f * z.nose + 0.4f * z.neck) +
-                        0.04f * m.fine + 0.02f * m.grain;
-    // Dark skin varies more in melanin and hides the blood.
-    const float melanin = (0.05f * z.lid + 0.08f * z.eye_ring + 0.04f * z.neck + 0.04f * m.broad -
-                           0.03f * m.blotch + 0.05f * m.middle + 0.06f * m.fine + 0.05f * m.grain) *
-                              (1 + 0.7f * depth) +
-                          depth * (0.18f * z.perioral + 0.10f * z.forehead - 0.14f * z.cheek);
-    return {melanin, blood * (1 - 0.45f * depth)};
+                        0.02f * m.fine + 0.01f * m.grain;
+    const float melanin = 0.022f * z.lid + 0.036f * z.eye_ring + 0.018f * z.neck + 0.018f * m.broad -
+                          0.014f * m.blotch + 0.022f * m.middle + 0.027f * m.fine + 0.022f * m.grain +
+                          depth * (0.055f * z.perioral + 0.030f * z.forehead - 0.043f * z.cheek);
+    return {melanin, blood * (1 - 0.3f * depth)};
 }
 
-Vec3 lip_colour(Vec3 tone, const Lips& l, const Mottle& m, float depth) {
+PigmentTexel lip_pigments(PigmentTexel tone, const Lips& l, const Mottle& m, float depth) {
     // Fair lips are thin skin over blood. Dark ones keep their melanin, most on the upper lip, and lose it
     // towards the moist inside of the lower.
     const float inside = (1 - l.along) * (1 - l.upper);
-    const float blood = mixf(0.74f + 0.16f * l.upper + 0.14f * (1 - l.along), 0.50f, depth) +
-                        0.12f * m.middle + 0.06f * m.fine;
-    const float melanin = mixf(0.12f + 0.14f * l.upper, 0.10f + 0.34f * l.upper - 0.40f * inside, depth) +
-                          0.08f * m.blotch + 0.05f * m.fine;
-    // Blood seen through the thin red is darker and bluer than that in the skin.
-    return with_pigments(tone, melanin, blood) * mixc({0.76f, 0.78f, 0.86f}, {1, 1, 1}, depth);
+    const float blood = mixf(0.40f + 0.08f * l.upper + 0.07f * (1 - l.along), 0.24f, depth) +
+                        0.055f * m.middle + 0.03f * m.fine;
+    const float melanin = mixf(0.02f + 0.06f * l.upper, 0.03f + 0.10f * l.upper - 0.115f * inside, depth) +
+                          0.03f * m.blotch + 0.02f * m.fine;
+    return {tone.melanin + melanin, tone.blood + blood};
+}
+
+// Stubble: roots below the skin, and cut ends.
+Vec3 stubble_factor(const Stubble& shaved, float scalp, float strength) {
+    return mixc({1, 1, 1}, {0.63f, 0.63f, 0.68f}, (0.6f + 0.4f * scalp) * strength * shaved.shade) *
+           mixc({1, 1, 1}, {0.34f, 0.33f, 0.34f}, 0.85f * strength * shaved.hair);
 }
 
 }  // namespace
+
+PigmentTexel pigments_of_tone(double tone) {
+    const int first = std::clamp(int(tone), 1, 5);
+    const auto at = [](int group) {
+        const SkinModel model = skin_model_of_tone(group);
+        return PigmentTexel{float(pigment_texel(model.melanin, kMostMelanin)),
+                            float(pigment_texel(model.blood, kMostBlood))};
+    };
+    const PigmentTexel low = at(first), high = at(first + 1);
+    const auto t = float(std::clamp(tone, 1.0, 6.0) - first);
+    return {mixf(low.melanin, high.melanin, t), mixf(low.blood, high.blood, t)};
+}
+
+Vec3 bare_albedo_linear(const SkinSample& sample, const PigmentTable& table) {
+    const Rgb skin = table.albedo_of_texels(double(sample.pigments.melanin), double(sample.pigments.blood));
+    return to_vec3(skin) * sample.residue;
+}
 
 SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const Hairs& hairs_drawn) {
     const uint32_t seed = params.seed * 7919u;
@@ -130,30 +147,26 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
     if (z.mouth > 0 && p.z > 60) lip = lips(p);
     const Relief r = relief_at(p, z, lip.vermilion, seed);
 
-    const Vec3 tone = skin_tone_albedo_linear(params.tone);
-    Pigments pigment = pigments(z, m, depth);
-    pigment.melanin += (1 - 0.5f * depth) * freckle(p, z, m, float(params.freckles), seed);
-    pigment.melanin += 0.20f * r.pore + 0.10f * r.cavity - 0.03f * lip.rim;
-    pigment.blood += 0.10f * r.pore + 0.14f * r.cavity - 0.04f * lip.rim;
-    Vec3 c = with_pigments(tone, pigment.melanin, pigment.blood);
-
-    const Stubble shaved = stubble(p, z, m, float(params.stubble), seed);
-    if (shaved.shade > 0) {
-        const float strength = (1 - 0.45f * depth) * (1 - lip.vermilion);
-        c = c * mixc({1, 1, 1}, {0.63f, 0.63f, 0.68f}, (0.6f + 0.4f * z.scalp) * strength * shaved.shade);
-        c = c * mixc({1, 1, 1}, {0.34f, 0.33f, 0.34f}, 0.85f * strength * shaved.hair);
-    }
-    if (lip.vermilion > 0) {
-        c = mixc(c, lip_colour(tone, lip, m, std::min(1.0f, depth + 0.6f * brown)), 0.92f * lip.vermilion);
-        c = with_pigments(c, 0.9f * lip.line * lip.vermilion, 0.35f * lip.line * lip.vermilion);
-    }
-    const float hollow = z.nostril > 0 ? 1 - step(0.0, 2.2, nostril_distance_mm(p)) : 0;
-    c = c * mixc({1, 1, 1}, {0.30f, 0.16f, 0.13f}, hollow);
-    const float hairs = hairs_drawn.cover(p);
-    c = mixc(c, Vec3{0.036f, 0.022f, 0.015f} * mixf(1.0f, 0.35f, depth), 0.92f * hairs);
+    const PigmentTexel tone = pigments_of_tone(params.tone);
+    PigmentTexel pigment = details(z, m, depth);
+    pigment.melanin += tone.melanin + (1 - 0.5f * depth) * freckle(p, z, m, float(params.freckles), seed);
+    pigment.melanin += (0.08f - 0.03f * depth) * r.pore + 0.045f * r.cavity - 0.014f * lip.rim;
+    pigment.blood += tone.blood + 0.045f * r.pore + 0.065f * r.cavity - 0.02f * lip.rim;
 
     SkinSample s;
-    s.albedo_linear = c;
+    const Stubble shaved = stubble(p, z, m, float(params.stubble), seed);
+    s.residue = stubble_factor(shaved, z.scalp, (1 - 0.45f * depth) * (1 - lip.vermilion));
+    if (lip.vermilion > 0) {
+        const PigmentTexel red = lip_pigments(tone, lip, m, std::min(1.0f, depth + 0.6f * brown));
+        const float red_share = 0.92f * lip.vermilion;
+        pigment = {mixf(pigment.melanin, red.melanin, red_share), mixf(pigment.blood, red.blood, red_share)};
+        s.residue = s.residue * mixc({1, 1, 1}, {0.52f, 0.29f, 0.17f}, lip.line * lip.vermilion);
+    }
+    s.pigments = {std::clamp(pigment.melanin, 0.0f, 1.0f), std::clamp(pigment.blood, 0.0f, 1.0f)};
+    const float hollow = z.nostril > 0 ? 1 - step(0.0, 2.2, nostril_distance_mm(p)) : 0;
+    const float hairs = hairs_drawn.cover(p), cover = 0.92f * hairs;
+    s.residue = s.residue * mixc({1, 1, 1}, {0.30f, 0.16f, 0.13f}, hollow) * (1 - cover);
+    s.hair_linear = Vec3{0.036f, 0.022f, 0.015f} * (mixf(1.0f, 0.35f, depth) * cover);
     s.height_mm = r.height_mm + 0.07f * hairs + 0.05f * shaved.hair;
     s.roughness = 0.48f - 0.08f * z.t_zone - 0.05f * z.nose + 0.03f * z.cheek + 0.05f * z.neck -
                   0.02f * depth + 0.06f * brown + 0.05f * m.blotch + 0.04f * m.middle + 0.05f * m.fine +

@@ -82,6 +82,8 @@ Result<SubjectScene> make(const ParameterValues& values) {
     skin.roughness_map = made_by_code(name + " roughness", bust->roughness);
     skin.specular_map = made_by_code(name + " specular", bust->specular);
     skin.kernel_size_map = made_by_code(name + " kernel size", bust->kernel_size);
+    skin.melanin_map = made_by_code(name + " melanin", bust->melanin);
+    skin.blood_map = made_by_code(name + " blood", bust->blood);
     SubjectScene scene;
     scene.objects.push_back(std::move(object));
     return scene;

@@ -13,7 +13,8 @@ bool same(const Bust& a, const Bust& b) {
            a.mesh.tangents == b.mesh.tangents && a.mesh.uvs == b.mesh.uvs &&
            a.mesh.indices == b.mesh.indices && a.albedo.bytes == b.albedo.bytes &&
            a.normal.bytes == b.normal.bytes && a.roughness.bytes == b.roughness.bytes &&
-           a.specular.bytes == b.specular.bytes && a.kernel_size.bytes == b.kernel_size.bytes;
+           a.specular.bytes == b.specular.bytes && a.kernel_size.bytes == b.kernel_size.bytes &&
+           a.melanin.bytes == b.melanin.bytes && a.blood.bytes == b.blood.bytes;
 }
 
 TEST(BustCache, GivesBackWhatWasMade) {

@@ -25,7 +25,7 @@ Bust with_small_maps() {
     bust.roughness.set(3, 2, 0, 0.4f);
     bust.specular = Image(8, 8, 1, PixelFormat::u8);
     bust.specular.set(5, 6, 0, 0.8f);
-    bust.kernel_size = Image(8, 8, 1, PixelFormat::u8);
+    bust.kernel_size = bust.melanin = bust.blood = Image(8, 8, 1, PixelFormat::u8);
     return bust;
 }
 
@@ -82,6 +82,17 @@ TEST(BustExport, TheVolumeOfABlurHasTheAlbedoOfTheMap) {
     EXPECT_NEAR(color.x, srgb_decode(0.8f), 0.004);
     EXPECT_NEAR(color.y, srgb_decode(0.6f), 0.004);
     EXPECT_NEAR(color.z, srgb_decode(0.4f), 0.004);
+}
+
+TEST(BustExport, MapsAreAFolderOfPngsThatASceneCanPaintItsSkinOf) {
+    const std::filesystem::path folder = TestCache::folder() / "maps";
+    ASSERT_TRUE(write_bust(TestCache::folder() / "bust_maps.obj", with_small_maps(),
+                           *find_profile("gpu_gems_3"), folder));
+    for (const std::string_view name : kBustMaps) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    const auto residue = read_image(folder / "residue.png", ImageUse::data);
+    ASSERT_TRUE(residue) << residue.error().message;
+    EXPECT_EQ(residue->image.channels, 3);
+    EXPECT_EQ(residue->image.format, PixelFormat::u16);
 }
 
 TEST(BustExport, AnUnknownExtensionIsRefusedAndNothingIsWritten) {

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "bust/standard_bust.h"
 #include "dermis/image/colour.h"
+#include "dermis/optics/tissue/pigment_maps.h"
 #include "subjects/bust/maps.h"
 
 namespace dermis {
@@ -67,6 +70,33 @@ TEST(BustMaps, NormalsAreUnitAndFaceOutward) {
             mean_z += double(n.z);
         }
     EXPECT_GT(mean_z * 9 / double(map.pixel_count()), 0.95);
+}
+
+TEST(BustMaps, PigmentsAreThoseOfHealthySkinAndFollowTheFace) {
+    const Bust& b = standard_bust();
+    const auto blood = [&](Vec3 at, float radius_mm) {
+        return pigment_fraction(double(mean_near(b, b.blood, at, radius_mm).x), kMostBlood);
+    };
+    const double forehead = blood({0, 75, 95}, 10), lips = blood({0, -43.5f, 117}, 3);
+    EXPECT_GT(forehead, 0.003);
+    EXPECT_LT(forehead, 0.015);
+    EXPECT_GT(blood({0, -8, 129}, 7), 1.7 * forehead);
+    EXPECT_GT(lips, 0.04);
+    EXPECT_LT(lips, 0.1);
+    const double melanin = pigment_fraction(double(mean_near(b, b.melanin, {0, 75, 95}, 10).x), kMostMelanin);
+    EXPECT_NEAR(melanin, skin_model_of_tone(2).melanin, 0.004);
+}
+
+TEST(BustMaps, PigmentsAndResidueGiveTheAlbedoBack) {
+    const Bust& b = standard_bust();
+    const PigmentTable table{SkinModel{}};
+    PigmentMaps maps{.melanin = b.melanin, .blood = b.blood, .residue = {}};
+    add_residue(maps, b.albedo, table);
+    const Image again = albedo_of({.maps = &maps}, table).value();
+    int most = 0;
+    for (size_t i = 0; i < b.albedo.bytes.size(); ++i)
+        most = std::max(most, std::abs(int(b.albedo.bytes[i]) - int(again.bytes[i])));
+    EXPECT_LE(most, 1);
 }
 
 /// Mean over the surface, by area, of what the map has at the vertices.

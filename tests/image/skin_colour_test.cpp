@@ -57,19 +57,5 @@ TEST(SkinColour, has_the_lightness_of_openpbr_for_the_three_dark_tones) {
         EXPECT_NEAR(lab_of(4 + i).x, lab_from_linear(kLinearFromAcesCg * examples[i]).x, 0.1f);
 }
 
-TEST(SkinColour, melanin_takes_most_of_blue_and_blood_most_of_green) {
-    const Vec3 skin = skin_tone_albedo_linear(2);
-    EXPECT_EQ(with_pigments(skin, 0, 0), skin);
-    const Vec3 brown = with_pigments(skin, 0.1f, 0), red = with_pigments(skin, 0, 0.1f);
-    EXPECT_NEAR(brown.y / skin.y, std::exp(-0.1f), 1e-6f);
-    EXPECT_LT(brown.z / skin.z, brown.y / skin.y);
-    EXPECT_GT(brown.x / skin.x, brown.y / skin.y);
-    EXPECT_NEAR(red.y / skin.y, std::exp(-0.1f), 1e-6f);
-    EXPECT_GT(red.z / skin.z, red.y / skin.y);
-    EXPECT_GT(red.x / skin.x, 0.985f);
-    // Amounts add up, whatever their order.
-    EXPECT_NEAR(with_pigments(brown, 0.2f, 0.1f).z, with_pigments(red, 0.3f, 0).z, 1e-6f);
-}
-
 }  // namespace
 }  // namespace dermis

@@ -83,5 +83,65 @@ TEST(SkinPigments, maps_of_pigments_paint_the_skin_and_choose_its_profile) {
               std::string::npos);
 }
 
+ImageSource grey_texel(const char* name, int code) {
+    return {.name = name, .encoded = {}, .width = 1, .height = 1, .channels = 1, .pixels = {std::byte(code)}};
+}
+
+// A subject's skin whose colour was made of pigments, as the built-in head's.
+Scene painted_by_code() {
+    Scene scene = load_built_in_scene("builtin:spheres").value();
+    for (SceneObject& object : scene.objects)
+        for (Material& material : object.mesh.materials) {
+            material.base_color_map = {
+                .name = "painted", .encoded = {}, .width = 1, .height = 1, .channels = 3};
+            for (const int code : {200, 150, 120}) material.base_color_map.pixels.push_back(std::byte(code));
+            material.melanin_map = grey_texel("own melanin", 51),
+            material.blood_map = grey_texel("own blood", 77);
+        }
+    return scene;
+}
+std::vector<int> colour_of(const Scene& scene) {
+    std::vector<int> codes;
+    for (const std::byte b : scene.objects[0].mesh.materials[0].base_color_map.pixels)
+        codes.push_back(int(b));
+    return codes;
+}
+
+TEST(SkinPigments, a_subjects_own_pigments_act_only_where_the_scene_changes_them) {
+    Scene plain = painted_by_code();
+    const std::string profile = plain.skin.profile;
+    ASSERT_TRUE(apply_pigment_maps(plain));
+    EXPECT_EQ(colour_of(plain), (std::vector{200, 150, 120}));
+    EXPECT_EQ(plain.skin.profile, profile);
+
+    Scene flushed = painted_by_code();
+    flushed.skin.blood_scale = 2;
+    ASSERT_TRUE(apply_pigment_maps(flushed));
+    const std::vector<int> red = colour_of(flushed);
+    EXPECT_LT(red[1], 140) << "more blood takes green";
+    EXPECT_GT(red[0], 185) << "and leaves red";
+    EXPECT_EQ(flushed.skin.profile, "skin:blood=0.0182") << "0.2 * (77 / 255)^2; melanin is the default";
+    EXPECT_TRUE(flushed.files.empty());
+
+    Scene moving = painted_by_code();
+    moving.skin.blood_by_tension = 1;
+    ASSERT_TRUE(apply_pigment_maps(moving));
+    EXPECT_EQ(colour_of(moving), (std::vector{200, 150, 120}));
+    EXPECT_TRUE(is_skin_model(moving.skin.profile));
+
+    Scene stated = painted_by_code();
+    stated.skin.blood_scale = 2, stated.skin.blood = 0.05f;
+    ASSERT_TRUE(apply_pigment_maps(stated));
+    EXPECT_EQ(colour_of(stated), (std::vector{200, 150, 120}));
+    EXPECT_NE(pigment_warnings(stated).find("beside skin.melanin or skin.blood"), std::string::npos);
+
+    Scene other_map = painted_by_code();
+    other_map.skin.blood_scale = 2;
+    for (SceneObject& object : other_map.objects)
+        for (Material& material : object.mesh.materials) material.base_color_map = {.name = "photograph.png"};
+    ASSERT_TRUE(apply_pigment_maps(other_map));
+    EXPECT_EQ(other_map.objects[0].mesh.materials[0].base_color_map.name, "photograph.png");
+}
+
 }  // namespace
 }  // namespace dermis

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kResidueStops = 16;
 
-double fraction_of(double value, double most) {
-    return most * value * value;
-}
-double value_of_fraction(double fraction, double most) {
-    return std::sqrt(std::clamp(fraction / most, 0.0, 1.0));
-}
 double factor_of(double value) {
     return std::exp2((value - 0.5) * kResidueStops);
 }
@@ -49,9 +43,9 @@ double mask_at(const Image& mask, double u, double v) {
 Pigments pigments_at(const PigmentPainting& painting, int x, int y) {
     Pigments pigments = painting.missing;
     if (!painting.maps->melanin.empty())
-        pigments.melanin = fraction_of(double(painting.maps->melanin.at(x, y, 0)), kMostMelanin);
+        pigments.melanin = pigment_fraction(double(painting.maps->melanin.at(x, y, 0)), kMostMelanin);
     if (!painting.maps->blood.empty())
-        pigments.blood = fraction_of(double(painting.maps->blood.at(x, y, 0)), kMostBlood);
+        pigments.blood = pigment_fraction(double(painting.maps->blood.at(x, y, 0)), kMostBlood);
     return pigments;
 }
 
@@ -91,7 +85,21 @@ void over_rows(int height, int width, const PigmentProgress& progress,
     });
 }
 
+void set_residue(PigmentMaps& maps, int x, int y, const Rgb& wanted, const PigmentTable& table) {
+    const Rgb made = table.albedo(pigments_at({.maps = &maps}, x, y));
+    constexpr double kLeast = 1.0 / 8192;
+    for (size_t c = 0; c < 3; ++c)
+        maps.residue.set(x, y, int(c), float(value_of_factor(std::max(wanted[c], kLeast) / made[c])));
+}
+
 }  // namespace
+
+void add_residue(PigmentMaps& maps, const Image& albedo, const PigmentTable& table) {
+    maps.residue = Image(albedo.width, albedo.height, 3, PixelFormat::u16);
+    over_rows(albedo.height, albedo.width, {}, [&](int y) {
+        for (int x = 0; x < albedo.width; ++x) set_residue(maps, x, y, linear_texel(albedo, x, y), table);
+    });
+}
 
 PigmentMaps pigment_maps_of(const Image& albedo, const PigmentTable& table, double exposure,
                             const PigmentProgress& progress) {
@@ -103,13 +111,10 @@ PigmentMaps pigment_maps_of(const Image& albedo, const PigmentTable& table, doub
             const Rgb wanted = linear_texel(albedo, x, y);
             const Pigments found =
                 table.nearest({wanted[0] / exposure, wanted[1] / exposure, wanted[2] / exposure});
-            maps.melanin.set(x, y, 0, float(value_of_fraction(found.melanin, kMostMelanin)));
-            maps.blood.set(x, y, 0, float(value_of_fraction(found.blood, kMostBlood)));
+            maps.melanin.set(x, y, 0, float(pigment_texel(found.melanin, kMostMelanin)));
+            maps.blood.set(x, y, 0, float(pigment_texel(found.blood, kMostBlood)));
             // The residue belongs to the pigments after rounding to 16 bits.
-            const Rgb made = table.albedo(pigments_at({.maps = &maps}, x, y));
-            constexpr double kLeast = 1.0 / 8192;
-            for (size_t c = 0; c < 3; ++c)
-                maps.residue.set(x, y, int(c), float(value_of_factor(std::max(wanted[c], kLeast) / made[c])));
+            set_residue(maps, x, y, wanted, table);
         }
     });
     return maps;
@@ -125,7 +130,7 @@ Pigments mean_pigments(const PigmentPainting& painting) {
         std::sort(values.begin(), values.end());
         double sum = 0;
         const size_t first = values.size() / 10, last = values.size() - first;
-        for (size_t i = first; i < last; ++i) sum += fraction_of(double(values[i]), most);
+        for (size_t i = first; i < last; ++i) sum += pigment_fraction(double(values[i]), most);
         return sum / double(last - first);
     };
     return {mean(painting.maps->melanin, kMostMelanin, painting.missing.melanin),

@@ -1,9 +1,9 @@
 #pragma once
 // A skin's albedo map as maps of its pigments, and back, with edits.
 //
-// A texel of a melanin map is sqrt(fraction / kMostMelanin), of a blood map sqrt(fraction / kMostBlood), so
-// that 8 bits suffice to paint them. The residue is what the two pigments cannot make (hair, make-up, light
-// that was painted in): a factor of each channel, 0.5 + log2(factor) / 16.
+// A texel of a melanin map is sqrt(fraction / kMostMelanin), of a blood map sqrt(fraction / kMostBlood)
+// (pigment_table.h), so that 8 bits suffice to paint them. The residue is what the two pigments cannot make
+// (hair, make-up, light that was painted in): a factor of each channel, 0.5 + log2(factor) / 16.
 
 #include <functional>
 
@@ -35,6 +35,9 @@ using PigmentProgress = std::function<void(size_t texels)>;
 /// are looked up: 1.3 for a map that is 30 % too bright. The residue keeps the factor, so the map comes back.
 [[nodiscard]] PigmentMaps pigment_maps_of(const Image& albedo, const PigmentTable& table, double exposure = 1,
                                           const PigmentProgress& progress = {});
+
+/// The residue with which maps of melanin and blood give this albedo map of their size.
+void add_residue(PigmentMaps& maps, const Image& albedo, const PigmentTable& table);
 
 /// What maps of one size do not have is taken from `missing`. Errors: maps of different sizes, no map.
 struct PigmentPainting {
