@@ -73,19 +73,40 @@ TEST(SkinModel, has_the_albedo_and_the_mean_radius_of_walks_through_its_layers) 
     }
 }
 
-TEST(SkinModel, melanin_alone_covers_the_groups_of_the_typology_angle_in_order) {
-    // Del Bino, Bernerd 2013. Blood 0.002: the mean of the skin (Jacques 1998), where the angle is measured.
+// Groups of the typology angle, "123456", that melanin .01 to .43 reaches; empty where the angle does not
+// fall.
+std::string groups_of_melanin(double blood, double epidermis_mm) {
+    // Del Bino, Bernerd 2013.
     const double borders_deg[] = {90, 55, 41, 28, 10, -30, -90};
     double last_deg = 90;
-    std::array<int, 6> members = {};
-    for (double melanin = 0.01; melanin < 0.431; melanin += 0.01) {
-        const double angle_deg = typology_angle_deg(skin_albedo({.melanin = melanin, .blood = 0.002}));
-        ASSERT_LT(angle_deg, last_deg);
+    std::string groups;
+    for (double melanin = 0.01; melanin < 0.431; melanin += 0.005) {
+        const double angle_deg = typology_angle_deg(
+            skin_albedo({.melanin = melanin, .blood = blood, .epidermis_mm = epidermis_mm}));
+        if (angle_deg >= last_deg) return "";
         last_deg = angle_deg;
         for (size_t group = 0; group < 6; ++group)
-            if (angle_deg < borders_deg[group] && angle_deg >= borders_deg[group + 1]) ++members[group];
+            if (const char name = char('1' + group); angle_deg < borders_deg[group] &&
+                                                     angle_deg >= borders_deg[group + 1] &&
+                                                     groups.find(name) == groups.npos)
+                groups += name;
     }
-    for (size_t group = 0; group < 6; ++group) EXPECT_GT(members[group], 0) << group;
+    return groups;
+}
+
+TEST(SkinModel, melanin_alone_covers_the_groups_of_the_typology_angle_in_order) {
+    // Blood .002: the mean of the skin (Jacques 1998), where the angle is measured.
+    EXPECT_EQ(groups_of_melanin(0.002, 0.06), "123456");
+    EXPECT_EQ(groups_of_melanin(0.002, 0.1), "123456");
+}
+
+TEST(SkinModel, blood_of_a_face_lowers_the_typology_angle_and_keeps_its_order) {
+    for (const double epidermis_mm : {0.06, 0.1}) {
+        EXPECT_EQ(groups_of_melanin(0.005, epidermis_mm), "23456");
+        EXPECT_EQ(groups_of_melanin(0.01, epidermis_mm), "23456");
+        EXPECT_EQ(groups_of_melanin(0.015, epidermis_mm), "23456");
+        EXPECT_EQ(groups_of_melanin(0.02, epidermis_mm), "3456");
+    }
 }
 
 TEST(SkinModel, six_tones_lie_in_the_six_groups_and_are_profiles) {
