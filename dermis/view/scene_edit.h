@@ -20,6 +20,9 @@ struct TomlEdit {
 /// inline tables and dotted keys: the caller parses the result and sees.
 [[nodiscard]] std::string edit_toml(std::string_view text, const std::vector<TomlEdit>& edits);
 
+/// The tint beside that of the file's tone or pigments, in the decimals of a saved scene.
+[[nodiscard]] Vec3 saved_tint(const Skin& skin);
+
 /// The scene as a file of `directory`: the model's scene file with the edits, or a new one around a mesh or a
 /// built-in. Paths that were relative to the old place become absolute. Errors: the scene's file cannot be
 /// read any more, or is written in a way that edit_toml cannot change.

@@ -128,9 +128,8 @@ void add_found_classes(std::vector<TomlEdit>& edits, const Scene& scene) {
 // The tone, or the tint beside the file's tone or pigments.
 void add_tone(std::vector<TomlEdit>& edits, const Model& model) {
     const Skin& skin = model.scene->skin;
-    const Vec3 tint = model.tone > 0 ? Vec3{1, 1, 1} : stated_tint(skin);
-    const auto number = [](float x) { return to_text(std::round(x * 1e4f) / 1e4f); };
-    const std::string text = "[" + number(tint.x) + ", " + number(tint.y) + ", " + number(tint.z) + "]";
+    const Vec3 tint = model.tone > 0 ? Vec3{1, 1, 1} : saved_tint(skin);
+    const std::string text = "[" + to_text(tint.x) + ", " + to_text(tint.y) + ", " + to_text(tint.z) + "]";
     edits.push_back({"skin", "albedo_tint", text == "[1, 1, 1]" ? "" : text});
     if (model.tone == 0) return;
     edits.push_back({"skin", "tone", std::to_string(model.tone)});
@@ -178,6 +177,12 @@ fs::path scene_file_of(const std::string& path_or_name) {
 }
 
 }  // namespace
+
+Vec3 saved_tint(const Skin& skin) {
+    const Vec3 tint = stated_tint(skin);
+    const auto rounded = [](float x) { return std::round(x * 1e4f) / 1e4f; };
+    return {rounded(tint.x), rounded(tint.y), rounded(tint.z)};
+}
 
 Result<std::string> scene_text(Model& model, const fs::path& directory) {
     const fs::path file = scene_file_of(model.scene_path);

@@ -7,6 +7,7 @@
 #include "dermis/optics/presets.h"
 #include "dermis/scene/scene_words.h"
 #include "dermis/scene/skin_tone.h"
+#include "dermis/view/scene_edit.h"
 #include "dermis/view/view_line.h"
 
 namespace dermis::view {
@@ -90,7 +91,10 @@ void ShownScene::choose_pigments(const SkinModel& pigments, Model& model) {
     if (!model.scene) return;
     const Rgb albedo = skin_albedo(pigments);
     if (!tint_to({float(albedo[0]), float(albedo[1]), float(albedo[2])}, model)) return;
-    model.scene->skin.profile = skin_model_text(pigments);
+    Skin& skin = model.scene->skin;
+    skin.profile = skin_model_text(pigments);
+    // Rounded as in a saved scene, so that both draw the same.
+    skin.albedo_tint_linear = saved_tint(skin) * skin.loaded_tint_linear;
     model.tone = 0;
 }
 

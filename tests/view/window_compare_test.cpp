@@ -9,6 +9,7 @@
 namespace dermis {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -105,6 +106,67 @@ TEST_F(ViewWindow, a_skin_tone_brings_its_profile_and_colour_and_goes_again) {
         for (int x = 0; x < before.width; ++x) difference += before.at(x, y, 0) - dark.at(x, y, 0);
     EXPECT_GT(difference / double(before.pixel_count()), 0.02);
     EXPECT_EQ(before.bytes, image("after.png").bytes);
+}
+
+// Mean of red, green, blue over the picture.
+Vec3 mean_colour(const Image& picture) {
+    Vec3 sum;
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            sum += {picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2)};
+    return sum * (1 / float(picture.pixel_count()));
+}
+
+// From a scene file with a camera: a saved camera is rounded, and then so is the one of the window.
+TEST_F(ViewWindow, sliders_of_pigments_darken_and_redden_the_skin_undo_and_are_saved) {
+    ASSERT_TRUE(write_text_file(path("script.txt"), R"(
+        save start.toml
+        open start.toml
+        settle
+        click section.Skin
+        wait 5
+        slide skin.melanin 0.12
+        settle
+        screenshot fair.png
+        slide skin.melanin 0.5
+        settle
+        screenshot dark.png
+        print
+        undo
+        settle
+        screenshot undone.png
+        slide skin.blood 0.9
+        settle
+        screenshot red.png
+        slide skin.oxygen 0
+        settle
+        screenshot veins.png
+        print
+        key ctrl+S
+        wait 2
+        quit
+    )"));
+    const std::string here = "cd " + directory_.path.string() + " && ";
+    const ProgramResult result =
+        shell(here + program(*display_) +
+              " view builtin:spheres --size 900x900 --samples 1 -t wrap --validate --script script.txt");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("\nprofile skin:melanin=0.2"));
+    EXPECT_THAT(last_state(result), AllOf(HasSubstr("\nprofile skin:melanin=0.0"), HasSubstr(",blood=0.09"),
+                                          HasSubstr(",oxygen=0\n")));
+    const Vec3 fair = mean_colour(image("fair.png")), dark = mean_colour(image("dark.png")),
+               red = mean_colour(image("red.png")), veins = mean_colour(image("veins.png"));
+    for (const auto channel : {&Vec3::x, &Vec3::y, &Vec3::z}) EXPECT_LT(dark.*channel, 0.95f * fair.*channel);
+    EXPECT_GT(red.x / red.y, 1.03f * fair.x / fair.y);
+    EXPECT_LT(veins.x, red.x) << "blood without oxygen absorbs more red";
+    EXPECT_EQ(image("fair.png").bytes, image("undone.png").bytes);
+
+    const Image shown = image("veins.png");
+    const ProgramResult rendered =
+        shell(here + DERMIS_PROGRAM + " render spheres-001.toml --samples 1 --size " +
+              std::to_string(shown.width) + "x" + std::to_string(shown.height) + " -o again.png");
+    ASSERT_EQ(rendered.exit_code, 0) << rendered.err;
+    EXPECT_EQ(image("again.png").bytes, shown.bytes);
 }
 
 }  // namespace dermis
