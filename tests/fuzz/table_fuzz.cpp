@@ -1,6 +1,6 @@
 // The convention's JSON and the CSV it describes: the JSON up to the first blank line, the rest is the table.
 // An accepted table must be the same after it is written and read again.
-// Dictionary: dermis/bake/convention_json.cpp dermis/bake/table_text.cpp dermis/bake/convention.cpp
+// Dictionary: dermis/bake/convention_json.cpp dermis/bake/table_io.cpp dermis/bake/convention.cpp
 
 #include <cstddef>
 #include <cstdint>

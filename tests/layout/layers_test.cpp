@@ -190,6 +190,22 @@ TEST(Layout, each_technique_has_a_page_and_a_test_in_its_folder) {
     EXPECT_GE(techniques, 6u);
 }
 
+TEST(Layout, fuzz_targets_take_their_dictionaries_from_files_that_exist) {
+    const std::string key = "// Dictionary: ";
+    size_t files = 0;
+    for (const fs::path& path : files_under("tests/fuzz", is_source)) {
+        const std::string text = read(path);
+        const size_t line = text.find(key);
+        if (line == text.npos) continue;
+        std::istringstream names(text.substr(line + key.size(), text.find('\n', line) - line - key.size()));
+        for (std::string name; names >> name; ++files) {
+            const fs::path file = kRoot / name;
+            EXPECT_TRUE(fs::exists(file.stem() == "*" ? file.parent_path() : file)) << path << ": " << name;
+        }
+    }
+    EXPECT_GT(files, 20u);
+}
+
 TEST(Layout, no_library_of_dermis_knows_what_is_built_in) {
     for (const fs::path& path : files_under("dermis", is_source))
         EXPECT_FALSE(names_built_in(read(path))) << path;
