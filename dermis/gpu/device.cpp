@@ -126,6 +126,7 @@ Result<Device> Device::create(const DeviceOptions& options) {
     load_debug_names(state->instance, state->context);
     take_physical_device(*state, device, options);
     state->context.keep_statistics = options.keep_statistics;
+    state->most_pipelines = options.most_pipelines;
     DERMIS_TRY(make_device(*state, options));
     DERMIS_TRY(make_submissions(*state));
     DERMIS_TRY(make_samplers(*state));

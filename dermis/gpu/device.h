@@ -28,6 +28,9 @@ struct DeviceOptions {
     /// Descriptor sets come from a pool even where VK_KHR_push_descriptor exists: tests of the pool run on
     /// any device.
     bool pooled_descriptors = false;
+    /// Above this number the device destroys pipelines that were idle longest. On a CPU one of a technique
+    /// takes some MB.
+    size_t most_pipelines = 256;
 };
 
 struct DeviceInfo {

@@ -19,6 +19,11 @@ inline constexpr size_t kAddressModes = 3;
 
 struct Pipeline;
 
+struct KeptPipeline {
+    std::shared_ptr<const Pipeline> pipeline;
+    uint64_t last_run = 0;
+};
+
 struct Device::State {
     Instance instance;
     DeviceInfo info;
@@ -31,7 +36,9 @@ struct Device::State {
     std::string pipeline_cache_key;
     size_t pipeline_cache_bytes = 0;  ///< as loaded; stored again when it grew
     /// By content, shared by all executors: making one takes longer than drawing a small picture with it.
-    std::map<std::string, std::shared_ptr<const Pipeline>> pipelines;
+    std::map<std::string, KeptPipeline> pipelines;
+    size_t most_pipelines = 0;
+    uint64_t runs = 0;  ///< of all executors
 
     State() = default;
     State(const State&) = delete;

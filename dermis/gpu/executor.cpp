@@ -119,7 +119,6 @@ Result<Image> Executor::read(std::string_view name, int mip) {
 
 void Executor::forget_shaders() {
     state_->shaders.forget();
-    state_->pipelines.clear();
 }
 
 Footprint Executor::footprint() const {

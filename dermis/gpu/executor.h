@@ -68,7 +68,7 @@ struct FrameResult {
     uint64_t frame = 0;   ///< what Executor::submit returned
 };
 
-/// Counts of the objects that an executor holds.
+/// Counts of the objects that an executor holds, and of its device's pipelines.
 struct Footprint {
     size_t images = 0, pipelines = 0;
     uint64_t image_bytes = 0;  ///< texels of the images, all levels and samples; drivers add padding
@@ -89,8 +89,8 @@ struct EmbeddedShader {
 /// Errors: no such file, no glslc, or what the compiler says, with file and line.
 [[nodiscard]] ShaderSource disk_shaders(std::filesystem::path root);
 
-/// Keeps pipelines, images (by declaration, so persistent ones keep their content from frame to frame) and
-/// buffers between runs; a changed list costs only what is new in it.
+/// Keeps images (by declaration, so persistent ones keep their content from frame to frame) and buffers
+/// between runs, as its device keeps pipelines; a changed list costs only what is new in it.
 class Executor {
   public:
     [[nodiscard]] static Result<Executor> create(Device& device, ShaderSource shaders);
@@ -113,7 +113,7 @@ class Executor {
     /// channel.
     [[nodiscard]] Result<Image> read(std::string_view image, int mip = 0);
 
-    /// Drops all pipelines, so that changed shaders are read again.
+    /// Reads all shaders again at the next run.
     void forget_shaders();
 
     [[nodiscard]] Footprint footprint() const;

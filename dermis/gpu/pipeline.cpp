@@ -10,10 +10,8 @@
 namespace dermis::gpu {
 namespace {
 
-// Above this number, an executor lets go pipelines that were idle for kIdlePipelineRuns, and the device
-// destroys those that no executor holds.
-constexpr size_t kManyPipelines = 256;
-constexpr uint64_t kIdlePipelineRuns = 64;
+// Pipelines that some executor used in the last runs are kept whatever their number: executors take turns.
+constexpr uint64_t kIdlePipelineRuns = 8;
 
 // A shader stage ready for creation; the module lives as long as this. Points into itself.
 struct Stage {
@@ -158,10 +156,11 @@ Result<const Pipeline*> PipelineStore::find_or_build(const std::string& key, con
     if (found == device_->pipelines.end()) {
         DERMIS_TRY_ASSIGN(Pipeline pipeline, build());
         set_object_name(device_->context, VK_OBJECT_TYPE_PIPELINE, pipeline.handle.get(), pass.name);
-        found = device_->pipelines.emplace(key, std::make_shared<const Pipeline>(std::move(pipeline))).first;
+        auto kept = std::make_shared<const Pipeline>(std::move(pipeline));
+        found = device_->pipelines.emplace(key, KeptPipeline{std::move(kept)}).first;
     }
-    pipelines_[key] = {found->second, run_};
-    return found->second.get();
+    found->second.last_run = device_->runs;
+    return found->second.pipeline.get();
 }
 
 Result<const Pipeline*> PipelineStore::graphics(const ListedPass& pass, const Shader& vertex,
@@ -176,12 +175,14 @@ Result<const Pipeline*> PipelineStore::compute(const ListedPass& pass, const Sha
 }
 
 void PipelineStore::begin_run() {
-    ++run_;
-    if (pipelines_.size() > kManyPipelines)
-        std::erase_if(pipelines_,
-                      [&](const auto& entry) { return entry.second.last_run + kIdlePipelineRuns < run_; });
-    if (device_->pipelines.size() > kManyPipelines)
-        std::erase_if(device_->pipelines, [](const auto& entry) { return entry.second.use_count() == 1; });
+    ++device_->runs;
+    auto& pipelines = device_->pipelines;
+    while (pipelines.size() > device_->most_pipelines) {
+        const auto oldest =
+            std::ranges::min_element(pipelines, {}, [](const auto& entry) { return entry.second.last_run; });
+        if (oldest->second.last_run + kIdlePipelineRuns >= device_->runs) break;
+        pipelines.erase(oldest);
+    }
 }
 
 std::string_view vertex_shader_name(const Pass& pass) {

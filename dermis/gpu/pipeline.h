@@ -34,7 +34,7 @@ struct TargetFormats {
     uint32_t samples = 1;
 };
 
-/// The pipelines that one executor uses.
+/// The device's pipelines, for one executor.
 class PipelineStore {
   public:
     explicit PipelineStore(Device::State& device) : device_(&device) {}
@@ -45,22 +45,15 @@ class PipelineStore {
                                                    const Shader* fragment, const TargetFormats& formats);
     [[nodiscard]] Result<const Pipeline*> compute(const ListedPass& pass, const Shader& shader);
 
-    /// Once a run; drops what has long not been used when there is much of it.
+    /// Once a run; destroys what was idle longest when there is much of it (DeviceOptions::most_pipelines).
     void begin_run();
-    void clear() { pipelines_.clear(); }
-    [[nodiscard]] size_t size() const { return pipelines_.size(); }
+    [[nodiscard]] size_t size() const { return device_->pipelines.size(); }
 
   private:
     [[nodiscard]] Result<const Pipeline*> find_or_build(const std::string& key, const Pass& pass,
                                                         const std::function<Result<Pipeline>()>& build);
 
-    struct Used {
-        std::shared_ptr<const Pipeline> pipeline;
-        uint64_t last_run = 0;
-    };
     Device::State* device_;
-    std::map<std::string, Used> pipelines_;
-    uint64_t run_ = 0;
 };
 
 /// Every target has an output, every input of the fragment shader an output of the vertex shader.

@@ -3,6 +3,14 @@
 #include <algorithm>
 
 namespace dermis::view {
+namespace {
+
+// Two techniques side by side use some 25 pipelines, so a user can go back and forth between techniques
+// without waiting. More would fill the memory of drivers for the CPU, which take 4 to 5 MB for a technique's
+// pipeline.
+constexpr size_t kMostPipelines = 48;
+
+}  // namespace
 
 Parts::Parts(const ViewerOptions& o, const Clock& running, Window opened, gpu::Device created,
              std::future<Result<Start>> first)
@@ -29,7 +37,8 @@ Result<std::unique_ptr<Parts>> Parts::open(const ViewerOptions& options) {
     Result<gpu::Device> device = gpu::Device::create({.validation = options.validation,
                                                       .on_message = options.on_message,
                                                       .name_contains = options.device,
-                                                      .instance_extensions = window->instance_extensions()});
+                                                      .instance_extensions = window->instance_extensions(),
+                                                      .most_pipelines = kMostPipelines});
     if (!device) return device.error();
     auto parts =
         std::make_unique<Parts>(options, clock, std::move(*window), std::move(*device), std::move(loading));

@@ -61,6 +61,7 @@ std::string state_text(Parts& p) {
     text += "interface_scale " + to_text(p.interface->scale()) + "\n";
     const gpu::Footprint held = p.presenter->footprint();
     text += "window_images " + std::to_string(held.images) + "\n";
+    text += "pipelines " + std::to_string(held.pipelines) + "\n";
     text += "frame " + std::to_string(p.clock.frames()) + "\n";
     text += "device_objects " + std::to_string(p.device.created_objects()) + "\n";
     text += "memory_mb " + std::to_string(memory_mb()) + "\n";
