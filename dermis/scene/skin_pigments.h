@@ -20,8 +20,9 @@ namespace dermis::inline scene {
 [[nodiscard]] Result<void> apply_pigments(Scene& scene);
 
 /// Paints the colour of skin materials that have maps of melanin or blood; their mean pigments choose the
-/// profile, where none is named. Removes the pigments of the scene's skin then. Takes a second and half a
-/// microsecond for each texel. Errors: unreadable maps, maps of different sizes.
+/// profile, where none is named. Removes the pigments of the scene's skin then. A subject's own maps act only
+/// where the skin scales its pigments or moves its blood. Takes half a second, and half a microsecond for
+/// each texel. Errors: unreadable maps, maps of different sizes.
 [[nodiscard]] Result<void> apply_pigment_maps(Scene& scene);
 
 }  // namespace dermis::inline scene

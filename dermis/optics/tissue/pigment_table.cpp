@@ -48,25 +48,35 @@ PigmentTable::PigmentTable(const SkinModel& model) : logs_(size_t(kPigmentNodes 
     }
 }
 
-// Catmull and Rom 1974 along both axes.
+namespace {
+
+// Four nodes along one axis and their weights: Catmull and Rom 1974.
+struct Taps {
+    std::array<size_t, 4> node;
+    std::array<double, 4> weight;
+};
+Taps taps_at(double at) {
+    const double x = std::clamp(at, 0.0, 1.0) * (kPigmentNodes - 1);
+    const int first = std::min(int(x), kPigmentNodes - 2);
+    const double t = x - first;
+    return {{size_t(std::max(first - 1, 0)), size_t(first), size_t(first + 1),
+             size_t(std::min(first + 2, kPigmentNodes - 1))},
+            {((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2, ((4 - 3 * t) * t + 1) * t / 2,
+             (t - 1) * t * t / 2}};
+}
+
+}  // namespace
+
 Rgb PigmentTable::log_albedo(double u, double v) const {
-    const auto weights = [](double at, int& first) {
-        const double x = std::clamp(at, 0.0, 1.0) * (kPigmentNodes - 1);
-        first = std::min(int(x), kPigmentNodes - 2);
-        const double t = x - first;
-        return std::array<double, 4>{((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2,
-                                     ((4 - 3 * t) * t + 1) * t / 2, (t - 1) * t * t / 2};
-    };
-    int column = 0, row = 0;
-    const auto across = weights(u, column), down = weights(v, row);
+    const Taps across = taps_at(u), down = taps_at(v);
     Rgb sum = {};
-    for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) {
-            const int x = std::clamp(column + i - 1, 0, kPigmentNodes - 1);
-            const int y = std::clamp(row + j - 1, 0, kPigmentNodes - 1);
-            const double weight = across[size_t(i)] * down[size_t(j)];
-            for (size_t c = 0; c < 3; ++c) sum[c] += weight * logs_[size_t(y * kPigmentNodes + x)][c];
-        }
+    for (size_t j = 0; j < 4; ++j) {
+        const Rgb* const row = &logs_[down.node[j] * kPigmentNodes];
+        Rgb of_row = {};
+        for (size_t i = 0; i < 4; ++i)
+            for (size_t c = 0; c < 3; ++c) of_row[c] += across.weight[i] * row[across.node[i]][c];
+        for (size_t c = 0; c < 3; ++c) sum[c] += down.weight[j] * of_row[c];
+    }
     return sum;
 }
 
