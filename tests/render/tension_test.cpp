@@ -8,6 +8,7 @@
 
 #include "dermis/render/output.h"
 #include "dermis/scene/pose_scene.h"
+#include "image/test_images.h"
 #include "render/grid_scene.h"
 #include "support/moving_sheet.h"
 #include "support/temporary_directory.h"
@@ -116,27 +117,27 @@ void add_wrinkle_maps(Scene& scene) {
 class WrinklePicture : public TensionPicture {
   protected:
     // Of every technique but those whose normals are baked in the atlas, which the grid does not have.
-    static std::vector<std::byte> drawn(const Scene& scene, const std::string& technique = "lambert") {
+    static Image drawn(const Scene& scene, const std::string& technique = "lambert") {
         Renderer renderer = make_renderer(scene);
         const Technique& drawn_by = built_in_technique(technique);
         ParameterValues values = small_map_values(drawn_by);
         if (technique == "preintegrated") EXPECT_TRUE(values.set("normals", "blended"));
-        return radiance(renderer, drawn_by, values, {.width = kGrid, .height = kGrid, .deep = true}).bytes;
+        return radiance(renderer, drawn_by, values, {.width = kGrid, .height = kGrid, .deep = true});
     }
 };
 
 TEST_F(WrinklePicture, below_the_least_tension_is_that_without_maps_to_the_byte) {
     for (const float tension : {0.0f, 0.04f, -0.04f}) {
         Scene scene = evenly_tense_grid(tension);
-        const auto without = drawn(scene);
+        const Image without = drawn(scene);
         add_wrinkle_maps(scene);
-        EXPECT_EQ(drawn(scene), without) << tension;
+        EXPECT_EQ(drawn(scene).bytes, without.bytes) << tension;
     }
     Scene rest = evenly_tense_grid(0);
     rest.objects[0].mesh.tensions.clear();
-    const auto without = drawn(rest);
+    const Image without = drawn(rest);
     add_wrinkle_maps(rest);
-    EXPECT_EQ(drawn(rest), without) << "no stream of tensions";
+    EXPECT_EQ(drawn(rest).bytes, without.bytes) << "no stream of tensions";
 }
 
 TEST_F(WrinklePicture, above_the_full_tension_is_that_of_the_wrinkle_map_as_normal_map) {
@@ -144,25 +145,27 @@ TEST_F(WrinklePicture, above_the_full_tension_is_that_of_the_wrinkle_map_as_norm
          {"lambert", "preintegrated", "texture_space", "screen_space_separable"})
         for (const float tension : {0.5f, -0.5f}) {
             Scene scene = evenly_tense_grid(tension);
-            const auto rest = drawn(scene, technique);
+            const Image rest = drawn(scene, technique);
             Material& material = scene.objects[0].mesh.materials[0];
             add_wrinkle_maps(scene);
-            const auto wrinkled = drawn(scene, technique);
+            const Image wrinkled = drawn(scene, technique);
             material.normal_map = tension > 0 ? material.wrinkle_stretch_map : material.wrinkle_compress_map;
             material.wrinkle_stretch_map = material.wrinkle_compress_map = {};
-            EXPECT_EQ(wrinkled, drawn(scene, technique)) << technique << " " << tension;
-            EXPECT_NE(wrinkled, rest) << technique << " " << tension;
+            // Some devices round a mixture by the weight 1.
+            EXPECT_LT(largest_difference(wrinkled, drawn(scene, technique)), 1e-5f)
+                << technique << " " << tension;
+            EXPECT_GT(largest_difference(wrinkled, rest), 1e-2f) << technique << " " << tension;
         }
 }
 
 TEST_F(WrinklePicture, of_one_map_ignores_the_other_sign) {
     for (const float tension : {0.5f, -0.5f}) {
         Scene scene = evenly_tense_grid(tension);
-        const auto without = drawn(scene);
+        const Image without = drawn(scene);
         add_wrinkle_maps(scene);
         Material& material = scene.objects[0].mesh.materials[0];
         (tension > 0 ? material.wrinkle_stretch_map : material.wrinkle_compress_map) = {};
-        EXPECT_EQ(drawn(scene), without) << tension;
+        EXPECT_EQ(drawn(scene).bytes, without.bytes) << tension;
     }
 }
 
