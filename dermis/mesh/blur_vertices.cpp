@@ -52,16 +52,18 @@ SurfaceOperators operators_of(const Mesh& mesh, const Weld& weld) {
 
 constexpr double kLeastMassMm2 = 1e-6;  // of a vertex without samples
 
-// The integral's matrix and right sides, one column a channel.
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;  // one a channel
+
+// The integral's matrix and right sides.
 struct FitEquations {
     Sparse mass;
-    Eigen::MatrixX3d values;
+    Columns values, opposed;
 };
 
 FitEquations equations_of(std::span<const uint32_t> corners, std::span<const SurfaceSamples> samples,
                           Eigen::Index count) {
     constexpr size_t kPairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
-    FitEquations made{Sparse(count, count), Eigen::MatrixX3d::Zero(count, 3)};
+    FitEquations made{Sparse(count, count), Columns::Zero(count, 3), Columns::Zero(count, 3)};
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index i = 0; i < count; ++i) entries.emplace_back(int(i), int(i), kLeastMassMm2);
     for (size_t t = 0; t < samples.size(); ++t) {
@@ -72,23 +74,78 @@ FitEquations equations_of(std::span<const uint32_t> corners, std::span<const Sur
             entries.emplace_back(a, b, product);
             if (i >= 3) entries.emplace_back(b, a, product);
         }
+        const auto row = [](Vec3 v) { return Eigen::RowVector3d(double(v.x), double(v.y), double(v.z)); };
         for (size_t k = 0; k < 3; ++k) {
-            const Vec3 value = samples[t].values[k];
-            made.values.row(Eigen::Index(corner[k])) +=
-                Eigen::RowVector3d(double(value.x), double(value.y), double(value.z));
+            made.values.row(Eigen::Index(corner[k])) += row(samples[t].values[k]);
+            made.opposed.row(Eigen::Index(corner[k])) += row(samples[t].opposed[k]);
         }
     }
     made.mass.setFromTriplets(entries.begin(), entries.end());
     return made;
 }
 
+std::vector<Vec3> at_vertices(const Columns& welded, const Weld& weld) {
+    std::vector<Vec3> values;
+    values.reserve(weld.ids.size());
+    for (const uint32_t id : weld.ids) {
+        const auto row = welded.row(Eigen::Index(id));
+        values.push_back({float(row[0]), float(row[1]), float(row[2])});
+    }
+    return values;
+}
+
+// Of the values and of the opposed ones.
+using Fits = std::array<Columns, 2>;
+
+Result<Fits> fits_of(const SurfaceOperators& surface, const FitEquations& equations, double variance_mm2) {
+    const Sparse system = equations.mass + surface.laplacian * (variance_mm2 / 2);
+    Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver(system);
+    solver.setTolerance(kTolerance);
+    Fits fits = {solver.solve(equations.values), {}};
+    if (solver.info() == Eigen::Success && !equations.opposed.isZero())
+        fits[1] = solver.solve(equations.opposed);
+    if (solver.info() != Eigen::Success)
+        return Error{"fit over the surface: no solution; the mesh has triangles without area"};
+    if (fits[1].rows() == 0) fits[1] = Columns::Zero(fits[0].rows(), 3);
+    return fits;
+}
+
+template <class Values>
+Result<Values> blurred(const SurfaceOperators& surface, Values u, double variance_mm2) {
+    Sparse step = surface.laplacian * (variance_mm2 / 2 / kSteps);
+    step += Sparse(surface.area_mm2.asDiagonal());
+    Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver(step);
+    solver.setTolerance(kTolerance);
+    for (int i = 0; i < kSteps; ++i) {
+        const Values heat = surface.area_mm2.asDiagonal() * u;
+        u = solver.solveWithGuess(heat, u);
+        if (solver.info() != Eigen::Success)
+            return Error{"blur over the surface: no solution; the mesh has triangles without area"};
+    }
+    return u;
+}
+
+constexpr int kBands = 4;
+constexpr double kLeastVarianceMm2 = 1, kBandRatio = 4;  // from band to band
+constexpr double kAround = 4;  // variance of the means of a band's squares, over the band's own
+
+// Share of a band that is kept.
+Result<Columns> share_above_noise(const SurfaceOperators& surface, const Fits& band, double variance_mm2) {
+    DERMIS_TRY_ASSIGN(const Columns all,
+                      blurred(surface, Columns(band[0].cwiseAbs2()), kAround * variance_mm2));
+    DERMIS_TRY_ASSIGN(const Columns noise,
+                      blurred(surface, Columns(band[1].cwiseAbs2()), kAround * variance_mm2));
+    return Columns((all.array() > 0).select(1 - noise.array() / all.array(), 0).cwiseMax(0).cwiseMin(1));
+}
+
 }  // namespace
 
-void SurfaceSamples::add(const std::array<float, 3>& weights, float area_mm2, Vec3 value) {
+void SurfaceSamples::add(const std::array<float, 3>& weights, float area_mm2, Vec3 value, bool changes_sign) {
     for (size_t k = 0; k < 3; ++k) {
         products[k] += area_mm2 * weights[k] * weights[k];
         products[3 + k] += area_mm2 * weights[(k + 1) % 3] * weights[(k + 2) % 3];
         values[k] += value * (area_mm2 * weights[k]);
+        opposed[k] += value * (changes_sign ? -area_mm2 * weights[k] : area_mm2 * weights[k]);
     }
 }
 
@@ -98,19 +155,27 @@ Result<std::vector<Vec3>> fit_over_surface(const Mesh& mesh, std::span<const Sur
     const SurfaceOperators surface = operators_of(mesh, weld);
     const FitEquations equations =
         equations_of(welded_indices(mesh.indices, weld), samples, Eigen::Index(weld.count()));
-    const Sparse system = equations.mass + surface.laplacian * (variance_mm2 / 2);
-    Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver(system);
-    solver.setTolerance(kTolerance);
-    const Eigen::MatrixX3d u = solver.solve(equations.values);
-    if (solver.info() != Eigen::Success)
-        return Error{"fit over the surface: no solution; the mesh has triangles without area"};
-    std::vector<Vec3> fitted;
-    fitted.reserve(weld.ids.size());
-    for (const uint32_t id : weld.ids) {
-        const auto row = u.row(Eigen::Index(id));
-        fitted.push_back({float(row[0]), float(row[1]), float(row[2])});
+    DERMIS_TRY_ASSIGN(const Fits fits, fits_of(surface, equations, variance_mm2));
+    return at_vertices(fits[0], weld);
+}
+
+Result<FitWithoutNoise> fit_without_noise(const Mesh& mesh, std::span<const SurfaceSamples> samples) {
+    const Weld weld = weld_positions(mesh.positions_mm);
+    const SurfaceOperators surface = operators_of(mesh, weld);
+    const FitEquations equations =
+        equations_of(welded_indices(mesh.indices, weld), samples, Eigen::Index(weld.count()));
+    double variance_mm2 = kLeastVarianceMm2;
+    DERMIS_TRY_ASSIGN(Fits fine, fits_of(surface, equations, variance_mm2));
+    Fits kept = {Columns::Zero(fine[0].rows(), 3), Columns::Zero(fine[0].rows(), 3)};
+    for (int i = 0; i < kBands; ++i) {
+        variance_mm2 *= kBandRatio;
+        DERMIS_TRY_ASSIGN(Fits coarse, fits_of(surface, equations, variance_mm2));
+        const Fits band = {fine[0] - coarse[0], fine[1] - coarse[1]};
+        DERMIS_TRY_ASSIGN(const Columns share, share_above_noise(surface, band, variance_mm2));
+        for (size_t k = 0; k < 2; ++k) kept[k] += share.cwiseProduct(band[k]);
+        fine = std::move(coarse);
     }
-    return fitted;
+    return FitWithoutNoise{at_vertices(kept[0] + fine[0], weld), at_vertices(kept[1] + fine[1], weld)};
 }
 
 Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const float> values,
@@ -119,20 +184,11 @@ Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const f
     const SurfaceOperators surface = operators_of(mesh, weld);
     Eigen::VectorXd u(weld.count());
     for (size_t i = 0; i < weld.count(); ++i) u[Eigen::Index(i)] = values[weld.first[i]];
-    Sparse step = surface.laplacian * (variance_mm2 / 2 / kSteps);
-    step += Sparse(surface.area_mm2.asDiagonal());
-    Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver(step);
-    solver.setTolerance(kTolerance);
-    for (int i = 0; i < kSteps; ++i) {
-        const Eigen::VectorXd heat = surface.area_mm2.cwiseProduct(u);
-        u = solver.solveWithGuess(heat, u);
-        if (solver.info() != Eigen::Success)
-            return Error{"blur over the surface: no solution; the mesh has triangles without area"};
-    }
-    std::vector<float> blurred;
-    blurred.reserve(values.size());
-    for (const uint32_t id : weld.ids) blurred.push_back(float(u[Eigen::Index(id)]));
-    return blurred;
+    DERMIS_TRY_ASSIGN(u, blurred(surface, std::move(u), variance_mm2));
+    std::vector<float> made;
+    made.reserve(values.size());
+    for (const uint32_t id : weld.ids) made.push_back(float(u[Eigen::Index(id)]));
+    return made;
 }
 
 }  // namespace dermis::inline mesh

@@ -36,15 +36,19 @@ struct WalkTask {
 // Of one object: what its walks need, and what they gave.
 struct ObjectWalks {
     const Mesh* mesh;
-    size_t number;                                // in the scene
-    std::vector<uint32_t> walks;                  // of each triangle
-    std::vector<Vec3> prior;                      // gain by curvature at the vertices
-    std::vector<SurfaceSamples> all, difference;  // returned light less the prior; of even and odd walks
+    size_t number;                        // in the scene
+    std::vector<uint32_t> walks;          // of each triangle
+    std::vector<Vec3> prior;              // gain by curvature at the vertices
+    std::vector<SurfaceSamples> samples;  // returned light less the prior
 };
 
 // Less than this share of a uniform sky arrives at places that are hidden: behind lids, in nostrils. They are
 // darker than the rest by any light.
 constexpr float kHiddenShare = 0.3f;
+
+// What is more curved is an edge rather than a ball. There the prior is wrong, and the blur keeps a part of
+// its error.
+constexpr double kMostPriorCurvaturePerMm = 0.12;
 
 std::vector<CurvatureTensor> curvatures_of(const Mesh& mesh) {
     return mesh.curvatures_per_mm.size() == mesh.positions_mm.size()
@@ -55,10 +59,9 @@ std::vector<CurvatureTensor> curvatures_of(const Mesh& mesh) {
 std::vector<Vec3> gains_by_curvature(std::span<const CurvatureTensor> tensors, const GainForm& form) {
     std::vector<Vec3> gains;
     gains.reserve(tensors.size());
-    // The form is fitted to these curvatures; where the prior is wrong, the blur keeps a part of its error.
-    const double least = gain_curvatures().front(), most = gain_curvatures().back();
     for (const CurvatureTensor& tensor : tensors) {
-        const double h = std::clamp(double(mean_curvature(tensor)), least, most);
+        const double h =
+            std::clamp(double(mean_curvature(tensor)), -kMostPriorCurvaturePerMm, kMostPriorCurvaturePerMm);
         gains.push_back(to_vec3({gain(form, 0, h), gain(form, 1, h), gain(form, 2, h)}));
     }
     return gains;
@@ -134,19 +137,18 @@ void walk_triangle(const WalkTask& task, size_t t, uint32_t seed, ObjectWalks& o
         FleshBoundary boundary(*task.rays);
         auto [end, flat] = guided_walk_and_flat(task.medium, task.guide, boundary, p_mm, n, start,
                                                 golden_1d(first, i), random);
+        const float light = light_at(occlusion, *object.mesh, t, weights);
         if (end.throughput != Vec3{})
-            end.throughput = end.throughput * light_at_end(task, boundary.last(),
-                                                           light_at(occlusion, *object.mesh, t, weights));
+            end.throughput = end.throughput * light_at_end(task, boundary.last(), light);
         Vec3 value = Vec3{1, 1, 1} + (end.throughput - flat.throughput) * task.per_flat;
         for (size_t k = 0; k < 3; ++k) value -= object.prior[corner[k]] * weights[k];
-        object.all[t].add(weights, share_mm2, value);
-        object.difference[t].add(weights, share_mm2, (first / 3 + i) % 2 == 0 ? value : -value);
+        // Hidden skin has no light to multiply, so its gain may follow that of the skin around it.
+        object.samples[t].add(weights, share_mm2 * light, value, (first / 3 + i) % 2 != 0);
     }
 }
 
 void walk_object(const WalkTask& task, uint32_t seed, ObjectWalks& object, Progress& progress) {
-    object.all.resize(object.walks.size());
-    object.difference.resize(object.walks.size());
+    object.samples.resize(object.walks.size());
     parallel_for(object.walks.size(), kTrianglesPerTask, [&](size_t begin, size_t end) {
         size_t walked = 0;
         for (size_t t = begin; t < end; ++t) {
@@ -157,21 +159,20 @@ void walk_object(const WalkTask& task, uint32_t seed, ObjectWalks& object, Progr
     });
 }
 
-// Adds to the sums over the skin of area * difference^2 and of area.
-void add_squares(const ObjectWalks& object, std::span<const Vec3> difference, Vec3& squares, double& area) {
+// Adds to the sums over the skin of area * noise^2 and of area.
+void add_squares(const ObjectWalks& object, std::span<const Vec3> noise, Vec3& squares, double& area) {
     for (size_t t = 0; t < object.walks.size(); ++t) {
         if (object.walks[t] == 0) continue;
         const float a = area_mm2(*object.mesh, t);
         for (size_t k = 0; k < 3; ++k) {
-            const Vec3 d = difference[object.mesh->indices[3 * t + k]];
+            const Vec3 d = noise[object.mesh->indices[3 * t + k]];
             squares += d * d * (a / 3);
         }
         area += double(a);
     }
 }
 
-Result<std::vector<Vec3>> gains_of(const ObjectWalks& object, float variance_mm2) {
-    DERMIS_TRY_ASSIGN(std::vector<Vec3> gains, fit_over_surface(*object.mesh, object.all, variance_mm2));
+std::vector<Vec3> gains_of(const ObjectWalks& object, std::vector<Vec3> gains) {
     std::vector<bool> has_skin(gains.size());
     for (size_t i = 0; i < object.mesh->indices.size(); ++i)
         if (object.walks[i / 3] > 0) has_skin[object.mesh->indices[i]] = true;
@@ -203,8 +204,7 @@ Result<std::vector<ObjectWalks>> planned(std::span<const SceneObject> objects, c
                            .number = i,
                            .walks = walks_of(mesh, walked[i], per_mm2),
                            .prior = gains_by_curvature(curvatures[i], form),
-                           .all = {},
-                           .difference = {}});
+                           .samples = {}});
     }
     return planned;
 }
@@ -232,11 +232,9 @@ Result<VertexGains> walk(std::span<const SceneObject> objects, const Curvatures&
     double area = 0;
     for (size_t i = 0; i < all.size(); ++i) {
         walk_object(task, hash_u32(uint32_t(i), 7), all[i], progress);
-        DERMIS_TRY_ASSIGN(std::vector<Vec3> gains, gains_of(all[i], settings.variance_mm2));
-        made.gains.push_back(std::move(gains));
-        DERMIS_TRY_ASSIGN(const std::vector<Vec3> difference,
-                          fit_over_surface(*all[i].mesh, all[i].difference, settings.variance_mm2));
-        add_squares(all[i], difference, squares, area);
+        DERMIS_TRY_ASSIGN(FitWithoutNoise fit, fit_without_noise(*all[i].mesh, all[i].samples));
+        made.gains.push_back(gains_of(all[i], std::move(fit.values)));
+        add_squares(all[i], fit.noise, squares, area);
     }
     const auto noise = [&](float square) { return float(std::sqrt(double(square) / area)); };
     made.noise = {noise(squares.x), noise(squares.y), noise(squares.z)};
@@ -246,8 +244,6 @@ Result<VertexGains> walk(std::span<const SceneObject> objects, const Curvatures&
 Result<void> check_settings(const VertexGainSettings& s) {
     if (!(s.walks_per_mm2 >= 0.1f && s.walks_per_mm2 <= 10000))
         return Error{"walks per mm^2 are " + to_text(s.walks_per_mm2) + ", not within 0.1..10000"};
-    if (!(s.variance_mm2 >= 0 && s.variance_mm2 <= 100))
-        return Error{"variance_mm2 is " + to_text(s.variance_mm2) + ", not within 0..100"};
     return {};
 }
 
@@ -257,9 +253,10 @@ Result<VertexGains> walk_vertex_gains(std::span<const SceneObject> objects, cons
                                       const VertexGainSettings& settings) {
     DERMIS_TRY(check_settings(settings));
     Hasher hasher;
+    hasher.add(std::string_view("fit without noise"));  // another way to fit is another word here
     hasher.add(rays_version()).add(medium.g).add(medium.eta);
     for (size_t c = 0; c < 3; ++c) hasher.add(medium.sigma_s_per_mm[c]).add(medium.sigma_a_per_mm[c]);
-    hasher.add(settings.walks_per_mm2).add(settings.least_walks).add(settings.variance_mm2);
+    hasher.add(settings.walks_per_mm2).add(settings.least_walks);
     VertexGains blank;
     Curvatures curvatures;
     for (const SceneObject& object : objects) {

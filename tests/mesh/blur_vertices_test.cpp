@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "dermis/mesh/primitives.h"
 
@@ -95,4 +96,38 @@ TEST(FitOverSurface, of_a_variance_damps_a_wave_and_continues_where_samples_are_
         }
         EXPECT_NEAR((*fitted)[i].y, 1, 0.02);
     }
+}
+
+TEST(FitWithoutNoise, takes_noise_from_even_places_and_leaves_a_bump) {
+    const Mesh mesh = make_plane(80, 80, 80);
+    std::vector<SurfaceSamples> samples(mesh.triangle_count());
+    std::mt19937 random(1);
+    const auto bump = [](Vec3 p) { return std::exp(-dot(p, p) / 18); };  // 3 mm wide
+    for (size_t t = 0; t < samples.size(); ++t)
+        for (int i = 0; i < 4; ++i) {
+            const std::array<float, 3> weights = {i == 0 ? 0.6f : 0.2f, i == 1 ? 0.6f : 0.2f,
+                                                  i == 0 || i == 1 ? 0.2f : 0.6f};
+            Vec3 p;
+            for (size_t k = 0; k < 3; ++k) p += mesh.positions_mm[mesh.indices[3 * t + k]] * weights[k];
+            const float noise = float(random() % 1000) / 1000 - 0.5f;
+            samples[t].add(weights, 0.125f, {bump(p) + noise, 1, 0}, i % 2 == 1);
+        }
+    const auto plain = fit_over_surface(mesh, samples, 1);
+    const auto clean = fit_without_noise(mesh, samples);
+    ASSERT_TRUE(plain && clean);
+    double plain_error = 0, clean_error = 0, stated = 0;
+    for (size_t i = 0; i < mesh.positions_mm.size(); ++i) {
+        const Vec3 p = mesh.positions_mm[i];
+        const auto square = [&](float value) { return double((value - bump(p)) * (value - bump(p))); };
+        EXPECT_NEAR(clean->values[i].y, 1, 1e-3);
+        if (length(p) < 2) {
+            EXPECT_NEAR(clean->values[i].x, bump(p), 0.15) << p.x << " " << p.y;
+        } else if (length(p) > 20) {
+            plain_error += square((*plain)[i].x);
+            clean_error += square(clean->values[i].x);
+            stated += double(clean->noise[i].x * clean->noise[i].x);
+        }
+    }
+    EXPECT_LT(clean_error, plain_error / 9);
+    EXPECT_NEAR(std::sqrt(stated / clean_error), 1, 0.5);
 }

@@ -57,14 +57,14 @@ TEST(VertexGain, OfABallIsThatOfWalksInABall) {
 
 TEST(VertexGain, StatesItsNoise) {
     // All places of a ball have one gain, so what differs is noise.
-    const VertexGains walked = gains_of(ball(16), {.walks_per_mm2 = 8, .least_walks = 1, .variance_mm2 = 1});
+    const VertexGains walked = gains_of(ball(16), {.walks_per_mm2 = 2, .least_walks = 1});
     const Spread spread = spread_of(walked.gains[0]);
     EXPECT_GT(walked.noise.x, 0.005f);
-    EXPECT_NEAR(spread.deviation.x / walked.noise.x, 1, 0.4);
-    EXPECT_NEAR(spread.deviation.y / walked.noise.y, 1, 0.4);
-    EXPECT_NEAR(spread.deviation.z / walked.noise.z, 1, 0.4);
-    const VertexGains smooth = gains_of(ball(16), {.walks_per_mm2 = 8, .least_walks = 1, .variance_mm2 = 16});
-    EXPECT_LT(smooth.noise.x, 0.6f * walked.noise.x);
+    EXPECT_NEAR(spread.deviation.x / walked.noise.x, 1, 0.6);
+    EXPECT_NEAR(spread.deviation.y / walked.noise.y, 1, 0.6);
+    EXPECT_NEAR(spread.deviation.z / walked.noise.z, 1, 0.6);
+    const VertexGains finer = gains_of(ball(16), {.walks_per_mm2 = 32, .least_walks = 1});
+    EXPECT_LT(finer.noise.x, 0.4f * walked.noise.x);
 }
 
 TEST(VertexGain, OfWhatIsNotSkinIsOne) {
@@ -105,9 +105,7 @@ TEST(VertexGain, CountsNoLightFromHiddenSkin) {
 
 TEST(VertexGain, RefusesSettingsOutOfRange) {
     const SceneObject object = ball(4);
-    for (const VertexGainSettings& bad :
-         {VertexGainSettings{.walks_per_mm2 = 0}, VertexGainSettings{.variance_mm2 = 101}})
-        EXPECT_FALSE(walk_vertex_gains(std::span(&object, 1), skin_medium(), bad));
+    EXPECT_FALSE(walk_vertex_gains(std::span(&object, 1), skin_medium(), {.walks_per_mm2 = 0}));
 }
 
 TEST(VertexGain, MapHasTheVerticesValues) {
