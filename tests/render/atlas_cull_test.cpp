@@ -36,9 +36,10 @@ class AtlasCull : public RenderTest {
         return {*renderer.radiance(), samples(*frame, "light map")};
     }
 
+    /// To the byte on a CPU; on a GPU some pixels differ by the last place of a half float.
     static void expect_equal(const Image& culled, const Image& whole, const std::string& what) {
-        EXPECT_TRUE(culled.bytes == whole.bytes)
-            << what << ": the largest difference is " << largest_difference(culled, whole);
+        const float most = device().info().is_cpu ? 0 : 0x1p-11f;
+        EXPECT_LE(largest_difference(culled, whole), most) << what;
     }
 
     /// 12 views around the head or every `step`-th of them, each third from nearby; the share of lit texels
