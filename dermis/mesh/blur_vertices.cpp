@@ -57,13 +57,14 @@ using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;  // one a channel
 // The integral's matrix and right sides.
 struct FitEquations {
     Sparse mass;
-    Columns values, opposed;
+    Columns values, noise;
 };
 
 FitEquations equations_of(std::span<const uint32_t> corners, std::span<const SurfaceSamples> samples,
                           Eigen::Index count) {
     constexpr size_t kPairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
     FitEquations made{Sparse(count, count), Columns::Zero(count, 3), Columns::Zero(count, 3)};
+    const auto row = [](Vec3 v) { return Eigen::RowVector3d(double(v.x), double(v.y), double(v.z)); };
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index i = 0; i < count; ++i) entries.emplace_back(int(i), int(i), kLeastMassMm2);
     for (size_t t = 0; t < samples.size(); ++t) {
@@ -74,10 +75,9 @@ FitEquations equations_of(std::span<const uint32_t> corners, std::span<const Sur
             entries.emplace_back(a, b, product);
             if (i >= 3) entries.emplace_back(b, a, product);
         }
-        const auto row = [](Vec3 v) { return Eigen::RowVector3d(double(v.x), double(v.y), double(v.z)); };
         for (size_t k = 0; k < 3; ++k) {
             made.values.row(Eigen::Index(corner[k])) += row(samples[t].values[k]);
-            made.opposed.row(Eigen::Index(corner[k])) += row(samples[t].opposed[k]);
+            made.noise.row(Eigen::Index(corner[k])) += row(samples[t].noise[k]);
         }
     }
     made.mass.setFromTriplets(entries.begin(), entries.end());
@@ -94,19 +94,19 @@ std::vector<Vec3> at_vertices(const Columns& welded, const Weld& weld) {
     return values;
 }
 
-// Of the values and of the opposed ones.
-using Fits = std::array<Columns, 2>;
+struct Fits {
+    Columns values, noise;
+};
 
 Result<Fits> fits_of(const SurfaceOperators& surface, const FitEquations& equations, double variance_mm2) {
     const Sparse system = equations.mass + surface.laplacian * (variance_mm2 / 2);
     Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver(system);
     solver.setTolerance(kTolerance);
-    Fits fits = {solver.solve(equations.values), {}};
-    if (solver.info() == Eigen::Success && !equations.opposed.isZero())
-        fits[1] = solver.solve(equations.opposed);
+    Fits fits;
+    fits.values = solver.solve(equations.values);
+    if (solver.info() == Eigen::Success) fits.noise = solver.solve(equations.noise);
     if (solver.info() != Eigen::Success)
         return Error{"fit over the surface: no solution; the mesh has triangles without area"};
-    if (fits[1].rows() == 0) fits[1] = Columns::Zero(fits[0].rows(), 3);
     return fits;
 }
 
@@ -131,21 +131,20 @@ constexpr double kAround = 4;  // variance of the means of a band's squares, ove
 
 // Share of a band that is kept.
 Result<Columns> share_above_noise(const SurfaceOperators& surface, const Fits& band, double variance_mm2) {
-    DERMIS_TRY_ASSIGN(const Columns all,
-                      blurred(surface, Columns(band[0].cwiseAbs2()), kAround * variance_mm2));
-    DERMIS_TRY_ASSIGN(const Columns noise,
-                      blurred(surface, Columns(band[1].cwiseAbs2()), kAround * variance_mm2));
+    const double around_mm2 = kAround * variance_mm2;
+    DERMIS_TRY_ASSIGN(const Columns all, blurred(surface, Columns(band.values.cwiseAbs2()), around_mm2));
+    DERMIS_TRY_ASSIGN(const Columns noise, blurred(surface, Columns(band.noise.cwiseAbs2()), around_mm2));
     return Columns((all.array() > 0).select(1 - noise.array() / all.array(), 0).cwiseMax(0).cwiseMin(1));
 }
 
 }  // namespace
 
-void SurfaceSamples::add(const std::array<float, 3>& weights, float area_mm2, Vec3 value, bool changes_sign) {
+void SurfaceSamples::add(const std::array<float, 3>& weights, float area_mm2, Vec3 value, bool negative) {
     for (size_t k = 0; k < 3; ++k) {
         products[k] += area_mm2 * weights[k] * weights[k];
         products[3 + k] += area_mm2 * weights[(k + 1) % 3] * weights[(k + 2) % 3];
         values[k] += value * (area_mm2 * weights[k]);
-        opposed[k] += value * (changes_sign ? -area_mm2 * weights[k] : area_mm2 * weights[k]);
+        noise[k] += value * (negative ? -area_mm2 * weights[k] : area_mm2 * weights[k]);
     }
 }
 
@@ -156,7 +155,7 @@ Result<std::vector<Vec3>> fit_over_surface(const Mesh& mesh, std::span<const Sur
     const FitEquations equations =
         equations_of(welded_indices(mesh.indices, weld), samples, Eigen::Index(weld.count()));
     DERMIS_TRY_ASSIGN(const Fits fits, fits_of(surface, equations, variance_mm2));
-    return at_vertices(fits[0], weld);
+    return at_vertices(fits.values, weld);
 }
 
 Result<FitWithoutNoise> fit_without_noise(const Mesh& mesh, std::span<const SurfaceSamples> samples) {
@@ -166,16 +165,19 @@ Result<FitWithoutNoise> fit_without_noise(const Mesh& mesh, std::span<const Surf
         equations_of(welded_indices(mesh.indices, weld), samples, Eigen::Index(weld.count()));
     double variance_mm2 = kLeastVarianceMm2;
     DERMIS_TRY_ASSIGN(Fits fine, fits_of(surface, equations, variance_mm2));
-    Fits kept = {Columns::Zero(fine[0].rows(), 3), Columns::Zero(fine[0].rows(), 3)};
+    const auto zero = Columns::Zero(fine.values.rows(), 3);
+    Fits kept = {zero, zero};
     for (int i = 0; i < kBands; ++i) {
         variance_mm2 *= kBandRatio;
         DERMIS_TRY_ASSIGN(Fits coarse, fits_of(surface, equations, variance_mm2));
-        const Fits band = {fine[0] - coarse[0], fine[1] - coarse[1]};
+        const Fits band = {fine.values - coarse.values, fine.noise - coarse.noise};
         DERMIS_TRY_ASSIGN(const Columns share, share_above_noise(surface, band, variance_mm2));
-        for (size_t k = 0; k < 2; ++k) kept[k] += share.cwiseProduct(band[k]);
+        kept.values += share.cwiseProduct(band.values);
+        kept.noise += share.cwiseProduct(band.noise);
         fine = std::move(coarse);
     }
-    return FitWithoutNoise{at_vertices(kept[0] + fine[0], weld), at_vertices(kept[1] + fine[1], weld)};
+    return FitWithoutNoise{at_vertices(kept.values + fine.values, weld),
+                           at_vertices(kept.noise + fine.noise, weld)};
 }
 
 Result<std::vector<float>> blur_over_surface(const Mesh& mesh, std::span<const float> values,

@@ -25,9 +25,11 @@ namespace dermis::inline mesh {
 struct SurfaceSamples {
     std::array<float, 6> products = {};  ///< area * w0 w0, w1 w1, w2 w2, w1 w2, w2 w0, w0 w1, in mm^2
     std::array<Vec3, 3> values = {};     ///< area * value * w0, w1, w2
-    std::array<Vec3, 3> opposed = {};  ///< the same with the sign of half of the samples changed: noise alone
+    /// As values, with the sign of the samples changed that were added with `negative`. With half of them
+    /// negative the value itself cancels, and the noise of the samples stays.
+    std::array<Vec3, 3> noise = {};
 
-    void add(const std::array<float, 3>& weights, float area_mm2, Vec3 value, bool changes_sign = false);
+    void add(const std::array<float, 3>& weights, float area_mm2, Vec3 value, bool negative = false);
 };
 
 /// The function u, linear in each triangle, that minimises
@@ -40,13 +42,13 @@ struct SurfaceSamples {
 
 struct FitWithoutNoise {
     std::vector<Vec3> values;
-    std::vector<Vec3> noise;  ///< what `opposed` gives in place of `values`: one sample of the noise left
+    std::vector<Vec3> noise;  ///< one sample of the noise left in `values`; its square is their variance
 };
 
-/// Fits as fit_over_surface() does, but blurs only where noise is all there is to lose. The fit of 1 mm^2 is
-/// split into bands by fits of four times the variance, up to 256 mm^2. Of a band b each place keeps
-/// 1 - <n^2> / <b^2>, n the band of `opposed` and <> the mean around the place: Wiener's filter with the
-/// powers estimated (Ghael, Sayeed, Baraniuk 1997, "Improved Wavelet Denoising via Empirical Wiener
+/// Fits as fit_over_surface() does, but blurs strongly only where the samples show nothing but noise. The fit
+/// of 1 mm^2 is split into bands by fits of four times the variance, up to 256 mm^2. Of a band b each place
+/// keeps 1 - <n^2> / <b^2>, n the same band of the noise and <> the mean around the place: Wiener's filter
+/// with the powers estimated (Ghael, Sayeed, Baraniuk 1997, "Improved Wavelet Denoising via Empirical Wiener
 /// Filtering"). Cost: 10 fits and 8 blurs.
 [[nodiscard]] Result<FitWithoutNoise> fit_without_noise(const Mesh& mesh,
                                                         std::span<const SurfaceSamples> samples);

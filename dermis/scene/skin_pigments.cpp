@@ -154,9 +154,9 @@ Result<void> apply_pigment_maps(Scene& scene) {
     if (count == 0) {
         if (scene.skin.melanin_scale != 1 || scene.skin.blood_scale != 1)
             scene.warnings.emplace_back(
-                "skin.melanin_scale and blood_scale have no effect without maps.melanin or maps.blood, and "
-                "on "
-                "the built-in head beside skin.melanin or skin.blood");
+                "skin.melanin_scale and blood_scale have no effect without maps.melanin or maps.blood; those "
+                "of "
+                "the built-in head are not used beside skin.melanin or skin.blood");
         return {};
     }
     SkinModel model = painter->model;

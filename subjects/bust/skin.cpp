@@ -113,6 +113,10 @@ PigmentTexel lip_pigments(PigmentTexel tone, const Lips& l, const Mottle& m, flo
     return {tone.melanin + melanin, tone.blood + blood};
 }
 
+constexpr Vec3 kInNostril = {0.30f, 0.16f, 0.13f};  // share of the light that is left
+constexpr Vec3 kBetweenLips = {0.52f, 0.29f, 0.17f};
+constexpr Vec3 kHairAlbedoLinear = {0.036f, 0.022f, 0.015f};
+
 // Stubble: roots below the skin, and cut ends.
 Vec3 stubble_factor(const Stubble& shaved, float scalp, float strength) {
     return mixc({1, 1, 1}, {0.63f, 0.63f, 0.68f}, (0.6f + 0.4f * scalp) * strength * shaved.shade) *
@@ -160,13 +164,14 @@ SkinSample skin_at(Point p, const SkinZones& z, const BustParams& params, const 
         const PigmentTexel red = lip_pigments(tone, lip, m, std::min(1.0f, depth + 0.6f * brown));
         const float red_share = 0.92f * lip.vermilion;
         pigment = {mixf(pigment.melanin, red.melanin, red_share), mixf(pigment.blood, red.blood, red_share)};
-        s.residue = s.residue * mixc({1, 1, 1}, {0.52f, 0.29f, 0.17f}, lip.line * lip.vermilion);
+        s.residue = s.residue * mixc({1, 1, 1}, kBetweenLips, lip.line * lip.vermilion);
     }
     s.pigments = {std::clamp(pigment.melanin, 0.0f, 1.0f), std::clamp(pigment.blood, 0.0f, 1.0f)};
     const float hollow = z.nostril > 0 ? 1 - step(0.0, 2.2, nostril_distance_mm(p)) : 0;
-    const float hairs = hairs_drawn.cover(p), cover = 0.92f * hairs;
-    s.residue = s.residue * mixc({1, 1, 1}, {0.30f, 0.16f, 0.13f}, hollow) * (1 - cover);
-    s.hair_linear = Vec3{0.036f, 0.022f, 0.015f} * (mixf(1.0f, 0.35f, depth) * cover);
+    const float hairs = hairs_drawn.cover(p), hair_share = 0.92f * hairs;
+    const Vec3 shadow = mixc({1, 1, 1}, kInNostril, hollow);
+    s.residue = s.residue * shadow * (1 - hair_share);
+    s.hair_linear = kHairAlbedoLinear * (mixf(1.0f, 0.35f, depth) * hair_share);
     s.height_mm = r.height_mm + 0.07f * hairs + 0.05f * shaved.hair;
     s.roughness = 0.48f - 0.08f * z.t_zone - 0.05f * z.nose + 0.03f * z.cheek + 0.05f * z.neck -
                   0.02f * depth + 0.06f * brown + 0.05f * m.blotch + 0.04f * m.middle + 0.05f * m.fine +

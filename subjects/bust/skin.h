@@ -30,7 +30,7 @@ struct PigmentTexel {
 struct SkinSample {
     PigmentTexel pigments;
     Vec3 residue = {1, 1, 1};  ///< factor: stubble, shadow in the nostrils and between the lips
-    Vec3 hair_linear;          ///< light that hairs add
+    Vec3 hair_linear;          ///< albedo that hairs add
     float roughness = 0.5f;    ///< perceptual
     float specular = 1;        ///< factor on the reflectance at normal incidence
     float kernel_size = 0;     ///< how much of its width light gains where the skin is thin (scene/material)

@@ -22,6 +22,21 @@ double weighted_square(const Rgb& logs) {
     return sum;
 }
 
+// Four nodes along one axis and their weights: Catmull and Rom 1974.
+struct Taps {
+    std::array<size_t, 4> node;
+    std::array<double, 4> weight;
+};
+Taps taps_at(double at) {
+    const double x = std::clamp(at, 0.0, 1.0) * (kPigmentNodes - 1);
+    const int first = std::min(int(x), kPigmentNodes - 2);
+    const double t = x - first;
+    return {{size_t(std::max(first - 1, 0)), size_t(first), size_t(first + 1),
+             size_t(std::min(first + 2, kPigmentNodes - 1))},
+            {((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2, ((4 - 3 * t) * t + 1) * t / 2,
+             (t - 1) * t * t / 2}};
+}
+
 }  // namespace
 
 // Melanin is in the epidermis only and blood in the dermis only, so each layer has a node per row or column.
@@ -47,25 +62,6 @@ PigmentTable::PigmentTable(const SkinModel& model) : logs_(size_t(kPigmentNodes 
         for (size_t c = 0; c < 3; ++c) logs_[i][c] = std::log(std::max(albedo[c], kDarkestAlbedo));
     }
 }
-
-namespace {
-
-// Four nodes along one axis and their weights: Catmull and Rom 1974.
-struct Taps {
-    std::array<size_t, 4> node;
-    std::array<double, 4> weight;
-};
-Taps taps_at(double at) {
-    const double x = std::clamp(at, 0.0, 1.0) * (kPigmentNodes - 1);
-    const int first = std::min(int(x), kPigmentNodes - 2);
-    const double t = x - first;
-    return {{size_t(std::max(first - 1, 0)), size_t(first), size_t(first + 1),
-             size_t(std::min(first + 2, kPigmentNodes - 1))},
-            {((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2, ((4 - 3 * t) * t + 1) * t / 2,
-             (t - 1) * t * t / 2}};
-}
-
-}  // namespace
 
 Rgb PigmentTable::log_albedo(double u, double v) const {
     const Taps across = taps_at(u), down = taps_at(v);
