@@ -26,7 +26,7 @@ constexpr std::string_view kOutOfMemory = "out of memory; try a smaller size, fe
 void begin_end() {
     static std::atomic_flag ended;
     while (ended.test_and_set()) ::pause();
-    remove_temporary_files();
+    end_temporary_files();
 }
 
 struct Line {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <deque>
+#include <thread>
 
 #include "dermis/base/system/system.h"
 
@@ -19,6 +21,26 @@ struct Slot {
     fs::path::value_type path[1024] = {};
 };
 std::array<Slot, 32> g_slots;
+
+// A program that ends removes its temporary files, and other threads run on until it has ended. So that none
+// of them makes a file after the removal, what writes one holds a Writing, which waits for the end once it
+// has begun, and the removal waits for those that hold one: not for long, as a file that exists is removed
+// whoever writes it, and the thread that ends may itself hold one (a signal).
+std::atomic<bool> g_ending = false;
+std::atomic<int> g_writing = 0;
+
+class Writing {
+  public:
+    Writing() {
+        ++g_writing;
+        if (!g_ending) return;
+        --g_writing;
+        for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+    ~Writing() { --g_writing; }
+    Writing(const Writing&) = delete;
+    Writing& operator=(const Writing&) = delete;
+};
 
 // A file in the folder of its target, with a unique name; removed at the end unless it was renamed.
 class TemporaryFile {
@@ -113,7 +135,11 @@ Result<void> write_beside(const fs::path& path, const std::function<Result<void>
     }
     DERMIS_TRY(make_parent(path));
     const TemporaryFile temporary(path);
-    const Result<void> written = write(temporary.path());
+    Result<void> written;
+    {
+        const Writing writing;
+        written = write(temporary.path());
+    }
     if (!written) return Error{path.string() + ": cannot write: " + written.error().message};
     ec = system::replace_file(temporary.path(), path);
     if (ec) return Error{path.string() + ": cannot write: " + ec.message()};
@@ -140,8 +166,9 @@ Result<void> write_files(std::span<const FileContent> files) {
         }
         DERMIS_TRY(make_parent(file.path));
         renamed.push_back(&file);
-        const Result<void> written =
-            system::write_through(temporaries.emplace_back(file.path).path(), file.bytes);
+        const fs::path& temporary = temporaries.emplace_back(file.path).path();
+        const Writing writing;
+        const Result<void> written = system::write_through(temporary, file.bytes);
         if (!written) return Error{file.path.string() + ": cannot write: " + written.error().message};
     }
     std::vector<const fs::path*> made;  // did not exist before
@@ -170,6 +197,7 @@ Result<void> try_output(const fs::path& path) {
     Result<void> tried = make_parent(path);
     if (tried) {
         const TemporaryFile trial(path);
+        const Writing writing;
         tried = system::write_through(trial.path(), {});
         if (!tried) tried = Error{path.string() + ": cannot write: " + tried.error().message};
     }
@@ -177,13 +205,16 @@ Result<void> try_output(const fs::path& path) {
     return tried;
 }
 
-void remove_temporary_files() noexcept {
+void end_temporary_files() noexcept {
+    g_ending = true;
+    for (int waited_ms = 0; g_writing > 0 && waited_ms < 50; ++waited_ms)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     for (const Slot& slot : g_slots)
         if (slot.state == Slot::filled) system::remove_file(slot.path);
 }
 
 void remove_temporary_files_on_signals() {
-    system::before_the_end(remove_temporary_files);
+    system::before_the_end(end_temporary_files);
 }
 
 Result<void> write_text_file(const fs::path& path, std::string_view text) {

@@ -49,9 +49,9 @@ struct FileContent {
 /// with every directory that it made. Errors as write_file().
 [[nodiscard]] Result<void> try_output(const std::filesystem::path& path);
 
-/// Removes the temporary files of the functions above. Safe in a signal handler and when memory is
-/// exhausted.
-void remove_temporary_files() noexcept;
+/// For a program that ends now: removes the temporary files of the functions above; threads that begin to
+/// write one wait for the end. Takes at most 50 ms. Safe in a signal handler and when memory is exhausted.
+void end_temporary_files() noexcept;
 
 /// Makes SIGINT, SIGHUP and SIGTERM remove the temporary files of the functions above before the program
 /// ends. For programs, not for libraries: replaces the handlers of these signals.

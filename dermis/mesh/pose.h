@@ -22,6 +22,9 @@ struct Pose {
     friend bool operator==(const Pose&, const Pose&) = default;
 };
 
+/// Weights of morph targets in a pose by their names in Motion.
+using TargetWeights = std::map<std::string, float>;
+
 struct ClipInfo {
     std::string name;  ///< "#2" for the second if the file has no name for it
     double length_s = 0;

@@ -43,6 +43,8 @@ struct LoadedMesh {
     std::vector<std::string> warnings;  ///< one line each, for the user
     double unit_mm = 1;                 ///< of the file, as stated, by its format, or guessed
     Motion motion = {};                 ///< clips and morph targets of a glTF file
+    /// In the pose; where meshes differ in the weight of a name, the one farther from 0.
+    TargetWeights target_weights = {};
     /// The mesh file and the files beside it that it names, existing or not; maps are in the materials.
     std::vector<std::filesystem::path> files;
 };

@@ -240,7 +240,7 @@ Result<void> SceneOnDevice::replace_vertices(gpu::Device& device, const Scene& s
         for (const gpu::VertexStream& stream : moving.streams)
             DERMIS_TRY(geometries_[i]->put(device, stream));
         const Mesh& mesh = scene.objects[i].mesh;
-        if (scene.skin.blood_by_tension == 0 || mesh.colors_linear.empty()) continue;
+        if (!scene.skin.blood_moves() || mesh.colors_linear.empty()) continue;
         DERMIS_TRY(geometries_[i]->put(device, {"color_linear", 4, floats_of(mesh.colors_linear)}));
     }
     return upload_tensions(device, scene);

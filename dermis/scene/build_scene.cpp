@@ -57,8 +57,20 @@ Result<SubjectScene> load_objects(const SceneDescription& description, const Mes
                             .mesh = std::move(loaded->mesh),
                             .unit_mm = loaded->unit_mm,
                             .motion = std::move(loaded->motion),
+                            .target_weights = std::move(loaded->target_weights),
                             .file = path});
     return made;
+}
+
+// The maps of the skin, at the vertices.
+Result<void> load_blood_by_target(const SceneDescription& description, Scene& scene) {
+    for (const auto& [target, file] : description.blood_by_target) {
+        DERMIS_TRY_ASSIGN(const fs::path path, resolve_file(description, file));
+        if (Result<void> added = add_blood_by_target(target, path, scene); !added)
+            return error_at(description, file, added.error().message);
+        scene.skin.blood_by_target[target] = path.string();
+    }
+    return {};
 }
 
 void apply(const MaterialChanges& changes, Material& material) {
@@ -318,10 +330,11 @@ Result<Scene> build_scene(const SceneDescription& given, std::span<const Subject
         *path = table->string();
     }
     if (description.is_bare_mesh) take_profile_of_mesh(description, scene);
+    DERMIS_TRY(load_blood_by_target(description, scene));
     DERMIS_TRY(apply_pigment_maps(scene));
     DERMIS_TRY(apply_pigments(scene));
     DERMIS_TRY(apply_tone(scene));
-    if (const Result<void> tinted = apply_blood_by_tension(scene); !tinted)
+    if (const Result<void> tinted = apply_moving_blood(scene); !tinted)
         return description.file.empty() ? tinted.error() : tinted.error().within(description.file.string());
     std::ranges::move(skin_warnings(scene), std::back_inserter(scene.warnings));
     std::ranges::move(tension_warnings(scene), std::back_inserter(scene.warnings));

@@ -41,10 +41,12 @@ void move_vertices(Mesh& mesh, const PosedVertices& posed, const SurfaceAtRest& 
 Result<PosedVertices> vertices_of(const SceneObject& object, std::span<const std::byte> file,
                                   const Pose& pose) {
     Mesh mesh;
+    TargetWeights weights;
     if (object.posed_vertices) {
         PosedVertices made = object.posed_vertices(pose);
         mesh.positions_mm = std::move(made.positions_mm);
         mesh.normals = std::move(made.normals);
+        weights = std::move(made.target_weights);
     } else {
         const bool is_glb = to_lower(object.file.extension().string()) == ".glb";
         const ReadSibling read_sibling = [&](const std::string& path) {
@@ -55,11 +57,12 @@ Result<PosedVertices> vertices_of(const SceneObject& object, std::span<const std
             parse_mesh(file, is_glb ? MeshFormat::glb : MeshFormat::gltf, object.file, read_sibling,
                        {.unit_mm = object.unit_mm, .pose = pose, .keep_vertices = true}));
         mesh = std::move(read.mesh);
+        weights = std::move(read.target_weights);
     }
     place_mesh(mesh, object.placement);
     if (mesh.positions_mm.size() <= std::ranges::max(object.mesh.file_vertices))
         return Error{object.file.string() + ": has fewer vertices than before; open it again"};
-    return PosedVertices{std::move(mesh.positions_mm), std::move(mesh.normals)};
+    return PosedVertices{std::move(mesh.positions_mm), std::move(mesh.normals), std::move(weights)};
 }
 
 // Areas at rest. The object itself may be in any pose.
@@ -119,7 +122,9 @@ void pose_subject(SceneObject& object, const Pose& pose) {
     if (!object.posed_vertices || pose.empty()) return;
     Mesh& mesh = object.mesh;
     const RestAreas areas = rest_areas(mesh);
-    move_vertices(mesh, object.posed_vertices(pose), at_rest(mesh));
+    PosedVertices vertices = object.posed_vertices(pose);
+    move_vertices(mesh, vertices, at_rest(mesh));
+    object.target_weights = std::move(vertices.target_weights);
     mesh.tensions = compute_tensions(areas, mesh.positions_mm, mesh.indices);
 }
 
@@ -139,12 +144,12 @@ Result<ScenePoser> ScenePoser::create(const Scene& scene) {
             DERMIS_TRY_ASSIGN(file, read_file(object.file));
         }
         DERMIS_TRY_ASSIGN(RestAreas areas, areas_at_rest(object, file));
-        poser.all_.push_back(
-            {.object = i,
-             .file = std::move(file),
-             .rest = at_rest(object.mesh),
-             .areas = std::move(areas),
-             .untinted = poser.tint_ ? untinted_colors(object, *poser.tint_) : std::vector<Vec4>()});
+        poser.all_.push_back({.object = i,
+                              .file = std::move(file),
+                              .rest = at_rest(object.mesh),
+                              .areas = std::move(areas),
+                              .untinted = poser.tint_ ? untinted_colors(object, scene.skin, *poser.tint_)
+                                                      : std::vector<Vec4>()});
     }
     return poser;
 }
@@ -152,11 +157,12 @@ Result<ScenePoser> ScenePoser::create(const Scene& scene) {
 Result<void> ScenePoser::pose(const Pose& pose, Scene& scene) const {
     for (const Posed& posed : all_) {
         SceneObject& object = scene.objects[posed.object];
-        DERMIS_TRY_ASSIGN(const PosedVertices vertices, vertices_of(object, posed.file, pose));
+        DERMIS_TRY_ASSIGN(PosedVertices vertices, vertices_of(object, posed.file, pose));
         Mesh& mesh = object.mesh;
         move_vertices(mesh, vertices, posed.rest);
         mesh.tensions = compute_tensions(posed.areas, mesh.positions_mm, mesh.indices);
-        if (tint_) tint_by_tension(object, *tint_, posed.untinted);
+        object.target_weights = std::move(vertices.target_weights);
+        if (tint_) tint_by_blood(object, scene.skin, *tint_, posed.untinted);
     }
     return {};
 }

@@ -78,6 +78,8 @@ struct Skin {
     std::optional<float> melanin, blood, oxygen, pheomelanin, epidermis_mm;
     float melanin_scale = 1, blood_scale = 1;  ///< of maps of pigments, applied on loading
     float blood_by_tension = 0;                ///< scene/blood_tint.h
+    std::map<std::string, std::string>
+        blood_by_target;  ///< maps of change by morph target; scene/blood_tint.h
     float ior = 1.4f;
     float roughness = 0.45f;              ///< perceptual
     float specular = 1;                   ///< scales F0
@@ -89,6 +91,9 @@ struct Skin {
     std::string diffuse_table;   ///< a file of `dermis bake lut` for techniques that read one; empty: baked
     std::string zonal_table;     ///< the same of `dermis bake zh`
     std::string beckmann_table;  ///< the same of `dermis bake beckmann`
+
+    /// Whether the blood changes with the pose.
+    [[nodiscard]] bool blood_moves() const { return blood_by_tension != 0 || !blood_by_target.empty(); }
 };
 
 /// Where mesh files are in their motion, as [animation] and [morph] state it; `morph` has weights by target.
@@ -141,6 +146,7 @@ struct FoundPart {
 /// All vertices of a mesh in a pose, counted as Mesh::file_vertices counts them.
 struct PosedVertices {
     std::vector<Vec3> positions_mm, normals;
+    TargetWeights target_weights = {};
 };
 
 struct SceneObject {
@@ -150,8 +156,11 @@ struct SceneObject {
     std::vector<FoundPart> parts = {};   ///< one a material of a mesh file; empty for subjects
     double unit_mm = 1;                  ///< of the mesh file
     Motion motion = {};                  ///< its clips and morph targets
-    std::filesystem::path file = {};     ///< the mesh file; empty for subjects
-    Placement placement = {};            ///< of the mesh in the scene
+    TargetWeights target_weights = {};   ///< in the pose
+    /// ln(factor of the blood) at each vertex where a target's weight is 1 (blood_tint.h).
+    std::map<std::string, std::vector<float>> blood_by_target = {};
+    std::filesystem::path file = {};  ///< the mesh file; empty for subjects
+    Placement placement = {};         ///< of the mesh in the scene
     /// A subject that moves: its vertices in a pose, before the placement.
     std::function<PosedVertices(const Pose&)> posed_vertices = {};
 };

@@ -105,6 +105,7 @@ struct SceneDescription {
     MapsDescription maps;
     std::map<std::string, MaterialDescription> materials;  ///< by the mesh's material names
     Skin skin;
+    std::map<std::string, NamedFile> blood_by_target;  ///< of the skin
     MotionDescription motion;
     std::vector<LightDescription> lights;
     std::optional<EnvironmentDescription> environment;

@@ -102,20 +102,34 @@ Result<void> read_settings(const TomlNode& root, SceneDescription& scene, const 
     return {};
 }
 
-Result<void> read_morph(const TomlNode& root, SceneDescription& scene, const TomlPlace& place) {
-    const TomlNode* table = root.find("morph");
+// A table whose keys are the names of morph targets.
+template <class Take>
+Result<void> read_targets(const TomlNode* table, const std::string& path, const KeyOfTarget& key_of,
+                          const TomlPlace& place, const Take& take) {
     if (!table) return {};
-    if (table->kind != TomlKind::table) return no_table(*table, "morph", "[morph]", place);
+    if (table->kind != TomlKind::table) return no_table(*table, path, "[" + path + "]", place);
     for (const TomlEntry& entry : table->entries) {
         KeyValue value;
-        const KeyInfo info = morph_key(entry.key);
+        const KeyInfo info = key_of(entry.key);
         if (!read_toml_value(entry.value, info, value))
             return place.at(entry.line)
-                .error("morph." + entry.key + " = " + toml_text(entry.value) + ": " + entry.key + " " +
+                .error(path + "." + entry.key + " = " + toml_text(entry.value) + ": " + entry.key + " " +
                        wanted_text(info));
-        scene.motion.morph[entry.key] = float(value.numbers[0]);
+        value.line = entry.line;
+        take(entry.key, value);
     }
     return {};
+}
+
+Result<void> read_skin(const TomlNode& root, SceneDescription& scene, const TomlPlace& place) {
+    const TomlNode* skin = root.find("skin");
+    if (!skin) return {};
+    if (skin->kind != TomlKind::table) return no_table(*skin, "skin", "[skin]", place);
+    DERMIS_TRY(read_section(*skin, "skin", skin_keys(), scene.skin, place, {"blood_by_target"}));
+    return read_targets(skin->find("blood_by_target"), kBloodByTarget, blood_map_key, place,
+                        [&](const std::string& target, const KeyValue& value) {
+                            scene.blood_by_target[target] = blood_map_of(target, value);
+                        });
 }
 
 Result<void> read_root(const TomlNode& root, SceneDescription& scene, std::span<const Subject> subjects,
@@ -130,9 +144,13 @@ Result<void> read_root(const TomlNode& root, SceneDescription& scene, std::span<
             });
     if (read) read = read_table(root, "maps", maps_keys(), scene.maps, place);
     if (read) read = read_materials(root, scene, place);
-    if (read) read = read_table(root, "skin", skin_keys(), scene.skin, place);
+    if (read) read = read_skin(root, scene, place);
     if (read) read = read_table(root, "animation", animation_keys(), scene.motion, place);
-    if (read) read = read_morph(root, scene, place);
+    if (read)
+        read = read_targets(root.find("morph"), "morph", morph_key, place,
+                            [&](const std::string& target, const KeyValue& value) {
+                                scene.motion.morph[target] = float(value.numbers[0]);
+                            });
     if (read)
         read = read_tables(root, "light", scene.lights, place,
                            [&](const TomlNode& table, LightDescription& light) {

@@ -39,6 +39,7 @@ std::vector<fs::path> files_of(const Scene& scene) {
     for (const std::string& table :
          {scene.skin.diffuse_table, scene.skin.zonal_table, scene.skin.beckmann_table})
         if (!table.empty()) files.emplace_back(table);
+    for (const auto& [target, map] : scene.skin.blood_by_target) files.emplace_back(map);
     if (is_profile_file(scene.skin.profile)) files.emplace_back(scene.skin.profile);
     for (const SceneObject& object : scene.objects)
         for (const Material& material : object.mesh.materials)
@@ -65,6 +66,7 @@ std::vector<const NamedFile*> named_files(const SceneDescription& description) {
     for (const MeshDescription& mesh : description.meshes) files.push_back(&mesh.file);
     add_maps(description.maps, files);
     for (const auto& [name, material] : description.materials) add_maps(material.maps, files);
+    for (const auto& [target, file] : description.blood_by_target) files.push_back(&file);
     if (description.environment && description.environment->file.given())
         files.push_back(&description.environment->file);
     return files;

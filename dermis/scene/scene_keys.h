@@ -186,7 +186,13 @@ class KeyTable {
 [[nodiscard]] const KeyTable<MotionDescription>& animation_keys();
 [[nodiscard]] const KeyTable<LightDescription>& light_keys();
 /// A row of [morph], whose keys are the names of targets.
+using KeyOfTarget = std::function<KeyInfo(const std::string& target)>;
 [[nodiscard]] KeyInfo morph_key(const std::string& target);
+
+/// The same of [skin.blood_by_target].
+inline constexpr const char* kBloodByTarget = "skin.blood_by_target";
+[[nodiscard]] KeyInfo blood_map_key(const std::string& target);
+[[nodiscard]] NamedFile blood_map_of(const std::string& target, const KeyValue& value);
 [[nodiscard]] const KeyTable<EnvironmentDescription>& environment_keys();
 [[nodiscard]] const KeyTable<CameraDescription>& camera_keys();
 

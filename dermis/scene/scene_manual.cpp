@@ -73,6 +73,12 @@ std::string scene_file_manual(std::span<const Subject> subjects) {
                          "map_d) and has others, as with cards of hair and lashes, its class is `other`.",
                          material_keys());
     text += section_text("`[skin]`", "Values for all skin materials.", skin_keys());
+    text += R"(
+## `[skin.blood_by_target]`
+
+Maps of the change of the blood by morph target: `smile = "smile_blood.png"`. docs/moving.md#tension has their values. `dermis
+info` lists the targets.
+)";
     text +=
         section_text("`[animation]`",
                      "Where mesh files (glTF) are in their motion. Without a clip, the pose is that of the "

@@ -358,6 +358,14 @@ KeyInfo morph_key(const std::string& target) {
     return {.name = target, .kind = KeyKind::number, .min = -kMostMorph, .max = kMostMorph};
 }
 
+KeyInfo blood_map_key(const std::string& target) {
+    return {.name = target, .kind = KeyKind::file};
+}
+
+NamedFile blood_map_of(const std::string& target, const KeyValue& value) {
+    return {.text = value.text, .key = std::string(kBloodByTarget) + "." + target, .line = value.line};
+}
+
 const KeyTable<LightDescription>& light_keys() {
     using D = LightDescription;
     static const KeyTable<D> table =

@@ -99,14 +99,25 @@ Result<void> set_material(SceneDescription& scene, const Address& address, const
                   : set(material_keys(), material, path, address.key, value);
 }
 
-Result<void> set_morph(MotionDescription& motion, const std::string& target, const std::string& text) {
+Result<KeyValue> value_of(const SceneWord& word, const KeyInfo& info) {
     KeyValue value;
-    const KeyInfo info = morph_key(target);
-    if (target.empty()) return Error{"morph: write morph.TARGET=WEIGHT, such as morph.jawOpen=0.6"};
-    if (!read_toml_value(word_node(text, info), info, value))
-        return Error{"morph." + target + " = " + text.substr(0, 40) + ": " + target + " " +
+    if (!read_toml_value(word_node(word.value, info), info, value))
+        return Error{word.key + " = " + word.value.substr(0, 40) + ": " + info.name + " " +
                      wanted_text(info)};
-    motion.morph[target] = float(value.numbers[0]);
+    return value;
+}
+
+// The target of a word whose table has a key for each target. Names of targets may contain dots.
+std::optional<std::string> target_of(std::string_view key, std::string_view table) {
+    if (!key.starts_with(table) || key.size() <= table.size() + 1 || key[table.size()] != '.') return {};
+    return std::string(key.substr(table.size() + 1));
+}
+
+Result<void> set_morph(MotionDescription& motion, const SceneWord& word) {
+    const auto target = target_of(word.key, "morph");
+    if (!target) return Error{"morph: write morph.TARGET=WEIGHT, such as morph.jawOpen=0.6"};
+    DERMIS_TRY_ASSIGN(const KeyValue value, value_of(word, morph_key(*target)));
+    motion.morph[*target] = float(value.numbers[0]);
     return {};
 }
 
@@ -214,8 +225,12 @@ Result<void> set_word(SceneDescription& scene, const SceneWord& word, std::span<
     if (address.section == "mesh") return set_mesh(scene, address, word.value, subjects);
     if (address.section == "light") return set_light(scene, address, word.value);
     if (address.section == "material") return set_material(scene, address, word.value);
-    // Names of targets may contain dots.
-    if (address.section == "morph") return set_morph(scene.motion, word.key.substr(6), word.value);
+    if (address.section == "morph") return set_morph(scene.motion, word);
+    if (const auto target = target_of(word.key, kBloodByTarget)) {
+        DERMIS_TRY_ASSIGN(const KeyValue value, value_of(word, blood_map_key(*target)));
+        scene.blood_by_target[*target] = blood_map_of(*target, value);
+        return {};
+    }
     if (!address.which.empty() && std::ranges::count(kSections, address.section))
         return Error{word.key + ": [" + address.section + "] has no tables; write " + address.section + "." +
                      address.key};
@@ -235,13 +250,15 @@ Result<void> set_word(SceneDescription& scene, const SceneWord& word, std::span<
 }
 
 Result<FileKey> file_key(const SceneWord& word) {
+    if (const auto target = target_of(word.key, kBloodByTarget)) {
+        const KeyInfo info = blood_map_key(*target);
+        DERMIS_TRY_ASSIGN(const KeyValue value, value_of(word, info));
+        return FileKey{kBloodByTarget, "", toml_key(*target), toml_value(info, value)};
+    }
     const Address address(word.key);
     const KeyInfo* info = info_of(address);
     if (!info) return Error{word.key + ": no key of a mesh, a material, the maps or the skin"};
-    KeyValue value;
-    if (!read_toml_value(word_node(word.value, *info), *info, value))
-        return Error{word.key + " = " + word.value.substr(0, 40) + ": " + address.key + " " +
-                     wanted_text(*info)};
+    DERMIS_TRY_ASSIGN(const KeyValue value, value_of(word, *info));
     return FileKey{.table = table_of(address),
                    .which = address.section == "mesh" ? address.which : "",
                    .key = address.key,

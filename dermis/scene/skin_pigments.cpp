@@ -29,7 +29,7 @@ bool has_own_pigments(const Material& material) {
     return !material.melanin_map.pixels.empty() && !material.blood_map.pixels.empty();
 }
 bool keeps_its_colour(const Material& material, const Skin& skin) {
-    const bool changed = skin.melanin_scale != 1 || skin.blood_scale != 1 || skin.blood_by_tension != 0;
+    const bool changed = skin.melanin_scale != 1 || skin.blood_scale != 1 || skin.blood_moves();
     return has_own_pigments(material) &&
            (!changed || material.base_color_map.pixels.empty() || pigments_of(skin));
 }

@@ -47,7 +47,10 @@ struct HeadAtRest {
             }
         });
         turn_normals(mesh.positions_mm, moved);
-        return {std::move(moved.positions_mm), std::move(moved.normals)};
+        TargetWeights by_name;
+        for (size_t i = 0; i < weights.size(); ++i)
+            if (weights[i] != 0) by_name[std::string(bust::kExpressions[i])] = float(weights[i]);
+        return {std::move(moved.positions_mm), std::move(moved.normals), std::move(by_name)};
     }
 };
 

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <thread>
 
 #include "dermis/base/cache.h"
 #include "dermis/base/file.h"
@@ -64,6 +66,27 @@ TEST(File, an_interrupt_while_writing_leaves_the_old_file_and_no_temporary_one) 
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
     EXPECT_EQ(*read_text_file(path), "old");
     EXPECT_EQ(dir.file_count(), 1u);
+}
+
+TEST(File, threads_that_write_while_the_program_ends_leave_no_temporary_file) {
+    const TemporaryDirectory dir;
+    for (int end = 0; end < 60; ++end) {
+        const pid_t child = ::fork();
+        ASSERT_NE(child, -1);
+        if (child == 0) {
+            for (int i = 0; i < 8; ++i)
+                std::thread([&dir, i] {
+                    for (;;) (void)write_text_file(dir.path / std::to_string(i), "whole");
+                }).detach();
+            ::usleep(1000);
+            end_temporary_files();
+            ::usleep(1000);  // what is left of a program may take as long
+            ::_exit(0);
+        }
+        ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    }
+    for (const auto& entry : fs::directory_iterator(dir.path))
+        EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
 }
 
 TEST(File, a_full_disk_is_an_error) {

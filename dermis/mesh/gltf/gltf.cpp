@@ -40,7 +40,7 @@ class SceneReader {
         to_mm_.linear *= mm_per_unit;
     }
 
-    Mesh run() {
+    Mesh run(TargetWeights& target_weights) {
         const JsonView materials = document_.view()["materials"];
         material_scales_.assign(materials.size(), 0);
         for (size_t i = 0; i < materials.size() && !failed(); ++i)
@@ -53,6 +53,7 @@ class SceneReader {
             for (size_t i = 0; i < document_.view()["meshes"].size(); ++i)
                 add_mesh(i, {.node_name = "", .world = to_mm_, .joints = {}, .morph = {}});
         finish();
+        target_weights = std::move(target_weights_);
         return std::move(mesh_);
     }
 
@@ -111,6 +112,7 @@ class SceneReader {
         const std::string name = mesh["name"].text(placement.node_name);
         std::vector<float> morph = placement.morph.empty() ? weights_of(mesh["weights"]) : placement.morph;
         take_chosen_weights(mesh, morph);
+        note_weights(mesh, morph);
         for (size_t i = 0; i < primitives.size() && !failed(); ++i) {
             const uint32_t material = material_of(primitives[i]);
             if (failed()) return;
@@ -133,6 +135,15 @@ class SceneReader {
             for (const std::string& key : {numbered_name(i), names[i]})
                 if (const auto chosen = pose_.morph.find(key); chosen != pose_.morph.end())
                     morph[i] = chosen->second;
+    }
+
+    void note_weights(const JsonView& mesh, std::span<const float> morph) {
+        if (std::ranges::all_of(morph, [](float weight) { return weight == 0; })) return;
+        const std::vector<std::string> names = target_names(mesh);
+        for (size_t i = 0; i < std::min(names.size(), morph.size()); ++i) {
+            float& known = target_weights_[names[i]];
+            if (std::abs(morph[i]) > std::abs(known)) known = morph[i];
+        }
     }
 
     uint32_t material_of(const JsonView& source) {
@@ -233,7 +244,8 @@ class SceneReader {
     std::vector<UvMapping> uv_mappings_;  // of every material
     std::map<uint64_t, std::vector<Affine>> joints_of_skin_;
     std::vector<double> material_scales_;  // of the first node that uses each; 0 while unused
-    std::vector<Vec3> unmorphed_mm_;       // positions without the targets that have no normals
+    TargetWeights target_weights_;
+    std::vector<Vec3> unmorphed_mm_;  // positions without the targets that have no normals
     bool any_unmorphed_ = false;
     bool any_normals_ = false, any_uvs_ = false, any_tangents_ = false, any_colors_ = false;
     size_t without_uvs_ = 0;
@@ -253,7 +265,8 @@ Result<LoadedMesh> parse_gltf(std::span<const std::byte> bytes, const std::files
     open_document(bytes, name, read_sibling, options, document);
     LoadedMesh loaded;
     if (!document.messages.error)
-        loaded.mesh = SceneReader(document, options.unit_mm.value_or(1000), options.pose).run();
+        loaded.mesh =
+            SceneReader(document, options.unit_mm.value_or(1000), options.pose).run(loaded.target_weights);
     if (!document.messages.error) loaded.motion = read_motion(document);
     if (!document.messages.error) name_what_is_left_out(document);
     if (document.messages.error) return *document.messages.error;
