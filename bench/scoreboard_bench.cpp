@@ -317,7 +317,8 @@ int main(int argc, char** argv) {
         replaced = MergedRows::techniques;
         words.erase(flag, flag + 2);
     }
-    if (words.empty()) return fail("name the directory for scoreboard.csv, .md and .svg");
+    if (words.empty() || std::ranges::any_of(words, [](const auto& word) { return word.starts_with("-"); }))
+        return fail("usage: scoreboard_bench DIRECTORY [SIZE] [SCENE...] [--techniques LIST] [--models]");
     if (models_only && words.size() < 2) return fail("--models needs the size that the board was made with");
     const int size = words.size() > 1 ? std::atoi(words[1].c_str()) : 256;
     if (size < 16 || size > 4096) return fail("a size of 16 to 4096");

@@ -52,12 +52,21 @@ float own_way_mm(Surface s, vec3 to_light_world) { return -1.0; }
 // Lambert.
 vec3 direct_response(Surface s, vec3 to_light_world);
 
-// With DERMIS_SCATTERED_VISIBILITY defined: the part of this light that enters around the point, of each channel.
-// visibility: of the light at the point. All four pixels of a quad come here together.
+// The part of a light that enters around the point, of each channel: of what the profile scatters, and of what the gain adds.
+struct Entering {
+    vec3 profile, gain;
+};
+
+// With DERMIS_SCATTERED_VISIBILITY defined: that part. visibility: of the light at the point. All four pixels of a quad come
+// here together.
 #ifdef DERMIS_SCATTERED_VISIBILITY
-vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility);
+Entering scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility);
+vec3 entering_light(Entering e, vec3 gain_of_place) { return e.profile + (gain_of_place - 1.0) * e.gain; }
 #else
-vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) { return vec3(visibility); }
+Entering scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
+    return Entering(vec3(visibility), vec3(visibility));
+}
+vec3 entering_light(Entering e, vec3 gain_of_place) { return e.profile * gain_of_place; }
 #endif
 
 // With DERMIS_OWN_CURVATURE defined: the mean curvature that the gain takes, else that of the vertices.
@@ -88,7 +97,7 @@ vec3 entered_part(Surface s, vec3 to_light_world) {
 struct Arrival {
     LightSample light;  // past translucent surfaces
     float visibility;   // past opaque ones
-    vec3 entering;      // scattered_visibility()
+    Entering entering;
     vec3 transmitted;   // transmitted_part()
 };
 
@@ -97,7 +106,7 @@ Arrival arrival(Surface s, int i) {
     LightThrough through =
         light_through(i, s.p_world_mm, s.n_geometry_world, light.to_light_world, DERMIS_SHADOW_WIDTH_MM);
     light.irradiance_linear *= through.tint;
-    vec3 entering = scattered_visibility(s, i, light.to_light_world, through.visibility);
+    Entering entering = scattered_visibility(s, i, light.to_light_world, through.visibility);
     Arrival a = Arrival(light, through.visibility, entering, vec3(0.0));
 #ifdef DERMIS_TRANSMISSION
     float n_dot_l = dot(s.n_geometry_world, light.to_light_world), way_mm = own_way_mm(s, light.to_light_world);
@@ -134,8 +143,8 @@ void main() {
         else
             arriving = arrival(s, i);
         LightSample light = arriving.light;
-        vec3 response = direct_response(s, light.to_light_world) * arriving.entering;
-        vec3 direct = light.irradiance_linear * entered_part(s, light.to_light_world) * response * gain_of_place;
+        vec3 response = direct_response(s, light.to_light_world) * entering_light(arriving.entering, gain_of_place);
+        vec3 direct = light.irradiance_linear * entered_part(s, light.to_light_world) * response;
 #ifdef DERMIS_TRANSMISSION
         // Both are estimates of the same integral; each misses light where the other is right.
         direct = max(direct, light.irradiance_linear * s.occlusion * arriving.transmitted * transmitted_gain(gain_of_place));

@@ -29,7 +29,8 @@ Quadric quadric_around(Surface s, vec3 to_light_world, vec3 across_light_world) 
 
 // All four pixels of a quad must call this together. Where they are near each other, each takes a quarter of the taps. Every
 // fourth tap comes first: if these taps and the filtered shadow agree that all or nothing is lit, the rest is skipped.
-vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
+Entering gathered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
+    Entering plain = Entering(vec3(visibility), vec3(visibility));
     LightSource source = light_source(light);
     vec3 up = abs(to_light_world.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     vec3 across_light_world = all_directional != 0 ? source.x_world : normalize(cross(up, to_light_world));
@@ -47,10 +48,11 @@ vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibi
     int first = together ? lane : 0, stride = together ? 4 : 1;
     vec4 lit = vec4(0.0);  // alpha: lit share of the penumbra, by weights with mean 1
     vec3 all = vec3(0.0);
+    vec2 red = vec2(0.0);  // lit and all of the places that are trusted; red's weights are 1
     for (int i = first; i < kShadowGatherTaps; i += stride) {
         if (i - first == kShadowFirstTaps) {
             // Red reaches farthest, so its weight is never 0.
-            if (any_of_quad(abs(lit.r - visibility * all.r)) == 0.0) return vec3(visibility);
+            if (any_of_quad(abs(lit.r - visibility * all.r)) == 0.0) return plain;
         }
         vec4 weight = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapWeights), 0);
         vec3 d_mm = texelFetch(sampler2D(skin_rows, nearest_clamp), ivec2(i, kRowTapPlaces), 0).xyz;  // z: the lift
@@ -59,13 +61,18 @@ vec3 gathered_visibility(Surface s, int light, vec3 to_light_world, float visibi
         float v = shadow_depth_tap(source.shadow_map_index, here + d_mm.x * step_x + d_mm.y * step_y + rise_mm * step_n);
         all += n_dot_l * weight.rgb;
         lit += vec4(vec3(v * n_dot_l), v) * weight;
+        red += gather_trust(d_mm.xy, q.bends_per_mm) * n_dot_l * vec2(v, 1.0);
     }
     if (together) {
         lit = sum_of_quad(lane, lit);
-        all = sum_of_quad(lane, vec4(all, 0.0)).rgb;
+        vec4 sums = sum_of_quad(lane, vec4(all, red.x));
+        all = sums.rgb;
+        red = vec2(sums.a, sum_of_quad(lane, vec4(red.y)).x);
     }
-    if (source.shadow_map_index < 0 || outside_shadow_map(here)) return vec3(visibility);
-    return gathered_light(visibility, lit.rgb, all, lit.a, float(kShadowGatherTaps));
+    if (source.shadow_map_index < 0 || outside_shadow_map(here)) return plain;
+    vec3 gathered = gathered_light(visibility, lit.rgb, all, lit.a, float(kShadowGatherTaps));
+    vec3 trusted = gathered_light(visibility, red.xxx, red.yyy, lit.a, float(kShadowGatherTaps));
+    return Entering(vec3(trusted.r, gathered.gb), gathered_gain_light(visibility, gathered));
 }
 
 #endif

@@ -180,12 +180,13 @@ vec3 diffuse_falloff(Surface s, vec3 to_light_world) {
 
 vec3 direct_response(Surface s, vec3 to_light_world) { return diffuse_falloff(s, to_light_world); }
 
-vec3 scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
-    if (shadow == kShadowPlain) return vec3(visibility);
+Entering scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {
+    if (shadow == kShadowPlain) return Entering(vec3(visibility), vec3(visibility));
 #ifdef DERMIS_TABLES
     if (shadow == kShadowGathered) return gathered_visibility(s, light, to_light_world, visibility);
 #endif
-    return mix(vec3(visibility), profile_edge(visibility), scattered_shadow_part(s.n_geometry_world, to_light_world));
+    vec3 edge = mix(vec3(visibility), profile_edge(visibility), scattered_shadow_part(s.n_geometry_world, to_light_world));
+    return Entering(edge, edge);
 }
 
 // The chord of the sphere of this curvature.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "dermis/mesh/primitives.h"
 #include "dermis/scene/part_words.h"
 
@@ -44,6 +46,28 @@ TEST(FindParts, where_no_name_says_anything_all_is_skin) {
     EXPECT_EQ(parts_of(mesh_named({"Material.001", "Material.002"})), (Names{"skin", "skin"}));
     EXPECT_EQ(parts_of(mesh_named({"eye_open_scan"})), (Names{"skin"})) << "the only material";
     EXPECT_EQ(parts_of(mesh_named({"eyes", "Material"})), (Names{"eye", "skin"}));
+}
+
+TEST(FindParts, names_of_makers_of_heads_give_one_set_of_classes) {
+    const Names expected = {"skin", "skin", "mouth", "teeth", "eye", "eye", "clear left out", "hair left out"};
+    const std::map<std::string, Names> makers = {
+        {"MetaHuman",
+         {"head_shader_shader", "body_shader_shader", "tongue_shader_shader", "teeth_shader_shader",
+          "eyeLeft_shader_shader", "eyeRight_shader_shader", "eyeEdge_shader_shader",
+          "eyelashes_shader_shader"}},
+        {"Character Creator",
+         {"Std_Skin_Head", "Std_Skin_Body", "Std_Tongue", "Std_Upper_Teeth", "Std_Eye_L", "Std_Eye_R",
+          "Std_Cornea_L", "Std_Eyelash"}},
+        {"MakeHuman",
+         {"young_caucasian_male", "skin.body", "tongue01", "teeth_base", "high-poly_eyes", "eyes.001",
+          "eye_cornea", "eyelashes01"}},
+        {"DAZ Genesis",
+         {"Genesis9 Face-1", "Torso", "Mouth", "Teeth", "Sclera", "Irises", "EyeMoisture", "Eyelashes"}},
+        {"VRoid",
+         {"N00_000_00_Face_00_SKIN (Instance)", "N00_000_00_Body_00_SKIN (Instance)",
+          "N00_000_00_FaceMouth_00_FACE (Instance)", "FaceTeeth_00_FACE", "N00_000_00_EyeWhite_00_EYE",
+          "N00_000_00_EyeIris_00_EYE", "N00_000_00_EyeTear_00_EYE", "N00_000_00_FaceEyelash_00_FACE"}}};
+    for (const auto& [maker, names] : makers) EXPECT_EQ(parts_of(mesh_named(names)), expected) << maker;
 }
 
 TEST(FindParts, opaque_shells_are_left_out_where_there_is_an_eye) {
