@@ -49,7 +49,8 @@ TEST(FindParts, where_no_name_says_anything_all_is_skin) {
 }
 
 TEST(FindParts, names_of_makers_of_heads_give_one_set_of_classes) {
-    const Names expected = {"skin", "skin", "mouth", "teeth", "eye", "eye", "clear left out", "hair left out"};
+    const Names expected = {"skin", "skin", "mouth",          "teeth",
+                            "eye",  "eye",  "clear left out", "hair left out"};
     const std::map<std::string, Names> makers = {
         {"MetaHuman",
          {"head_shader_shader", "body_shader_shader", "tongue_shader_shader", "teeth_shader_shader",

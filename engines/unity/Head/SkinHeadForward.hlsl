@@ -194,7 +194,8 @@ float3 SkinHeadMainLight(SkinHeadSurface s) {
     visible = SkinPlainShadow(s.positionWS, s.n_geometry, light.direction, texel_mm);
     entering = (float3)visible;
     if (_Scattering > 0.5)
-        entering = SkinGatheredShadow(s.positionWS, s.n_mesh, SkinWorldToMesh(light.direction), s.diagonal, s.mixed, visible, texel_mm);
+        entering = SkinGatheredShadow(s.positionWS, s.n_mesh, SkinWorldToMesh(light.direction), s.diagonal, s.mixed, visible, texel_mm,
+                                      s.gain);
     visible = lerp(1.0, visible, strength);
     entering = lerp((float3)1.0, entering, strength);
 #elif defined(_MAIN_LIGHT_SHADOWS_SCREEN)

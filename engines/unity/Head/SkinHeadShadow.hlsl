@@ -41,14 +41,16 @@ float SkinPlainShadow(float3 positionWS, float3 n_world, float3 to_light_world, 
     return seen / float(kDiskPlaces);
 }
 
-// n, to_light and the tensor are in the mesh's space; visible is SkinPlainShadow().
-float3 SkinGatheredShadow(float3 positionWS, float3 n, float3 to_light, float3 diagonal, float3 mixed, float visible, float texel_mm) {
+// n, to_light and the tensor are in the mesh's space; visible is SkinPlainShadow(). For light that is multiplied by gain later.
+float3 SkinGatheredShadow(float3 positionWS, float3 n, float3 to_light, float3 diagonal, float3 mixed, float visible, float texel_mm,
+                          float3 gain) {
     float3 across = normalize(cross(abs(n.y) < 0.9 ? float3(0.0, 1.0, 0.0) : float3(1.0, 0.0, 0.0), n));
     float3 x = skin_gather_tangent(n, to_light, across), y = cross(n, x), bends = skin_gather_bends(diagonal, mixed, x, y);
     float cosine = dot(n, to_light), sine = length(to_light - n * cosine);
     float3 x_world = SkinMeshToWorld(x) / _MmPerUnit, y_world = SkinMeshToWorld(y) / _MmPerUnit, n_world = SkinMeshToWorld(n) / _MmPerUnit;
     float3 origin = positionWS + n_world * skin_gather_lift_mm(texel_mm);
     float3 lit = (float3)0, whole = (float3)0;
+    float2 red = (float2)0;  // lit and whole of the places that are trusted
     float penumbra = 0.0;
     [loop] for (int i = 0; i < kGatherPlaces; ++i) {
         // Red reaches farthest: its weight is never 0.
@@ -58,9 +60,12 @@ float3 SkinGatheredShadow(float3 positionWS, float3 n, float3 to_light, float3 d
         float seen = SkinSeenAt(origin + x_world * place.x + y_world * place.y + n_world * skin_gather_rise_mm(place.xy, place.z, bends));
         whole += kGatherWeights[i] * faces;
         lit += kGatherWeights[i] * (faces * seen);
+        red += skin_gather_trust(place.xy, bends) * faces * float2(seen, 1.0);
         penumbra += place.w * seen;
     }
-    return skin_gathered_light(visible, lit, whole, penumbra, float(kGatherPlaces));
+    float3 gathered = skin_gathered_light(visible, lit, whole, penumbra, float(kGatherPlaces));
+    float3 trusted = skin_gathered_light(visible, red.xxx, red.yyy, penumbra, float(kGatherPlaces));
+    return skin_gathered_with_gain(visible, float3(trusted.r, gathered.gb), gathered, gain);
 }
 
 #endif
