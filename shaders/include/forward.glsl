@@ -61,6 +61,7 @@ struct Entering {
 // here together.
 #ifdef DERMIS_SCATTERED_VISIBILITY
 Entering scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility);
+// Below 0 in some creases: main() takes light through thin parts instead, which is 0 or more.
 vec3 entering_light(Entering e, vec3 gain_of_place) { return e.profile + (gain_of_place - 1.0) * e.gain; }
 #else
 Entering scattered_visibility(Surface s, int light, vec3 to_light_world, float visibility) {

@@ -123,6 +123,8 @@ const std::map<std::string, Domain>& domains() {
         {"lit", {0, 64}},
         {"all", {0.1, 64}},
         {"penumbra", {0, 64}},
+        {"gathered", {0, 1}},
+        {"trusted", {0, 1}},
         {"count", {64, 64}},
     };
     return kDomains;

@@ -82,8 +82,9 @@ vec3 gathered_gain_light(float visibility, vec3 gathered) {
 
 // One visibility in place of both, for light that is multiplied by the gain of the place later: trusted is
 // that of the profile, with red's own sums.
-vec3 gathered_with_gain(float visibility, vec3 trusted, vec3 gathered, vec3 of_place) {
-    return (trusted + (of_place - 1.0) * gathered_gain_light(visibility, gathered)) / of_place;
+vec3 gathered_with_gain(float visibility, vec3 trusted, vec3 gathered, vec3 gain_of_place) {
+    vec3 entering = trusted + (gain_of_place - 1.0) * gathered_gain_light(visibility, gathered);
+    return max(entering, vec3(0.0)) / max(gain_of_place, vec3(1e-3));
 }
 
 #endif
