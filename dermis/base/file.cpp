@@ -22,10 +22,11 @@ struct Slot {
 };
 std::array<Slot, 32> g_slots;
 
-// A program that ends removes its temporary files, and other threads run on until it has ended. So that none
-// of them makes a file after the removal, what writes one holds a Writing, which waits for the end once it
-// has begun, and the removal waits for those that hold one: not for long, as a file that exists is removed
-// whoever writes it, and the thread that ends may itself hold one (a signal).
+// While a program ends, its other threads still run, and one could make a temporary file after
+// end_temporary_files() has removed them. Code that writes a temporary file holds a Writing. Once the end has
+// begun, its constructor never returns; the removal first waits for those who hold one. It waits 50 ms at
+// most, as a signal may come to a thread that holds one. By then a file that is being written exists, and is
+// removed.
 std::atomic<bool> g_ending = false;
 std::atomic<int> g_writing = 0;
 

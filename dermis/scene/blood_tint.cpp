@@ -14,7 +14,8 @@
 namespace dermis::inline scene {
 namespace {
 
-// Of the logarithm of the blood's factor: beyond, a healthy skin is without blood or full of it.
+// The table covers factors of the blood from e^-8 to e^8. Smaller ones leave no colour of blood; larger ones
+// exceed kMostBlood.
 constexpr float kMostLogBlood = 8;
 constexpr int kIntervals = 128;
 
@@ -35,7 +36,7 @@ std::vector<bool> vertices_of_skin(const SceneObject& object) {
     return is_skin;
 }
 
-// At each vertex.
+// Logarithm of the blood's factor at each vertex.
 std::vector<float> log_blood_of(const SceneObject& object, const Skin& skin) {
     std::vector<float> all(object.mesh.positions_mm.size());
     for (size_t v = 0; v < object.mesh.tensions.size(); ++v)
@@ -48,7 +49,7 @@ std::vector<float> log_blood_of(const SceneObject& object, const Skin& skin) {
     return all;
 }
 
-// Before the first pose there is nothing to tint, and colours stay away where there are none.
+// Without a pose no vertex needs a colour for its blood.
 bool has_tint(const SceneObject& object) {
     const auto weighs = [&](const auto& change) { return object.target_weights.contains(change.first); };
     return !object.mesh.tensions.empty() || std::ranges::any_of(object.blood_by_target, weighs);

@@ -32,13 +32,14 @@ Error no_table(const TomlNode& node, const std::string& path, const std::string&
 
 template <class Target>
 Result<void> read_table(const TomlNode& root, const std::string& name, const KeyTable<Target>& keys,
-                        Target& target, const TomlPlace& place, const std::string& path_prefix = "") {
+                        Target& target, const TomlPlace& place, const std::string& path_prefix = "",
+                        const std::set<std::string>& nested = {}) {
     const TomlNode* table = root.find(name);
     if (!table) return {};
     const std::string path = path_prefix + name;
     if (table->kind != TomlKind::table) return no_table(*table, path, "[" + path + "]", place);
     if constexpr (requires { target.line; }) target.line = table->line;
-    return read_section(*table, path, keys, target, place);
+    return read_section(*table, path, keys, target, place, nested);
 }
 
 // `file` first: it decides whose parameters the other keys are.
@@ -103,8 +104,8 @@ Result<void> read_settings(const TomlNode& root, SceneDescription& scene, const 
 }
 
 // A table whose keys are the names of morph targets.
-template <class Take>
-Result<void> read_targets(const TomlNode* table, const std::string& path, const KeyOfTarget& key_of,
+template <class KeyOf, class Take>
+Result<void> read_targets(const TomlNode* table, const std::string& path, const KeyOf& key_of,
                           const TomlPlace& place, const Take& take) {
     if (!table) return {};
     if (table->kind != TomlKind::table) return no_table(*table, path, "[" + path + "]", place);
@@ -122,10 +123,9 @@ Result<void> read_targets(const TomlNode* table, const std::string& path, const 
 }
 
 Result<void> read_skin(const TomlNode& root, SceneDescription& scene, const TomlPlace& place) {
+    DERMIS_TRY(read_table(root, "skin", skin_keys(), scene.skin, place, "", {"blood_by_target"}));
     const TomlNode* skin = root.find("skin");
     if (!skin) return {};
-    if (skin->kind != TomlKind::table) return no_table(*skin, "skin", "[skin]", place);
-    DERMIS_TRY(read_section(*skin, "skin", skin_keys(), scene.skin, place, {"blood_by_target"}));
     return read_targets(skin->find("blood_by_target"), kBloodByTarget, blood_map_key, place,
                         [&](const std::string& target, const KeyValue& value) {
                             scene.blood_by_target[target] = blood_map_of(target, value);

@@ -186,7 +186,6 @@ class KeyTable {
 [[nodiscard]] const KeyTable<MotionDescription>& animation_keys();
 [[nodiscard]] const KeyTable<LightDescription>& light_keys();
 /// A row of [morph], whose keys are the names of targets.
-using KeyOfTarget = std::function<KeyInfo(const std::string& target)>;
 [[nodiscard]] KeyInfo morph_key(const std::string& target);
 
 /// The same of [skin.blood_by_target].

@@ -9,8 +9,8 @@
 // average and the same average over the penumbra alone is added to the visibility at the point. Red, which
 // reaches farthest, has sums of its own, in which places count less the more the quadric has turned there.
 //
-// The light of the gain (gain.glsl) enters farther away than that of the profile, from where the mesh is
-// no quadric and no tap reaches: its visibility is extrapolated.
+// The light that the gain (gain.glsl) adds or takes enters farther away than the profile's, beyond the places.
+// Its visibility is extrapolated from that at the point and the average over the places.
 #ifndef DERMIS_SKIN_GATHERED_SHADOW_GLSL
 #define DERMIS_SKIN_GATHERED_SHADOW_GLSL
 
@@ -21,11 +21,11 @@ const float kGatherLiftTexels = 2.25, kGatherLiftMm = 0.45;
 // Where the quadric gets less than this part of the light of a facing surface, a few lit places would
 // decide, so the difference counts in proportion. Half as much loses up to .01 of the share.
 const float kGatherFaint = 0.3;
-// Red's places do not count from where the quadric has turned by 35 degrees. Without it red has .05 to .12
-// less of the share of the surface integral on heads.
+// A place counts 1 - kGatherTurn s^2 in red, where s is the slope of the quadric there: 0 from 35 degrees on. Without
+// it red's share of the surface integral on heads is lower by .01 (light skin) to .12.
 const float kGatherTurn = 2.0;
-// Of the gain's light, from the visibility at the point past the average over the profile. The share of
-// random walks on heads is highest from 3 to 6.
+// How far the visibility of the gain's light is extrapolated, as a multiple of the step from the visibility
+// at the point to the average over the profile. The share of random walks on heads is highest from 3 to 6.
 const float kGatherGain = 4.0;
 
 // How far the point is lifted along the normal before the places are looked up; map_texel_mm is of the
@@ -75,13 +75,13 @@ vec3 gathered_light(float visibility, vec3 lit, vec3 all, float penumbra, float 
     return clamp(visibility + known * (lit / max(all, vec3(1e-5)) - penumbra / count), 0.0, 1.0);
 }
 
-// Of the light of the gain; gathered is that of the profile over all places.
+// The visibility of the light that the gain adds or takes. gathered: gathered_light() over all places.
 vec3 gathered_gain_light(float visibility, vec3 gathered) {
     return clamp(gathered + kGatherGain * (gathered - visibility), 0.0, 1.0);
 }
 
-// One visibility in place of both, for light that is multiplied by the gain of the place later: trusted is
-// that of the profile, with red's own sums.
+// One visibility for light that is multiplied by the gain of the place later. trusted: gathered_light() with
+// red's own sums; gathered: over all places.
 vec3 gathered_with_gain(float visibility, vec3 trusted, vec3 gathered, vec3 gain_of_place) {
     vec3 entering = trusted + (gain_of_place - 1.0) * gathered_gain_light(visibility, gathered);
     return max(entering, vec3(0.0)) / max(gain_of_place, vec3(1e-3));
