@@ -21,8 +21,8 @@ const float kGatherLiftTexels = 2.25, kGatherLiftMm = 0.45;
 // Where the quadric gets less than this part of the light of a facing surface, a few lit places would
 // decide, so the difference counts in proportion. Half as much loses up to .01 of the share.
 const float kGatherFaint = 0.3;
-// A place counts 1 - kGatherTurn s^2 in red, where s is the slope of the quadric there: 0 from 35 degrees on. Without
-// it red's share of the surface integral on heads is lower by .01 (light skin) to .12.
+// A place counts 1 - kGatherTurn s^2 in red, where s is the slope of the quadric there: 0 from 35 degrees on.
+// Without it red's share of the surface integral on heads is lower by .01 (light skin) to .12.
 const float kGatherTurn = 2.0;
 // How far the visibility of the gain's light is extrapolated, as a multiple of the step from the visibility
 // at the point to the average over the profile. The share of random walks on heads is highest from 3 to 6.
