@@ -56,6 +56,12 @@ Result<Contestant> chosen_technique(const std::string& technique, const std::vec
 }
 
 Result<Prepared> prepare(const RenderOptions& options) {
+    DERMIS_TRY_ASSIGN(Prepared prepared, prepare_unbaked(options));
+    DERMIS_TRY(complete_scene(prepared.scene));
+    return prepared;
+}
+
+Result<Prepared> prepare_unbaked(const RenderOptions& options) {
     DERMIS_TRY_ASSIGN(const Size size, parse_size(options.size));
     DERMIS_TRY(check_samples(options.samples));
     if (!options.technique.empty()) DERMIS_TRY(chosen_technique(options.technique, {}, nullptr));
@@ -63,8 +69,6 @@ Result<Prepared> prepare(const RenderOptions& options) {
     Scene as_filed;
     Result<Scene> scene = options.scene.load(&as_filed);
     if (!scene) return scene.error();
-    DERMIS_TRY(complete_scene(*scene));
-
     DERMIS_TRY_ASSIGN(const Contestant chosen,
                       chosen_technique(options.technique, options.settings, &*scene));
     DERMIS_TRY(check_view(*chosen.technique, options.view));

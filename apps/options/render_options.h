@@ -33,6 +33,8 @@ struct Prepared {
 
 /// Everything that can be wrong with the options is found here, before a device is opened.
 [[nodiscard]] Result<Prepared> prepare(const RenderOptions& options);
+/// The same, but complete_scene() is still to come.
+[[nodiscard]] Result<Prepared> prepare_unbaked(const RenderOptions& options);
 
 /// 1 or 4 a pixel.
 [[nodiscard]] Result<void> check_samples(int samples);

@@ -1,6 +1,8 @@
 #include "dermis/base/progress.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "dermis/base/system/system.h"
 
@@ -8,31 +10,47 @@ namespace dermis::inline base {
 
 using namespace std::chrono_literals;
 
+namespace {
+
+std::mutex running_mutex;
+std::vector<Progress*> running;  // in the order in which they began
+
+}  // namespace
+
 Progress::Progress(std::string what, size_t total)
     : what_(std::move(what)),
       total_(total),
       terminal_(system::stderr_is_terminal()),
       start_(Clock::now()),
-      last_(start_) {}
+      last_(start_) {
+    const std::lock_guard lock(running_mutex);
+    running.push_back(this);
+}
 
 Progress::~Progress() {
+    {
+        const std::lock_guard lock(running_mutex);
+        std::erase(running, this);
+    }
     if (drawn_) std::fputs("\r\x1b[K", stderr);
 }
 
 void Progress::advance(size_t items) {
     const size_t done = done_.fetch_add(items) + items;
+    const double fraction = total_ == 0 ? 1.0 : double(done) / double(total_);
+    fraction_ = fraction;
     if (!terminal_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (lock) draw_if_due(total_ == 0 ? 1.0 : double(done) / double(total_));
+    if (lock) draw_if_due(fraction);
 }
 
 void Progress::set(double fraction, std::string_view what) {
-    if (!terminal_) return;
     const std::lock_guard lock(mutex_);
+    fraction_ = fraction;
     if (!begun_) first_fraction_ = fraction;
     begun_ = true;
     if (!what.empty()) what_ = what;
-    draw_if_due(fraction);
+    if (terminal_) draw_if_due(fraction);
 }
 
 void Progress::draw_if_due(double fraction) {
@@ -43,12 +61,28 @@ void Progress::draw_if_due(double fraction) {
 }
 
 void Progress::draw(double fraction) {
-    const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    std::fprintf(stderr, "\r\x1b[K%s %3.0f %%", what_.c_str(), 100 * fraction);
-    const double made = fraction - first_fraction_;
-    if (made > 0) std::fprintf(stderr, ", %.0f s left", elapsed_s * (1 - fraction) / made);
+    std::fprintf(stderr, "\r\x1b[K%s", text(fraction).c_str());
     std::fflush(stderr);
     drawn_ = true;
+}
+
+std::string Progress::text(double fraction) const {
+    const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double made = fraction - first_fraction_;
+    char numbers[64];
+    int length = std::snprintf(numbers, sizeof numbers, " %3.0f %%", 100 * fraction);
+    if (made > 0)
+        length += std::snprintf(numbers + length, sizeof numbers - size_t(length), ", %.0f s left",
+                                elapsed_s * (1 - fraction) / made);
+    return what_ + std::string(numbers, size_t(length));
+}
+
+std::string current_progress() {
+    const std::lock_guard lock(running_mutex);
+    if (running.empty()) return "";
+    Progress& last = *running.back();
+    const std::lock_guard its_lock(last.mutex_);
+    return last.text(last.fraction_);
 }
 
 }  // namespace dermis::inline base

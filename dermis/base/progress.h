@@ -29,6 +29,9 @@ class Progress {
     void draw_if_due(double fraction);
     void draw(double fraction);
 
+    [[nodiscard]] std::string text(double fraction) const;
+    friend std::string current_progress();
+
     double first_fraction_ = 0;  ///< where set() began: earlier work does not measure the speed
     bool begun_ = false;
 
@@ -37,8 +40,13 @@ class Progress {
     bool terminal_;
     bool drawn_ = false;
     std::atomic<size_t> done_ = 0;
+    std::atomic<double> fraction_ = 0;
     std::mutex mutex_;
     Clock::time_point start_, last_;
 };
+
+/// "occlusion at the vertices  34 %, 2 s left": the work that began last in this process; empty if none is in
+/// progress.
+[[nodiscard]] std::string current_progress();
 
 }  // namespace dermis::inline base

@@ -29,9 +29,10 @@ bool has_occlusion(const SceneObject& object) {
 Result<void> complete_objects(std::vector<SceneObject>& objects) {
     Progress progress("curvature", objects.size());
     for (SceneObject& object : objects) {
+        if (object.mesh.curvatures_per_mm.size() != object.mesh.positions_mm.size()) {
+            DERMIS_TRY_ASSIGN(object.mesh.curvatures_per_mm, cached_curvature(object));
+        }
         progress.advance();
-        if (object.mesh.curvatures_per_mm.size() == object.mesh.positions_mm.size()) continue;
-        DERMIS_TRY_ASSIGN(object.mesh.curvatures_per_mm, cached_curvature(object));
     }
     if (std::ranges::all_of(objects, has_occlusion)) return {};
     Result<std::vector<std::vector<float>>> occlusions = compute_vertex_occlusion(objects);

@@ -10,13 +10,18 @@ namespace dermis::view {
 namespace fs = std::filesystem;
 namespace {
 
-// A scene, ready to draw.
+Result<Start> bake(Start start) {
+    DERMIS_TRY(complete_scene(start.scene));
+    start.lacks_bakes = false;
+    return start;
+}
+
 Result<Start> load_start(const std::string& path, std::span<const Subject> subjects,
-                         const std::vector<SceneWord>& words) {
-    Result<Scene> scene = load_scene(path, {.subjects = subjects, .words = words});
-    if (!scene) return scene.error();
-    DERMIS_TRY(complete_scene(*scene));
-    return Start{.scene = std::move(*scene), .loading_words = words};
+                         const std::vector<SceneWord>& words, Load what) {
+    DERMIS_TRY_ASSIGN(Scene scene, load_scene(path, {.subjects = subjects, .words = words}));
+    Start start = {.scene = std::move(scene), .lacks_bakes = true, .loading_words = words};
+    if (what == Load::scene) return start;
+    return bake(std::move(start));
 }
 
 }  // namespace
@@ -25,12 +30,17 @@ bool is_scene_file(const fs::path& file) {
     return to_lower(file.extension().string()) == ".toml";
 }
 
-bool Loader::load(const std::string& path, const std::vector<SceneWord>& words) {
+bool Loader::load(const std::string& path, const std::vector<SceneWord>& words, Load what) {
     if (loading_.valid()) return false;
     path_ = path;
-    reload_ = pose_ = false;
-    loading_ = std::async(std::launch::async, load_start, path, subjects_, words);
+    what_ = what;
+    loading_ = std::async(std::launch::async, load_start, path, subjects_, words, what);
     return true;
+}
+
+void Loader::complete(Scene scene) {
+    what_ = Load::bakes;
+    loading_ = std::async(std::launch::async, bake, Start{.scene = std::move(scene), .lacks_bakes = true});
 }
 
 std::optional<Result<Start>> Loader::take() {
@@ -39,14 +49,9 @@ std::optional<Result<Start>> Loader::take() {
     return loading_.get();
 }
 
-void Loader::expect_same_scene(bool file_changed) {
-    reload_ = true;
-    file_changed_ |= file_changed;
-}
-
 void Loader::follow(const Scene& scene) {
     files_.watch(files_of(scene));
-    reload_ = file_changed_ = false;
+    file_changed_ = false;
 }
 
 std::vector<fs::path> Loader::stated_files() const {

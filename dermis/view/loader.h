@@ -10,6 +10,14 @@
 
 namespace dermis::view {
 
+/// What is loaded.
+enum class Load {
+    scene,       ///< a new one: its bakes come later, by complete()
+    same_scene,  ///< the one that is shown, again: what was changed stays
+    pose,        ///< the one that is shown, in another pose
+    bakes,       ///< what a new scene lacks
+};
+
 class Loader {
   public:
     /// The first scene, whose loading has begun already.
@@ -17,8 +25,12 @@ class Loader {
         : loading_(std::move(first)), path_(std::move(path)), subjects_(subjects) {}
 
     /// Begins to load. False while another one is loading: path() names it.
-    [[nodiscard]] bool load(const std::string& path, const std::vector<SceneWord>& words);
+    [[nodiscard]] bool load(const std::string& path, const std::vector<SceneWord>& words, Load what);
+    /// Begins to bake what `scene`, the one that was loaded last, lacks.
+    void complete(Scene scene);
     [[nodiscard]] bool is_loading() const { return loading_.valid(); }
+    /// Of what is being loaded or was loaded last.
+    [[nodiscard]] Load what() const { return what_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     /// Takes the result if there is one.
     [[nodiscard]] std::optional<Result<Start>> take();
@@ -26,13 +38,9 @@ class Loader {
         if (loading_.valid()) loading_.wait();
     }
 
-    /// The scene that is read is the one that is shown, again: what was changed stays. `file_changed`: the
-    /// scene file itself has, not only its meshes and maps.
-    void expect_same_scene(bool file_changed);
-    [[nodiscard]] bool is_reload() const { return reload_; }
-    /// The scene that is read is the one that is shown, in another pose.
-    void expect_pose() { pose_ = true; }
-    [[nodiscard]] bool is_pose() const { return pose_; }
+    [[nodiscard]] bool is_reload() const { return what_ == Load::same_scene; }
+    /// The scene file itself has changed since it was shown, not only its meshes and maps.
+    void note_changed_file() { file_changed_ = true; }
     [[nodiscard]] bool file_changed() const { return file_changed_; }
 
     /// The scene is complete: its files are watched from here on.
@@ -49,7 +57,8 @@ class Loader {
     std::future<Result<Start>> loading_;
     std::string path_;
     std::span<const Subject> subjects_;
-    bool reload_ = false, file_changed_ = false, pose_ = false;
+    Load what_ = Load::scene;
+    bool file_changed_ = false;
     FileWatch files_;
 };
 

@@ -59,18 +59,17 @@ void Opener::open_panorama(const std::string& path) {
     model.notices.inform("open", "environment: " + path, to_.clock.now_s());
 }
 
-void Opener::load(const std::string& path) {
+void Opener::load(const std::string& path, Load what) {
     Model& model = to_.model;
     const bool same = path == model.scene_path && model.scene;
     const Scene& file = to_.pictures.scene().file_look();
-    if (!loader_.load(path, same ? words_to_load(model, file) : std::vector<SceneWord>()))
+    if (!loader_.load(path, same ? words_to_load(model, file) : std::vector<SceneWord>(), what))
         model.notices.inform("open", "still loading " + loader_.path(), to_.clock.now_s());
 }
 
 void Opener::load_pose() {
     Model& model = to_.model;
-    if (loader_.load(model.scene_path, words_to_load(model, to_.pictures.scene().file_look())))
-        loader_.expect_pose();
+    (void)loader_.load(model.scene_path, words_to_load(model, to_.pictures.scene().file_look()), Load::pose);
 }
 
 bool Opener::has_new_words() const {
@@ -80,8 +79,7 @@ bool Opener::has_new_words() const {
 
 void Opener::follow_words() {
     if (!has_new_words() || loader_.is_loading()) return;
-    load(to_.model.scene_path);
-    loader_.expect_same_scene(false);
+    load(to_.model.scene_path, Load::same_scene);
 }
 
 // What was changed while the scene was read stays for the next reading.
@@ -100,20 +98,31 @@ void Opener::take_words(std::vector<SceneWord> loaded) {
 Result<bool> Opener::take() {
     std::optional<Result<Start>> start = loader_.take();
     if (!start) return false;
-    const bool first = !to_.pictures.scene().is_there();
-    const Result<void> shown = *start ? show(std::move(**start), first) : start->error();
+    const Result<void> shown = *start ? take(std::move(**start)) : start->error();
     if (shown) return true;
-    if (first) return shown.error();
+    if (first_) return shown.error();
     if (loader_.is_reload()) to_.model.loading_words = shown_words_;
     if (loader_.is_reload()) loader_.follow_stated_files();  // a file may be missing and come later
     to_.model.notices.report_error("open", shown.error().message + (loader_.is_reload() ? kLastGood : ""));
     return false;
 }
 
-Result<void> Opener::show(Start start, bool first) {
+Result<void> Opener::take(Start start) {
+    const Load what = loader_.what();
+    ShownScene& shown = to_.pictures.scene();
+    const bool same_look = what == Load::pose || what == Load::bakes;
+    DERMIS_TRY(same_look ? shown.put_objects(std::move(start.scene)) : show(std::move(start)));
+    if (shown.stage().lacks_bakes())
+        loader_.complete(shown.stage().scene());
+    else
+        first_ = false;
+    return {};
+}
+
+Result<void> Opener::show(Start start) {
     Model& model = to_.model;
     ShownScene& shown = to_.pictures.scene();
-    if (loader_.is_pose()) return shown.put_pose(std::move(start.scene));
+    const bool first = !shown.is_there();
     const Pose pose = start.handed ? start.handed->loaded_pose : start.scene.motion.pose();
     auto scene = std::make_unique<Scene>(std::move(start.scene));
     Scene file = start.file_look.value_or(without_objects(*scene));
@@ -128,8 +137,8 @@ Result<void> Opener::show(Start start, bool first) {
     DERMIS_TRY_ASSIGN(Stage stage,
                       Stage::create(to_.device, to_.pictures.shaders(), std::move(scene), options_.samples));
     if (first) take_start(start);
-    if (const Technique* baseline = baseline_of(model.catalog.techniques); first && !start.handed && baseline)
-        stage.begin_with(*baseline);
+    const Technique* baseline = baseline_of(model.catalog.techniques);
+    if (start.lacks_bakes && baseline) stage.await_bakes(*baseline);
     if (!first) take_technique(file);
     shown.put(std::move(stage), std::move(file), pose, model);
     model.scene_path = loader_.path();
@@ -207,8 +216,8 @@ bool Opener::follow_scene_files() {
         if (!read) model.notices.report_error("environment", read.error().message + kLastGood);
         return true;
     }
-    load(model.scene_path);
-    loader_.expect_same_scene(std::ranges::any_of(changed, is_scene_file));
+    load(model.scene_path, Load::same_scene);
+    if (std::ranges::any_of(changed, is_scene_file)) loader_.note_changed_file();
     return true;
 }
 

@@ -29,7 +29,7 @@ class Opener {
     /// A scene, mesh, panorama or picture, by its extension; errors are notices.
     void open(const std::string& path);
     /// A scene: a file, a name, builtin:NAME.
-    void load(const std::string& path);
+    void load(const std::string& path, Load what = Load::scene);
     /// The shown scene again, in the pose that its motion has now; only its objects change. Not while another
     /// one is loading.
     void load_pose();
@@ -42,14 +42,15 @@ class Opener {
     [[nodiscard]] const std::string& loaded_path() const { return loader_.path(); }
     void wait() const { loader_.wait(); }
 
-    /// Shows the scene that has come: true. The first one's error ends the program, a later one's is a
-    /// notice.
+    /// Shows what has come: true. A new scene comes without its bakes, which follow. The first one's error
+    /// ends the program, a later one's is a notice.
     [[nodiscard]] Result<bool> take();
     /// Looks at the files of scene and shaders, a few times a second. True when something changed.
     [[nodiscard]] bool follow_files();
 
   private:
-    [[nodiscard]] Result<void> show(Start start, bool first);
+    [[nodiscard]] Result<void> take(Start start);
+    [[nodiscard]] Result<void> show(Start start);
     void take_start(const Start& start);
     void take_words(std::vector<SceneWord> loaded);
     void take_technique(const Scene& file);
@@ -60,6 +61,7 @@ class Opener {
     OpenTargets to_;
     Loader loader_;
     std::vector<SceneWord> shown_words_;  ///< with which the shown scene was loaded
+    bool first_ = true;                   ///< no scene was shown whole yet
     double last_look_s_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 
+#include "dermis/base/progress.h"
 #include "dermis/base/text.h"
 #include "dermis/view/panel_parts.h"
 #include "dermis/view/widgets.h"
@@ -39,17 +40,30 @@ void help_table(const char* id, std::span<const std::pair<std::string, std::stri
     ImGui::EndTable();
 }
 
+// As large as its content, and not for the mouse.
+ImGuiWindowFlags shrunk_window() {
+    return fixed_window() | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs;
+}
+
 }  // namespace
 
 void show_loading(const Model& model, const PanelFacts& facts) {
-    if (model.scene || facts.loading.empty()) return;
+    if (facts.loading.empty() || model.scene) return;
     const Region picture = picture_region(model, facts.width, facts.height, facts.scale);
     const std::string name = std::filesystem::path(facts.loading).filename().string();
     ImGui::SetNextWindowPos({picture.width / 2, picture.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::Begin("loading", nullptr,
-                 fixed_window() | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    ImGui::Begin("loading", nullptr, shrunk_window());
     ImGui::Text("loading %s, %.0f s", printable_line(name).c_str(), facts.elapsed_s);
-    ImGui::TextDisabled("the first time, curvature and occlusion of its surface are baked and kept");
+    ImGui::End();
+}
+
+void show_baking(const PanelFacts& facts) {
+    if (!facts.lacks_bakes) return;
+    const std::string progress = current_progress();
+    ImGui::SetNextWindowPos({12 * facts.scale, 12 * facts.scale}, ImGuiCond_Always);
+    ImGui::Begin("baking", nullptr, shrunk_window());
+    ImGui::TextUnformatted(progress.empty() ? "baking" : progress.c_str());
+    ImGui::TextDisabled("once for this head; until then without scattering");
     ImGui::End();
 }
 

@@ -35,6 +35,8 @@ void show_times(const PanelFacts& facts);
 // overlays.cpp, open_panel.cpp; over the picture
 /// Shows name and seconds of loading until the first picture.
 void show_loading(const Model& model, const PanelFacts& facts);
+/// Shows what is being baked, and how far it is.
+void show_baking(const PanelFacts& facts);
 void show_side_names(const Model& model, const PanelFacts& facts);
 void show_open_field(Model& model, const PanelFacts& facts, PanelRequests& requests);
 void show_notices(const Model& model, const PanelFacts& facts);

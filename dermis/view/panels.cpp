@@ -96,6 +96,7 @@ void show_panels(Model& model, const PanelFacts& facts, PanelRequests& requests,
         show_status(model, facts);
     }
     show_loading(model, facts);
+    show_baking(facts);
     show_side_names(model, facts);
     show_notices(model, facts);
     show_open_field(model, facts, requests);

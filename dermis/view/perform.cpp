@@ -89,8 +89,16 @@ void save_shown_scene(Parts& p) {
     notify_written(p, path, save_scene(p, path));
 }
 
+// False, with a notice, without a scene that has its bakes.
+bool has_whole_scene(Parts& p) {
+    if (!p.pictures.scene().is_there()) return false;
+    const bool lacks = p.pictures.scene().stage().lacks_bakes();
+    if (lacks) p.model.notices.inform("file", "not before the scene is baked", p.clock.now_s());
+    return !lacks;
+}
+
 void take_screenshot(Parts& p) {
-    if (!p.pictures.scene().is_there()) return;
+    if (!has_whole_scene(p)) return;
     const std::string path = free_name("dermis", ".png");
     notify_written(p, path, p.pictures.scene().stage().write(p.model, 0, p.picture_size(), path));
 }
@@ -130,6 +138,7 @@ void go_in_history(Parts& p, Result<bool> (History::*go)(Model&, ShownScene&), c
 
 // The reference is of a moment.
 void ask_reference(Parts& p) {
+    if (!has_whole_scene(p)) return;
     p.model.playing = false;
     p.reference.ask(p.model, p.picture_size());
 }

@@ -34,6 +34,7 @@ Result<ViewerReport> Session::run() {
 void Session::hand_over(ViewerOptions& options) const {
     const Parts& p = *parts_;
     Start start = {.scene = *p.model.scene,
+                   .lacks_bakes = p.pictures.scene().stage().lacks_bakes(),
                    .loading_words = p.model.loading_words,
                    .file_look = p.pictures.scene().file_look(),
                    .handed = Handed{.model = p.model,

@@ -32,14 +32,16 @@ std::string probe_line(Parts& p) {
 }
 
 PanelFacts panel_facts(Parts& p) {
-    PanelFacts facts = {.scale = p.interface->scale(),
-                        .width = p.presenter->size().width,
-                        .height = p.presenter->size().height,
-                        .device = p.device.info().name,
-                        .picture_state = p.device.info().name,
-                        .loading = p.opener.is_loading() ? p.opener.loaded_path() : "",
-                        .elapsed_s = p.clock.elapsed_s(),
-                        .probe = probe_line(p)};
+    PanelFacts facts = {
+        .scale = p.interface->scale(),
+        .width = p.presenter->size().width,
+        .height = p.presenter->size().height,
+        .device = p.device.info().name,
+        .picture_state = p.device.info().name,
+        .loading = p.opener.is_loading() ? p.opener.loaded_path() : "",
+        .elapsed_s = p.clock.elapsed_s(),
+        .lacks_bakes = p.pictures.scene().is_there() && p.pictures.scene().stage().lacks_bakes(),
+        .probe = probe_line(p)};
     p.pictures.describe(facts);
     return facts;
 }
@@ -120,6 +122,7 @@ Result<void> Session::take_scene() {
     const std::string before = p.model.scene ? p.model.scene_path : "";
     DERMIS_TRY_ASSIGN(const bool taken, p.opener.take());
     if (!taken) return {};
+    p.input.wake();
     if (p.model.scene_path == before)
         p.history.amend(p.model);
     else

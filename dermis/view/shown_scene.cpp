@@ -32,14 +32,14 @@ void ShownScene::set_pose(const Pose& loaded) {
     probe_key_.clear();
 }
 
-Result<void> ShownScene::put_pose(Scene posed) {
+Result<void> ShownScene::put_objects(Scene loaded) {
     const std::vector<SceneObject>& shown = stage_->scene().objects;
-    const bool fits = std::ranges::equal(shown, posed.objects, [](const auto& a, const auto& b) {
+    const bool fits = std::ranges::equal(shown, loaded.objects, [](const auto& a, const auto& b) {
         return a.mesh.submeshes.size() == b.mesh.submeshes.size();
     });
     if (!fits) return {};  // its files have changed and are read again
-    set_pose(posed.motion.pose());
-    return stage_->replace_objects(std::move(posed));
+    set_pose(loaded.motion.pose());
+    return stage_->replace_objects(std::move(loaded));
 }
 
 Result<void> ShownScene::follow_motion() {
@@ -48,7 +48,8 @@ Result<void> ShownScene::follow_motion() {
     const auto is_stiff = [](const SceneObject& object) {
         return !object.motion.empty() && !ScenePoser::can_pose(object);
     };
-    if (pose == drawn_pose_ || std::ranges::any_of(scene.objects, is_stiff)) return {};
+    if (stage_->lacks_bakes() || pose == drawn_pose_ || std::ranges::any_of(scene.objects, is_stiff))
+        return {};
     drawn_pose_ = pose;
     probe_.reset();
     probe_key_.clear();

@@ -26,10 +26,10 @@ class ShownScene {
 
     /// The vertices follow the scene's motion; curvature turns with them, and what is made of the shape
     /// (occlusion, baked maps, gains) stays as it was loaded. Nothing happens for meshes that only loading
-    /// can pose (ScenePoser::can_pose).
+    /// can pose (ScenePoser::can_pose), and before the scene has its bakes.
     [[nodiscard]] Result<void> follow_motion();
-    /// The same scene, loaded in another pose.
-    [[nodiscard]] Result<void> put_pose(Scene posed);
+    /// The same scene, loaded in another pose or with its bakes.
+    [[nodiscard]] Result<void> put_objects(Scene loaded);
     [[nodiscard]] const Pose& loaded_pose() const { return loaded_pose_; }
     /// Whether the scene was loaded in the pose that its motion has now.
     [[nodiscard]] bool is_loaded_in_its_pose() const {

@@ -48,18 +48,10 @@ DrawSettings Stage::settings(const Model& model, PictureSize size, Quality quali
             .shadow_map_size = quality.scale < 1 ? 1024 : 2048};
 }
 
-// Its time says nothing about the chosen technique, so the ladder does not see it.
-Result<bool> Stage::draw_preview(const Model& model, PictureSize size, Quality quality) {
-    Side& side = sides_[0];
-    const Technique& baseline = *std::exchange(preview_, nullptr);
-    const DrawSettings draw = settings(model, size, quality);
-    DERMIS_TRY(side.renderer->submit(baseline, ParameterValues(baseline.parameters), draw));
-    side.key.clear();
-    side.picture = {.quality = quality,
-                    .width = draw.width,
-                    .height = draw.height,
-                    .passes = side.renderer->list().passes.size()};
-    return true;
+QualityLimits Stage::limits() const {
+    QualityLimits limits = limits_;
+    if (lacks_bakes()) limits.samples = 1;  // the processor is left to the bakes
+    return limits;
 }
 
 Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, double now_s) {
@@ -74,15 +66,15 @@ Result<bool> Stage::refresh(Model& model, size_t choice, PictureSize size, doubl
     }
     if (side.failed) return false;
     const std::optional<Quality> quality =
-        side.ladder->due(changed, now_s - side.changed_s, megapixels(size), limits_);
+        side.ladder->due(changed, now_s - side.changed_s, megapixels(size), limits());
     if (!quality) return false;
     DERMIS_TRY_ASSIGN(Renderer* const drawer, renderer(choice));
-    const DrawSettings draw = settings(model, size, *quality);
+    DrawSettings draw = settings(model, size, *quality);
+    if (lacks_bakes()) draw.view = "final";
     fit_depth_range(scene_->camera, scene_->bounds_center_mm, scene_->bounds_radius_mm);
-    const Technique& technique = model.choices[choice].technique();
-    if (choice == 0 && preview_ && preview_ != &technique && model.view == "final")
-        return draw_preview(model, size, *quality);
-    const ParameterValues& chosen = model.choices[choice].values();
+    const Technique& technique = lacks_bakes() ? *baseline_ : model.choices[choice].technique();
+    const ParameterValues chosen =
+        lacks_bakes() ? ParameterValues(technique.parameters) : model.choices[choice].values();
     const bool coarse = quality->scale < 1 && technique.coarse;
     const Result<uint64_t> frame =
         drawer->submit(technique, coarse ? technique.coarse(chosen, quality->scale) : chosen, draw);
@@ -123,7 +115,7 @@ std::optional<gpu::ForeignImage> Stage::image(size_t choice) const {
 
 bool Stage::is_final(size_t choice) const {
     const Side& side = sides_[choice];
-    return side.failed || (side.in_flight.empty() && side.ladder->is_final(limits_));
+    return side.failed || (side.in_flight.empty() && side.ladder->is_final(limits()));
 }
 
 Result<void> Stage::write(Model& model, size_t choice, PictureSize size, const std::filesystem::path& path) {
@@ -160,11 +152,14 @@ Result<void> Stage::vertices_moved() {
     return sides_[0].renderer->vertices_moved();
 }
 
-Result<void> Stage::replace_objects(Scene posed) {
+Result<void> Stage::replace_objects(Scene loaded) {
     invalidate();
-    scene_->objects = std::move(posed.objects);
-    scene_->bounds_center_mm = posed.bounds_center_mm;
-    scene_->bounds_radius_mm = posed.bounds_radius_mm;
+    baseline_ = nullptr;
+    scene_->objects = std::move(loaded.objects);
+    scene_->rest_objects = std::move(loaded.rest_objects);
+    scene_->bounds_center_mm = loaded.bounds_center_mm;
+    scene_->bounds_radius_mm = loaded.bounds_radius_mm;
+    scene_->warnings = std::move(loaded.warnings);
     if (sides_[1].renderer) sides_[1].renderer->forget_shape();
     return sides_[0].renderer->objects_replaced();
 }

@@ -36,9 +36,10 @@ class Stage {
     /// Samples per pixel of the finished picture.
     [[nodiscard]] int samples() const { return limits_.samples; }
 
-    /// The next picture of the left side comes first without scattering, which needs no tables and few
-    /// shaders.
-    void begin_with(const Technique& baseline) { preview_ = &baseline; }
+    /// Until the next replace_objects() the pictures are of `baseline`, which needs no bakes, no tables and
+    /// few shaders, with one sample a pixel.
+    void await_bakes(const Technique& baseline) { baseline_ = &baseline; }
+    [[nodiscard]] bool lacks_bakes() const { return baseline_ != nullptr; }
 
     /// Draws the side `choice` if it is due. True when it drew. An error leaves the last picture standing,
     /// and comes once: the next attempt waits for a change.
@@ -65,8 +66,8 @@ class Stage {
 
     /// The vertices of the scene's objects have moved (Renderer::vertices_moved).
     [[nodiscard]] Result<void> vertices_moved();
-    /// Takes the objects and bounds of the same scene in another pose.
-    [[nodiscard]] Result<void> replace_objects(Scene posed);
+    /// Takes objects, bounds and warnings of the same scene in another pose or with its bakes.
+    [[nodiscard]] Result<void> replace_objects(Scene loaded);
 
     /// Marks the picture stale; the next refresh redraws.
     void invalidate();
@@ -91,8 +92,8 @@ class Stage {
     };
 
     Stage() = default;
-    [[nodiscard]] Result<bool> draw_preview(const Model& model, PictureSize size, Quality quality);
     [[nodiscard]] Result<Renderer*> renderer(size_t choice);
+    [[nodiscard]] QualityLimits limits() const;
     [[nodiscard]] DrawSettings settings(const Model& model, PictureSize size, Quality quality) const;
 
     gpu::Device* device_ = nullptr;
@@ -100,7 +101,7 @@ class Stage {
     std::unique_ptr<Scene> scene_;
     std::array<Side, 2> sides_;
     QualityLimits limits_;
-    const Technique* preview_ = nullptr;
+    const Technique* baseline_ = nullptr;  ///< drawn while the bakes are missing
 };
 
 }  // namespace dermis::view

@@ -26,6 +26,7 @@ struct Handed {
 /// Options of the window.
 struct Start {
     Scene scene;
+    bool lacks_bakes = false;              ///< complete_scene() is still to come
     std::vector<SceneWord> loading_words;  ///< see Model
     const Technique* technique = nullptr;
     std::optional<ParameterValues> values;

@@ -151,23 +151,6 @@ TEST_F(ViewHead, warnings_of_loading_and_of_techniques_stay_until_they_are_read)
     EXPECT_THAT(states[2], HasSubstr("\nwarning material 'M Face' has no curvature map"));
 }
 
-TEST_F(ViewHead, the_first_picture_comes_without_scattering_and_that_of_the_technique_follows) {
-    const ProgramResult result =
-        view(head() + " --scene mesh.unit_mm=10 --size 560x420 --samples 1 -t texture_space",
-             "print\nsettle\nprint\nquit\n");
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    const std::vector<std::string> states = head_states(result);
-    ASSERT_EQ(states.size(), 2u);
-    const auto passes = [](const std::string& state) {
-        const std::string line = head_line(state, "passes");  // "passes 5\n"
-        return parse_number(line.substr(7, line.size() - 8)).value_or(-1);
-    };
-    EXPECT_GT(passes(states[0]), 0);
-    EXPECT_LT(passes(states[0]), 10);
-    EXPECT_GT(passes(states[1]), 15);
-    EXPECT_THAT(states[0], HasSubstr("technique texture_space\n"));
-}
-
 TEST_F(ViewHead, undo_takes_back_one_change_after_the_other_and_redo_brings_them_again) {
     const ProgramResult result =
         view(head() + " --scene mesh.unit_mm=10 --size 900x700 --samples 1 -t wrap", R"(

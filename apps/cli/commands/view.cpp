@@ -65,10 +65,11 @@ Result<FileUse> files_of(const ViewOptions& options) {
 // Keeps the scene of the files apart from the changes by --scene, --camera and --light, which stay when the
 // files change.
 Result<view::Start> first_scene(const ViewOptions& options) {
-    DERMIS_TRY_ASSIGN(Prepared prepared, prepare(options.render));
+    DERMIS_TRY_ASSIGN(Prepared prepared, prepare_unbaked(options.render));
     DERMIS_TRY(keep_scene_files(prepared.scene, files_of_window(options)));
     const Result<std::vector<SceneWord>> words = options.render.scene.all_words();
     return view::Start{.scene = std::move(prepared.scene),
+                       .lacks_bakes = true,
                        .loading_words = words_for(*words, true),
                        .technique = prepared.technique,
                        .values = std::move(prepared.values),
