@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/run_program.h"
+#include "support/environment.h"
 #include "support/temporary_directory.h"
 
 using namespace dermis;
@@ -58,6 +59,19 @@ TEST_F(Export, of_every_openpbr_tone_has_a_package) {
                       .exit_code,
                   0)
             << tone;
+}
+
+// The cache has what was walked.
+TEST_F(Export, walks_the_gain_only_for_functions_that_need_it) {
+    const EnvironmentVariable cache("DERMIS_CACHE", out("cache"));
+    const auto has_cache = [&](const std::string& functions) {
+        const std::string command = "export --language hlsl --functions " + functions +
+                                    " --profile openpbr_skin_5 -o " + out("skin.hlsl");
+        EXPECT_EQ(dermis(command).exit_code, 0) << functions;
+        return fs::exists(out("cache"));
+    };
+    EXPECT_FALSE(has_cache("skin_diffuse,skin_gather_trust"));
+    EXPECT_TRUE(has_cache("skin_gain"));
 }
 
 TEST_F(Export, refuses_wrong_options_and_leaves_nothing) {

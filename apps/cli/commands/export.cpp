@@ -64,21 +64,43 @@ std::filesystem::path text_path(const ExportOptions& options, shading::Language 
                : output;
 }
 
-Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
-    DERMIS_TRY_ASSIGN(const std::vector<shading::Language> languages, chosen_languages(options.language));
-    std::vector<std::string> names;
-    for (const std::string_view name : split(options.functions, ','))
-        if (const std::string_view word = trim(name); !word.empty()) names.emplace_back(word);
-    DERMIS_TRY_ASSIGN(const PackageGain gain, package_gain(profile, {}));
+using Texts = std::vector<std::string>;
+
+// One text for each language; of the functions `names`, or of all.
+Result<Texts> texts_with_gain(const Profile& profile, const PackageGain& gain,
+                              std::span<const shading::Language> languages, const Texts& names) {
     DERMIS_TRY_ASSIGN(shading::Source own_gain, gain_source(built_in_package_templates(), gain));
     const std::span<const shading::Source> common = shading::skin_sources();
     std::vector<shading::Source> sources(common.begin(), common.end());
     sources.push_back(std::move(own_gain));
-    std::vector<std::string> texts;
+    Texts texts;
     for (const shading::Language language : languages) {
         DERMIS_TRY_ASSIGN(std::string text, skin_text(profile, sources, language, names));
         texts.push_back(std::move(text));
     }
+    return texts;
+}
+
+// The gain takes seconds of walks. Functions that do not need it have the same text with any two gains.
+Result<Texts> skin_texts(const Profile& profile, std::span<const shading::Language> languages,
+                         const Texts& names) {
+    const PackageGain none,
+        other = {.of_curvature = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, .of_slabs = {2, 2, 2}};
+    if (!names.empty()) {
+        DERMIS_TRY_ASSIGN(Texts without, texts_with_gain(profile, none, languages, names));
+        DERMIS_TRY_ASSIGN(const Texts with, texts_with_gain(profile, other, languages, names));
+        if (with == without) return without;
+    }
+    DERMIS_TRY_ASSIGN(const PackageGain gain, package_gain(profile, {}));
+    return texts_with_gain(profile, gain, languages, names);
+}
+
+Result<int> export_texts(const ExportOptions& options, const Profile& profile) {
+    DERMIS_TRY_ASSIGN(const std::vector<shading::Language> languages, chosen_languages(options.language));
+    Texts names;
+    for (const std::string_view name : split(options.functions, ','))
+        if (const std::string_view word = trim(name); !word.empty()) names.emplace_back(word);
+    DERMIS_TRY_ASSIGN(const Texts texts, skin_texts(profile, languages, names));
     std::vector<FileContent> files;
     for (size_t i = 0; i < texts.size(); ++i)
         files.push_back({text_path(options, languages[i]), as_bytes(texts[i])});
