@@ -190,6 +190,7 @@ ${l.method("vec3", "skinShadow", ["mat4", "toMap"], ["vec2", "depthValues"], ...
   here += stepN * skin_gather_lift_mm(texelMm);
   ${l.local("vec3", "lit")} = vec3(0.0);
   ${l.local("vec3", "whole")} = vec3(0.0);
+  ${l.local("vec2", "red")} = vec2(0.0);  // lit and whole of the places that are trusted
   ${l.local("float", "penumbra")} = 0.0;
   ${l.count("i", shadowPlaces.length)} {
     if (i == ${firstPlaces} && lit.r == skinVisible * whole.r) { return vec3(skinVisible); }
@@ -200,9 +201,17 @@ ${l.method("vec3", "skinShadow", ["mat4", "toMap"], ["vec2", "depthValues"], ...
     ${l.local("float", "seen")} = computeShadowWithPCF1(place, skinDepth(place, depthValues), ${l.shadowMap("map")}, info.x, 0.0);
     whole += weight * faces;
     lit += weight * (faces * seen);
+    red += skin_gather_trust(around.xy, bent) * faces * vec2(seen, 1.0);
     penumbra += around.w * seen;
   }
-  return skin_gathered_light(skinVisible, lit, whole, penumbra, ${shadowPlaces.length}.0);
+  ${l.local("vec3", "gathered")} = skin_gathered_light(skinVisible, lit, whole, penumbra, ${shadowPlaces.length}.0);
+  ${l.local("vec3", "trusted")} = skin_gathered_trusted_light(skinVisible, gathered, red, penumbra, ${shadowPlaces.length}.0);
+#ifdef SKIN_GAIN
+  // All diffuse light is multiplied with skinGain later.
+  return skin_gathered_with_gain(skinVisible, trusted, gathered, skinGain);
+#else
+  return trusted;
+#endif
 #endif
 }
 #endif`;

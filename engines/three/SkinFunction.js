@@ -68,7 +68,10 @@ export const gatherTangent = /*@__PURE__*/ skinFunction("skin_gather_tangent", "
 export const gatherBends = /*@__PURE__*/ skinFunction("skin_gather_bends", "vec3", "vec3", "vec3", "vec3", "vec3");
 export const gatherCosine = /*@__PURE__*/ skinFunction("skin_gather_cosine", "float", "vec2", "vec3", "float", "float");
 export const gatherRiseMm = /*@__PURE__*/ skinFunction("skin_gather_rise_mm", "float", "vec2", "float", "vec3");
+export const gatherTrust = /*@__PURE__*/ skinFunction("skin_gather_trust", "float", "vec2", "vec3");
 export const gatheredLight = /*@__PURE__*/ skinFunction("skin_gathered_light", "vec3", "float", "vec3", "vec3", "float", "float");
+export const gatheredTrustedLight = /*@__PURE__*/ skinFunction("skin_gathered_trusted_light", "vec3", "float", "vec3", "vec2", "float", "float");
+export const gatheredWithGain = /*@__PURE__*/ skinFunction("skin_gathered_with_gain", "vec3", "float", "vec3", "vec3", "vec3");
 // What all diffuse light is multiplied with, by the mean curvature in 1/mm, above 0 on convex skin; and that curvature from dFdx and dFdy
 // of the position in mm and of the normal.
 export const skinGain = /*@__PURE__*/ skinFunction("skin_gain", "vec3", "float");

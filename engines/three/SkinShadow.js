@@ -3,10 +3,13 @@
 import { Node, Vector3, Vector4 } from "three/webgpu";
 import {
   BasicShadowFilter, Break, Fn, If, Loop, bool, cross, dot, float, length, lightShadowMatrix, materialReference, modelWorldMatrix, positionWorld, reference, select,
-  uniformArray, vec3, vec4,
+  uniformArray, vec2, vec3, vec4,
 } from "three/tsl";
 import { diskPlaces, firstPlaces, shadowPlaces } from "./SkinShadowPlaces.js";
-import { diskOffsetMm, gatherBends, gatherCosine, gatherLiftMm, gatherRiseMm, gatherTangent, gatheredLight } from "./SkinFunction.js";
+import {
+  diskOffsetMm, gatherBends, gatherCosine, gatherLiftMm, gatherRiseMm, gatherTangent, gatherTrust, gatheredLight, gatheredTrustedLight,
+  gatheredWithGain,
+} from "./SkinFunction.js";
 
 const offsets = shadowPlaces.map(([x, y, lift]) => new Vector3(x, y, lift));
 // Meshes are not scaled.
@@ -16,10 +19,10 @@ const weights = shadowPlaces.map(([, , , r, g, b, penumbra]) => new Vector4(r, g
 class GatheredShadowNode extends Node {
   static get type() { return "GatheredShadowNode"; }
 
-  // All directions are in the mesh's space; the tensor is in 1/mm.
-  constructor(shadowNode, material, { normal, toLight, diagonal, mixed }) {
+  // All directions are in the mesh's space; the tensor is in 1/mm. The light is multiplied by the gain later.
+  constructor(shadowNode, material, { normal, toLight, diagonal, mixed, gain }) {
     super("vec3");
-    Object.assign(this, { shadowNode, material, normal, toLight, diagonal, mixed });
+    Object.assign(this, { shadowNode, material, normal, toLight, diagonal, mixed, gain });
   }
 
   // Millimetres of a texel of the shadow map; 0 for a light that is not directional.
@@ -67,6 +70,7 @@ class GatheredShadowNode extends Node {
       const xWorld = inWorld(x).toVar(), yWorld = inWorld(y).toVar(), nWorld = inWorld(normal).toVar();
       const origin = positionWorld.add(nWorld.mul(gatherLiftMm(texelMm).mul(unitsPerMm))).toVar();
       const lit = vec3(0).toVar(), all = vec3(0).toVar(), penumbra = float(0).toVar(), settled = bool(false).toVar();
+      const red = vec2(0).toVar();  // lit and all of the places that are trusted
       Loop(shadowPlaces.length, ({ i }) => {
         If(i.equal(firstPlaces).and(lit.x.equal(visible.mul(all.x))), () => {
           settled.assign(true);
@@ -79,9 +83,12 @@ class GatheredShadowNode extends Node {
         const there = this.seenAt(origin.add(offset), builder).toVar();
         all.addAssign(amount.xyz.mul(faces));
         lit.addAssign(amount.xyz.mul(faces.mul(there)));
+        red.addAssign(gatherTrust(place.xy, bends).mul(faces).mul(vec2(there, 1)));
         penumbra.addAssign(amount.w.mul(there));
       });
-      return settled.select(vec3(visible), gatheredLight(visible, lit, all, penumbra, float(shadowPlaces.length)));
+      const count = float(shadowPlaces.length), gathered = gatheredLight(visible, lit, all, penumbra, count).toVar();
+      const trusted = gatheredTrustedLight(visible, gathered, red, penumbra, count);
+      return settled.select(vec3(visible), gatheredWithGain(visible, trusted, gathered, this.gain));
     })();
   }
 }

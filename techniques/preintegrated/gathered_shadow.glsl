@@ -71,8 +71,8 @@ Entering gathered_visibility(Surface s, int light, vec3 to_light_world, float vi
     }
     if (source.shadow_map_index < 0 || outside_shadow_map(here)) return plain;
     vec3 gathered = gathered_light(visibility, lit.rgb, all, lit.a, float(kShadowGatherTaps));
-    vec3 trusted = gathered_light(visibility, red.xxx, red.yyy, lit.a, float(kShadowGatherTaps));
-    return Entering(vec3(trusted.r, gathered.gb), gathered_gain_light(visibility, gathered));
+    vec3 trusted = gathered_trusted_light(visibility, gathered, red, lit.a, float(kShadowGatherTaps));
+    return Entering(trusted, gathered_gain_light(visibility, gathered));
 }
 
 #endif

@@ -178,16 +178,19 @@ TEST_P(BrowserHead, has_the_renderers_share_and_a_mistake_loses_it) {
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const std::map<std::string, double> share = shares(pictures);
     ASSERT_EQ(share.size(), 5u);
-    EXPECT_GT(share.at("webgl"), 0.9 * share.at("preintegrated"));
-    EXPECT_GT(share.at("webgpu"), 0.75 * share.at("preintegrated"));
+    EXPECT_GT(share.at("webgl"), 0.8 * share.at("preintegrated"));
+    EXPECT_GT(share.at("webgpu"), 0.65 * share.at("preintegrated"));
     EXPECT_LT(share.at("normals"), share.at("webgl") - 0.03);
     EXPECT_LT(share.at("curvature"), share.at("webgl") - 0.03);
     const Image gain = change(rendered(kPreintegrated + "curvature"), rendered(kPreintegrated + "none")),
                 nothing(48, 48, 3);
-    for (const char* device : {"webgl", "webgpu"})
-        EXPECT_LT(distance(change(read(device + std::string("_gain")), read(device)), gain),
-                  0.2 * distance(gain, nothing))
-            << device;
+    // Twice this where the gain's light has the visibility of the profile's.
+    for (const char* device : {"webgl", "webgpu"}) {
+        const double error = distance(change(read(device + std::string("_gain")), read(device)), gain) /
+                             distance(gain, nothing);
+        RecordProperty(device + std::string("_gain"), std::to_string(error));
+        EXPECT_LT(error, 0.06) << device;
+    }
     const ProgramResult srgb = draw({{"srgb", "webgl&mistake=srgb"}});
     EXPECT_EQ(srgb.exit_code, 1);
     EXPECT_NE(srgb.err.find("they hold directions, not colours"), std::string::npos) << srgb.err;

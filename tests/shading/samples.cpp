@@ -125,6 +125,7 @@ const std::map<std::string, Domain>& domains() {
         {"penumbra", {0, 64}},
         {"gathered", {0, 1}},
         {"trusted", {0, 1}},
+        {"red_sums", {0.1, 64}},
         {"count", {64, 64}},
     };
     return kDomains;

@@ -64,8 +64,8 @@ float3 SkinGatheredShadow(float3 positionWS, float3 n, float3 to_light, float3 d
         penumbra += place.w * seen;
     }
     float3 gathered = skin_gathered_light(visible, lit, whole, penumbra, float(kGatherPlaces));
-    float3 trusted = skin_gathered_light(visible, red.xxx, red.yyy, penumbra, float(kGatherPlaces));
-    return skin_gathered_with_gain(visible, float3(trusted.r, gathered.gb), gathered, gain);
+    float3 trusted = skin_gathered_trusted_light(visible, gathered, red, penumbra, float(kGatherPlaces));
+    return skin_gathered_with_gain(visible, trusted, gathered, gain);
 }
 
 #endif

@@ -75,13 +75,20 @@ vec3 gathered_light(float visibility, vec3 lit, vec3 all, float penumbra, float 
     return clamp(visibility + known * (lit / max(all, vec3(1e-5)) - penumbra / count), 0.0, 1.0);
 }
 
+// gathered, with red from its own sums. gathered: gathered_light() over all places. red_sums: x is the sum of
+// gather_trust() times cosine times visibility, y the sum of gather_trust() times cosine.
+vec3 gathered_trusted_light(float visibility, vec3 gathered, vec2 red_sums, float penumbra, float count) {
+    vec3 trusted = gathered_light(visibility, vec3(red_sums.x), vec3(red_sums.y), penumbra, count);
+    return vec3(trusted.x, gathered.y, gathered.z);
+}
+
 // The visibility of the light that the gain adds or takes. gathered: gathered_light() over all places.
 vec3 gathered_gain_light(float visibility, vec3 gathered) {
     return clamp(gathered + kGatherGain * (gathered - visibility), 0.0, 1.0);
 }
 
-// One visibility for light that is multiplied by the gain of the place later. trusted: gathered_light() with
-// red's own sums; gathered: over all places.
+// One visibility for light that is multiplied by the gain of the place later. trusted:
+// gathered_trusted_light(); gathered: over all places.
 vec3 gathered_with_gain(float visibility, vec3 trusted, vec3 gathered, vec3 gain_of_place) {
     vec3 entering = trusted + (gain_of_place - 1.0) * gathered_gain_light(visibility, gathered);
     return max(entering, vec3(0.0)) / max(gain_of_place, vec3(1e-3));
