@@ -76,10 +76,12 @@ vec3 gathered_light(float visibility, vec3 lit, vec3 all, float penumbra, float 
 }
 
 // gathered, with red from its own sums. gathered: gathered_light() over all places. red_sums: x is the sum of
-// gather_trust() times cosine times visibility, y the sum of gather_trust() times cosine.
+// gather_trust() times cosine times visibility, y the sum of gather_trust() times cosine. Where green brings
+// light into a shadow, red, which comes from farther away, brings no less, however few of its places are trusted.
 vec3 gathered_trusted_light(float visibility, vec3 gathered, vec2 red_sums, float penumbra, float count) {
     vec3 trusted = gathered_light(visibility, vec3(red_sums.x), vec3(red_sums.y), penumbra, count);
-    return vec3(trusted.x, gathered.y, gathered.z);
+    float red = gathered.y > visibility ? max(trusted.x, gathered.y) : trusted.x;
+    return vec3(red, gathered.y, gathered.z);
 }
 
 // The visibility of the light that the gain adds or takes. gathered: gathered_light() over all places.
