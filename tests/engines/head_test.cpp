@@ -13,8 +13,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "dermis/base/file.h"
 #include "dermis/image/io.h"
 #include "dermis/image/resample.h"
+#include "engines/readme_steps.h"
 #include "support/temporary_directory.h"
 #include "test_paths.h"
 
@@ -105,7 +107,29 @@ class HeadPackage : public testing::TestWithParam<const char*> {
 };
 
 class BrowserHead : public HeadPackage {};
-class GodotHead : public HeadPackage {};
+
+// The head is made by the lines of the README's steps.
+class GodotHead : public HeadPackage {
+  protected:
+    void SetUp() override {
+        HeadPackage::SetUp();
+        if (IsSkipped() || HasFatalFailure()) return;
+        const std::string page = path("package/test/head.gd");
+        std::string script = *read_text_file(page), steps = script_of(readme_of("godot"));
+        const auto replace = [](std::string& text, const std::string& from, const std::string& to) {
+            const size_t at = text.find(from);
+            ASSERT_NE(at, std::string::npos) << from;
+            text.replace(at, from.size(), to);
+        };
+        replace(steps, "add_child(head)\n", "\tviewport.add_child(head)\n\t");
+        replace(steps, "\n    ", "\n\t\t");
+        replace(script,
+                "var head: Node3D = load(FOLDER + \"head/skin_head.tscn\").instantiate()\n"
+                "\tviewport.add_child(head)\n",
+                steps);
+        ASSERT_TRUE(write_text_file(page, script));
+    }
+};
 
 // Unity cannot run here: unity_head draws with the package's own shaders.
 class UnityHead : public HeadPackage {

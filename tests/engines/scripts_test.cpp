@@ -9,6 +9,7 @@
 #include "dermis/base/file.h"
 #include "dermis/base/process.h"
 #include "engines/packages.h"
+#include "engines/readme_steps.h"
 #include "support/temporary_directory.h"
 
 namespace dermis {
@@ -40,12 +41,12 @@ editor = Recorded()
 editor.EditorAssetLibrary.does_asset_exist.return_value = False
 sys.modules["unreal"] = editor
 sys.path.insert(0, sys.argv[1])
-import dermis_skin
-dermis_skin.install()
+exec(sys.argv[2])
 for call in editor.MaterialEditingLibrary.connect_material_expressions.call_args_list:
     print("connect", call.args[3])
 )";
 
+// By the line in the README's steps.
 TEST(UnrealScript, imports_the_table_with_its_settings_and_connects_every_input_of_the_node) {
     if (std::system("command -v python3 >/dev/null 2>&1") != 0) GTEST_SKIP() << "no python3 here";
     const TemporaryDirectory directory;
@@ -54,7 +55,8 @@ TEST(UnrealScript, imports_the_table_with_its_settings_and_connects_every_input_
     ASSERT_TRUE(write_text_file(directory.path / "record.py", kRecorder));
     const auto log = directory.path / "log.txt";
     EXPECT_EQ(run_program({"python3", "-B", (directory.path / "record.py").string(),
-                           (directory.path / "DermisSkin/Content/Python").string()},
+                           (directory.path / "DermisSkin/Content/Python").string(),
+                           lines_with(readme_of("unreal"), "import dermis_skin").front()},
                           log),
               0);
     const auto said = read_text_file(log);
