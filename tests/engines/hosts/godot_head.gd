@@ -8,6 +8,7 @@ const SCALE := 0.5  # of all light, so that nothing is cut off at 1
 
 var choice := {}
 var viewport := SubViewport.new()
+var energy := 1.0  # the head's, of the environment
 var imported: Array[Resource] = []  # the cache does not keep them
 
 
@@ -31,7 +32,10 @@ func _ready() -> void:
 				material.set_shader_parameter("baked_normals", false)
 			if choice.get("mistake") == "curvature":
 				material.set_shader_parameter("curvature_gain", 0.001)
+	energy = head.environment.background_energy_multiplier
 	head.environment.tonemap_exposure = SCALE
+	# Compatibility does not expose the background.
+	head.environment.background_color = (head.environment.background_color.srgb_to_linear() * SCALE).linear_to_srgb()
 	for only: Light3D in head.lights:
 		for light: Light3D in head.lights:
 			light.visible = light == only
@@ -45,7 +49,7 @@ func _ready() -> void:
 
 
 func _set_ambient(head: Node3D, part: float) -> void:
-	head.environment.background_energy_multiplier = part
+	head.environment.background_energy_multiplier = part * energy
 	head.environment.ambient_light_source = Environment.AMBIENT_SOURCE_DISABLED if part == 0.0 else Environment.AMBIENT_SOURCE_SKY
 	head.environment.reflected_light_source = Environment.REFLECTION_SOURCE_DISABLED if part == 0.0 else Environment.REFLECTION_SOURCE_SKY
 	for skin: ShaderMaterial in head.skins:

@@ -131,7 +131,8 @@ func _add_camera(one: Dictionary) -> void:
 
 func _add_environment() -> void:
 	environment = Environment.new()
-	var color := _vector(settings.background_linear)
+	var energy: float = 1.0 if settings.environment == null else settings.environment.intensity
+	var color := _vector(settings.background_linear) / maxf(energy, 1e-3)  # the energy is the background's too
 	environment.background_mode = Environment.BG_COLOR
 	environment.background_color = Color(color.x, color.y, color.z).linear_to_srgb()
 	environment.tonemap_mode = Environment.TONE_MAPPER_LINEAR
@@ -144,7 +145,7 @@ func _add_environment() -> void:
 		environment.sky_rotation = Vector3(0.0, settings.environment.yaw_rad, 0.0)
 		environment.ambient_light_source = Environment.AMBIENT_SOURCE_SKY
 		environment.reflected_light_source = Environment.REFLECTION_SOURCE_SKY
-		environment.background_energy_multiplier = settings.environment.intensity
+		environment.background_energy_multiplier = energy
 	var world := WorldEnvironment.new()
 	world.environment = environment
 	add_child(world)
