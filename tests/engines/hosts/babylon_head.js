@@ -18,6 +18,8 @@ function makeMistake(head, name) {
     if (name === "normals") skin.bakedNormals = null;
     if (name === "curvature") skin.curvatureGain = 0.001;
     if (name === "srgb" && skin.bakedNormals) for (const map of Object.values(skin.bakedNormals)) map.gammaSpace = true;
+    if (name === "levels" && skin.bakedNormals)
+      for (const map of Object.values(skin.bakedNormals)) map.updateSamplingMode(Constants.TEXTURE_BILINEAR_SAMPLINGMODE);
   }
 }
 

@@ -1,8 +1,9 @@
 // The head of a package as linear floats for tools/checks/host_floats.mjs, in place of head/head.js: ?side=96&points=4 (4 x 4 points in
 // a pixel), &webgl, &lambert, &gain.
-// Seeded mistakes: &mistake=normals (not bound), curvature (in 1/m), srgb (on a map of directions).
+// Seeded mistakes: &mistake=normals (not bound), curvature (in 1/m), srgb (on a map of directions),
+// levels (baked normals without mip levels).
 
-import { FloatType, NoToneMapping, PCFShadowMap, RenderTarget, Scene, SRGBColorSpace, WebGPURenderer } from "three/webgpu";
+import { FloatType, LinearFilter, NoToneMapping, PCFShadowMap, RenderTarget, Scene, SRGBColorSpace, WebGPURenderer } from "three/webgpu";
 import { addSkinHead, loadSkinHead } from "../SkinHead.js";
 import { showFloats } from "./floats.js";
 
@@ -13,6 +14,8 @@ function makeMistake(head, name) {
     if (name === "normals") skin.bakedNormals = null;
     if (name === "curvature") skin.curvatureGain = 0.001;
     if (name === "srgb" && skin.bakedNormals) for (const map of Object.values(skin.bakedNormals)) map.colorSpace = SRGBColorSpace;
+    if (name === "levels" && skin.bakedNormals)
+      for (const map of Object.values(skin.bakedNormals)) Object.assign(map, { generateMipmaps: false, minFilter: LinearFilter });
   }
 }
 
