@@ -36,7 +36,7 @@ struct ShadowChoice {
     [[nodiscard]] Result<ShadowOptions> options() const;
 };
 
-/// The storage of this name; `preferred`, that of a published convention, is the default where the file's
+/// The storage of this name. Without a name it is `preferred`, that of a published convention, if the file's
 /// format allows it.
 [[nodiscard]] Result<TableStorage> find_storage(const std::string& path, const std::string& name,
                                                 TableStorage preferred);

@@ -123,7 +123,7 @@ Result<LoadedImage> decode_png(Bytes file, ImageUse use) {
     r.source.rest = file;
     r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r.source, on_read_error, on_read_warning);
     r.info = r.png ? png_create_info_struct(r.png) : nullptr;
-    if (!r.info) return Error{"libpng has no memory"};
+    if (!r.info) return Error{"out of memory"};
     if (!guarded(r.png, read_png_header, &r, use)) return corrupt(r);
 
     const uint32_t width = png_get_image_width(r.png, r.info), height = png_get_image_height(r.png, r.info);

@@ -91,7 +91,7 @@ Result<Buffer> encode_png(const Image& image, const ImageText& text) {
     Writer w;
     w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w.target, on_write_error, on_write_warning);
     w.info = w.png ? png_create_info_struct(w.png) : nullptr;
-    if (!w.info) return Error{"libpng has no memory"};
+    if (!w.info) return Error{"out of memory"};
     if (!guarded_write(w, image, chunks, rows)) return Error{std::string("libpng: ") + w.target.message};
     return std::move(w.target.bytes);
 }
