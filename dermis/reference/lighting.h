@@ -74,9 +74,13 @@ class Lighting {
     /// Where a probe or a walk meets skin.
     [[nodiscard]] Receiver skin_receiver(const SurfaceAttributes& surface, const RayHit& hit) const;
 
-    /// An unbiased estimate of the irradiance, linear; exact (no noise) without penumbra and traced
-    /// environment.
+    /// An unbiased estimate of the irradiance, linear.
     [[nodiscard]] Vec3 irradiance(const Receiver& receiver, const LightingRandom& random) const;
+    /// Whether the irradiance has no noise: no penumbra, and no environment to trace.
+    [[nodiscard]] bool is_exact() const {
+        return settings_.penumbra_mm == 0 &&
+               (settings_.ambient == AmbientModel::renderer || environment_.dark());
+    }
 
     /// An unbiased estimate of the radiance reflected by the surface itself towards the eye. Directional,
     /// point and spot lights as shaders/include/specular.glsl has them; the environment by the same GGX with

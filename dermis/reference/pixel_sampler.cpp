@@ -85,6 +85,7 @@ PixelSampler::PixelSampler(const Scene& scene, const ReferenceSettings& settings
       reflection_(std::move(reflection)),
       brdf_(std::move(brdf)),
       lighting_(scene_, rays_, materials_, environment_, lighting, &reflection_, brdf_ ? &*brdf_ : nullptr) {
+    if (settings.integrator != Integrator::walk) settings_.probes = std::max(settings.probes, kLeastProbes);
     const float aspect = float(settings.width) / float(settings.height);
     inverse_view_projection_ = camera_matrices(scene.camera, aspect).inverse_view_projection;
 }
@@ -165,21 +166,6 @@ UvFootprint PixelSampler::footprint(const Seen& seen, Vec3 p_mm) const {
     return {step(side, 0), step(0, side)};
 }
 
-Vec3 PixelSampler::unscattered_exitance(const Receiver& receiver, uint32_t seed) const {
-    // With a single ray per sample the penumbra would be most of the noise.
-    constexpr int kProbesARay = 4;
-    const bool exact =
-        lighting_.settings().penumbra_mm == 0 && lighting_.settings().ambient == AmbientModel::renderer;
-    const int count = exact ? 1 : std::max(1, settings_.probes / kProbesARay);
-    Vec3 sum;
-    for (int i = 0; i < count; ++i) {
-        OwenSequence uniform(hash_u32(seed, 1), uint32_t(i));
-        const Vec2 penumbra = uniform.next_2d(), environment = uniform.next_2d();
-        sum += lighting_.irradiance(receiver, {penumbra, environment, uniform.next_1d()});
-    }
-    return sum * (1 / float(count));
-}
-
 // Skin that scatters in part: the rest of its light leaves where it entered.
 Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footprint,
                             const LightingRandom& random, uint32_t seed, PixelSample& sample) const {
@@ -188,12 +174,12 @@ Vec3 PixelSampler::exitance(const ShadingPoint& point, const UvFootprint& footpr
     const Receiver receiver = receiver_of(point);
     Vec3 unscattered;
     if (scatter < 1 || (!walk_.empty() && subtracts_flat()))
-        unscattered = unscattered_exitance(receiver, seed);
+        unscattered = mean_irradiance(lighting_, receiver, seed, settings_.probes);
     if (scatter == 0) return unscattered;
     const Vec3 sum = unscattered * (1 - scatter);
     const DiffusePoint diffuse{point.p_mm, point.n_geometry, point.n_face, footprint};
     const size_t profile = profile_index(scene_, profiles_, scene_.objects[point.object], point.material);
-    if (!surface_.empty()) return sum + surface_[profile].exitance(diffuse, seed) * scatter;
+    if (!surface_.empty()) return sum + surface_[profile].exitance(diffuse, receiver, seed) * scatter;
     const WalkIntegrator::Result walked = walk_[profile].exitance(diffuse, receiver, unscattered, seed);
     sample.walks += settings_.probes;
     sample.lost_walks += walked.lost;

@@ -50,8 +50,6 @@ class PixelSampler {
         return settings_.normalisation == Normalisation::by_area &&
                lighting_.settings().ambient == AmbientModel::renderer;
     }
-    /// By one set of samples without scattering.
-    [[nodiscard]] Vec3 unscattered_exitance(const Receiver& receiver, uint32_t seed) const;
     [[nodiscard]] Vec3 exitance(const ShadingPoint& point, const UvFootprint& footprint,
                                 const LightingRandom& random, uint32_t seed, PixelSample& sample) const;
 

@@ -16,32 +16,44 @@ bool reflects(const Profile& profile, int channel) {
     return diffuse_albedo(profile, channel) > 0;
 }
 
+// Expected square of the irradiance at distance r from x less the channel's exitance at x, up to a factor,
+// where the irradiance has straight edges at random places: E|y - Z| - E|Z - Z'| / 2 with Z, Z' around x by
+// the profile. Of a Gaussian the second term is 1/sqrt(2) of the mean radius; the first is near the root.
+double square_of_difference(double r_mm, double mean_radius_mm) {
+    return std::hypot(r_mm, mean_radius_mm) - mean_radius_mm / std::numbers::sqrt2;
+}
+
 }  // namespace
 
 ProfileSampler::ProfileSampler(const Profile& profile, double width_scale) {
-    double max_mm = 0;
-    for (int c = 0; c < 3; ++c)
-        if (reflects(profile, c)) max_mm = std::max(max_mm, inverse_cdf_mm(profile, c, 1 - kLeftOut));
+    double max_mm = 0, mean_mm[3] = {};
+    for (int c = 0; c < 3; ++c) {
+        if (!reflects(profile, c)) continue;
+        max_mm = std::max(max_mm, inverse_cdf_mm(profile, c, 1 - kLeftOut));
+        mean_mm[c] = mean_radius_mm(profile, c);
+    }
     max_mm = std::max(max_mm, 1e-6);
     const double least_mm = max_mm * kLeastRatio, log_step = std::log(1 / kLeastRatio) / (kCells - 1);
     cells_per_log_ = float(1 / log_step);
-    double share_before = 0, area_before = 0;
+    const double to_middle = std::exp(-log_step / 2);
+    double share = 0, area_before = 0;
     for (int k = 0; k < kCells; ++k) {
         const double r = least_mm * std::exp(k * log_step);
-        double share = 0;
+        double variance = 0;
         Vec3 reflectance;
         float* channel_of[3] = {&reflectance.x, &reflectance.y, &reflectance.z};
         for (int c = 0; c < 3; ++c) {
             if (!reflects(profile, c)) continue;
-            share += cdf(profile, c, r);
+            const double middle = reflectance_per_mm2(profile, c, r * to_middle);
+            variance += middle * middle * square_of_difference(r * to_middle, mean_mm[c]);
             *channel_of[c] = float(r * reflectance_per_mm2(profile, c, r) / width_scale);
         }
         const double area = std::numbers::pi * r * r * width_scale * width_scale;
         radius_mm_.push_back(float(r * width_scale));
         radius_reflectance_.push_back(reflectance);
+        density_.push_back(float(std::sqrt(variance)));
+        share += std::sqrt(variance) * (area - area_before);
         cumulative_.push_back(float(share));
-        density_.push_back(float((share - share_before) / (area - area_before)));
-        share_before = share;
         area_before = area;
     }
     const float all = cumulative_.back();

@@ -1,6 +1,10 @@
 #pragma once
-// A diffusion profile made ready for sampling: its reflectance by one table lookup, and radii drawn from the
-// mean of its channels.
+// A diffusion profile made ready for sampling: its reflectance by one table lookup, and radii drawn where
+// they add most to the noise.
+//
+// The exitance at x is a quotient, so a probe at y adds noise as R(r) (E(y) - M(x)). The best density is the
+// root of the expected square of that, summed over the channels: sqrt(sum R^2 D). D(r) grows with r, as
+// light that differs lies apart: probes go further out than the light does.
 
 #include <vector>
 
@@ -10,10 +14,10 @@
 
 namespace dermis::inline reference {
 
-/// Radii are cells of equal ratio. Sampling picks a cell by the exact CDF, then a point evenly in its ring,
-/// so that the density is known exactly; the reflectance is interpolated (as r * R(r), linear in log r;
-/// relative error below 2e-4 within the 99 % radius, tested). Beyond max_mm(), which leaves out 1e-5 of the
-/// widest channel, everything is 0.
+/// Radii are cells of equal ratio. Sampling picks a cell, then a point evenly in its ring, so that the
+/// density is known exactly; the reflectance is interpolated (as r * R(r), linear in log r; relative error
+/// below 2e-4 within the 99 % radius, tested). Beyond max_mm(), which leaves out 1e-5 of the widest channel,
+/// everything is 0.
 class ProfileSampler {
   public:
     /// The profile passed check(); width_scale > 0 stretches all radii.

@@ -46,7 +46,7 @@ Estimate estimate_at(const Scene& scene, Vec3 p_mm, Vec3 n) {
     const SurfaceIntegrator integrator(rays, lighting, ProfileSampler(profile, 1), {.probes = 64});
     const auto facet = rays.closest_hit(RaySet::skin, {.origin_mm = p_mm + n * 0.1f, .direction = -n});
     const DiffusePoint point = {rays.surface_at(*facet).p_world_mm, n, facet->n_face};
-    return estimate_exitance(integrator, point, 400, 3);
+    return estimate_exitance(integrator, point, {}, 400, 3);
 }
 
 // The integral as a plain sum over the triangles of skin. Light from above reaches the upper half of each

@@ -7,6 +7,8 @@
 #include "dermis/base/parallel.h"
 #include "dermis/optics/preintegration.h"
 #include "dermis/optics/presets.h"
+#include "dermis/rays/random.h"
+#include "dermis/reference/way_through_flesh.h"
 #include "reference/shapes.h"
 
 namespace dermis {
@@ -51,11 +53,12 @@ Profile sum_of(std::vector<GaussianTerm> terms) {
 template <class Exact>
 double worst_deviation(const Profile& profile, float radius_mm, int estimates, Exact exact) {
     const Stage stage(test::sphere(radius_mm, 6), {0, 0, 1});
-    const SurfaceIntegrator integrator = stage.integrator(profile);
+    // The bias of a quotient of 16 probes is beyond the error here: 0.0007 in Burley's narrowest channel.
+    const SurfaceIntegrator integrator = stage.integrator(profile, {.probes = 64});
     double worst = 0;
     for (const float t : {-0.5f, 0.0f, 0.3f, 1.0f}) {
         const Vec3 from{std::sqrt(1 - t * t) * 0.6f, std::sqrt(1 - t * t) * 0.8f, t};
-        const Estimate m = estimate_exitance(integrator, stage.point_towards(from), estimates, 17);
+        const Estimate m = estimate_exitance(integrator, stage.point_towards(from), {}, estimates, 17);
         const Rgb reference = exact(t);
         const float mean[3] = {m.mean.x, m.mean.y, m.mean.z};
         const float error[3] = {m.standard_error.x, m.standard_error.y, m.standard_error.z};
@@ -101,18 +104,18 @@ TEST_P(SphereRadius, burley_agrees_with_the_exact_sphere_integral) {
                     [&](double t) { return preintegrated_diffuse(radial, std::span(&t, 1), GetParam())[0]; });
 }
 
-// The error that a quotient of 64 probes has on average, as a part of what scattering does to the sphere.
+// The error that a quotient of 32 probes has on average, as a part of what scattering does to the sphere.
 // With every second probe as a half, which is no even set of points, it was 0.020 in red and -0.037 in green.
-TEST(SurfaceIntegrator, the_bias_of_sixty_four_probes_is_a_hundredth_of_the_effect) {
+TEST(SurfaceIntegrator, the_bias_of_thirty_two_probes_is_a_hundredth_of_the_effect) {
     constexpr float kRadiusMm = 2;
-    constexpr double kMost[2] = {0.008, 0.012};
+    constexpr double kMost[2] = {0.012, 0.012};
     const Stage stage(test::sphere(kRadiusMm, 6), {0, 0, 1});
-    const SurfaceIntegrator integrator = stage.integrator(*find_profile("gpu_gems_3"), {.probes = 64});
+    const SurfaceIntegrator integrator = stage.integrator(*find_profile("gpu_gems_3"), {.probes = 32});
     double error[2] = {}, effect_squared[2] = {}, variance[2] = {};
     for (int k = 0; k < 16; ++k) {
         const float t = -1 + (float(k) + 0.5f) / 8, s = std::sqrt(1 - t * t);
         const Estimate m =
-            estimate_exitance(integrator, stage.point_towards({0.6f * s, 0.8f * s, t}), 2000, 17);
+            estimate_exitance(integrator, stage.point_towards({0.6f * s, 0.8f * s, t}), {}, 2000, 17);
         const Rgb exact = preintegrated_diffuse(gpu_gems_3_skin(), t, kRadiusMm);
         const float means[2] = {m.mean.x, m.mean.y};
         const float errors[2] = {m.standard_error.x, m.standard_error.y};
@@ -134,9 +137,10 @@ INSTANTIATE_TEST_SUITE_P(Spheres, SphereRadius, testing::Values(2.0f, 4.0f, 8.0f
 
 TEST(SurfaceIntegrator, constant_light_is_returned_without_noise) {
     const Stage stage(test::plane(200, 0, 20), {0, 0, 1});
-    const SurfaceIntegrator integrator = stage.integrator(*find_profile("gpu_gems_3"), {.probes = 4});
+    const SurfaceIntegrator integrator =
+        stage.integrator(*find_profile("gpu_gems_3"), {.probes = kLeastProbes});
     for (uint32_t seed = 0; seed < 20; ++seed) {
-        const Vec3 m = integrator.exitance({{1, 2, 0}, {0, 0, 1}, {0, 0, 1}}, seed);
+        const Vec3 m = integrator.exitance({{1, 2, 0}, {0, 0, 1}, {0, 0, 1}}, {}, seed);
         EXPECT_NEAR(m.x, 1, 1e-5);
         EXPECT_NEAR(m.z, 1, 1e-5);
     }
@@ -147,7 +151,7 @@ TEST(SurfaceIntegrator, without_normalisation_a_plane_returns_the_albedo) {
     const Profile profile = *find_profile("jensen_skin1");
     const SurfaceIntegrator integrator =
         stage.integrator(profile, {.probes = 64, .normalisation = Normalisation::none});
-    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, 200, 3);
+    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, {}, 200, 3);
     EXPECT_NEAR(m.mean.x, diffuse_albedo(profile, kRed), 4 * m.standard_error.x + 1e-4);
     EXPECT_NEAR(m.mean.y, diffuse_albedo(profile, kGreen), 4 * m.standard_error.y + 1e-4);
     EXPECT_NEAR(m.mean.z, diffuse_albedo(profile, kBlue), 4 * m.standard_error.z + 1e-4);
@@ -168,7 +172,7 @@ TEST(SurfaceIntegrator, a_shadow_s_edge_is_blurred_by_the_integral_of_the_profil
     const double sigma_mm = 1.5;
     const SurfaceIntegrator integrator = stage.integrator(sum_of({{sigma_mm * sigma_mm, {1, 1, 1}}}));
     for (const float x_mm : {-2.0f, -0.5f, 0.0f, 1.0f, 3.0f}) {
-        const Estimate m = estimate_exitance(integrator, {{x_mm, 0, 0}, {0, 0, 1}, {0, 0, 1}}, 100, 5);
+        const Estimate m = estimate_exitance(integrator, {{x_mm, 0, 0}, {0, 0, 1}, {0, 0, 1}}, {}, 100, 5);
         const double exact = 0.5 * std::erfc(-x_mm / sigma_mm / std::sqrt(2.0));
         EXPECT_NEAR(m.mean.x, exact, 4 * m.standard_error.x + 1e-4) << x_mm;
     }
@@ -182,44 +186,142 @@ TEST(SurfaceIntegrator, light_is_transmitted_through_a_thin_slab) {
     const Stage stage(sheet, {0, 0, -1});
     const double v = 3;
     const SurfaceIntegrator integrator = stage.integrator(sum_of({{v, {1, 1, 1}}}), {.probes = 64});
-    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, 200, 5);
+    const Estimate m = estimate_exitance(integrator, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, {}, 200, 5);
     const double through = std::exp(-h_mm * h_mm / (2 * v));
     EXPECT_NEAR(m.mean.x, through / (1 + through), 4 * m.standard_error.x + 2e-5);
     EXPECT_LT(m.standard_error.x, 0.01);
+}
+
+// The integral by points spread evenly over all triangles, each under its own point of the light.
+Estimate by_area(const Stage& stage, const ProfileSampler& profile, const DiffusePoint& x, int points) {
+    constexpr size_t kBatches = 64;
+    const Mesh& mesh = stage.scene.objects[0].mesh;
+    std::vector<double> areas;
+    double area = 0;
+    const auto corner = [&](size_t triangle, size_t i) {
+        return mesh.positions_mm[mesh.indices[3 * triangle + i]];
+    };
+    const auto normal = [&](size_t t) {
+        return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    };
+    for (size_t t = 0; t < mesh.triangle_count(); ++t) areas.push_back(area += length(normal(t)));
+    std::array<Vec3, kBatches> light, reflectance;
+    parallel_for(kBatches, 1, [&](size_t begin, size_t end) {
+        for (size_t batch = begin; batch < end; ++batch) {
+            Pcg32 random(23, uint32_t(batch));
+            for (int i = 0; i < points / int(kBatches); ++i) {
+                const double at = (random.next_1d() + 0x1p-24 * random.next_1d()) * area;
+                const size_t t =
+                    std::min(size_t(std::ranges::upper_bound(areas, at) - areas.begin()), areas.size() - 1);
+                const float side = std::sqrt(random.next_1d()), v = side * random.next_1d();
+                const RayHit hit{
+                    .triangle = uint32_t(t), .u = side - v, .v = v, .n_face = normalize(normal(t))};
+                const SurfaceAttributes y = stage.rays->surface_at(hit);
+                const LightingRandom numbers{random.next_2d(), random.next_2d(), random.next_1d()};
+                if (length(y.p_world_mm - x.p_mm) > profile.max_mm()) continue;
+                const Vec3 weight = profile.reflectance(way_through_flesh_mm(
+                    *stage.rays, {x.p_mm, x.n_face}, {y.p_world_mm, hit.n_face}, profile.max_mm()));
+                light[batch] +=
+                    weight * stage.lighting->irradiance(stage.lighting->skin_receiver(y, hit), numbers);
+                reflectance[batch] += weight;
+            }
+        }
+    });
+    Estimate result;
+    for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+        double sum = 0, below = 0, squares = 0;
+        for (size_t i = 0; i < kBatches; ++i) sum += light[i].*c, below += reflectance[i].*c;
+        for (size_t i = 0; i < kBatches; ++i)
+            squares += std::pow(light[i].*c - sum / below * reflectance[i].*c, 2);
+        result.mean.*c = float(sum / below);
+        result.standard_error.*c = float(std::sqrt(squares) / below);
+    }
+    return result;
+}
+
+// A groove with its own shadow: walls that only tangents' probes find, ways around the bottom, a penumbra.
+TEST(SurfaceIntegrator, the_mean_is_that_of_points_spread_evenly_over_the_surface) {
+    const Stage stage(test::grooved_block(16, 5, 0.3f), {0.5f, 0.8f, 0.33f}, {.penumbra_mm = 1});
+    const Profile profile = sum_of({{0.3, {1, 0, 0}}, {1, {0, 1, 0}}, {3, {0, 0, 1}}});
+    const ProfileSampler radii(profile, 1);
+    const SurfaceIntegrator integrator = stage.integrator(profile, {.probes = 64});
+    int lit = 0;
+    for (const Vec3 above : {Vec3{-2, 1, 0}, {1.7f, 1, 0.5f}, {-1.1f, 1, 0}, {0.5f, 1, 0}, {-0.3f, 1, 0}}) {
+        const auto hit = stage.rays->closest_hit(RaySet::skin, {.origin_mm = above, .direction = {0, -1, 0}});
+        ASSERT_TRUE(hit);
+        const SurfaceAttributes at = stage.rays->surface_at(*hit);
+        const DiffusePoint point{at.p_world_mm, at.n_geometry_world, hit->n_face};
+        const Estimate m =
+            estimate_exitance(integrator, point, stage.lighting->skin_receiver(at, *hit), 1500, 7);
+        const Estimate even = by_area(stage, radii, point, 1'000'000);
+        for (float Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+            const double error = std::hypot(m.standard_error.*c, even.standard_error.*c);
+            EXPECT_LT(error, 0.02) << above.x;
+            EXPECT_NEAR(m.mean.*c, even.mean.*c, 4 * error + 1e-4) << above.x << " +- " << error;
+            lit += m.mean.*c > 0.02f;
+        }
+    }
+    EXPECT_GE(lit, 10) << "hardly any light: nothing is tested";
+}
+
+// The picture without scattering has the noise of the same points of the light.
+TEST(SurfaceIntegrator, the_noise_of_the_penumbra_cancels_in_the_effect_of_a_narrow_profile) {
+    const Stage stage(test::grooved_block(16, 5, 0.3f), {0.5f, 0.8f, 0.33f}, {.penumbra_mm = 1});
+    const SurfaceIntegrator integrator = stage.integrator(sum_of({{1, {1, 1, 1}}}), {.probes = 16}, 1e-3);
+    double without = 0, effect = 0;
+    for (uint32_t seed = 0; seed < 200; ++seed) {
+        const float x_mm = -1.5f + 0.004f * float(seed);
+        const auto hit =
+            stage.rays->closest_hit(RaySet::skin, {.origin_mm = {x_mm, 1, 0}, .direction = {0, -1, 0}});
+        const SurfaceAttributes at = stage.rays->surface_at(*hit);
+        const Receiver receiver = stage.lighting->skin_receiver(at, *hit);
+        const auto lambert = [&](uint32_t by) {
+            return mean_irradiance(*stage.lighting, receiver, by, 16).x;
+        };
+        const DiffusePoint point{at.p_world_mm, at.n_geometry_world, hit->n_face};
+        without += std::pow(lambert(seed) - lambert(seed + 1000), 2);
+        effect += 2 * std::pow(integrator.exitance(point, receiver, seed).x - lambert(seed), 2);
+    }
+    EXPECT_GT(without, 0.01) << "no penumbra: nothing is tested";
+    EXPECT_LT(effect, 0.02 * without);
 }
 
 TEST(SurfaceIntegrator, the_tenfold_scene_with_the_tenfold_profile_looks_the_same) {
     const Profile profile = *find_profile("gpu_gems_3");
     const Stage small(test::sphere(5, 5), {0, 0, 1}), large(test::sphere(50, 5), {0, 0, 1});
     const Vec3 from{0.8f, 0.3f, 0.1f};
-    const Vec3 a = small.integrator(profile).exitance(small.point_towards(from), 3);
-    const Vec3 b = large.integrator(profile, {}, 10).exitance(large.point_towards(from), 3);
+    const Vec3 a = small.integrator(profile).exitance(small.point_towards(from), {}, 3);
+    const Vec3 b = large.integrator(profile, {}, 10).exitance(large.point_towards(from), {}, 3);
     EXPECT_NEAR(a.x, b.x, 2e-3);
     EXPECT_NEAR(a.z, b.z, 2e-3);
 }
 
-TEST(ProfileSampler, radii_follow_the_mean_of_the_channels_and_the_table_is_the_profile) {
+TEST(ProfileSampler, radii_follow_the_density_and_the_table_is_the_profile) {
     for (const char* name : {"gpu_gems_3", "jensen_skin1", "burley:0.448,0.104,0.067"}) {
         const Profile profile = *find_profile(name);
         const ProfileSampler sampler(profile, 1);
+        // The density's share within r.
+        const auto within = [&](double r) {
+            constexpr int kRings = 20'000;
+            const double step = std::log(1e6) / kRings;
+            double sum = 0;
+            for (int i = 0; i < kRings; ++i) {
+                const double at = r * std::exp((i + 0.5 - kRings) * step);
+                sum += sampler.density_per_mm2(float(at)) * 2 * M_PI * at * at * step;
+            }
+            return sum;
+        };
+        EXPECT_NEAR(within(sampler.max_mm()), 1, 2e-3) << name;
         for (const double u : {0.05, 0.3, 0.5, 0.9, 0.99}) {
             const float r = sampler.sample_radius_mm(float(u));
-            const double share = (cdf(profile, 0, r) + cdf(profile, 1, r) + cdf(profile, 2, r)) / 3;
-            EXPECT_NEAR(share, u, 2e-3) << name << " " << u;
+            EXPECT_NEAR(within(r), u, 3e-3) << name << " " << u;
             for (int c = 0; c < 3; ++c) {
-                const double exact = reflectance_per_mm2(profile, c, r);
-                const Vec3 table = sampler.reflectance(r);
+                const double at = inverse_cdf_mm(profile, c, u), exact = reflectance_per_mm2(profile, c, at);
+                const Vec3 table = sampler.reflectance(float(at));
                 const double value = c == 0 ? table.x : c == 1 ? table.y : table.z;
                 EXPECT_NEAR(value, exact, 2e-4 * exact + 1e-7) << name << " " << u << " " << c;
             }
         }
-        // The density integrates to 1 over the disk, and what it says of a ring is what falls there.
-        double sum = 0;
-        for (int i = 0; i < 20'000; ++i) {
-            const double r = sampler.max_mm() * std::exp((i + 0.5) / 20'000 * std::log(1e6)) / 1e6;
-            sum += sampler.density_per_mm2(float(r)) * 2 * M_PI * r * r * std::log(1e6) / 20'000;
-        }
-        EXPECT_NEAR(sum, 1, 2e-3) << name;
     }
 }
 
