@@ -36,7 +36,7 @@ struct ComparisonSettings {
     double noise = 0.2;  ///< of the effect's RMS at which the reference is fine enough
     int samples = 2048;  ///< of the reference a pixel, at most
     /// Probes per sample of `surface`. The bias of its quotient is below a hundredth of the effect.
-    int probes = 64;
+    int probes = 32;
     int walks = 16;  ///< per sample of `walk`, which has no bias
     int frames = 5;  ///< timed ones, after one that compiles; 0: none are
     /// Integrator, lighting and seed of the reference. Its size is the comparison's. The defaults are
